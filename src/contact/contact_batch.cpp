@@ -1,0 +1,21 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/contact_batch.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace Talus {
+
+void ContactBatch::clear()
+{
+  for (auto *vector : {normal, velocity, spin, displacement, force, moment})
+    for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
+  std::fill(std::begin(overlap), std::end(overlap), 0.0);
+  std::fill(std::begin(at_limit), std::end(at_limit), 0.0);
+  std::fill(std::begin(inverse_mass), std::end(inverse_mass), 1.0);
+  std::fill(std::begin(inverse_radius), std::end(inverse_radius), 1.0);
+  std::fill(std::begin(coefficients), std::end(coefficients), 0);
+}
+
+}    // namespace Talus

@@ -1,0 +1,55 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/law_table.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace Talus {
+
+void LawTable::reset(int ntypes)
+{
+  types = ntypes;
+  rows.assign(static_cast<std::size_t>(ntypes) * ntypes, ContactCoefficients{});
+  laws.assign(rows.size(), ContactLaw{});
+  index_of_row.assign(rows.size(), 0);
+  distinct.clear();
+}
+
+void LawTable::set(int i, int j, ContactLaw law, const ContactCoefficients &coefficients)
+{
+  for (int r : {row(i, j), row(j, i)}) {
+    rows[r] = coefficients;
+    laws[r] = law;
+  }
+}
+
+void LawTable::finish()
+{
+  one_row = true;
+  distinct.clear();
+  for (std::size_t r = 0; r < rows.size(); r++) {
+    auto found = std::find(distinct.begin(), distinct.end(), laws[r]);
+    index_of_row[r] = static_cast<int>(found - distinct.begin());
+    if (found == distinct.end()) distinct.push_back(laws[r]);
+    one_row = one_row && laws[r] == laws[0] &&
+        std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
+  }
+}
+
+ContactKernel LawTable::kernel(int law_index, bool advance) const
+{
+  return contact_kernel(distinct[law_index], one_row, advance);
+}
+
+bool LawTable::has_friction() const
+{
+  return std::any_of(distinct.begin(), distinct.end(), [](ContactLaw l) { return l.has_friction(); });
+}
+
+bool LawTable::has_history() const
+{
+  return std::any_of(distinct.begin(), distinct.end(), [](ContactLaw l) { return l.has_history(); });
+}
+
+}    // namespace Talus

@@ -1,0 +1,118 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The two vector types of the contact code, written with the vector extension that GCC and Clang share:
+// they lower it to what the machine has, so the same source serves SSE2, AVX2 and AVX-512.
+//
+//   Vec4  one Record: the four numbers of one particle
+//   Vec8  one number of eight contacts; laws are templates over Real = double or Vec8
+//
+// Everything here rounds as IEEE 754 prescribes, so results do not depend on the lane or on the width of
+// the machine's registers (build with -ffp-contract=off).
+
+#ifndef TALUS_CONTACT_SIMD_H
+#define TALUS_CONTACT_SIMD_H
+
+#include <cmath>
+#include <cstdint>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace Talus {
+
+typedef double Vec4 __attribute__((vector_size(32)));
+typedef double Vec8 __attribute__((vector_size(64)));
+typedef std::int64_t Mask8 __attribute__((vector_size(64)));
+
+// the same, allowed to overlay arrays of double
+typedef Vec4 Vec4Overlay __attribute__((may_alias));
+typedef Vec8 Vec8Overlay __attribute__((may_alias));
+
+inline constexpr int lanes = 8;
+
+/// What this build uses of the machine, for the log.
+inline const char *instruction_set()
+{
+#if defined(__AVX512F__)
+  return "AVX-512";
+#elif defined(__AVX2__)
+  return "AVX2";
+#elif defined(__AVX__)
+  return "AVX";
+#else
+  return "baseline instructions";
+#endif
+}
+
+/// The same number in every lane.
+template <class Real> inline Real splat(double value) { return Real{} + value; }
+
+inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no) { return mask ? yes : no; }
+
+inline double square_root(double a) { return std::sqrt(a); }
+inline Vec8 square_root(Vec8 a)
+{
+#if defined(__AVX512F__)
+  return (Vec8) _mm512_maskz_sqrt_pd(0xff, (__m512d) a);
+#else
+  Vec8 root{};
+  for (int k = 0; k < lanes; k++) root[k] = std::sqrt(a[k]);
+  return root;
+#endif
+}
+
+template <class Real> inline Real magnitude(Real a)
+{
+  return select(a < splat<Real>(0.0), -a, a);
+}
+
+/// One bit for each lane: set where a < b.
+inline unsigned less_bits(Vec4 a, Vec4 b)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d) (a < b)));
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 4; k++) bits |= (a[k] < b[k] ? 1U : 0U) << k;
+  return bits;
+#endif
+}
+
+/// Transposes the 4 x 4 matrix whose rows are a, b, c, d.
+inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
+{
+  const Vec4 ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Vec4 ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Vec4 cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Vec4 cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+/// Loads and stores; `address` must be aligned to the size of the vector.
+inline Vec4 load4(const double *address)
+{
+  return *reinterpret_cast<const Vec4Overlay *>(address);
+}
+
+inline Vec8 load8(const double *address)
+{
+  return *reinterpret_cast<const Vec8Overlay *>(address);
+}
+
+inline void store(double *address, Vec4 value)
+{
+  *reinterpret_cast<Vec4Overlay *>(address) = value;
+}
+
+inline void store(double *address, Vec8 value)
+{
+  *reinterpret_cast<Vec8Overlay *>(address) = value;
+}
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,106 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Tangential laws: F_t = -(kt d_t + gt v_t), capped at the Coulomb limit mu |F_n|.
+// v_t is the relative surface velocity of body i against body j without its normal part (velocity
+// units), d_t the tangential displacement (length) in the sense of the chosen law.
+//
+// The multistep law follows Cundall and Strack as the stock gran/*/history styles do: at the limit
+// the stored displacement is set back such that spring and dashpot together just reach the limit.
+// The force of a contact at its limit is taken along (d_t + gt/kt v_t) of the *stored* displacement,
+// with the length of the limit: so the force is a function of positions, velocities and stored history
+// alone, and a restart or a new run reproduces it bit for bit without advancing the history.
+
+#ifndef TALUS_CONTACT_TANGENTIAL_LAWS_H
+#define TALUS_CONTACT_TANGENTIAL_LAWS_H
+
+#include "contact/normal_laws.h"
+#include "contact/vector3.h"
+
+namespace Talus {
+
+/// History of one contact as seen from its first body.
+template <class Real> struct TangentialHistory {
+  Vector3<Real> displacement{};    ///< d_t, length
+  Real at_limit{};                 ///< 1 if the last force was the Coulomb limit, else 0
+};
+
+/// What a tangential law is given: k, v_t, mu |F_n|, the normal and the time step.
+template <class Real> struct TangentialInput {
+  Stiffness<Real> k;
+  Vector3<Real> velocity;
+  Vector3<Real> normal;
+  Real limit;
+  Real dt;
+};
+
+/// Shortens a trial force to the limit; forces within it pass unchanged.
+template <class Real> inline Vector3<Real> capped(Vector3<Real> trial, Real limit)
+{
+  const Real size = square_root(dot(trial, trial));
+  return select(size > limit, limit / size, splat<Real>(1.0)) * trial;
+}
+
+struct TangentialNone {
+  static constexpr bool friction = false, history = false;
+};
+
+struct TangentialDashpot {
+  static constexpr bool friction = true, history = false;
+
+  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  {
+    return capped(-in.k.gt * in.velocity, in.limit);
+  }
+};
+
+struct TangentialOnestep {
+  static constexpr bool friction = true, history = false;
+
+  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  {
+    return capped(-(in.k.kt * in.dt + in.k.gt) * in.velocity, in.limit);
+  }
+};
+
+struct TangentialMultistep {
+  static constexpr bool friction = true, history = true;
+
+  /// Force on the first body. `advance` adds the displacement of this step and turns the stored one
+  /// into the tangent plane; without it (set-up of a run, queries) the history is only read.
+  template <bool advance, class Real>
+  static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  {
+    const Real zero = splat<Real>(0.0);
+    Vector3<Real> d = history.displacement;
+    if (advance) d = d + in.dt * in.velocity;
+    const auto moved = dot(d, d) > zero;
+    if (advance) d = d - dot(d, in.normal) * in.normal;
+
+    // without overlap kt is zero; so is the limit, and any finite number serves
+    const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
+    const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
+    const Real size = square_root(dot(trial, trial));
+    const auto exceeds = size > in.limit;
+
+    Vector3<Real> reach = d + slide * in.velocity;
+    auto at_limit = moved & exceeds;
+    if (advance) {
+      d = select(at_limit, in.limit / size * reach - slide * in.velocity, d);
+      reach = d + slide * in.velocity;
+      history.displacement = d;
+      history.at_limit = select(at_limit, splat<Real>(1.0), zero);
+    } else {
+      at_limit = at_limit | (history.at_limit > zero);
+    }
+
+    const Real length = square_root(dot(reach, reach));
+    const Real pull = select(length > zero, -in.limit / length, zero);
+    // beyond the limit without any displacement (first force of a run): none, as the stock styles
+    const Vector3<Real> within = select(exceeds, Vector3<Real>{zero, zero, zero}, trial);
+    return select(at_limit, pull * reach, within);
+  }
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,91 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Internal fix of pair style gran/penalty: what has to travel with a particle.
+//
+//   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart files;
+//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered.
+//
+// The pair style creates it (through the placeholder that keeps its place in the list of fixes) and owns
+// no copy of its data. The ID is the same in every process, because restart files find fixes by ID.
+
+#ifndef LMP_FIX_CONTACT_STORE_H
+#define LMP_FIX_CONTACT_STORE_H
+
+#include "contact/partner_lists.h"
+#include "fix.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixContactStore : public Fix {
+ public:
+  /// What the pair style has to provide.
+  class Client {
+   public:
+    /// Files the history of the current pairs by particle.
+    virtual void file_history(Talus::PartnerLists &partners) = 0;
+    /// A new neighbor list exists: number the pairs anew and fetch their history.
+    virtual void renumber_pairs() = 0;
+
+   protected:
+    ~Client() = default;    // never deleted through this interface
+  };
+
+  /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order (length).
+  FixContactStore(class LAMMPS *, int, char **);
+  ~FixContactStore() override;
+
+  /// To be called by the pair style right after creation.
+  void serve(Client *c) { client = c; }
+  /// To be called by the pair style whenever it has computed forces: its pairs hold the latest history.
+  void pairs_are_current() { current = true; }
+  bool pairs_current() const { return current; }
+
+  /// Key of an owned or ghost particle.
+  std::uint64_t key(int i) const { return keys[i]; }
+  const Talus::PartnerLists &partner_lists() const { return partners; }
+
+  int setmask() override;
+  void init() override;
+  void pre_exchange() override;
+  void min_pre_exchange() override;
+  void post_neighbor() override;
+  void min_post_neighbor() override;
+  void setup_post_neighbor() override;
+  void post_run() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_border(int, int *, double *) override;
+  int unpack_border(int, int, double *) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  double memory_usage() override;
+
+  /// Steps between two refreshes of the keys, at multiples of it: a property of the trajectory.
+  static constexpr int refresh_interval = 1000;
+
+ private:
+  void file();
+  void refresh_key(int i);
+  bigint next_refresh(bigint step) const;
+
+  Client *client = nullptr;
+  bool current = false;
+  double inverse_cell;
+  std::vector<std::uint64_t> keys;
+  Talus::PartnerLists partners;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

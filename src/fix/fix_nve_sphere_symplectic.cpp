@@ -1,0 +1,400 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "fix_nve_sphere_symplectic.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "math_const.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using MathConst::DEG2RAD;
+
+/* ---------------------------------------------------------------------- */
+
+FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg)
+{
+  time_integrate = 1;
+  dynamic_group_allow = 1;
+  restart_global = 1;
+
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR, 2, "Fix nve/sphere/symplectic requires atom attributes radius, rmass, "
+               "omega and torque (atom_style sphere)");
+
+  int iarg = 3;
+  while (iarg < narg) {
+    for (int k = 3; k < iarg; k++)
+      if (strcmp(arg[k], arg[iarg]) == 0)
+        error->all(FLERR, iarg, "Fix nve/sphere/symplectic: keyword '{}' given twice", arg[iarg]);
+    iarg += parse_keyword(narg, arg, iarg);
+  }
+
+  if (has_gravity) {
+    scalar_flag = 1;
+    extscalar = 1;
+    global_freq = 1;
+    energy_global_flag = 1;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   one keyword with its values; returns the number of words
+------------------------------------------------------------------------- */
+
+int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
+{
+  const std::string keyword = arg[iarg];
+  const std::string value = iarg + 1 < narg ? arg[iarg + 1] : "";
+
+  if (keyword == "start") {
+    need(narg, arg, iarg, 1, "plain or half");
+    if (value != "plain" && value != "half")
+      error->all(FLERR, iarg + 1,
+                 "Fix nve/sphere/symplectic start: expected plain or half instead of '{}'", value);
+    half_start = value == "half";
+    return 2;
+  }
+
+  if (keyword == "gravity") return parse_gravity(narg, arg, iarg);
+
+  if (keyword == "orientation") {
+    need(narg, arg, iarg, 1, "yes or no");
+    if (value != "yes" && value != "no")
+      error->all(FLERR, iarg + 1,
+                 "Fix nve/sphere/symplectic orientation: expected yes or no instead of '{}'", value);
+    rotates = value == "yes";
+    if (rotates && !atom->quat_flag && !atom->mu_flag)
+      error->all(FLERR, iarg + 1, "Fix nve/sphere/symplectic orientation: expected an atom style "
+                 "with a quaternion or a dipole (bpm/sphere or hybrid sphere dipole)");
+    return 2;
+  }
+
+  if (keyword == "disc") {
+    if (domain->dimension != 2)
+      error->all(FLERR, iarg, "Fix nve/sphere/symplectic disc: expected a 2d simulation");
+    inertia = 0.5;
+    return 1;
+  }
+
+  error->all(FLERR, iarg, "Fix nve/sphere/symplectic: expected keyword start, gravity, "
+             "orientation or disc instead of '{}'", keyword);
+}
+
+/* ----------------------------------------------------------------------
+   gravity G chute angle | spherical phi theta | vector x y z
+   directions are those of fix gravity
+------------------------------------------------------------------------- */
+
+int FixNVESphereSymplectic::parse_gravity(int narg, char **arg, int iarg)
+{
+  need(narg, arg, iarg, 2, "magnitude and one of chute, spherical, vector");
+  const double magnitude = constant(arg, iarg + 1, "the magnitude");
+  const std::string style = arg[iarg + 2];
+  const int first = iarg + 3;
+  has_gravity = true;
+
+  if (style == "chute") {
+    need(narg, arg, iarg + 2, 1, "the angle in degrees");
+    const double theta = 180.0 - constant(arg, first, "the angle in degrees");
+    const double s = sin(DEG2RAD * theta), c = cos(DEG2RAD * theta);
+    if (domain->dimension == 3) set_gravity(magnitude, s, 0.0, c);
+    else set_gravity(magnitude, s, c, 0.0);
+    return 4;
+  }
+
+  if (style == "spherical") {
+    need(narg, arg, iarg + 2, 2, "phi and theta in degrees");
+    const double phi = constant(arg, first, "phi in degrees");
+    const double theta = constant(arg, first + 1, "theta in degrees");
+    const double s = sin(DEG2RAD * theta), c = cos(DEG2RAD * theta);
+    if (domain->dimension == 3)
+      set_gravity(magnitude, s * cos(DEG2RAD * phi), s * sin(DEG2RAD * phi), c);
+    else set_gravity(magnitude, s, c, 0.0);
+    return 5;
+  }
+
+  if (style == "vector") {
+    need(narg, arg, iarg + 2, 3, "the components x y z");
+    const double x = constant(arg, first, "component x");
+    const double y = constant(arg, first + 1, "component y");
+    double z = constant(arg, first + 2, "component z");
+    if (domain->dimension == 2) z = 0.0;
+    const double length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0.0))
+      error->all(FLERR, first, "Fix nve/sphere/symplectic gravity vector: expected a direction "
+                 "of non-zero length{}", domain->dimension == 2 ? " in the xy plane" : "");
+    set_gravity(magnitude, x / length, y / length, z / length);
+    return 6;
+  }
+
+  error->all(FLERR, iarg + 2, "Fix nve/sphere/symplectic gravity: expected chute, spherical or "
+             "vector instead of '{}'", style);
+}
+
+/* ----------------------------------------------------------------------
+   error unless n more words follow the one at iarg
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::need(int narg, char **arg, int iarg, int n, const char *what)
+{
+  if (iarg + n >= narg)
+    error->all(FLERR, iarg, "Fix nve/sphere/symplectic: expected {} after '{}'", what, arg[iarg]);
+}
+
+/* ----------------------------------------------------------------------
+   the finite number at iarg
+------------------------------------------------------------------------- */
+
+double FixNVESphereSymplectic::constant(char **arg, int iarg, const char *what)
+{
+  if (utils::strmatch(arg[iarg], "^v_"))
+    error->all(FLERR, iarg, "Fix nve/sphere/symplectic gravity: expected a constant for {} instead "
+               "of variable '{}'", what, arg[iarg]);
+  const double value = utils::is_double(arg[iarg]) ? strtod(arg[iarg], nullptr) : NAN;
+  if (!std::isfinite(value))
+    error->all(FLERR, iarg, "Fix nve/sphere/symplectic gravity: expected a number for {} instead "
+               "of '{}'", what, arg[iarg]);
+  return value;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::set_gravity(double magnitude, double x, double y, double z)
+{
+  gravity[0] = magnitude * x;
+  gravity[1] = magnitude * y;
+  gravity[2] = magnitude * z;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixNVESphereSymplectic::setmask()
+{
+  return INITIAL_INTEGRATE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::init()
+{
+  if (update->whichflag == 2)
+    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic cannot be used with minimize");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix nve/sphere/symplectic cannot be used with run_style respa: no inner levels");
+
+  const bigint npoints = count_members([this](int i) { return !(atom->radius[i] > 0.0); });
+  if (npoints)
+    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic: expected spheres of non-zero "
+               "radius, but {} members of group {} have none", npoints, group->names[igroup]);
+
+  frozenbits = 0;
+  if (has_gravity)
+    for (auto &fix : modify->get_fix_list())
+      if (fix != this) check_fix(fix);
+}
+
+/* ----------------------------------------------------------------------
+   with gravity: refuse a fix that does not go with it, note frozen groups
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::check_fix(Fix *fix)
+{
+  const char *reason = nullptr;
+  std::function<bool(int)> disturbed = [this, fix](int i) {
+    return (atom->mask[i] & fix->groupbit) != 0;
+  };
+
+  const auto *twin = dynamic_cast<FixNVESphereSymplectic *>(fix);
+  if (utils::strmatch(fix->style, "^gravity") || (twin && twin->has_gravity)) {
+    reason = "gravity would act twice";
+  } else if (strcmp(fix->style, "setforce") == 0 || utils::strmatch(fix->style, "^setforce/kk")) {
+    reason = "gravity is not seen in the force that it sets";
+  } else if (utils::strmatch(fix->style, "^freeze")) {
+    frozenbits |= fix->groupbit;
+    reason = "frozen particles get no gravity, but these move";
+    disturbed = [this, fix](int i) {
+      const double *v = atom->v[i], *w = atom->omega[i];
+      return (atom->mask[i] & fix->groupbit) &&
+          (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 || w[0] != 0.0 || w[1] != 0.0 || w[2] != 0.0);
+    };
+  }
+  if (!reason) return;
+
+  const bigint n = count_members(disturbed);
+  if (n)
+    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic gravity: fix {} ({}) acts on "
+               "{} members of group {}: {}", fix->id, fix->style, n, group->names[igroup], reason);
+}
+
+/* ----------------------------------------------------------------------
+   number of members of the group on all ranks that satisfy a condition
+------------------------------------------------------------------------- */
+
+bigint FixNVESphereSymplectic::count_members(const std::function<bool(int)> &condition)
+{
+  bigint mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && condition(i)) mine++;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   the whole step; dt is read here because other fixes may change it
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
+{
+  const double dt = update->dt;
+  const double kick = next_kick();
+  advance(kick, dt);
+  if (rotates) rotate(dt);
+}
+
+/* ----------------------------------------------------------------------
+   length of this step's kick: from the time of v to half way between the times of x
+------------------------------------------------------------------------- */
+
+double FixNVESphereSymplectic::next_kick()
+{
+  if (!half_start) return update->dt;
+  const double kick = lag + 0.5 * update->dt;
+  lag = 0.5 * update->dt;
+  return kick;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixNVESphereSymplectic::nmoving() const
+{
+  return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
+}
+
+/* ----------------------------------------------------------------------
+   v, x, omega of all members; the arrays of the host are contiguous
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::advance(double kick, double dt)
+{
+  const int n = nmoving();
+  if (n == 0) return;
+
+  double *const x = atom->x[0];
+  double *const v = atom->v[0];
+  double *const omega = atom->omega[0];
+  const double *const f = atom->f[0];
+  const double *const torque = atom->torque[0];
+  const double *const radius = atom->radius;
+  const double *const rmass = atom->rmass;
+  const int *const mask = atom->mask;
+
+  const double kick_f = kick * force->ftm2v;
+  const double kick_g[3] = {kick_f * gravity[0], kick_f * gravity[1], kick_f * gravity[2]};
+
+  for (bigint i = 0; i < n; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double per_mass = kick_f / rmass[i];
+    const double per_inertia = per_mass / (inertia * radius[i] * radius[i]);
+    const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
+    for (int d = 0; d < 3; d++) {
+      const bigint k = 3 * i + d;
+      v[k] += per_mass * f[k] + falls * kick_g[d];
+      x[k] += dt * v[k];
+      omega[k] += per_inertia * torque[k];
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   quaternions and dipoles turn by the angle dt |omega| about omega,
+   a rotation in the frame of space: exact for constant omega
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::rotate(double dt)
+{
+  const int n = nmoving();
+  for (int i = 0; i < n; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double *const w = atom->omega[i];
+    const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    if (speed == 0.0) continue;
+
+    double axis[3] = {w[0] / speed, w[1] / speed, w[2] / speed};
+    double turn[4], now[4];
+    MathExtra::axisangle_to_quat(axis, dt * speed, turn);
+
+    if (atom->quat_flag) {
+      double *const quat = atom->quat[i];
+      MathExtra::quatquat(turn, quat, now);
+      MathExtra::qnormalize(now);
+      for (int k = 0; k < 4; k++) quat[k] = now[k];
+    }
+    if (atom->mu_flag && atom->mu[i][3] > 0.0) {
+      double *const mu = atom->mu[i];    // x y z length
+      MathExtra::quatrotvec(turn, mu, now);
+      const double scale = mu[3] / MathExtra::len3(now);
+      for (int k = 0; k < 3; k++) mu[k] = scale * now[k];
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   potential energy in the gravity field
+------------------------------------------------------------------------- */
+
+double FixNVESphereSymplectic::compute_scalar()
+{
+  double mine = 0.0, all = 0.0, x[3];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit) || (atom->mask[i] & frozenbits)) continue;
+    domain->unmap(atom->x[i], atom->image[i], x);
+    mine -= atom->rmass[i] * MathExtra::dot3(gravity, x);
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   restart: start word and lag
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::write_restart(FILE *fp)
+{
+  const double state[2] = {half_start ? 1.0 : 0.0, lag};
+  const int size = sizeof(state);
+  if (comm->me == 0) {
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(state, sizeof(double), 2, fp);
+  }
+}
+
+void FixNVESphereSymplectic::restart(char *buf)
+{
+  double state[2];
+  memcpy(state, buf, sizeof(state));
+  const bool was_half = state[0] != 0.0;
+
+  if (was_half == half_start) {
+    lag = state[1];
+  } else if (comm->me == 0) {
+    error->warning(FLERR, "Fix nve/sphere/symplectic start {}: the restart file was written with "
+                   "start {}: {}", half_start ? "half" : "plain", was_half ? "half" : "plain",
+                   was_half ? "velocities stay behind positions by half a time step"
+                            : "velocities count as those of the present step");
+  }
+}

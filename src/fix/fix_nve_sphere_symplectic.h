@@ -1,0 +1,86 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+/* ----------------------------------------------------------------------
+   fix ID group nve/sphere/symplectic keyword value ...
+
+   Semi-implicit (symplectic) Euler for spheres, one pass over memory per step:
+
+     v     += k ftm2v (f/m + g)           m = rmass
+     x     += dt v
+     omega += k ftm2v torque/(c m r^2)    c = 2/5, with `disc` 1/2
+     q, mu  = rotated by dt |omega| about omega, with `orientation yes`
+
+   All quantities are in the units of the `units` command, g as in fix gravity in
+   force/mass, dt = update->dt.
+   k = dt with `start plain`. With `start half` v and omega belong to a time that lags
+   behind x by `lag`: k = lag + dt/2, then lag = dt/2, lag = 0 before the first step.
+   g is the constant acceleration of `gravity`, zero for particles of a `fix freeze`.
+
+   Called by: Verlet::run() at the start of a step through Modify::initial_integrate().
+   Before:    f and torque of owned particles belong to the present x and v (setup() or
+              the previous step made them).
+   After:     x, v, omega of owned members of the group are those of the new step;
+              nothing is left for final_integrate(). Other particles are not touched.
+   A particle's new state depends on its own old state only, not on its index, the
+   decomposition or how the run is divided into `run` commands.
+
+   Global scalar, with gravity: potential energy -sum m g.x (force distance units, unwrapped x).
+   Restart: the start word and `lag`.
+   Errors: all by error->all on every rank. Constructor: words of the command, atom style.
+   init(): run_style respa, minimize, members of zero radius, and with gravity another fix
+   that would apply gravity twice or cannot hold a particle against it.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_NVE_SPHERE_SYMPLECTIC_H
+#define LMP_FIX_NVE_SPHERE_SYMPLECTIC_H
+
+#include "fix.h"
+
+#include <functional>
+
+namespace LAMMPS_NS {
+
+class FixNVESphereSymplectic : public Fix {
+ public:
+  FixNVESphereSymplectic(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void initial_integrate(int) override;
+  double compute_scalar() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+ private:
+  bool half_start = false;
+  bool has_gravity = false;
+  bool rotates = false;           // quaternion or dipole follows omega
+  double inertia = 0.4;           // c of I = c m r^2
+  double lag = 0.0;               // time by which v is behind x
+  double gravity[3] = {0.0, 0.0, 0.0};
+  int frozenbits = 0;             // groups of fix freeze, with gravity only
+
+  int parse_keyword(int, char **, int);
+  int parse_gravity(int, char **, int);
+  void need(int, char **, int, int, const char *);
+  double constant(char **, int, const char *);
+  void set_gravity(double, double, double, double);
+
+  void check_fix(Fix *);
+  bigint count_members(const std::function<bool(int)> &);
+
+  int nmoving() const;
+  double next_kick();
+  void advance(double, double);
+  void rotate(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

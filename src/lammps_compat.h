@@ -1,0 +1,15 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The only place where LAMMPS versions are told apart. Sources include it and use the names
+// defined here; nothing else may test TALUS_LAMMPS_VERSION (yyyymmdd, set by the build).
+
+#ifndef TALUS_LAMMPS_COMPAT_H
+#define TALUS_LAMMPS_COMPAT_H
+
+#if !defined(TALUS_LAMMPS_VERSION)
+#error "link the CMake target lammps_host: it defines TALUS_LAMMPS_VERSION"
+#elif TALUS_LAMMPS_VERSION < 20250204
+#error "Talus needs LAMMPS 4 Feb 2025 or newer"
+#endif
+
+#endif

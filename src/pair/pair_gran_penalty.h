@@ -1,0 +1,90 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// pair_style gran/penalty: penalty contact with friction between spheres.
+//
+// A thin style: it parses and checks, hands the host's arrays to Talus::ContactPipeline (src/contact),
+// and answers the host's questions about single pairs. doc/pair_gran_penalty.md is the user's page.
+
+#ifndef LMP_PAIR_GRAN_PENALTY_H
+#define LMP_PAIR_GRAN_PENALTY_H
+
+#include "contact/contact_pipeline.h"
+#include "fix/fix_contact_store.h"
+#include "pair.h"
+#include "pair/contact_command.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class PairGranPenalty : public Pair, public FixContactStore::Client {
+ public:
+  PairGranPenalty(class LAMMPS *);
+  ~PairGranPenalty() override;
+
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void compute(int, int) override;
+  double single(int, int, int, int, double, double, double, double &) override;
+
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override;
+  double atom2cut(int) override;
+  double radii2cut(double, double) override;
+
+  // FixContactStore::Client
+  void file_history(Talus::PartnerLists &partners) override;
+  void renumber_pairs() override;
+
+ private:
+  void allocate();
+  void check_host();
+  void find_largest_radii();
+  void largest_future_radii(std::vector<double> &radius);
+  void find_heavy_fixes();
+  void create_store();
+  void prepare_laws();
+  std::string describe_laws() const;
+  void warn_small_periods();
+
+  void add_candidate_pairs();
+  void replace_masses();
+  Talus::ParticleView view() const;
+  double effective_mass(int i) const;
+  void tally(const std::vector<Talus::ReportedContact> &contacts);
+  void count_contacts();
+
+  FrictionMix friction_mix = FrictionMix::MINIMUM;
+  std::vector<ContactSpec> specs;    // (ntypes+1)^2, upper triangle is used
+  ContactSpec &spec(int i, int j) { return specs[i * (atom_types + 1) + j]; }
+  int atom_types = 0;
+  bool laws_current = false;
+  std::string announced;    // last description of the laws in the log
+
+  Talus::ContactPipeline pipeline;
+  std::vector<Talus::ReportedContact> reported;
+
+  // largest radius of each type, particles that are frozen apart: two frozen ones never interact
+  std::vector<double> largest_free, largest_frozen;
+  double largest_radius = 0.0;
+
+  int freeze_groups = 0;                  // bits of all groups with a fix freeze
+  std::vector<class Fix *> rigid_fixes;
+  std::vector<double> mass_override;      // empty without frozen or rigid particles
+
+  FixContactStore *store = nullptr;
+  std::string store_id, placeholder_id;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

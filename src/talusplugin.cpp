@@ -1,0 +1,134 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The ABI gate: what LAMMPS opens. It compares the host with the one this plugin was built for and
+// registers nothing if they differ, because the layout of LAMMPS classes changes between versions
+// and the result would be a crash or wrong numbers.
+//
+// Nothing here may use a symbol of LAMMPS or MPI at link time: LAMMPS binds all symbols when it
+// opens a plugin, and a missing one would stop it before the gate could say why. So the styles are
+// in a second file, talusstyles.so, which is opened only after the check.
+
+#include "talus_abi.h"
+
+#include "lmptype.h"
+
+#include <dlfcn.h>
+#include <mpi.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+// Everything that must agree between the host and this binary.
+struct Abi {
+  int version;       // yyyymmdd
+  int tagint_size;   // bytes of an atom ID
+  int bigint_size;
+  int mpi_size;      // bytes of an MPI_Comm; 0 for a host without MPI
+
+  bool operator==(const Abi &other) const
+  {
+    return version == other.version && tagint_size == other.tagint_size &&
+        bigint_size == other.bigint_size && mpi_size == other.mpi_size;
+  }
+};
+
+constexpr Abi OURS = {TALUS_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint), sizeof(LAMMPS_NS::bigint),
+                      sizeof(MPI_Comm)};
+
+// The C library interface of LAMMPS: plain C functions, safe to call before any layout is known.
+struct HostLibrary {
+  int (*version)(void *);
+  int (*extract_setting)(void *, const char *);
+  int (*has_mpi)();
+
+  bool complete() const { return version && extract_setting && has_mpi; }
+};
+
+template <typename Function> void look_up(void *library, const char *name, Function &function)
+{
+  function = reinterpret_cast<Function>(dlsym(library, name));
+}
+
+HostLibrary find_host_library()
+{
+  HostLibrary host{};
+  look_up(RTLD_DEFAULT, "lammps_version", host.version);
+  look_up(RTLD_DEFAULT, "lammps_extract_setting", host.extract_setting);
+  look_up(RTLD_DEFAULT, "lammps_config_has_mpi_support", host.has_mpi);
+  return host;
+}
+
+Abi abi_of(const HostLibrary &host, void *lmp)
+{
+  return {host.version(lmp), host.extract_setting(lmp, "tagint"),
+          host.extract_setting(lmp, "bigint"), host.has_mpi()};
+}
+
+std::string describe(const Abi &abi)
+{
+  char text[128];
+  std::snprintf(text, sizeof(text), "LAMMPS %d, tagint %d bytes, bigint %d bytes, MPI handle %d bytes",
+                abi.version, abi.tagint_size, abi.bigint_size, abi.mpi_size);
+  return text;
+}
+
+// One line, on one rank. Not through LAMMPS: its own printing may be what does not match.
+void complain(bool first_rank, const std::string &text)
+{
+  if (!first_rank) return;
+  std::fprintf(stderr, "talus: %s; no style registered\n", text.c_str());
+  std::fflush(stderr);
+}
+
+// For developers who know better, for instance when bisecting the host.
+bool check_disabled()
+{
+  const char *value = std::getenv("TALUS_SKIP_ABI_CHECK");
+  return value && *value && std::strcmp(value, "0") != 0;
+}
+
+std::string styles_path()
+{
+  Dl_info info{};
+  if (!dladdr(reinterpret_cast<const void *>(&OURS), &info) || !info.dli_fname) return {};
+  const std::string self = info.dli_fname;
+  const auto slash = self.rfind('/');
+  return (slash == std::string::npos ? std::string() : self.substr(0, slash + 1)) +
+      "talusstyles.so";
+}
+
+}    // namespace
+
+extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
+                                                                         void *registerfunc)
+{
+  const HostLibrary host = find_host_library();
+  if (!host.complete())
+    return complain(true, "the host does not show its C library interface to plugins; build LAMMPS "
+                          "as a shared library or with PKG_PLUGIN on");
+
+  const bool first_rank = host.extract_setting(lmp, "universe_rank") == 0;
+  const Abi theirs = abi_of(host, lmp);
+  if (!(theirs == OURS) && !check_disabled())
+    return complain(first_rank,
+                    "this plugin was built for " + describe(OURS) + ", but the host is " +
+                        describe(theirs) + "; build it for this host with scripts/build --host");
+
+  const std::string path = styles_path();
+  void *styles = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!styles)
+    return complain(first_rank,
+                    "cannot open the second file of the plugin (" + std::string(dlerror()) +
+                        "); keep talusplugin.so and talusstyles.so of one build in one folder");
+
+  void (*register_styles)(void *, void *, void *);
+  look_up(styles, TALUS_TEXT(TALUS_REGISTER), register_styles);
+  if (!register_styles)
+    return complain(first_rank,
+                    path + " is from another build than talusplugin.so; copy both files again");
+  register_styles(lmp, handle, registerfunc);
+}

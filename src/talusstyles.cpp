@@ -1,0 +1,101 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
+// known to be the one this file was compiled for; may be called again after `clear`.
+
+#include "talus_abi.h"
+
+#include "fix.h"
+#include "lammps.h"
+#include "lammpsplugin.h"
+#include "pair.h"
+#include "version.h"
+
+#if __has_include("pair/pair_gran_penalty.h")
+#include "pair/pair_gran_penalty.h"
+#define HAVE_PAIR_GRAN_PENALTY
+#endif
+#if __has_include("fix/fix_contact_store.h")
+#include "fix/fix_contact_store.h"
+#define HAVE_FIX_CONTACT_STORE
+#endif
+#if __has_include("fix/fix_nve_sphere_symplectic.h")
+#include "fix/fix_nve_sphere_symplectic.h"
+#define HAVE_FIX_NVE
+#endif
+#if __has_include("fix/fix_large_body.h")
+#include "fix/fix_large_body.h"
+#define HAVE_FIX_LARGE_BODY
+#endif
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// LAMMPS casts what a creator returns to the base class: it has to be a pointer to exactly that.
+template <typename Base, typename Style> void *create(void *lmp)
+{
+  return static_cast<Base *>(new Style(static_cast<LAMMPS *>(lmp)));
+}
+
+template <typename Base, typename Style> void *create(void *lmp, int narg, char **arg)
+{
+  return static_cast<Base *>(new Style(static_cast<LAMMPS *>(lmp), narg, arg));
+}
+
+class Registry {
+ public:
+  Registry(void *lmp, void *handle, void *registerfunc) :
+      lmp(lmp), register_plugin(reinterpret_cast<lammpsplugin_regfunc>(registerfunc))
+  {
+    entry.version = LAMMPS_VERSION;
+    entry.author = "the Talus developers";
+    entry.handle = handle;
+  }
+
+  template <typename Style> void pair(const char *name, const char *info)
+  {
+    entry.creator.v1 = &create<Pair, Style>;
+    add("pair", name, info);
+  }
+
+  template <typename Style> void fix(const char *name, const char *info)
+  {
+    entry.creator.v2 = &create<Fix, Style>;
+    add("fix", name, info);
+  }
+
+ private:
+  void add(const char *style, const char *name, const char *info)
+  {
+    entry.style = style;
+    entry.name = name;
+    entry.info = info;
+    register_plugin(&entry, lmp);    // copies the entry
+  }
+
+  void *lmp;
+  lammpsplugin_regfunc register_plugin;
+  lammpsplugin_t entry{};
+};
+
+}    // namespace
+
+extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp, void *handle,
+                                                                      void *registerfunc)
+{
+  Registry registry(lmp, handle, registerfunc);
+#ifdef HAVE_PAIR_GRAN_PENALTY
+  registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
+#endif
+#ifdef HAVE_FIX_NVE
+  registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
+                                       "Talus fix style nve/sphere/symplectic");
+#endif
+#ifdef HAVE_FIX_LARGE_BODY
+  registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
+#endif
+#ifdef HAVE_FIX_CONTACT_STORE
+  registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
+#endif
+}
