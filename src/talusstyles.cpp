@@ -11,18 +11,9 @@
 #include "pair.h"
 #include "version.h"
 
-#if __has_include("pair/pair_gran_penalty.h")
 #include "pair/pair_gran_penalty.h"
-#define HAVE_PAIR_GRAN_PENALTY
-#endif
-#if __has_include("fix/fix_contact_store.h")
 #include "fix/fix_contact_store.h"
-#define HAVE_FIX_CONTACT_STORE
-#endif
-#if __has_include("fix/fix_nve_sphere_symplectic.h")
 #include "fix/fix_nve_sphere_symplectic.h"
-#define HAVE_FIX_NVE
-#endif
 #if __has_include("fix/fix_large_body.h")
 #include "fix/fix_large_body.h"
 #define HAVE_FIX_LARGE_BODY
@@ -85,17 +76,11 @@ extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp,
                                                                       void *registerfunc)
 {
   Registry registry(lmp, handle, registerfunc);
-#ifdef HAVE_PAIR_GRAN_PENALTY
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
-#endif
-#ifdef HAVE_FIX_NVE
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
-#endif
 #ifdef HAVE_FIX_LARGE_BODY
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
 #endif
-#ifdef HAVE_FIX_CONTACT_STORE
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
-#endif
 }

@@ -162,8 +162,12 @@ template <bool friction, bool history_kept> void ContactPipeline::gather(int end
 
 void ContactPipeline::run_kernels(double dt, bool advance)
 {
-  for (const LawRange &range : ranges)
+  for (const LawRange &range : ranges) {
     laws.kernel(range.law, advance)(batch, range.begin, range.end, laws.coefficients(), dt);
+    if (with_friction && !laws.distinct_law(range.law).has_friction())
+      for (auto &component : batch.moment)    // not written by a kernel without friction
+        std::fill(component + range.begin, component + range.end, 0.0);
+  }
 }
 
 /* Copies of a contact hold the same result, so writing them twice does no harm. */

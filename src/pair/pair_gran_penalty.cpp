@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -35,7 +34,7 @@ Vector3<double> row(const double *p)
 
 /* ---------------------------------------------------------------------- */
 
-PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp)
+PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -147,7 +146,7 @@ void PairGranPenalty::init_style()
 {
   check_host();
   neighbor->add_request(this, NeighConst::REQ_SIZE);
-  find_heavy_fixes();
+  masses.find_fixes();
   find_largest_radii();
   create_store();
   laws_current = false;    // init_one() will mix what is not set
@@ -171,17 +170,6 @@ void PairGranPenalty::check_host()
                "start LAMMPS without '-k on'");
 }
 
-/* Frozen particles count as infinitely heavy, members of rigid bodies have the mass of the body. */
-
-void PairGranPenalty::find_heavy_fixes()
-{
-  freeze_groups = 0;
-  for (const auto &ifix : modify->get_fix_by_style("^freeze")) freeze_groups |= ifix->groupbit;
-  rigid_fixes.clear();
-  for (const auto &ifix : modify->get_fix_list())
-    if (ifix->rigid_flag) rigid_fixes.push_back(ifix);
-}
-
 void PairGranPenalty::largest_future_radii(std::vector<double> &radius)
 {
   for (const char *style : {"^pour", "^deposit"})
@@ -199,7 +187,7 @@ void PairGranPenalty::find_largest_radii()
   std::vector<double> mine(n, 0.0), mine_frozen(n, 0.0);
   largest_future_radii(mine);
   for (int i = 0; i < atom->nlocal; i++) {
-    double &r = (atom->mask[i] & freeze_groups ? mine_frozen : mine)[atom->type[i]];
+    double &r = (atom->mask[i] & masses.frozen_groups() ? mine_frozen : mine)[atom->type[i]];
     r = std::max(r, atom->radius[i]);
   }
   largest_free.resize(n);
@@ -315,7 +303,8 @@ void PairGranPenalty::renumber_pairs()
   add_candidate_pairs();
   pipeline.pairs.finish();
   pipeline.start_pairs(atom->type, store->partner_lists());
-  replace_masses();
+  masses.update();
+  if (masses.needed()) comm->forward_comm(this);
 }
 
 void PairGranPenalty::add_candidate_pairs()
@@ -331,35 +320,15 @@ void PairGranPenalty::add_candidate_pairs()
   }
 }
 
-void PairGranPenalty::replace_masses()
-{
-  mass_override.clear();
-  if (!freeze_groups && rigid_fixes.empty()) return;
-  mass_override.assign(std::max(atom->nmax, atom->nlocal + atom->nghost), 0.0);
-
-  for (const auto &ifix : rigid_fixes) {
-    int dim;
-    auto *body = static_cast<int *>(ifix->extract("body", dim));
-    auto *mass = static_cast<double *>(ifix->extract("masstotal", dim));
-    if (!body || !mass) continue;
-    for (int i = 0; i < atom->nlocal; i++)
-      if (body[i] >= 0) mass_override[i] = mass[body[i]];
-  }
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & freeze_groups)
-      mass_override[i] = std::numeric_limits<double>::infinity();
-  comm->forward_comm(this);
-}
-
 int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *)
 {
-  for (int k = 0; k < n; k++) buf[k] = mass_override[send[k]];
+  for (int k = 0; k < n; k++) buf[k] = masses.override_or_null()[send[k]];
   return n;
 }
 
 void PairGranPenalty::unpack_forward_comm(int n, int first, double *buf)
 {
-  std::copy(buf, buf + n, mass_override.begin() + first);
+  std::copy(buf, buf + n, masses.override_or_null() + first);
 }
 
 ParticleView PairGranPenalty::view() const
@@ -367,7 +336,7 @@ ParticleView PairGranPenalty::view() const
   const bool any = atom->nlocal + atom->nghost > 0;
   return {any ? atom->x[0] : nullptr,     any ? atom->v[0] : nullptr,
           any ? atom->omega[0] : nullptr, atom->radius,
-          atom->rmass,                    mass_override.empty() ? nullptr : mass_override.data()};
+          atom->rmass,                    masses.override_or_null()};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -402,12 +371,6 @@ void PairGranPenalty::count_contacts()
   pvector[1] = pipeline.count_candidates();
 }
 
-double PairGranPenalty::effective_mass(int i) const
-{
-  const bool replaced = !mass_override.empty() && mass_override[i] > 0.0;
-  return replaced ? mass_override[i] : atom->rmass[i];
-}
-
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
                                double &fforce)
 {
@@ -422,7 +385,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.overlap = ri + rj - r;
   s.velocity = row(atom->v[i]) - row(atom->v[j]);
   s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
-  s.inverse_mass = 1.0 / effective_mass(i) + 1.0 / effective_mass(j);
+  s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
 
   const Record h = pipeline.history_of(i, j);
@@ -482,7 +445,8 @@ void PairGranPenalty::read_restart_settings(FILE *fp)
 
 double PairGranPenalty::memory_usage()
 {
-  return pipeline.memory_usage() + static_cast<double>(mass_override.capacity() * sizeof(double));
+  return pipeline.memory_usage() +
+      static_cast<double>(reported.capacity() * sizeof(ReportedContact));
 }
 
 double PairGranPenalty::atom2cut(int i)

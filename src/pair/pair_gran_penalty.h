@@ -12,6 +12,7 @@
 #include "fix/fix_contact_store.h"
 #include "pair.h"
 #include "pair/contact_command.h"
+#include "pair/effective_masses.h"
 
 #include <string>
 #include <vector>
@@ -50,16 +51,13 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void check_host();
   void find_largest_radii();
   void largest_future_radii(std::vector<double> &radius);
-  void find_heavy_fixes();
   void create_store();
   void prepare_laws();
   std::string describe_laws() const;
   void warn_small_periods();
 
   void add_candidate_pairs();
-  void replace_masses();
   Talus::ParticleView view() const;
-  double effective_mass(int i) const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);
   void count_contacts();
 
@@ -77,9 +75,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   std::vector<double> largest_free, largest_frozen;
   double largest_radius = 0.0;
 
-  int freeze_groups = 0;                  // bits of all groups with a fix freeze
-  std::vector<class Fix *> rigid_fixes;
-  std::vector<double> mass_override;      // empty without frozen or rigid particles
+  EffectiveMasses masses;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

@@ -1,0 +1,144 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "body/body_contacts.h"
+
+#include <cmath>
+
+namespace Talus {
+namespace {
+
+  Vector3<double> row(const double *rows, int i)
+  {
+    return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
+  }
+
+  void add(double *rows, int i, const Vector3<double> &value)
+  {
+    rows[3L * i] += value.x;
+    rows[3L * i + 1] += value.y;
+    rows[3L * i + 2] += value.z;
+  }
+
+  Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
+  {
+    return {v[0][k], v[1][k], v[2][k]};
+  }
+
+  void set_lane(double (&v)[3][ContactBatch::width], int k, const Vector3<double> &value)
+  {
+    v[0][k] = value.x;
+    v[1][k] = value.y;
+    v[2][k] = value.z;
+  }
+
+}    // namespace
+
+BodyContacts::BodyContacts()
+{
+  batch.clear();
+}
+
+void BodyContacts::set_laws(const LawTable &table)
+{
+  laws = table;
+  with_history = laws.has_history();
+}
+
+void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyParticleView &view,
+                                   const int *mask, int group, double skin)
+{
+  candidates.clear();
+  for (int i = 0; i < view.owned; i++) {
+    const bool near = (mask[i] & group) &&
+        shape.distance_bound(row(view.x, i)) < view.radius[i] + skin;
+    if (near) candidates.push_back(i);
+    if (!near && with_history) history[i] = Record{};
+  }
+}
+
+BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
+                               bool advance)
+{
+  BodyLoad load;
+  for (int law = 0; law < laws.num_laws(); law++) {
+    int filled = 0;
+    for (const int i : candidates) {
+      if (laws.law_index(laws.row(view.type[i], view.type[i])) != law) continue;
+      SurfaceContact contact;
+      if (!shape.touches(row(view.x, i), view.radius[i], contact)) {
+        if (with_history) history[i] = Record{};
+        continue;
+      }
+      add_lane(filled++, i, contact, view);
+      if (filled == ContactBatch::width) {
+        flush(law, filled, shape, view, dt, advance, load);
+        filled = 0;
+      }
+    }
+    if (filled) flush(law, filled, shape, view, dt, advance, load);
+  }
+  return load;
+}
+
+/* A fixed body is infinitely heavy and its surface does not move: m_eff is the mass of the particle, R_eff its
+   radius. */
+
+void BodyContacts::add_lane(int lane, int i, const SurfaceContact &contact,
+                            const BodyParticleView &view)
+{
+  const bool replaced = view.mass_override && view.mass_override[i] > 0.0;
+  atom_of_lane[lane] = i;
+  set_lane(batch.normal, lane, contact.normal);
+  batch.overlap[lane] = contact.overlap;
+  set_lane(batch.velocity, lane, row(view.v, i));
+  set_lane(batch.spin, lane, view.radius[i] * row(view.omega, i));
+  batch.inverse_mass[lane] = 1.0 / (replaced ? view.mass_override[i] : view.mass[i]);
+  batch.inverse_radius[lane] = 1.0 / view.radius[i];
+  batch.coefficients[lane] = laws.row(view.type[i], view.type[i]);
+  if (!with_history) return;
+  const Record &h = history[i];
+  set_lane(batch.displacement, lane, {h.c[0], h.c[1], h.c[2]});
+  batch.at_limit[lane] = h.c[3];
+}
+
+void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
+                         const BodyParticleView &view, double dt, bool advance, BodyLoad &load)
+{
+  // lanes behind the last contact hold older, finite contacts: computed, but not used
+  const int end = (count + lanes - 1) / lanes * lanes;
+  laws.kernel(law, advance)(batch, 0, end, laws.coefficients(), dt);
+  for (int lane = 0; lane < count; lane++) {
+    apply(lane, laws.distinct_law(law).has_friction(), shape, view, load);
+    if (with_history && advance) {
+      const Vector3<double> d = lane_of(batch.displacement, lane);
+      history[atom_of_lane[lane]] = {{d.x, d.y, d.z, batch.at_limit[lane]}};
+    }
+  }
+}
+
+/* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and torques of
+   particle and body balance exactly. */
+
+void BodyContacts::apply(int lane, bool friction, const LargeBodyShape &shape, const BodyParticleView &view,
+                         BodyLoad &load)
+{
+  const int i = atom_of_lane[lane];
+  const double r = view.radius[i];
+  const Vector3<double> force = lane_of(batch.force, lane);
+  add(view.f, i, force);
+  if (friction) add(view.torque, i, -r * lane_of(batch.moment, lane));
+
+  const Vector3<double> arm =
+      row(view.x, i) - r * lane_of(batch.normal, lane) - shape.reference_point();
+  load.force = load.force - force;
+  load.torque = load.torque - cross(arm, force);
+  load.contacts += 1.0;
+}
+
+double BodyContacts::memory_usage() const
+{
+  return static_cast<double>(history.capacity() * sizeof(Record) +
+                             candidates.capacity() * sizeof(int));
+}
+
+}    // namespace Talus

@@ -1,0 +1,311 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/fix_large_body.h"
+
+#include "body/plane.h"
+#include "body/rectangle.h"
+
+#include "atom.h"
+#include "error.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace Talus;
+
+namespace {
+constexpr int first_shape_word = 4;    // fix ID group large/body SHAPE ...
+constexpr int size_load = 7;
+constexpr int size_history = 4;
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), masses(lmp)
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
+               "use 'atom_style sphere'");
+  specs.resize(atom->ntypes + 1);
+  spec_is_set.assign(atom->ntypes + 1, false);
+
+  // `two-sided` is a property of the shape, so it is looked for before the shape is made
+  for (int iarg = first_shape_word; iarg < narg; iarg++)
+    if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
+  parse_keywords(parse_shape(narg, arg), narg, arg);
+  set_laws();
+
+  vector_flag = 1;
+  size_vector = 20;
+  global_freq = 1;
+  extvector = 0;
+  dynamic_group_allow = 1;
+  if (!contacts.keeps_history()) return;
+
+  restart_peratom = 1;
+  create_attribute = 1;
+  maxexchange = size_history;
+  FixLargeBody::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  for (int i = 0; i < atom->nlocal; i++) FixLargeBody::set_arrays(i);
+}
+
+FixLargeBody::~FixLargeBody()
+{
+  if (!contacts.keeps_history()) return;
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixLargeBody::number(int iarg, int narg, char **arg, const char *name)
+{
+  if (iarg >= narg)
+    error->all(FLERR, narg - 1, "fix large/body {}: missing {}", narg > 3 ? arg[3] : "", name);
+  if (!utils::is_double(arg[iarg]))
+    error->all(FLERR, iarg, "fix large/body {}: expected a number for {} instead of '{}'", arg[3],
+               name, arg[iarg]);
+  return utils::numeric(FLERR, arg[iarg], false, lmp);
+}
+
+Vector3<double> FixLargeBody::vector(int iarg, int narg, char **arg, const char *name)
+{
+  const double x = number(iarg, narg, arg, name), y = number(iarg + 1, narg, arg, name);
+  return {x, y, number(iarg + 2, narg, arg, name)};
+}
+
+Vector3<double> FixLargeBody::direction(int iarg, int narg, char **arg, const char *name)
+{
+  const Vector3<double> v = vector(iarg, narg, arg, name);
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 0.0))
+    error->all(FLERR, iarg, "fix large/body {}: {} must not be zero", arg[3], name);
+  return 1.0 / length * v;
+}
+
+/* Returns the index of the first word behind the shape. */
+
+int FixLargeBody::parse_shape(int narg, char **arg)
+{
+  if (narg < first_shape_word)
+    error->all(FLERR, "fix large/body: missing shape: plane or rectangle");
+  if (strcmp(arg[3], "plane") == 0) {
+    make_plane(narg, arg);
+    return first_shape_word + 6;
+  }
+  if (strcmp(arg[3], "rectangle") == 0) {
+    make_rectangle(narg, arg);
+    return first_shape_word + 11;
+  }
+  error->all(FLERR, 3, "fix large/body: unknown shape '{}', expected plane or rectangle", arg[3]);
+}
+
+void FixLargeBody::make_plane(int narg, char **arg)
+{
+  const Vector3<double> point = vector(4, narg, arg, "point (px py pz)");
+  shape = std::make_unique<Plane>(point, direction(7, narg, arg, "normal (nx ny nz)"), two_sided);
+}
+
+void FixLargeBody::make_rectangle(int narg, char **arg)
+{
+  const Vector3<double> centre = vector(4, narg, arg, "centre (px py pz)");
+  const Vector3<double> normal = direction(7, narg, arg, "normal (nx ny nz)");
+  const Vector3<double> edge = direction(10, narg, arg, "first edge (ux uy uz)");
+  const double lu = number(13, narg, arg, "edge length lu"), lv = number(14, narg, arg, "edge length lv");
+  if (!(lu > 0.0) || !(lv > 0.0))
+    error->all(FLERR, 13, "fix large/body rectangle: edge lengths must be positive");
+
+  // the part of the edge that lies in the plane, so that users need not orthogonalise
+  const Vector3<double> inside = edge - dot(edge, normal) * normal;
+  const double length = std::sqrt(dot(inside, inside));
+  if (length < 1.0e-6)
+    error->all(FLERR, 10, "fix large/body rectangle: first edge is parallel to the normal");
+  shape = std::make_unique<Rectangle>(centre, normal, 1.0 / length * inside, lu, lv, two_sided);
+}
+
+void FixLargeBody::parse_keywords(int iarg, int narg, char **arg)
+{
+  const CommandWords words{lmp, "fix large/body contact", narg, arg};
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "contact") == 0) {
+      parse_contact_words(words, ++iarg);
+    } else if (strcmp(arg[iarg], "two-sided") == 0) {
+      iarg++;
+    } else {
+      error->all(FLERR, iarg, "fix large/body: unknown word '{}', expected contact or two-sided",
+                 arg[iarg]);
+    }
+  }
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (!spec_is_set[type])
+      error->all(FLERR, "fix large/body: no contact law for particles of type {}: add 'contact "
+                 "NORMAL args ...' or 'contact types {} NORMAL args ...'", type, type);
+}
+
+void FixLargeBody::parse_contact_words(const CommandWords &words, int &iarg)
+{
+  int lo = 1, hi = atom->ntypes;
+  if (iarg < words.narg && strcmp(words.arg[iarg], "types") == 0) {
+    if (++iarg >= words.narg)
+      error->all(FLERR, iarg - 1, "fix large/body contact: missing types, e.g. 1 or 1*3");
+    utils::bounds(FLERR, words.arg[iarg++], 1, atom->ntypes, lo, hi, error);
+  }
+  const ContactSpec parsed = parse_contact(words, iarg);
+  for (int type = lo; type <= hi; type++) {
+    specs[type] = parsed;
+    spec_is_set[type] = true;
+  }
+}
+
+void FixLargeBody::set_laws()
+{
+  LawTable table;
+  table.reset(atom->ntypes);
+  for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
+    for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, specs[i].coefficients);
+  table.finish();
+  contacts.set_laws(table);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLargeBody::setmask()
+{
+  return POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE;
+}
+
+void FixLargeBody::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
+  masses.find_fixes();
+}
+
+void FixLargeBody::setup_post_neighbor()
+{
+  post_neighbor();
+}
+
+void FixLargeBody::min_post_neighbor()
+{
+  post_neighbor();
+}
+
+void FixLargeBody::post_neighbor()
+{
+  masses.update();
+  contacts.find_candidates(*shape, view(), atom->mask, groupbit, neighbor->skin);
+}
+
+void FixLargeBody::setup(int vflag)
+{
+  post_force(vflag);
+}
+
+void FixLargeBody::min_setup(int vflag)
+{
+  post_force(vflag);
+}
+
+void FixLargeBody::min_post_force(int vflag)
+{
+  post_force(vflag);
+}
+
+BodyParticleView FixLargeBody::view() const
+{
+  if (atom->nlocal == 0) return {};
+  return {atom->nlocal, atom->x[0],  atom->v[0],  atom->omega[0],
+          atom->radius, atom->rmass, masses.override_or_null(),
+          atom->type,   atom->f[0],  atom->torque[0]};
+}
+
+void FixLargeBody::post_force(int /*vflag*/)
+{
+  const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0);
+  const double values[size_load] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
+                                    mine.torque.y, mine.torque.z, mine.contacts};
+  std::copy(values, values + size_load, load);
+  reduced_at = -1;
+}
+
+void FixLargeBody::reduce_load()
+{
+  if (reduced_at == update->ntimestep) return;
+  MPI_Allreduce(load, total_load, size_load, MPI_DOUBLE, MPI_SUM, world);
+  reduced_at = update->ntimestep;
+}
+
+double FixLargeBody::compute_vector(int n)
+{
+  reduce_load();
+  const Vector3<double> p = shape->reference_point();
+  const double at_rest[] = {p.x, p.y, p.z, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  if (n < 6) return total_load[n];
+  return n < 19 ? at_rest[n - 6] : total_load[6];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLargeBody::grow_arrays(int nmax)
+{
+  contacts.history.resize(nmax);
+}
+
+void FixLargeBody::copy_arrays(int i, int j, int /*delflag*/)
+{
+  contacts.history[j] = contacts.history[i];
+}
+
+void FixLargeBody::set_arrays(int i)
+{
+  contacts.history[i] = Record{};
+}
+
+int FixLargeBody::pack_exchange(int i, double *buf)
+{
+  std::copy(contacts.history[i].c, contacts.history[i].c + size_history, buf);
+  return size_history;
+}
+
+int FixLargeBody::unpack_exchange(int i, double *buf)
+{
+  std::copy(buf, buf + size_history, contacts.history[i].c);
+  return size_history;
+}
+
+int FixLargeBody::pack_restart(int i, double *buf)
+{
+  buf[0] = size_restart(i);
+  return 1 + pack_exchange(i, buf + 1);
+}
+
+void FixLargeBody::unpack_restart(int i, int nth)
+{
+  double *extra = atom->extra[i];
+  int m = 0;
+  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
+  unpack_exchange(i, extra + m + 1);
+}
+
+int FixLargeBody::size_restart(int /*i*/)
+{
+  return 1 + size_history;
+}
+
+int FixLargeBody::maxsize_restart()
+{
+  return 1 + size_history;
+}
+
+double FixLargeBody::memory_usage()
+{
+  return contacts.memory_usage();
+}
