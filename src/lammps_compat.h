@@ -12,4 +12,12 @@
 #error "Talus needs LAMMPS 4 Feb 2025 or newer"
 #endif
 
+// Pair::atom2cut() and Pair::radii2cut(), which `neighbor multi` asked for, were removed in summer
+// 2025, possibly within updates of a release that keep its date: so the build looks into the header.
+#if TALUS_HOST_HAS_ATOM2CUT
+#define TALUS_OVERRIDE_ATOM2CUT override
+#else
+#define TALUS_OVERRIDE_ATOM2CUT
+#endif
+
 #endif

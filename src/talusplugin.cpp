@@ -24,15 +24,15 @@ namespace {
 
 // Everything that must agree between the host and this binary.
 struct Abi {
-  int version;       // yyyymmdd
-  int tagint_size;   // bytes of an atom ID
+  int version;        // yyyymmdd
+  int tagint_size;    // bytes of an atom ID
   int bigint_size;
-  int mpi_size;      // bytes of an MPI_Comm; 0 for a host without MPI
+  int mpi_size;    // bytes of an MPI_Comm; 0 for a host without MPI
 
   bool operator==(const Abi &other) const
   {
     return version == other.version && tagint_size == other.tagint_size &&
-        bigint_size == other.bigint_size && mpi_size == other.mpi_size;
+           bigint_size == other.bigint_size && mpi_size == other.mpi_size;
   }
 };
 
@@ -71,8 +71,9 @@ Abi abi_of(const HostLibrary &host, void *lmp)
 std::string describe(const Abi &abi)
 {
   char text[128];
-  std::snprintf(text, sizeof(text), "LAMMPS %d, tagint %d bytes, bigint %d bytes, MPI handle %d bytes",
-                abi.version, abi.tagint_size, abi.bigint_size, abi.mpi_size);
+  std::snprintf(text, sizeof(text),
+                "LAMMPS %d, tagint %d bytes, bigint %d bytes, MPI handle %d bytes", abi.version,
+                abi.tagint_size, abi.bigint_size, abi.mpi_size);
   return text;
 }
 
@@ -98,7 +99,7 @@ std::string styles_path()
   const std::string self = info.dli_fname;
   const auto slash = self.rfind('/');
   return (slash == std::string::npos ? std::string() : self.substr(0, slash + 1)) +
-      "talusstyles.so";
+         "talusstyles.so";
 }
 
 }    // namespace
@@ -114,9 +115,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
   const bool first_rank = host.extract_setting(lmp, "universe_rank") == 0;
   const Abi theirs = abi_of(host, lmp);
   if (!(theirs == OURS) && !check_disabled())
-    return complain(first_rank,
-                    "this plugin was built for " + describe(OURS) + ", but the host is " +
-                        describe(theirs) + "; build it for this host with scripts/build --host");
+    return complain(first_rank, "this plugin was built for " + describe(OURS) +
+                                    ", but the host is " + describe(theirs) +
+                                    "; build it for this host with scripts/build --host");
 
   const std::string path = styles_path();
   void *styles = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

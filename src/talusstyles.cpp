@@ -3,6 +3,10 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "fix/fix_contact_store.h"
+#include "fix/fix_large_body.h"
+#include "fix/fix_nve_sphere_symplectic.h"
+#include "pair/pair_gran_penalty.h"
 #include "talus_abi.h"
 
 #include "fix.h"
@@ -10,14 +14,6 @@
 #include "lammpsplugin.h"
 #include "pair.h"
 #include "version.h"
-
-#include "pair/pair_gran_penalty.h"
-#include "fix/fix_contact_store.h"
-#include "fix/fix_nve_sphere_symplectic.h"
-#if __has_include("fix/fix_large_body.h")
-#include "fix/fix_large_body.h"
-#define HAVE_FIX_LARGE_BODY
-#endif
 
 using namespace LAMMPS_NS;
 
@@ -79,8 +75,6 @@ extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp,
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
-#ifdef HAVE_FIX_LARGE_BODY
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
-#endif
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
 }

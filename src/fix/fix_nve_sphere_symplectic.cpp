@@ -8,24 +8,21 @@
 #include "error.h"
 #include "force.h"
 #include "group.h"
-#include "math_const.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "update.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using MathConst::DEG2RAD;
 
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg)
+    Fix(lmp, narg, arg), gravity(lmp, "Fix nve/sphere/symplectic")
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -43,7 +40,7 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
     iarg += parse_keyword(narg, arg, iarg);
   }
 
-  if (has_gravity) {
+  if (gravity.given()) {
     scalar_flag = 1;
     extscalar = 1;
     global_freq = 1;
@@ -58,25 +55,16 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
 int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
 {
   const std::string keyword = arg[iarg];
-  const std::string value = iarg + 1 < narg ? arg[iarg + 1] : "";
 
   if (keyword == "start") {
-    need(narg, arg, iarg, 1, "plain or half");
-    if (value != "plain" && value != "half")
-      error->all(FLERR, iarg + 1,
-                 "Fix nve/sphere/symplectic start: expected plain or half instead of '{}'", value);
-    half_start = value == "half";
+    half_start = choice(narg, arg, iarg, "half", "plain");
     return 2;
   }
 
-  if (keyword == "gravity") return parse_gravity(narg, arg, iarg);
+  if (keyword == "gravity") return gravity.parse(narg, arg, iarg);
 
   if (keyword == "orientation") {
-    need(narg, arg, iarg, 1, "yes or no");
-    if (value != "yes" && value != "no")
-      error->all(FLERR, iarg + 1,
-                 "Fix nve/sphere/symplectic orientation: expected yes or no instead of '{}'", value);
-    rotates = value == "yes";
+    rotates = choice(narg, arg, iarg, "yes", "no");
     if (rotates && !atom->quat_flag && !atom->mu_flag)
       error->all(FLERR, iarg + 1, "Fix nve/sphere/symplectic orientation: expected an atom style "
                  "with a quaternion or a dipole (bpm/sphere or hybrid sphere dipole)");
@@ -95,89 +83,19 @@ int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
 }
 
 /* ----------------------------------------------------------------------
-   gravity G chute angle | spherical phi theta | vector x y z
-   directions are those of fix gravity
+   value of a keyword that is one of two words: whether it is the first
 ------------------------------------------------------------------------- */
 
-int FixNVESphereSymplectic::parse_gravity(int narg, char **arg, int iarg)
+bool FixNVESphereSymplectic::choice(int narg, char **arg, int iarg, const char *yes, const char *no)
 {
-  need(narg, arg, iarg, 2, "magnitude and one of chute, spherical, vector");
-  const double magnitude = constant(arg, iarg + 1, "the magnitude");
-  const std::string style = arg[iarg + 2];
-  const int first = iarg + 3;
-  has_gravity = true;
-
-  if (style == "chute") {
-    need(narg, arg, iarg + 2, 1, "the angle in degrees");
-    const double theta = 180.0 - constant(arg, first, "the angle in degrees");
-    const double s = sin(DEG2RAD * theta), c = cos(DEG2RAD * theta);
-    if (domain->dimension == 3) set_gravity(magnitude, s, 0.0, c);
-    else set_gravity(magnitude, s, c, 0.0);
-    return 4;
-  }
-
-  if (style == "spherical") {
-    need(narg, arg, iarg + 2, 2, "phi and theta in degrees");
-    const double phi = constant(arg, first, "phi in degrees");
-    const double theta = constant(arg, first + 1, "theta in degrees");
-    const double s = sin(DEG2RAD * theta), c = cos(DEG2RAD * theta);
-    if (domain->dimension == 3)
-      set_gravity(magnitude, s * cos(DEG2RAD * phi), s * sin(DEG2RAD * phi), c);
-    else set_gravity(magnitude, s, c, 0.0);
-    return 5;
-  }
-
-  if (style == "vector") {
-    need(narg, arg, iarg + 2, 3, "the components x y z");
-    const double x = constant(arg, first, "component x");
-    const double y = constant(arg, first + 1, "component y");
-    double z = constant(arg, first + 2, "component z");
-    if (domain->dimension == 2) z = 0.0;
-    const double length = sqrt(x * x + y * y + z * z);
-    if (!(length > 0.0))
-      error->all(FLERR, first, "Fix nve/sphere/symplectic gravity vector: expected a direction "
-                 "of non-zero length{}", domain->dimension == 2 ? " in the xy plane" : "");
-    set_gravity(magnitude, x / length, y / length, z / length);
-    return 6;
-  }
-
-  error->all(FLERR, iarg + 2, "Fix nve/sphere/symplectic gravity: expected chute, spherical or "
-             "vector instead of '{}'", style);
-}
-
-/* ----------------------------------------------------------------------
-   error unless n more words follow the one at iarg
-------------------------------------------------------------------------- */
-
-void FixNVESphereSymplectic::need(int narg, char **arg, int iarg, int n, const char *what)
-{
-  if (iarg + n >= narg)
-    error->all(FLERR, iarg, "Fix nve/sphere/symplectic: expected {} after '{}'", what, arg[iarg]);
-}
-
-/* ----------------------------------------------------------------------
-   the finite number at iarg
-------------------------------------------------------------------------- */
-
-double FixNVESphereSymplectic::constant(char **arg, int iarg, const char *what)
-{
-  if (utils::strmatch(arg[iarg], "^v_"))
-    error->all(FLERR, iarg, "Fix nve/sphere/symplectic gravity: expected a constant for {} instead "
-               "of variable '{}'", what, arg[iarg]);
-  const double value = utils::is_double(arg[iarg]) ? strtod(arg[iarg], nullptr) : NAN;
-  if (!std::isfinite(value))
-    error->all(FLERR, iarg, "Fix nve/sphere/symplectic gravity: expected a number for {} instead "
-               "of '{}'", what, arg[iarg]);
-  return value;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixNVESphereSymplectic::set_gravity(double magnitude, double x, double y, double z)
-{
-  gravity[0] = magnitude * x;
-  gravity[1] = magnitude * y;
-  gravity[2] = magnitude * z;
+  if (iarg + 1 >= narg)
+    error->all(FLERR, iarg, "Fix nve/sphere/symplectic {}: expected {} or {} after '{}'", arg[iarg],
+               yes, no, arg[iarg]);
+  const std::string value = arg[iarg + 1];
+  if (value != yes && value != no)
+    error->all(FLERR, iarg + 1, "Fix nve/sphere/symplectic {}: expected {} or {} instead of '{}'",
+               arg[iarg], yes, no, value);
+  return value == yes;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -203,7 +121,7 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none", npoints, group->names[igroup]);
 
   frozenbits = 0;
-  if (has_gravity)
+  if (gravity.given())
     for (auto &fix : modify->get_fix_list())
       if (fix != this) check_fix(fix);
 }
@@ -220,7 +138,7 @@ void FixNVESphereSymplectic::check_fix(Fix *fix)
   };
 
   const auto *twin = dynamic_cast<FixNVESphereSymplectic *>(fix);
-  if (utils::strmatch(fix->style, "^gravity") || (twin && twin->has_gravity)) {
+  if (utils::strmatch(fix->style, "^gravity") || (twin && twin->gravity.given())) {
     reason = "gravity would act twice";
   } else if (strcmp(fix->style, "setforce") == 0 || utils::strmatch(fix->style, "^setforce/kk")) {
     reason = "gravity is not seen in the force that it sets";
@@ -287,6 +205,7 @@ int FixNVESphereSymplectic::nmoving() const
 
 /* ----------------------------------------------------------------------
    v, x, omega of all members; the arrays of the host are contiguous
+   a particle's result does not depend on its index or its thread
 ------------------------------------------------------------------------- */
 
 void FixNVESphereSymplectic::advance(double kick, double dt)
@@ -304,8 +223,10 @@ void FixNVESphereSymplectic::advance(double kick, double dt)
   const int *const mask = atom->mask;
 
   const double kick_f = kick * force->ftm2v;
-  const double kick_g[3] = {kick_f * gravity[0], kick_f * gravity[1], kick_f * gravity[2]};
+  const double *const g = gravity.acceleration();
+  const double kick_g[3] = {kick_f * g[0], kick_f * g[1], kick_f * g[2]};
 
+#pragma omp parallel for schedule(static) num_threads(comm->nthreads) if (comm->nthreads > 1)
   for (bigint i = 0; i < n; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double per_mass = kick_f / rmass[i];
@@ -328,6 +249,8 @@ void FixNVESphereSymplectic::advance(double kick, double dt)
 void FixNVESphereSymplectic::rotate(double dt)
 {
   const int n = nmoving();
+
+#pragma omp parallel for schedule(static) num_threads(comm->nthreads) if (comm->nthreads > 1)
   for (int i = 0; i < n; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double *const w = atom->omega[i];
@@ -363,7 +286,7 @@ double FixNVESphereSymplectic::compute_scalar()
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || (atom->mask[i] & frozenbits)) continue;
     domain->unmap(atom->x[i], atom->image[i], x);
-    mine -= atom->rmass[i] * MathExtra::dot3(gravity, x);
+    mine -= atom->rmass[i] * MathExtra::dot3(gravity.acceleration(), x);
   }
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

@@ -40,6 +40,7 @@ FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
 #ifndef LMP_FIX_NVE_SPHERE_SYMPLECTIC_H
 #define LMP_FIX_NVE_SPHERE_SYMPLECTIC_H
 
+#include "constant_gravity.h"
 #include "fix.h"
 
 #include <functional>
@@ -58,18 +59,14 @@ class FixNVESphereSymplectic : public Fix {
 
  private:
   bool half_start = false;
-  bool has_gravity = false;
   bool rotates = false;           // quaternion or dipole follows omega
   double inertia = 0.4;           // c of I = c m r^2
   double lag = 0.0;               // time by which v is behind x
-  double gravity[3] = {0.0, 0.0, 0.0};
+  ConstantGravity gravity;
   int frozenbits = 0;             // groups of fix freeze, with gravity only
 
   int parse_keyword(int, char **, int);
-  int parse_gravity(int, char **, int);
-  void need(int, char **, int, int, const char *);
-  double constant(char **, int, const char *);
-  void set_gravity(double, double, double, double);
+  bool choice(int, char **, int, const char *, const char *);
 
   void check_fix(Fix *);
   bigint count_members(const std::function<bool(int)> &);

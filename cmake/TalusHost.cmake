@@ -1,0 +1,188 @@
+# Find the host LAMMPS, check it, and offer it as target lammps_host.
+#
+# Sets TALUS_LAMMPS_VERSION (yyyymmdd), TALUS_HOST_SIZES, TALUS_HOST_LMP, TALUS_HOST_OMP,
+# LAMMPS_SOURCE_DIR, LAMMPS_BINARY_DIR. Every check ends in one message with its cure; scripts/build
+# shows the text from "talus:" on.
+
+set(TALUS_OLDEST_LAMMPS 20250204)
+
+function(talus_fail)
+  string(JOIN "" text ${ARGN})
+  message(FATAL_ERROR "talus: ${text}")
+endfunction()
+
+# An input may come as a cache variable or from the environment.
+function(talus_input name help)
+  if(NOT DEFINED CACHE{${name}} AND NOT DEFINED ${name})
+    set(${name} "$ENV{${name}}" CACHE PATH "${help}")
+  endif()
+endfunction()
+
+function(talus_read_host_cache)
+  if(NOT LAMMPS_BINARY_DIR)
+    talus_fail("no host: LAMMPS_BINARY_DIR is not set. Run scripts/build, which makes a host, or "
+      "pass -D LAMMPS_BINARY_DIR=<build directory of your LAMMPS>.")
+  endif()
+  get_filename_component(dir "${LAMMPS_BINARY_DIR}" ABSOLUTE)
+  if(NOT EXISTS "${dir}/CMakeCache.txt")
+    talus_fail("${dir} is not a build directory of LAMMPS: it has no CMakeCache.txt. Build LAMMPS "
+      "with CMake and pass that directory as LAMMPS_BINARY_DIR, or run scripts/build.")
+  endif()
+  set(wanted CMAKE_HOME_DIRECTORY LAMMPS_SIZES LAMMPS_MACHINE BUILD_MPI BUILD_OMP
+    BUILD_SHARED_LIBS PKG_PLUGIN PKG_GRANULAR)
+  load_cache("${dir}" READ_WITH_PREFIX HOST_ ${wanted})
+  foreach(name IN LISTS wanted)
+    set(HOST_${name} "${HOST_${name}}" PARENT_SCOPE)
+  endforeach()
+  set(LAMMPS_BINARY_DIR "${dir}" PARENT_SCOPE)
+endfunction()
+
+# Accepts the top of the tree and its src folder.
+function(talus_find_host_source)
+  set(dir "${LAMMPS_SOURCE_DIR}")
+  if(NOT dir)
+    get_filename_component(dir "${HOST_CMAKE_HOME_DIRECTORY}" DIRECTORY)
+  endif()
+  get_filename_component(dir "${dir}" ABSOLUTE)
+  if(EXISTS "${dir}/version.h" AND NOT EXISTS "${dir}/src/version.h")
+    get_filename_component(dir "${dir}" DIRECTORY)
+  endif()
+  if(NOT EXISTS "${dir}/src/version.h" OR NOT EXISTS "${dir}/src/lammpsplugin.h")
+    talus_fail("${dir} is not a LAMMPS source tree: src/version.h or src/lammpsplugin.h is "
+      "missing. Set LAMMPS_SOURCE_DIR to an unpacked source of LAMMPS 4 Feb 2025 or newer "
+      "(installed headers are not enough).")
+  endif()
+  get_filename_component(built_from "${HOST_CMAKE_HOME_DIRECTORY}/.." REALPATH)
+  get_filename_component(given "${dir}" REALPATH)
+  if(NOT built_from STREQUAL given)
+    talus_fail("the host in ${LAMMPS_BINARY_DIR} was built from ${built_from}, but "
+      "LAMMPS_SOURCE_DIR is ${given}. Give a pair that belongs together.")
+  endif()
+  set(LAMMPS_SOURCE_DIR "${dir}" PARENT_SCOPE)
+endfunction()
+
+# "4 Feb 2025" -> 20250204
+function(talus_read_version file result)
+  file(STRINGS "${file}" line REGEX "define +LAMMPS_VERSION")
+  if(NOT line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)\"")
+    talus_fail("no version like \"4 Feb 2025\" in ${file}. Is this a LAMMPS source tree?")
+  endif()
+  set(day "${CMAKE_MATCH_1}")
+  set(year "${CMAKE_MATCH_3}")
+  list(FIND talus_months "${CMAKE_MATCH_2}" month)
+  math(EXPR number "${year} * 10000 + (${month} + 1) * 100 + ${day}")
+  set(${result} "${number}" PARENT_SCOPE)
+endfunction()
+set(talus_months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)
+
+function(talus_check_host_options)
+  if(TALUS_LAMMPS_VERSION LESS TALUS_OLDEST_LAMMPS)
+    talus_fail("LAMMPS ${TALUS_LAMMPS_VERSION} in ${LAMMPS_SOURCE_DIR} is too old: Talus needs "
+      "${TALUS_OLDEST_LAMMPS} (4 Feb 2025) or newer. Give a newer tree, or run scripts/build "
+      "without LAMMPS_SOURCE_DIR.")
+  endif()
+  if(NOT HOST_PKG_PLUGIN)
+    talus_fail("the host in ${LAMMPS_BINARY_DIR} has no package PLUGIN and cannot load plugins. "
+      "Rebuild it with -D PKG_PLUGIN=on, or run scripts/build.")
+  endif()
+  if(NOT HOST_BUILD_MPI)
+    talus_fail("the host in ${LAMMPS_BINARY_DIR} was built without MPI. Rebuild it with "
+      "-D BUILD_MPI=on, or run scripts/build.")
+  endif()
+  if(NOT HOST_LAMMPS_SIZES MATCHES "^(smallbig|bigbig)$")
+    talus_fail("the host in ${LAMMPS_BINARY_DIR} has integer sizes '${HOST_LAMMPS_SIZES}'; Talus "
+      "supports smallbig and bigbig. Rebuild it with -D LAMMPS_SIZES=smallbig.")
+  endif()
+  if(LAMMPS_SIZES AND NOT LAMMPS_SIZES STREQUAL HOST_LAMMPS_SIZES)
+    talus_fail("integer sizes differ: ${LAMMPS_SIZES} was asked for, the host in "
+      "${LAMMPS_BINARY_DIR} has ${HOST_LAMMPS_SIZES}. Rebuild the host with "
+      "-D LAMMPS_SIZES=${LAMMPS_SIZES}, or drop --sizes.")
+  endif()
+  if(NOT HOST_PKG_GRANULAR)
+    message(WARNING "The host lacks package GRANULAR: Talus works, but cannot be compared with "
+      "the stock styles, and most tests will fail.")
+  endif()
+endfunction()
+
+function(talus_find_host_program)
+  set(suffix "")
+  if(HOST_LAMMPS_MACHINE)
+    set(suffix "_${HOST_LAMMPS_MACHINE}")
+  endif()
+  set(lmp "${LAMMPS_BINARY_DIR}/lmp${suffix}")
+  if(NOT EXISTS "${lmp}")
+    talus_fail("the host in ${LAMMPS_BINARY_DIR} is not built: there is no ${lmp}. Build it with "
+      "cmake --build ${LAMMPS_BINARY_DIR}, or run scripts/build.")
+  endif()
+  set(TALUS_HOST_LMP "${lmp}" PARENT_SCOPE)
+endfunction()
+
+# Two MPI libraries in one process crash or hang much later, so this is an error right away.
+function(talus_check_host_mpi)
+  set(ours "")
+  foreach(file IN LISTS MPI_CXX_LIBRARIES)
+    if(file MATCHES "/libmpi(ch)?\\.(so|dylib)")
+      get_filename_component(ours "${file}" REALPATH)
+    endif()
+  endforeach()
+  find_program(TALUS_LDD ldd)
+  mark_as_advanced(TALUS_LDD)
+  if(NOT TALUS_LDD OR NOT ours)
+    return()  # another system: the gate in the plugin still compares handle sizes
+  endif()
+  execute_process(COMMAND "${TALUS_LDD}" "${TALUS_HOST_LMP}"
+    OUTPUT_VARIABLE libraries ERROR_QUIET)
+  if(libraries MATCHES "libmpi(ch)?\\.so[^ ]* => ([^\n]+) \\(")
+    get_filename_component(theirs "${CMAKE_MATCH_2}" REALPATH)
+    if(NOT theirs STREQUAL ours)
+      talus_fail("the host in ${LAMMPS_BINARY_DIR} uses another MPI: ${theirs}, while Talus would "
+        "be built with ${ours}. Put that host's mpicxx first in PATH, or rebuild the host with "
+        "this MPI.")
+    endif()
+  endif()
+endfunction()
+
+talus_input(LAMMPS_SOURCE_DIR "Source tree of the host LAMMPS")
+talus_input(LAMMPS_BINARY_DIR "Build directory of the host LAMMPS")
+set(LAMMPS_SIZES "" CACHE STRING "Integer sizes the host must have (default: whatever it has)")
+talus_read_host_cache()
+talus_find_host_source()
+talus_read_version("${LAMMPS_SOURCE_DIR}/src/version.h" TALUS_LAMMPS_VERSION)
+talus_check_host_options()
+talus_find_host_program()
+set(TALUS_HOST_SIZES "${HOST_LAMMPS_SIZES}")
+set(TALUS_HOST_OMP "${HOST_BUILD_OMP}")
+
+find_package(MPI QUIET COMPONENTS CXX)
+if(NOT MPI_CXX_FOUND)
+  talus_fail("no MPI found. Install the one the host uses (Debian: libopenmpi-dev) or put its "
+    "mpicxx in PATH.")
+endif()
+talus_check_host_mpi()
+
+# What src/lammps_compat.h cannot tell from the version alone.
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/pair.h" talus_atom2cut REGEX "virtual double atom2cut")
+set(TALUS_HOST_HAS_ATOM2CUT 0)
+if(talus_atom2cut)
+  set(TALUS_HOST_HAS_ATOM2CUT 1)
+endif()
+
+# Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
+# linking our own copies is how two MPI libraries end up in it.
+string(TOUPPER "${TALUS_HOST_SIZES}" talus_sizes_upper)
+add_library(lammps_host INTERFACE)
+target_include_directories(lammps_host SYSTEM INTERFACE
+  "${LAMMPS_SOURCE_DIR}/src" ${MPI_CXX_INCLUDE_DIRS})
+target_compile_definitions(lammps_host INTERFACE
+  TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
+  TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}
+  LAMMPS_${talus_sizes_upper}
+  OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
+  ${MPI_CXX_COMPILE_DEFINITIONS})
+target_compile_options(lammps_host INTERFACE ${MPI_CXX_COMPILE_OPTIONS})
+if(TALUS_HOST_OMP)
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+  target_compile_definitions(lammps_host INTERFACE LAMMPS_OMP_COMPAT=4)
+endif()
+
+message(STATUS "Host: LAMMPS ${TALUS_LAMMPS_VERSION} ${TALUS_HOST_SIZES}, ${TALUS_HOST_LMP}")

@@ -1,0 +1,114 @@
+# Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli) and
+# what a script asks for in comment lines such as
+#   # ctest: timeout=600 label=slow,smoke serial procs=4
+
+find_package(GTest REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+set(TALUS_TEST_ENVIRONMENT
+  "TALUS_LMP=${TALUS_HOST_LMP}"
+  "TALUS_LAUNCHER=${PROJECT_BINARY_DIR}/lmp"
+  "TALUS_PLUGIN=${PROJECT_BINARY_DIR}/talusplugin.so"
+  "TALUS_BINARY_DIR=${PROJECT_BINARY_DIR}"
+  "TALUS_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+  "TALUS_LAMMPS_SOURCE=${LAMMPS_SOURCE_DIR}"
+  "TALUS_LAMMPS_BINARY=${LAMMPS_BINARY_DIR}"
+  "TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}"
+  "TALUS_SIZES=${TALUS_HOST_SIZES}"
+  "TALUS_SANITIZE=$<JOIN:${TALUS_SANITIZE},$<COMMA>>"
+  "TALUS_MPIEXEC=${MPIEXEC_EXECUTABLE}"
+  "TALUS_CMAKE=${CMAKE_COMMAND}"
+  "TALUS_CXX=${CMAKE_CXX_COMPILER}"
+  "LAMMPS_PLUGIN_PATH=${PROJECT_BINARY_DIR}"
+  "PYTHONDONTWRITEBYTECODE=1"
+  "OMP_NUM_THREADS=1"
+  "OMPI_MCA_rmaps_base_oversubscribe=1"
+  "OMPI_ALLOW_RUN_AS_ROOT=1"
+  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
+if(TALUS_SANITIZER_RUNTIMES)
+  string(REPLACE ";" ":" talus_preload "${TALUS_SANITIZER_RUNTIMES}")
+  list(APPEND TALUS_TEST_ENVIRONMENT
+    "LD_PRELOAD=${talus_preload}" "ASAN_OPTIONS=detect_leaks=0")
+endif()
+
+# A test that was skipped tested nothing: it must not look like one that passed.
+function(talus_set_test_properties test)
+  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS" "LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  if(TALUS_SANITIZE)
+    math(EXPR arg_TIMEOUT "4 * ${arg_TIMEOUT}")
+  endif()
+  if(NOT arg_PROCESSORS)
+    set(arg_PROCESSORS 1)
+  endif()
+  set_tests_properties("${test}" PROPERTIES
+    LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
+    FAIL_REGULAR_EXPRESSION "SKIPPED;skipped=[1-9]"
+    ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
+  if(arg_SERIAL)
+    set_tests_properties("${test}" PROPERTIES RUN_SERIAL ON)
+  endif()
+endfunction()
+
+# talus_add_unit_test(name): tests/unit/name.cpp with GoogleTest, linked to talus_contact.
+function(talus_add_unit_test name)
+  add_executable(${name} "${PROJECT_SOURCE_DIR}/tests/unit/${name}.cpp")
+  target_link_libraries(${name} PRIVATE talus_contact GTest::gtest GTest::gtest_main)
+  add_test(NAME unit/${name} COMMAND ${name})
+  talus_set_test_properties(unit/${name} LABELS unit ${ARGN})
+endfunction()
+
+# Turn the "# ctest:" lines of a script into arguments for talus_set_test_properties.
+function(talus_read_test_header file result)
+  set(options "")
+  file(STRINGS "${file}" lines REGEX "^# ctest:")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^# ctest: *" "" line "${line}")
+    separate_arguments(words UNIX_COMMAND "${line}")
+    foreach(word IN LISTS words)
+      if(word STREQUAL "serial")
+        list(APPEND options SERIAL)
+      elseif(word MATCHES "^timeout=([0-9]+)$")
+        list(APPEND options TIMEOUT ${CMAKE_MATCH_1})
+      elseif(word MATCHES "^procs=([0-9]+)$")
+        list(APPEND options PROCESSORS ${CMAKE_MATCH_1})
+      elseif(word MATCHES "^label=(.+)$")
+        string(REPLACE "," ";" labels "${CMAKE_MATCH_1}")
+        list(APPEND options LABELS ${labels})
+      else()
+        message(FATAL_ERROR "${file}: unknown word '${word}' in its ctest line; known are "
+          "timeout=SECONDS label=NAME,... procs=N serial")
+      endif()
+    endforeach()
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  set(${result} "${options}" PARENT_SCOPE)
+endfunction()
+
+# talus_add_python_test(folder/name [LABELS ...] [TIMEOUT s] [PROCESSORS n] [SERIAL] [ARGS ...]):
+# a plain unittest script tests/folder/name.py. Tests of folder mpi count as two processes.
+function(talus_add_python_test test)
+  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS" "LABELS;ARGS" ${ARGN})
+  set(file "${PROJECT_SOURCE_DIR}/tests/${test}.py")
+  get_filename_component(folder "${test}" DIRECTORY)
+  if(folder STREQUAL "mpi" AND NOT arg_PROCESSORS)
+    set(arg_PROCESSORS 2)
+  endif()
+  set(serial "")
+  if(arg_SERIAL)
+    set(serial SERIAL)
+  endif()
+  add_test(NAME ${test} COMMAND Python3::Interpreter "${file}" ${arg_ARGS})
+  talus_set_test_properties(${test} LABELS ${folder} ${arg_LABELS}
+    TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS} ${serial})
+endfunction()
+
+# Only the named symbols may be visible: others could bind to another plugin's, or LAMMPS' own.
+function(talus_add_export_test target expected)
+  add_test(NAME plugin/exports_${target} COMMAND ${CMAKE_COMMAND}
+    -D "nm=${CMAKE_NM}" -D "file=$<TARGET_FILE:${target}>" -D "expected=${expected}"
+    -P "${PROJECT_SOURCE_DIR}/cmake/CheckExports.cmake")
+  set_tests_properties(plugin/exports_${target} PROPERTIES LABELS "plugin;smoke" TIMEOUT 60)
+endfunction()

@@ -1,0 +1,71 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# shellcheck shell=bash
+# The Debian packages that building, running and testing need, and how to get them.
+
+TALUS_PACKAGES=(
+  g++ cmake ninja-build binutils                          # compiler and build
+  libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev        # what the host is built with
+  libeigen3-dev                                           # geometry of large bodies
+  libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev  # tests and benchmarks
+  python3                                                 # tests and progress display
+  dpkg-dev debian-archive-keyring xz-utils ca-certificates  # source of the host
+)
+
+missing_packages() {
+  local package status
+  for package in "${TALUS_PACKAGES[@]}"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null) || status=
+    grep -qx installed <<<"$status" || printf '%s\n' "$package"
+  done
+}
+
+# as_root COMMAND...: directly or through sudo, which may ask for a password only on a terminal.
+as_root() {
+  if [[ $(id -u) == 0 ]]; then
+    "$@"
+  elif [[ -t 0 ]]; then
+    sudo "$@"
+  else
+    sudo -n "$@"
+  fi
+}
+
+apt_install() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" </dev/null
+}
+
+# The package lists of a machine may be missing or too old: refresh them only if so.
+install_packages() {
+  local log
+  log=$(mktemp)
+  note "installing Debian packages: $*"
+  if apt_install "$@" >"$log" 2>&1; then
+    rm -f "$log"
+    return
+  fi
+  note "refreshing the package lists (apt-get update)"
+  if as_root apt-get update </dev/null >>"$log" 2>&1 && apt_install "$@" >>"$log" 2>&1; then
+    rm -f "$log"
+    return
+  fi
+  tail -n 15 "$log" >&2
+  rm -f "$log"
+  die "apt could not install: $*. Check the network and apt's sources, or install them by hand"
+}
+
+# Systems without dpkg keep their own names for these things; CMake will name what it misses.
+ensure_packages() {
+  [[ -z ${TALUS_SKIP_PACKAGES:-} ]] || return 0
+  if ! have dpkg-query; then
+    have cmake && have ninja && have python3 ||
+      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, GoogleTest, libpng and Python 3 by hand"
+    return 0
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  ((${#missing[@]})) || return 0
+  have apt-get || die "missing Debian packages: ${missing[*]}; there is no apt-get here, so install them by hand"
+  [[ $(id -u) == 0 ]] || have sudo ||
+    die "missing Debian packages: ${missing[*]}; as root run: apt-get install ${missing[*]}"
+  install_packages "${missing[@]}"
+}

@@ -1,0 +1,61 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# shellcheck shell=bash
+# The build of Talus itself, against the host that prepare_host has made ready.
+
+# show_build TITLE DIR LOG: run Ninja with a display of its progress; the log keeps everything.
+show_build() {
+  local title=$1 dir=$2 log=$3
+  NINJA_STATUS='[%f/%t] ' ninja -C "$dir" -j "$(number_of_cores)" 2>&1 </dev/null |
+    tee "$log" | python3 "$TALUS_LIB/progress.py" build "$title"
+}
+
+# CMake wraps messages and adds a stack of its own files: show only ours, on one line.
+explain_configure() {
+  local log=$1 text
+  text=$(awk '/^ *talus: / { on = 1 } on && (NF == 0 || /^Call Stack/) { exit } on { $1 = $1; printf "%s ", $0 }' "$log")
+  if [[ -n $text ]]; then
+    die "${text#talus: }"
+  fi
+  grep -A 8 'CMake Error' "$log" | head -n 20 >&2
+  die "Talus could not be configured; all of it is in $log"
+}
+
+configure_talus() {
+  local dir=$1 sizes=$2 sanitize=$3
+  mkdir -p "$dir"
+  cmake -S "$TALUS_ROOT" -B "$dir" -G Ninja \
+    -D "LAMMPS_BINARY_DIR=$HOST_BINARY" -D "LAMMPS_SOURCE_DIR=$HOST_SOURCE" \
+    -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitize" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
+    -D "CMAKE_CXX_COMPILER=$(host_compiler)" >"$dir/configure.log" 2>&1 ||
+    explain_configure "$dir/configure.log"
+}
+
+compile_talus() {
+  local dir=$1 log=$1/build.log
+  configure_talus "$@"
+  show_build "building Talus" "$dir" "$log" || {
+    grep -E -A 12 'FAILED|error:' "$log" | head -n 60 >&2
+    die "Talus could not be built; all of it is in $log"
+  }
+}
+
+# build_directory HOST SIZES SANITIZE: build/ belongs to the default, others are told apart.
+build_directory() {
+  local host=$1 sizes=$2 sanitize=$3 name=build
+  if [[ -d $host ]]; then
+    host=own-$(basename "$(cd "$host" && pwd)")
+  fi
+  if [[ ${host:-$TALUS_DEFAULT_HOST} != "$TALUS_DEFAULT_HOST" || ${sizes:-smallbig} != smallbig ]]; then
+    name+=-${host:-$TALUS_DEFAULT_HOST}-${sizes:-smallbig}
+  fi
+  printf '%s/%s%s' "$TALUS_ROOT" "$name" "${sanitize:+-sanitize}"
+}
+
+# build_talus HOST SIZES SANITIZE [DIR]: everything, from the packages on. Sets TALUS_BUILD.
+build_talus() {
+  local host=$1 sizes=$2 sanitize=$3
+  ensure_packages
+  prepare_host "$host" "$sizes"
+  TALUS_BUILD=${4:-$(build_directory "$host" "$sizes" "$sanitize")}
+  with_lock "$TALUS_BUILD/lock" compile_talus "$TALUS_BUILD" "$sizes" "$sanitize"
+}

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Show how far a command is, reading its output from standard input.
+
+progress.py build TITLE   lines of Ninja with NINJA_STATUS='[%f/%t] '
+progress.py run TITLE     screen output of LAMMPS
+
+On a terminal one line is rewritten; elsewhere a line is written now and then.  A run's length is
+known from its `run N` commands (LAMMPS started with -echo both), or better from a line that the
+input prints:  Progress: steps N [name]   the next N steps are one thing, called name.
+Lines that a user must see pass through: warnings, errors, and what Talus or a scene says.
+"""
+
+import re
+import sys
+import time
+
+QUIET_INTERVAL = 10.0       # seconds between lines when not on a terminal
+TERMINAL_INTERVAL = 0.2
+
+
+def clock(seconds):
+    minutes, seconds = divmod(int(seconds + 0.5), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
+
+
+class Display:
+    """One line about the state, not more often than useful."""
+
+    def __init__(self, title, stream=sys.stderr, now=time.monotonic):
+        self.title, self.stream, self.now = title, stream, now
+        self.terminal = stream.isatty()
+        self.start = self.last = now()
+        self.open_line = False
+
+    def restart(self, title):
+        self.title, self.start = title, self.now()
+
+    def show(self, done, total, unit="", force=False):
+        interval = TERMINAL_INTERVAL if self.terminal else QUIET_INTERVAL
+        if not force and self.now() - self.last < interval:
+            return
+        self.last = self.now()
+        self._write(self.describe(done, total, unit))
+
+    def describe(self, done, total, unit):
+        elapsed = self.now() - self.start
+        if not total:
+            return f"{self.title}: {unit}{done}, {clock(elapsed)} so far"
+        text = f"{self.title}: {unit}{done} of {total} ({100 * done // total} %), {clock(elapsed)} so far"
+        if 0 < done < total and elapsed > 0:
+            text += f", about {clock(elapsed * (total - done) / done)} left"
+        return text
+
+    def _write(self, text):
+        if self.terminal:
+            self.stream.write("\r\x1b[K" + text)
+            self.open_line = True
+        else:
+            self.stream.write(f"talus: {text}\n")
+        self.stream.flush()
+
+    def pass_through(self, line):
+        self.close()
+        sys.stdout.write(line + "\n")
+        sys.stdout.flush()
+
+    def close(self):
+        if self.open_line:
+            self.stream.write("\n")
+            self.stream.flush()
+            self.open_line = False
+
+
+def follow_build(lines, display):
+    done = total = 0
+    for line in lines:
+        match = re.match(r"\[(\d+)/(\d+)\] ", line)
+        if match:
+            done, total = map(int, match.groups())
+        if done:
+            display.show(done, total)
+    if done:    # otherwise all was up to date
+        display.show(done, total, force=True)
+
+
+class RunFollower:
+    """Turns the screen output of LAMMPS into progress."""
+
+    SHOWN = re.compile(r"(WARNING|ERROR|Talus|talus|Result)\b")
+    NUMBERS = re.compile(r"\s*(\d+)(\s+[-+.\deEnaif]+)+\s*$")
+
+    def __init__(self, display, say):
+        self.display, self.say = display, say
+        self.total = None           # steps of the phase, if known
+        self.announced = False      # by the scene: `run` commands do not change it
+        self.first = None           # step at which the phase began
+        self.in_thermo = self.failed = False
+
+    def begin(self, total, name=""):
+        self.total, self.first = total, None
+        self.display.restart(name or "run")
+
+    def line(self, line):
+        words = line.split()
+        if self.failed or self.SHOWN.match(line):
+            self.failed = self.failed or line.startswith("ERROR")
+            self.display.close()
+            self.say(line)
+        elif line.startswith("Progress: steps ") and len(words) >= 3 and words[2].isdigit():
+            self.announced = True
+            self.begin(int(words[2]), " ".join(words[3:]))
+        elif words[:1] == ["run"] and len(words) > 1 and words[1].isdigit() and not self.announced:
+            self.begin(int(words[1]))
+        elif words[:1] == ["Step"]:
+            self.in_thermo = True
+        elif line.startswith("Loop time of"):
+            self.in_thermo = False
+        elif self.in_thermo and self.NUMBERS.match(line):
+            self.step(int(words[0]))
+
+    def step(self, step):
+        if self.first is None:
+            self.first = step
+        done = step - self.first
+        self.display.show(done, self.total, "step ")
+        if self.announced and self.total and done >= self.total:
+            self.announced = False
+
+
+def follow_run(lines, display):
+    follower = RunFollower(display, display.pass_through)
+    for line in lines:
+        follower.line(line)
+
+
+def main():
+    kind, title = sys.argv[1:3]
+    display = Display(title)
+    lines = (line.rstrip("\n") for line in sys.stdin)
+    try:
+        {"build": follow_build, "run": follow_run}[kind](lines, display)
+    except KeyboardInterrupt:
+        sys.exit(130)
+    finally:
+        display.close()
+
+
+if __name__ == "__main__":
+    sys.stdin.reconfigure(errors="replace")
+    main()

@@ -1,0 +1,109 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# shellcheck shell=bash
+# Source of the host from Debian, through apt with a state of its own: apt checks the signature of
+# the index against the Debian archive keyring, and the hash of the file against the index. The
+# mirror is the one this machine uses already, with the suite exchanged.
+
+TALUS_OWN_SOURCE="point LAMMPS_SOURCE_DIR at an unpacked source tree of LAMMPS 4 Feb 2025 or newer"
+
+debian_keyring() {
+  local file
+  for file in /usr/share/keyrings/debian-archive-keyring.{gpg,pgp}; do
+    [[ -r $file ]] && printf '%s\n' "$file" && return
+  done
+  die "no Debian archive keyring; install the package debian-archive-keyring"
+}
+
+# apt itself knows every form its sources can have. Suites of other archives (security, updates,
+# third parties) hold no LAMMPS.
+debian_mirrors() {
+  local codename
+  # shellcheck disable=SC1091
+  codename=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
+  # shellcheck disable=SC2016  # apt's own variables
+  apt-get indextargets --no-release-info --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' |
+    awk -v own="$codename" '$3 == "main" &&
+      ($2 == own || $2 ~ /^(oldstable|stable|testing|unstable|sid|bookworm|trixie|forky)$/) &&
+      !seen[$1]++ { print $1 }'
+}
+
+# private_apt DIR COMMAND...: run an apt command on the state in DIR.
+private_apt() {
+  local dir=$1
+  shift
+  APT_CONFIG=$dir/apt.conf LC_ALL=C "$@" </dev/null
+}
+
+# The cache of a user cannot be read by apt's own unprivileged user, hence no change of user.
+write_private_apt() {
+  local dir=$1 mirror=$2 suite=$3 keyring
+  keyring=$(debian_keyring) || exit 1
+  mkdir -p "$dir/lists/partial" "$dir/cache/archives/partial"
+  printf 'deb-src [signed-by=%s] %s %s main\n' "$keyring" "$mirror" "$suite" >"$dir/sources.list"
+  cat >"$dir/apt.conf" <<CONF
+Dir::Etc::sourcelist "$dir/sources.list";
+Dir::Etc::sourceparts "-";
+Dir::State::Lists "$dir/lists";
+Dir::Cache "$dir/cache";
+APT::Sandbox::User "$(id -un)";
+APT::Update::Error-Mode "any";
+Acquire::Languages "none";
+Acquire::Retries "3";
+CONF
+}
+
+# Leave DIR with the index of SUITE, from the first mirror that has it.
+open_suite() {
+  local dir=$1 suite=$2 log=$3 mirror mirrors
+  mapfile -t mirrors < <(debian_mirrors)
+  ((${#mirrors[@]})) || die "apt on this machine has no Debian mirror; $TALUS_OWN_SOURCE"
+  for mirror in "${mirrors[@]}"; do
+    write_private_apt "$dir" "$mirror" "$suite"
+    private_apt "$dir" apt-get update >>"$log" 2>&1 && return
+  done
+  grep '^E:' "$log" | sort -u | head -n 3 >&2 || true
+  die "no index of Debian '$suite' from this machine's mirror: check the network and proxy, or $TALUS_OWN_SOURCE"
+}
+
+# The revision after the dash changes with Debian's packaging, the source does not.
+debian_revision() {
+  local dir=$1 upstream=$2
+  private_apt "$dir" apt-cache showsrc --only-source lammps 2>/dev/null |
+    awk -v wanted="$upstream-" '$1 == "Version:" && index($2, wanted) == 1 { print $2; exit }'
+}
+
+# download_source UPSTREAM SUITE DIR: put the original tarball into DIR.
+download_source() {
+  local upstream=$1 suite=$2 dir=$3 version
+  have apt-get || die "no apt-get here to get LAMMPS with; $TALUS_OWN_SOURCE"
+  mkdir -p "$dir"
+  open_suite "$dir/apt" "$suite" "$dir/log"
+  version=$(debian_revision "$dir/apt" "$upstream")
+  [[ -n $version ]] || die "Debian '$suite' no longer has lammps $upstream; $TALUS_OWN_SOURCE"
+  note "downloading the source of lammps $version (130 to 210 MB)"
+  if ! (cd "$dir" && private_apt "$dir/apt" apt-get source --tar-only --download-only "lammps=$version") >>"$dir/log" 2>&1; then
+    tail -n 5 "$dir/log" >&2
+    die "the source of lammps $version could not be downloaded: check the network and proxy, or $TALUS_OWN_SOURCE"
+  fi
+}
+
+# unpack_source TARBALL DIR: the parts that a build and its tests need. Some tarballs have a top
+# folder, some have not.
+unpack_source() {
+  local tarball=$1 dir=$2 first prefix='' strip=0 part parts=()
+  first=$(tar -tf "$tarball" 2>/dev/null | sed -n '1{p;q;}' || true)
+  if [[ $first == lammps*/* ]]; then
+    prefix=${first%%/*}/
+    strip=1
+  fi
+  for part in LICENSE README bench cmake lib python src third_party unittest; do
+    parts+=("$prefix$part")
+  done
+  mkdir -p "$dir"
+  # third_party is not in every version: a name that is missing is no error, a bad file is one.
+  tar -xf "$tarball" -C "$dir" --no-same-owner --strip-components="$strip" "${parts[@]}" 2>"$dir.log" ||
+    ! grep -v -e 'third_party: Not found' -e 'Exiting with failure' "$dir.log" >&2 ||
+    die "cannot unpack $tarball (disk full?): free some space and run the command again"
+  [[ -f $dir/src/version.h ]] || die "no LAMMPS source in $tarball; remove $(dirname "$tarball") and run the command again"
+  rm -f "$dir.log"
+}

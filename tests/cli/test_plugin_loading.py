@@ -1,0 +1,184 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: label=smoke timeout=300 procs=2
+"""How the plugin is found, what it refuses, and what `cmake --install` leaves."""
+
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import *
+
+BUILD = os.environ["TALUS_BINARY_DIR"]
+PLUGIN = os.environ["TALUS_PLUGIN"]
+CXX = os.environ.get("TALUS_CXX", "g++")
+VERSION = os.environ["TALUS_LAMMPS_VERSION"]
+
+BOX = """
+atom_style sphere
+boundary f f f
+newton off
+comm_modify vel yes
+region box block 0 1 0 1 0 1
+create_box 1 box
+"""
+USE = BOX + "pair_style gran/penalty\n"
+
+STYLES = [("pair", "gran/penalty"), ("fix", "nve/sphere/symplectic"), ("fix", "large/body")]
+
+
+class PluginCase(SceneCase):
+    def run_without_path(self, script, **options):
+        env = {"LAMMPS_PLUGIN_PATH": "", **options.pop("env", {})}
+        return self.run_lammps(script, env=env, **options)
+
+    def complaints(self, result):
+        return [line for line in result.output.splitlines() if line.startswith("talus: ")]
+
+    def assert_refused(self, *parts, plugin=PLUGIN, np=1, env=None):
+        """One line that has all parts, and no style: neither through the command nor the path."""
+        for script, path in ((f'plugin load "{plugin}"\n', ""), ("", os.path.dirname(plugin))):
+            result = self.run_lammps(script + "plugin list\n" + USE, np=np, expect_error=True,
+                                     env={"LAMMPS_PLUGIN_PATH": path, **(env or {})})
+            lines = self.complaints(result)
+            self.assertEqual(len(lines), 1, result.output)
+            for part in parts:
+                self.assertIn(part, lines[0])
+            self.assertTrue(lines[0].endswith("no style registered"), lines[0])
+            self.assertNotIn("style plugin", result.log)
+            self.assertIn("nrecognized pair style 'gran/penalty'", result.log)
+
+
+class Loading(PluginCase):
+    def test_plugin_load(self):
+        result = self.run_without_path(f'plugin load "{PLUGIN}"\nplugin list\n' + USE)
+        for style, name in STYLES:
+            self.assertIn(f"{style} style plugin {name}", result.log)
+        self.assertEqual(self.complaints(result), [])
+
+    def test_plugin_path(self):
+        result = self.run_lammps("plugin list\n" + USE, env={"LAMMPS_PLUGIN_PATH": BUILD})
+        for style, name in STYLES:
+            self.assertIn(f"{style} style plugin {name}", result.log)
+
+    def test_loading_twice_does_no_harm(self):
+        self.run_lammps(f'plugin load "{PLUGIN}"\nplugin load "{PLUGIN}"\n' + USE)
+
+    def test_clear(self):
+        """LAMMPS unloads and loads plugins at `clear`; ours must survive that in use."""
+        self.run_lammps(USE + "pair_coeff * * hooke 1.0 0.0\nclear\n" + USE,
+                        env={"LAMMPS_PLUGIN_PATH": BUILD})
+        self.run_without_path(f'plugin load "{PLUGIN}"\n' + USE + "clear\n"
+                              f'plugin load "{PLUGIN}"\n' + USE)
+
+    def test_launcher(self):
+        with open(self.path("in.list"), "w") as file:
+            file.write('plugin list\nprint "words: ${words}"\n')
+        env = {key: value for key, value in os.environ.items() if key != "LAMMPS_PLUGIN_PATH"}
+        for prefix in ([], [os.environ.get("TALUS_MPIEXEC", "mpiexec"), "-np", "2"]):
+            result = subprocess.run(
+                [*prefix, os.path.join(BUILD, "lmp"), "-in", self.path("in.list"),
+                 "-log", "none", "-var", "words", "two words"],
+                env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertIn("pair style plugin gran/penalty", result.stdout)
+            self.assertIn("words: two words", result.stdout)
+
+
+class Gate(PluginCase):
+    """A library that is loaded before LAMMPS answers in its place."""
+
+    SHIM = r"""
+        #include <dlfcn.h>
+        #include <cstring>
+        extern "C" int NAME(ARGUMENTS) { ANSWER }
+        """
+
+    def shim(self, name, arguments, answer):
+        source, library = self.path("shim.cpp"), self.path("shim.so")
+        with open(source, "w") as file:
+            file.write(self.SHIM.replace("NAME", name).replace("ARGUMENTS", arguments)
+                       .replace("ANSWER", answer))
+        subprocess.run([CXX, "-shared", "-fPIC", source, "-o", library, "-ldl"], check=True)
+        before = os.environ.get("LD_PRELOAD")
+        return {"LD_PRELOAD": f"{before}:{library}" if before else library}    # sanitizers first
+
+    def other_size(self, setting, size):
+        return self.shim("lammps_extract_setting", "void *lmp, const char *name", """
+            if (strcmp(name, "%s") == 0) return %d;
+            using Real = int (*)(void *, const char *);
+            return ((Real) dlsym(RTLD_NEXT, "lammps_extract_setting"))(lmp, name);
+            """ % (setting, size))
+
+    def test_other_version(self):
+        env = self.shim("lammps_version", "void *", "return 20990101;")
+        self.assert_refused(f"built for LAMMPS {VERSION}", "the host is LAMMPS 20990101",
+                            "scripts/build --host", env=env)
+
+    def test_one_line_for_all_ranks(self):
+        env = self.shim("lammps_version", "void *", "return 20990101;")
+        self.assert_refused("20990101", np=2, env=env)
+
+    def test_other_tagint(self):
+        other = 4 if os.environ["TALUS_SIZES"] == "bigbig" else 8
+        self.assert_refused(f"tagint {12 - other} bytes", f"tagint {other} bytes",
+                            env=self.other_size("tagint", other))
+
+    def test_other_bigint(self):
+        self.assert_refused("bigint 8 bytes", "bigint 4 bytes", env=self.other_size("bigint", 4))
+
+    def test_other_mpi(self):
+        env = self.shim("lammps_config_has_mpi_support", "", "return 0;")
+        self.assert_refused("MPI handle 0 bytes", env=env)
+
+    def test_override_for_developers(self):
+        env = self.shim("lammps_version", "void *", "return 20990101;")
+        self.run_lammps(USE, env={"LAMMPS_PLUGIN_PATH": BUILD, "TALUS_SKIP_ABI_CHECK": "1", **env})
+        self.assert_refused("20990101", env={"TALUS_SKIP_ABI_CHECK": "0", **env})
+
+    def test_half_of_the_plugin(self):
+        folder = self.path("half")
+        os.makedirs(folder)
+        plugin = shutil.copy(PLUGIN, folder)
+        self.assert_refused("talusstyles.so", "in one folder", plugin=plugin)
+
+    def test_halves_of_two_builds(self):
+        folder = self.path("mixed")
+        os.makedirs(folder)
+        plugin = shutil.copy(PLUGIN, folder)
+        with open(self.path("empty.cpp"), "w") as file:
+            file.write("int talus_test_symbol = 0;\n")
+        subprocess.run([CXX, "-shared", "-fPIC", self.path("empty.cpp"),
+                        "-o", os.path.join(folder, "talusstyles.so")], check=True)
+        self.assert_refused("from another build", plugin=plugin)
+
+    def test_the_gate_needs_nothing_of_lammps(self):
+        """With an undefined symbol of LAMMPS it could not even be opened by another version."""
+        listing = subprocess.run(["nm", "-D", "--undefined-only", PLUGIN], check=True,
+                                 capture_output=True, text=True).stdout
+        for name in ("LAMMPS", "lammps", "MPI", "mpi", "fmt"):
+            self.assertNotIn(name, listing)
+
+
+class Install(PluginCase):
+    def test_install_and_environment_file(self):
+        prefix = self.path("prefix with space")
+        subprocess.run([os.environ.get("TALUS_CMAKE", "cmake"), "--install", BUILD,
+                        "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
+        folder = os.path.join(prefix, "lib", "talus")
+        self.assertEqual(sorted(os.listdir(folder)),
+                         ["talus.env", "talusplugin.so", "talusstyles.so"])
+        for before, expected in (("", folder), ("/else", folder + ":/else")):
+            path = subprocess.run(
+                ["sh", "-c", '. "$1"; printf %s "$LAMMPS_PLUGIN_PATH"', "sh",
+                 os.path.join(folder, "talus.env")], check=True, capture_output=True, text=True,
+                env={**os.environ, "LAMMPS_PLUGIN_PATH": before}).stdout
+            self.assertEqual(path, expected)
+        result = self.run_lammps("plugin list\n" + USE, env={"LAMMPS_PLUGIN_PATH": folder})
+        self.assertIn("pair style plugin gran/penalty", result.log)
+
+
+if __name__ == "__main__":
+    unittest.main()

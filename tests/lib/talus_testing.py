@@ -1,0 +1,274 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Helpers for tests that run LAMMPS with the Talus plugin.
+
+A test script starts with
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+    from talus_testing import *
+derives its cases from SceneCase and ends with unittest.main().  ctest provides TALUS_LMP,
+TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMMPS_PLUGIN_PATH.  Without a host or a plugin
+a script fails at import: it never skips.
+"""
+
+import collections
+import dataclasses
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+__all__ = ["Frame", "Result", "SceneCase", "Sphere", "max_difference", "read_dump",
+           "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
+
+DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
+
+# log: text of the log file; output: what the process printed; workdir: where it ran
+Result = collections.namedtuple("Result", "log output returncode workdir")
+
+
+# ---- running LAMMPS --------------------------------------------------------------------------
+
+def _required_file(name):
+    path = os.environ.get(name, "")
+    if not os.path.isfile(path):
+        sys.exit(f"{name}={path!r}: no such file; run this test through ctest or set it")
+    return os.path.abspath(path)
+
+
+LMP = _required_file("TALUS_LMP")
+PLUGIN = _required_file("TALUS_PLUGIN")
+MPIEXEC = os.environ.get("TALUS_MPIEXEC", "mpiexec")
+
+
+def _environment(extra):
+    env = dict(os.environ)
+    env.setdefault("LAMMPS_PLUGIN_PATH", os.path.dirname(PLUGIN))
+    env.setdefault("OMP_NUM_THREADS", "1")
+    env.setdefault("OMPI_MCA_pml", "ob1")    # others take 0.2 s to start
+    env.update(OMPI_MCA_ess_singleton_isolated="1",    # no daemon for one rank, 0.1 s
+               OMPI_ALLOW_RUN_AS_ROOT="1",
+               OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+               OMPI_MCA_odls_base_sigkill_timeout="0",    # LAMMPS ends in a barrier: no wait, 2 s
+               OMPI_MCA_rmaps_base_oversubscribe="1",               # Open MPI 4
+               OMPI_MCA_hwloc_base_binding_policy="none",
+               PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe",    # Open MPI 5
+               PRTE_MCA_hwloc_default_binding_policy="none")
+    env.update({k: str(v) for k, v in (extra or {}).items()})
+    return env
+
+
+def _processes_of_session(session):
+    found = []
+    for entry in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            if os.getsid(int(entry)) == session:
+                found.append(int(entry))
+        except OSError:
+            pass
+    return found
+
+
+def _end(process):
+    """End a launcher and everything it started, which may have left its process group."""
+    try:
+        os.killpg(process.pid, signal.SIGTERM)
+        process.wait(timeout=5)
+    except (ProcessLookupError, subprocess.TimeoutExpired):
+        pass
+    for pid in _processes_of_session(process.pid):
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    process.wait()
+
+
+def _launch(command, cwd, env, timeout):
+    with tempfile.TemporaryFile("w+", errors="replace") as sink:
+        process = subprocess.Popen(command, cwd=cwd, env=env, stdin=subprocess.DEVNULL,
+                                   stdout=sink, stderr=sink, start_new_session=True)
+        try:
+            returncode = process.wait(timeout=timeout)
+        except BaseException as problem:
+            _end(process)
+            if isinstance(problem, subprocess.TimeoutExpired):
+                raise AssertionError(f"no end after {timeout} s: {' '.join(command)}") from None
+            raise
+        sink.seek(0)
+        return returncode, sink.read()
+
+
+def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, cwd=None,
+               timeout=DEFAULT_TIMEOUT, arguments=(), name="script"):
+    """Run an input script on np ranks; return a Result.
+
+    variables: {name: value or list of values} for -var.  arguments: more words for lmp.
+    With expect_error the run must end with a LAMMPS error (not a crash), otherwise without one.
+    name: stem of the files in.NAME and log.NAME written to cwd (default: a new directory, which
+    the caller removes)."""
+    cwd = cwd or tempfile.mkdtemp(prefix="talus-")
+    with open(os.path.join(cwd, f"in.{name}"), "w") as file:
+        file.write(script_text)
+    log_path = os.path.join(cwd, f"log.{name}")
+    if os.path.exists(log_path):
+        os.remove(log_path)
+
+    command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
+    command += [LMP, "-in", f"in.{name}", "-log", f"log.{name}", "-screen", "none"]
+    for key, value in (variables or {}).items():
+        values = value if isinstance(value, (list, tuple)) else [value]
+        command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
+    command += [str(word) for word in arguments]
+
+    returncode, output = _launch(command, cwd, _environment(env), timeout)
+    log = ""
+    if os.path.exists(log_path):
+        with open(log_path, errors="replace") as file:
+            log = file.read()
+    result = Result(log, output, returncode, cwd)
+
+    def problem(what):
+        return AssertionError(f"{what}: {' '.join(command)}\n{log[-3000:]}\n{output[-2000:]}")
+
+    if expect_error and (returncode == 0 or "ERROR" not in log + output):
+        raise problem(f"a LAMMPS error was expected, got return code {returncode}")
+    if not expect_error and returncode != 0:
+        raise problem(f"return code {returncode}")
+    return result
+
+
+class SceneCase(unittest.TestCase):
+    """A test case with a directory of its own, self.dir, that is kept if the test fails."""
+
+    def run(self, result=None):
+        result = result if result is not None else self.defaultTestResult()
+        before = len(result.failures) + len(result.errors)
+        self.dir = tempfile.mkdtemp(prefix=f"talus-{self._testMethodName}-")
+        super().run(result)
+        if len(result.failures) + len(result.errors) > before:
+            print(f"{self.id()}: files kept in {self.dir}", file=sys.stderr)
+        else:
+            shutil.rmtree(self.dir, ignore_errors=True)
+        return result
+
+    def path(self, name):
+        return os.path.join(self.dir, name)
+
+    def run_lammps(self, script_text, **options):
+        return run_lammps(script_text, **{"cwd": self.dir, **options})
+
+    def assert_same_bits(self, frame, other, columns=None):
+        """Two dump frames hold the same particles with the same bits, signed zeros included."""
+        self.assertEqual(sorted(frame.atoms), sorted(other.atoms))
+        for key in columns or frame.columns:
+            mine, theirs = frame.column(key), other.column(key)
+            for tag in mine:
+                self.assertEqual(mine[tag].hex(), theirs[tag].hex(), f"{key} of atom {tag}")
+
+    def assert_close(self, value, expected, relative, message=None):
+        self.assertLessEqual(relative_difference(value, expected), relative,
+                             message or f"{value!r} against {expected!r}")
+
+
+# ---- what LAMMPS writes ----------------------------------------------------------------------
+
+@dataclasses.dataclass
+class Frame:
+    """One frame of a custom text dump: step, column names, {id: tuple of floats}."""
+    step: int
+    columns: list
+    atoms: dict
+
+    def column(self, name):
+        k = self.columns.index(name)
+        return {tag: row[k] for tag, row in self.atoms.items()}
+
+
+def _number(word):
+    return float.fromhex(word) if "0x" in word else float(word)
+
+
+def read_dump(path):
+    """Frames of a `dump custom` file that has a column id and only numbers.
+
+    `dump_modify ID format float %.17g` and `%a` both keep every bit."""
+    frames = []
+    with open(path) as file:
+        for line in file:
+            if line.startswith("ITEM: TIMESTEP"):
+                frames.append(Frame(int(next(file)), [], {}))
+            elif line.startswith("ITEM: NUMBER OF ATOMS"):
+                count = int(next(file))
+            elif line.startswith("ITEM: ATOMS"):
+                columns = line.split()[2:]
+                tag = columns.index("id")
+                frames[-1].columns = columns
+                for _ in range(count):
+                    row = tuple(map(_number, next(file).split()))
+                    frames[-1].atoms[int(row[tag])] = row
+    return frames
+
+
+def thermo(log):
+    """All lines of thermodynamic output in a log text, as a list of {column: float}."""
+    rows, columns = [], None
+    for line in log.splitlines():
+        words = line.split()
+        if words[:1] == ["Step"]:
+            columns = words
+        elif line.startswith("Loop time of"):
+            columns = None
+        elif columns and len(words) == len(columns):
+            try:
+                rows.append(dict(zip(columns, map(float, words))))
+            except ValueError:
+                pass    # a warning between the lines
+    return rows
+
+
+# ---- what LAMMPS reads -----------------------------------------------------------------------
+
+@dataclasses.dataclass
+class Sphere:
+    x: tuple
+    v: tuple = (0.0, 0.0, 0.0)
+    omega: tuple = (0.0, 0.0, 0.0)
+    diameter: float = 1.0
+    density: float = 1.0
+    type: int = 1
+    id: int = 0    # 0: position in the list, from 1
+
+
+def write_sphere_data(path, box, particles, types=None):
+    """Write a data file for atom_style sphere.  box: ((xlo, xhi), (ylo, yhi), (zlo, zhi))."""
+    def row(*values):
+        return " ".join(repr(float(v)) if isinstance(v, float) else str(v) for v in values) + "\n"
+
+    numbered = [(p.id or k, p) for k, p in enumerate(particles, start=1)]
+    with open(path, "w") as file:
+        file.write(f"Talus test\n\n{len(numbered)} atoms\n")
+        file.write(f"{types or max(p.type for p in particles)} atom types\n\n")
+        for axis, (low, high) in zip("xyz", box):
+            file.write(row(float(low), float(high), f"{axis}lo {axis}hi"))
+        file.write("\nAtoms # sphere\n\n")
+        for tag, p in numbered:
+            file.write(row(tag, p.type, float(p.diameter), float(p.density), *map(float, p.x)))
+        file.write("\nVelocities\n\n")
+        for tag, p in numbered:
+            file.write(row(tag, *map(float, p.v), *map(float, p.omega)))
+
+
+# ---- comparing -------------------------------------------------------------------------------
+
+def relative_difference(a, b):
+    """|a - b| over the larger of the two; 0 for equal numbers, zeros included."""
+    return 0.0 if a == b else abs(a - b) / max(abs(a), abs(b))
+
+
+def max_difference(frame, other, columns):
+    """Largest absolute difference of the given columns over the particles of two dump frames."""
+    return max(abs(value - other.column(key)[tag])
+               for key in columns for tag, value in frame.column(key).items())

@@ -1,0 +1,156 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Every refusal of fix nve/sphere/symplectic: its text, the word it points at, on 1 and 2 ranks."""
+
+import os
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase
+
+FIX = "fix step all nve/sphere/symplectic"
+GRAVITY = FIX + " gravity 9.81 vector 0 0 -1"
+G = "Fix nve/sphere/symplectic gravity: "
+
+BOX = """
+units si
+dimension {dimension}
+boundary p p p
+atom_style {style}
+atom_modify map yes
+comm_modify vel yes cutoff 2
+newton off
+region box block -4 4 -4 4 -0.5 0.5
+create_box 1 box
+create_atoms 1 single -2 0 0
+create_atoms 1 single 2 0 0
+{sizes}
+group left id 1
+group right id 2
+pair_style none
+"""
+SPHERES = "set group all diameter 1 density 1"
+
+# words after FIX, what the message says, the word it points at
+BAD_WORDS = [
+    ("foo", "expected keyword start, gravity, orientation or disc instead of 'foo'", "foo"),
+    ("start half 0.5", "expected keyword start, .* instead of '0.5'", "0.5"),
+    ("start half start plain", "keyword 'start' given twice", "start"),
+    ("start", "expected half or plain after 'start'", "start"),
+    ("start full", "start: expected half or plain instead of 'full'", "full"),
+    ("orientation", "expected yes or no after 'orientation'", "orientation"),
+    ("orientation maybe", "orientation: expected yes or no instead of 'maybe'", "maybe"),
+    ("orientation yes", "orientation: expected an atom style with a quaternion or a dipole", "yes"),
+    ("disc", "disc: expected a 2d simulation", "disc"),
+    ("gravity", "expected magnitude and one of chute, spherical, vector after 'gravity'", "gravity"),
+    ("gravity 1", "expected magnitude and one of chute, spherical, vector after 'gravity'",
+     "gravity"),
+    ("gravity up chute 1", "gravity: expected a number for the magnitude instead of 'up'", "up"),
+    ("gravity v_g chute 1", "gravity: expected a constant for the magnitude instead of variable "
+     "'v_g'", "v_g"),
+    ("gravity 1e999 chute 1", "gravity: expected a number for the magnitude instead of '1e999'",
+     "1e999"),
+    ("gravity nan chute 1", "gravity: expected a number for the magnitude instead of 'nan'", "nan"),
+    ("gravity 1 down", "gravity: expected chute, spherical or vector instead of 'down'", "down"),
+    ("gravity 1 chute", "expected the angle in degrees after 'chute'", "chute"),
+    ("gravity 1 chute steep", "gravity: expected a number for the angle in degrees instead of "
+     "'steep'", "steep"),
+    ("gravity 1 chute v_a", "gravity: expected a constant for the angle in degrees instead of "
+     "variable 'v_a'", "v_a"),
+    ("gravity 1 spherical 10", "expected phi and theta in degrees after 'spherical'", "spherical"),
+    ("gravity 1 spherical x 10", "gravity: expected a number for phi in degrees instead of 'x'",
+     "x"),
+    ("gravity 1 spherical 10 v_t", "gravity: expected a constant for theta in degrees", "v_t"),
+    ("gravity 1 vector 0 1", "expected the components x y z after 'vector'", "vector"),
+    ("gravity 1 vector a 0 1", "gravity: expected a number for component x instead of 'a'", "a"),
+    ("gravity 1 vector 0 b 1", "gravity: expected a number for component y instead of 'b'", "b"),
+    ("gravity 1 vector 0 1 v_z", "gravity: expected a constant for component z", "v_z"),
+    ("gravity 1 vector 0.0 0 0", "gravity vector: expected a direction of non-zero length", "0.0"),
+    ("gravity 1 vector 0 0 -1 2", "expected keyword start, .* instead of '2'", "2"),
+]
+
+# lines after the box, what the message says
+REFUSED = [
+    (f"{FIX}\nset group right diameter 0\nrun 0",
+     "expected spheres of non-zero radius, but 1 members of group all have none"),
+    (f"{FIX}\nminimize 0 0 1 1", "cannot be used with minimize"),
+    (f"{FIX}\nrun_style respa 2 2\nrun 0", "cannot be used with run_style respa: no inner levels"),
+    (f"{GRAVITY}\nfix other right gravity 1 chute 0\nrun 0",
+     G + r"fix other \(gravity\) acts on 1 members of group all: gravity would act twice"),
+    (f"{GRAVITY}\nfix other right nve/sphere/symplectic gravity 1 chute 0\nrun 0",
+     G + r"fix other \(nve/sphere/symplectic\) acts on 1 members of group all: gravity would act"),
+    (f"{GRAVITY}\nfix other right setforce 0 0 0\nrun 0",
+     G + r"fix other \(setforce\) acts on 1 members of group all: gravity is not seen"),
+    (f"{GRAVITY}\nfix other right freeze\nvelocity right set 0 0 1e-9\nrun 0",
+     G + r"fix other \(freeze\) acts on 1 members of group all: frozen .* these move"),
+    (f"{GRAVITY}\nfix other right freeze\nset group right omega 0 1e-9 0\nrun 0",
+     G + r"fix other \(freeze\) acts on 1 members of group all: frozen .* these move"),
+]
+
+# what looks similar and is allowed
+ACCEPTED = [
+    f"{FIX}\nfix other all gravity 1 chute 0\nfix third right setforce 0 0 0",
+    f"{FIX}\nfix other right freeze\nvelocity right set 0 0 1",
+    f"{GRAVITY}\nfix other right freeze",
+    "fix step left nve/sphere/symplectic gravity 1 chute 0\n"
+    "fix other right gravity 1 chute 0\nfix third right nve/sphere/symplectic",
+    "fix step left nve/sphere/symplectic gravity 1 chute 0\nfix third right setforce 0 0 0",
+    "fix step left nve/sphere/symplectic gravity 1 chute 0\n"
+    "fix other right nve/sphere/symplectic gravity 2 chute 0",
+    "group late dynamic all every 1\nfix step late nve/sphere/symplectic gravity 1 chute 0",
+    f"{FIX} orientation no start half gravity -1.5e-3 vector 0 0 .5",
+]
+
+
+def box(dimension=3, style="sphere", sizes=SPHERES):
+    return BOX.format(dimension=dimension, style=style, sizes=sizes)
+
+
+def marked_word(log):
+    """The word of the last input line above the ^^^^ of an error message."""
+    lines = log.splitlines()
+    for above, below in zip(lines, lines[1:]):
+        if re.fullmatch(r" *\^+", below):
+            return above[below.index("^"):][:below.count("^")]
+    return None
+
+
+class Errors(SceneCase):
+
+    def assert_error(self, script, message, word=None):
+        for ranks in 1, 2:
+            with self.subTest(script=script[len(BOX):], ranks=ranks):
+                log = self.run_lammps(script, np=ranks, expect_error=True, timeout=30).log
+                error, = re.findall(r"^ERROR.*", log, re.MULTILINE)
+                self.assertRegex(error, f"^ERROR: .*{message}")    # not "ERROR on proc"
+                self.assertEqual(marked_word(log), word)
+
+    def assert_bad_words(self, script, words, message, word):
+        self.assert_error(f"{script}{FIX} {words}\n", "Fix nve/sphere/symplectic.*" + message, word)
+
+    def test_words(self):
+        for case in BAD_WORDS:
+            self.assert_bad_words(box(), *case)
+
+    def test_words_in_2d(self):
+        self.assert_bad_words(box(dimension=2), "gravity 1 vector 0.0 0 -1",
+                              "expected a direction of non-zero length in the xy plane", "0.0")
+
+    def test_atom_style(self):
+        self.assert_error(box(style="atomic", sizes="mass 1 1") + FIX + "\n", "Fix nve/sphere/"
+                          "symplectic requires atom attributes radius, rmass, omega and torque",
+                          "nve/sphere/symplectic")
+
+    def test_refused_at_init(self):
+        for lines, message in REFUSED:
+            self.assert_error(box() + lines + "\n", message)
+
+    def test_accepted(self):
+        for lines in ACCEPTED:
+            with self.subTest(lines):
+                self.run_lammps(box() + lines + "\nrun 2\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
