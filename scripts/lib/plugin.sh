@@ -42,6 +42,10 @@ compile_talus() {
 # build_directory HOST SIZES SANITIZE: build/ belongs to the default, others are told apart.
 build_directory() {
   local host=$1 sizes=$2 sanitize=$3 name=build
+  if [[ -n ${TALUS_BUILD_DIR:-} ]]; then
+    printf '%s' "$TALUS_BUILD_DIR"
+    return
+  fi
   if [[ -d $host ]]; then
     host=own-$(basename "$(cd "$host" && pwd)")
   fi

@@ -2,13 +2,14 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Show how far a command is, reading its output from standard input.
 
-progress.py build TITLE   lines of Ninja with NINJA_STATUS='[%f/%t] '
-progress.py run TITLE     screen output of LAMMPS
+progress.py build TITLE     lines of Ninja with NINJA_STATUS='[%f/%t] '
+progress.py run TITLE LOG   screen output of LAMMPS, which writes the file LOG as well
 
-On a terminal one line is rewritten; elsewhere a line is written now and then.  A run's length is
-known from its `run N` commands (LAMMPS started with -echo both), or better from a line that the
-input prints:  Progress: steps N [name]   the next N steps are one thing, called name.
-Lines that a user must see pass through: warnings, errors, and what Talus or a scene says.
+On a terminal one line is rewritten; elsewhere a line is written now and then.  The length of a run
+is that of its `run N` command, which LAMMPS echoes to the log, or better, what the input prints:
+    Progress: steps N [name]      the next N steps are one thing, called name
+What a user must see passes through: warnings, errors, lines that begin with Talus or Result
+(indented lines after them belong to them), and blocks from  --- title ---  to an empty line.
 """
 
 import re
@@ -89,36 +90,52 @@ class RunFollower:
     """Turns the screen output of LAMMPS into progress."""
 
     SHOWN = re.compile(r"(WARNING|ERROR|Talus|talus|Result)\b")
+    BLOCK = re.compile(r"--- .* ---$")
     NUMBERS = re.compile(r"\s*(\d+)(\s+[-+.\deEnaif]+)+\s*$")
 
-    def __init__(self, display, say):
-        self.display, self.say = display, say
+    def __init__(self, display, say, log=None):
+        self.display, self.say, self.log = display, say, log
+        self.title = display.title
         self.total = None           # steps of the phase, if known
         self.announced = False      # by the scene: `run` commands do not change it
         self.first = None           # step at which the phase began
-        self.in_thermo = self.failed = False
+        self.in_thermo = self.failed = self.speaking = self.in_block = False
 
     def begin(self, total, name=""):
         self.total, self.first = total, None
-        self.display.restart(name or "run")
+        self.display.restart(name or self.title)
+
+    def is_shown(self, line):
+        # nothing but the cause follows an error
+        self.failed = self.failed or line.startswith("ERROR")
+        self.in_block = bool(line.strip()) and (self.in_block or bool(self.BLOCK.match(line)))
+        self.speaking = bool(self.SHOWN.match(line)) or (
+            self.speaking and line.startswith("  ") and line.split()[:1] != ["Step"])
+        return self.failed or self.in_block or self.speaking
 
     def line(self, line):
         words = line.split()
-        if self.failed or self.SHOWN.match(line):
-            self.failed = self.failed or line.startswith("ERROR")
-            self.display.close()
+        if self.is_shown(line):
             self.say(line)
         elif line.startswith("Progress: steps ") and len(words) >= 3 and words[2].isdigit():
             self.announced = True
             self.begin(int(words[2]), " ".join(words[3:]))
-        elif words[:1] == ["run"] and len(words) > 1 and words[1].isdigit() and not self.announced:
-            self.begin(int(words[1]))
         elif words[:1] == ["Step"]:
             self.in_thermo = True
+            if not self.announced:
+                self.begin(self.last_run_command())
         elif line.startswith("Loop time of"):
             self.in_thermo = False
         elif self.in_thermo and self.NUMBERS.match(line):
             self.step(int(words[0]))
+
+    def last_run_command(self):
+        try:
+            with open(self.log, errors="replace") as file:
+                commands = re.findall(r"^run\s+(\d+)", file.read(), re.MULTILINE)
+        except (OSError, TypeError):
+            return None
+        return int(commands[-1]) if commands else None
 
     def step(self, step):
         if self.first is None:
@@ -129,18 +146,18 @@ class RunFollower:
             self.announced = False
 
 
-def follow_run(lines, display):
-    follower = RunFollower(display, display.pass_through)
+def follow_run(lines, display, log=None):
+    follower = RunFollower(display, display.pass_through, log)
     for line in lines:
         follower.line(line)
 
 
 def main():
-    kind, title = sys.argv[1:3]
+    kind, title, *log = sys.argv[1:]
     display = Display(title)
     lines = (line.rstrip("\n") for line in sys.stdin)
     try:
-        {"build": follow_build, "run": follow_run}[kind](lines, display)
+        {"build": follow_build, "run": follow_run}[kind](lines, display, *log)
     except KeyboardInterrupt:
         sys.exit(130)
     finally:

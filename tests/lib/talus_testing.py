@@ -20,8 +20,8 @@ import sys
 import tempfile
 import unittest
 
-__all__ = ["Frame", "Result", "SceneCase", "Sphere", "max_difference", "read_dump",
-           "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
+__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "max_difference", "read_dump",
+           "read_local", "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
 
@@ -209,6 +209,29 @@ def read_dump(path):
                 for _ in range(count):
                     row = tuple(map(_number, next(file).split()))
                     frames[-1].atoms[int(row[tag])] = row
+    return frames
+
+
+@dataclasses.dataclass
+class LocalFrame:
+    """One frame of a local text dump: step, column names, rows (tuples of floats)."""
+    step: int
+    columns: list
+    rows: list
+
+
+def read_local(path):
+    """Frames of a `dump local` file that has only numbers."""
+    frames = []
+    with open(path) as file:
+        for line in file:
+            if line.startswith("ITEM: TIMESTEP"):
+                frames.append(LocalFrame(int(next(file)), [], []))
+            elif line.startswith("ITEM: NUMBER OF"):
+                count = int(next(file))
+            elif line.startswith("ITEM: ENTRIES"):
+                frames[-1].columns = line.split()[2:]
+                frames[-1].rows = [tuple(map(_number, next(file).split())) for _ in range(count)]
     return frames
 
 

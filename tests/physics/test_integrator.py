@@ -283,6 +283,8 @@ class Restart(SceneCase):
             once = self.last(self.script(start) + "run 100\n")
             parts = self.last(self.script(start) + "run 1\nrun 36\nrun 0\nrun 63\n")
             self.assert_same_bits(once, parts)
+            self.assert_same_bits(once, self.last(self.script(start) + "run 100\n",
+                                                  env={"OMP_NUM_THREADS": 3}))
             self.run_lammps(self.script(start) + "run 37\nwrite_restart middle\n")
             self.assert_same_bits(once, self.last(self.continued(start)))
             self.assert_same_bits(once, self.last(self.script(start) + "run 37\n"
