@@ -6,12 +6,15 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "modify.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -46,7 +49,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, n
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = 2;
+  maxexchange = 5;
   comm_border = 1;
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
@@ -67,7 +70,7 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -82,6 +85,8 @@ void FixContactStore::init()
                  "which migrates atoms: move the pair_style command up", ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
+  guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
+  positions.resize(guards_positions ? 3 * keys.size() : 0);
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -95,6 +100,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   file();
+  keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
   next_reneighbor = next_refresh(update->ntimestep);
@@ -103,6 +109,21 @@ void FixContactStore::pre_exchange()
 void FixContactStore::min_pre_exchange()
 {
   pre_exchange();
+}
+
+void FixContactStore::setup_pre_exchange()
+{
+  keep_positions();
+}
+
+void FixContactStore::setup_pre_neighbor()
+{
+  put_positions_back();
+}
+
+void FixContactStore::pre_neighbor()
+{
+  put_positions_back();
 }
 
 void FixContactStore::post_neighbor()
@@ -141,7 +162,7 @@ void FixContactStore::file()
   current = false;
   int most = 0;
   for (int i = 0; i < atom->nlocal; i++) most = std::max(most, partners.size(i));
-  maxexchange = 2 + Talus::PartnerLists::packed_size * most;
+  maxexchange = 5 + Talus::PartnerLists::packed_size * most;
 }
 
 void FixContactStore::refresh_key(int i)
@@ -149,21 +170,47 @@ void FixContactStore::refresh_key(int i)
   keys[i] = Talus::canonical_key(atom->x[i], inverse_cell);
 }
 
+void FixContactStore::keep_positions()
+{
+  if (!guards_positions) return;
+  domain->pbc();    // as fix balance will: what it then changes is rounding only
+  for (int i = 0; i < atom->nlocal; i++)
+    std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+}
+
+/* Undoes rounding, never a move that somebody meant. */
+
+void FixContactStore::put_positions_back()
+{
+  if (!guards_positions) return;
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) {
+      const double largest = std::fabs(domain->boxlo[d]) + domain->prd[d];
+      double &x = atom->x[i][d];
+      if (std::fabs(x - positions[3 * i + d]) <= rounding * largest) x = positions[3 * i + d];
+    }
+  comm->forward_comm();    // ghosts were made of the rounded positions
+}
+
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
+  if (guards_positions) positions.resize(3 * nmax);
   partners.resize(nmax);
 }
 
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
+  if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   partners.copy(i, j);
 }
 
 void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
+  if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   partners.clear(i);
 }
 
@@ -181,14 +228,18 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
 
 int FixContactStore::pack_exchange(int i, double *buf)
 {
-  buf[0] = as_double(keys[i]);
-  return 1 + partners.pack(i, buf + 1);
+  int m = 0;
+  buf[m++] = as_double(keys[i]);
+  for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
+  return m + partners.pack(i, buf + m);
 }
 
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
-  keys[i] = as_key(buf[0]);
-  return 1 + partners.unpack(i, buf + 1);
+  int m = 0;
+  keys[i] = as_key(buf[m++]);
+  for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
+  return m + partners.unpack(i, buf + m);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -238,5 +289,6 @@ int FixContactStore::maxsize_restart()
 
 double FixContactStore::memory_usage()
 {
-  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t)) + partners.memory_usage();
+  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
+                             positions.capacity() * sizeof(double)) + partners.memory_usage();
 }

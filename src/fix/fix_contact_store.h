@@ -3,7 +3,10 @@
 // Internal fix of pair style gran/penalty: what has to travel with a particle.
 //
 //   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart files;
-//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered.
+//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered;
+//   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box and back
+//     for that, which moves every particle by a rounding error. The positions are put back, so that
+//     load balancing does not change the trajectory.
 //
 // The pair style creates it (through the placeholder that keeps its place in the list of fixes) and owns
 // no copy of its data. The ID is the same in every process, because restart files find fixes by ID.
@@ -49,8 +52,11 @@ class FixContactStore : public Fix {
 
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
   void pre_exchange() override;
   void min_pre_exchange() override;
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
   void post_neighbor() override;
   void min_post_neighbor() override;
   void setup_post_neighbor() override;
@@ -77,11 +83,15 @@ class FixContactStore : public Fix {
  private:
   void file();
   void refresh_key(int i);
+  void keep_positions();
+  void put_positions_back();
   bigint next_refresh(bigint step) const;
 
   Client *client = nullptr;
   bool current = false;
   double inverse_cell;
+  bool guards_positions = false;      // a fix balance exists
+  std::vector<double> positions;      // of owned particles as they were before fix balance
   std::vector<std::uint64_t> keys;
   Talus::PartnerLists partners;
 };

@@ -10,6 +10,7 @@
 
 #include "contact/contact_pipeline.h"
 #include "fix/fix_contact_store.h"
+#include "lammps_compat.h"
 #include "pair.h"
 #include "pair/contact_command.h"
 #include "pair/effective_masses.h"
@@ -39,8 +40,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
-  double atom2cut(int) override;
-  double radii2cut(double, double) override;
+  double atom2cut(int) TALUS_OVERRIDE_ATOM2CUT;
+  double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
   // FixContactStore::Client
   void file_history(Talus::PartnerLists &partners) override;

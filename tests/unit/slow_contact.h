@@ -47,6 +47,7 @@ struct Contact {
 /// the sums of the magnitudes of all terms of a result: what its rounding error is measured by.
 struct Outcome {
   Vector force{};
+  double normal_force = 0.0;
   std::array<Vector, 2> torque{};
   Vector history{};
   bool at_limit = false;
@@ -137,6 +138,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Talus::Co
   }
 
   if (law.tangential != Talus::TangentialLaw::NONE) tangential_scale += p.mu * normal_scale;
+  out.normal_force = f_n;
   out.force = axpy(f_n, c.normal, f_t);
   out.force_scale = normal_scale + tangential_scale;
   if (law.tangential != Talus::TangentialLaw::NONE) {
