@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts of particles with a large body: forces against the slow twin, balance of forces and torques,
-// life and death of the history.
+// Contacts of particles with a large body: forces against the slow twin, balance of forces and
+// torques, life and death of the history.
 
 #include "body/body_contacts.h"
 #include "body/plane.h"
@@ -30,8 +30,9 @@ class BodyContactsTest : public testing::TestWithParam<int> {
       shape = std::make_unique<Rectangle>(point, normal, edge, 16.0, 14.0, true);
     else
       shape = std::make_unique<Plane>(point, normal, false);
-    laws = GetParam() < 2 ? mixed_laws()
-                          : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
+    laws = GetParam() < 2
+               ? mixed_laws()
+               : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
     contacts.set_laws(laws);
     if (contacts.keeps_history()) contacts.history.resize(p.size());
     mask.assign(p.size(), 1);
@@ -48,12 +49,20 @@ class BodyContactsTest : public testing::TestWithParam<int> {
 
   BodyParticleView view()
   {
-    return {p.size(),        p.x[0].data(),    p.v[0].data(),          p.omega[0].data(),
-            p.radius.data(), p.mass.data(),    p.mass_override.data(), p.type.data(),
-            force.empty() ? nullptr : force[0].data(), torque.empty() ? nullptr : torque[0].data()};
+    return {p.size(),
+            p.x[0].data(),
+            p.v[0].data(),
+            p.omega[0].data(),
+            p.radius.data(),
+            p.mass.data(),
+            p.mass_override.data(),
+            p.type.data(),
+            force.empty() ? nullptr : force[0].data(),
+            torque.empty() ? nullptr : torque[0].data()};
   }
 
-  /// The contact of particle i as the twin wants it: with a resting, infinitely large and heavy body.
+  /// The contact of particle i as the twin wants it: with a resting, infinitely large and heavy
+  /// body.
   Contact contact_of(int i, const SurfaceContact &surface) const
   {
     Contact c;
@@ -177,20 +186,17 @@ TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
   for (std::size_t n = 0; n < touching.size(); n++) {
     const int i = touching[n];
     if (n % 3 == 0) p.x[i] = {40.0, 3.0, 30.0};    // far off, until the next rebuild a candidate
-    if (n % 3 == 1) mask[i] = 2;    // no longer in the group, noticed at the rebuild
+    if (n % 3 == 1) mask[i] = 2;                   // no longer in the group, noticed at the rebuild
   }
   compute(true);
-  for (std::size_t n = 0; n < touching.size(); n++)
-    EXPECT_EQ(has_history(touching[n]), n % 3 != 0);
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 != 0);
   find();
-  for (std::size_t n = 0; n < touching.size(); n++)
-    EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
 
   p.x = home;
   find();
   compute(false);    // back in contact, but without history
-  for (std::size_t n = 0; n < touching.size(); n++)
-    EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
 }
 
 TEST_P(BodyContactsTest, OnlyMembersOfTheGroupAreTouched)

@@ -14,7 +14,8 @@ using namespace Talus;
 
 namespace {
 
-/// Particles with few different keys, so that tags decide often; the last third are images of others.
+/// Particles with few different keys, so that tags decide often; the last third are images of
+/// others.
 struct Particles {
   std::vector<std::uint64_t> key;
   std::vector<std::int64_t> tag;
@@ -92,8 +93,7 @@ TEST(CandidateList, SortsPairsAndKeepsTheirWeights)
       c++;
     }
     for (int a = 0; a < n; a++)
-      for (int b = a; b < n; b++)
-        ASSERT_EQ(list.find(a, b) >= 0, expected.count({a, b}) == 1);
+      for (int b = a; b < n; b++) ASSERT_EQ(list.find(a, b) >= 0, expected.count({a, b}) == 1);
   }
 }
 

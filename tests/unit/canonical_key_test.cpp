@@ -98,7 +98,8 @@ TEST(CanonicalKey, MapsNotANumberToTheLowestCell)
   EXPECT_EQ(canonical_key(lost, 1.0), key_of_cell(-half, 0, -half));
 }
 
-// Neighbours in order are neighbours in space: consecutive cells of a block of 2^3k cells fill the block.
+// Neighbours in order are neighbours in space: consecutive cells of a block of 2^3k cells fill the
+// block.
 TEST(CanonicalKey, IsLocal)
 {
   for (int level = 1; level <= 3; level++) {

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The history of a contact over rebuilds: kept when pairs are renumbered or turned round, lost when the
-// particles separate, and the same on both sides.
+// The history of a contact over rebuilds: kept when pairs are renumbered or turned round, lost when
+// the particles separate, and the same on both sides.
 
 #include "packing.h"
 #include "test_rank.h"
@@ -15,7 +15,10 @@ namespace {
 
 constexpr double dt = 1e-3;
 
-LawTable history_laws() { return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, true); }
+LawTable history_laws()
+{
+  return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, true);
+}
 
 void rebuild(TestRank &rank, const Packing &p, double skin, RandomSource &random)
 {
@@ -24,9 +27,15 @@ void rebuild(TestRank &rank, const Packing &p, double skin, RandomSource &random
   rank.rebuild(p, everyone(p), candidates(p, skin, false), luggage, random);
 }
 
-bool is_zero(const Record &h) { return h.c[0] == 0.0 && h.c[1] == 0.0 && h.c[2] == 0.0; }
+bool is_zero(const Record &h)
+{
+  return h.c[0] == 0.0 && h.c[1] == 0.0 && h.c[2] == 0.0;
+}
 
-bool same(const Record &a, const Record &b) { return std::equal(a.c, a.c + 4, b.c); }
+bool same(const Record &a, const Record &b)
+{
+  return std::equal(a.c, a.c + 4, b.c);
+}
 
 TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
 {
@@ -76,8 +85,7 @@ TEST(ContactHistory, FollowsTheSlowTwinOverRebuilds)
       }
       const double condition = contact.scale / contact.out.force_scale;
       for (int d = 0; d < 3; d++)
-        ASSERT_NEAR(h.c[d], contact.out.history[d],
-                    1e-12 * contact.out.history_scale * condition);
+        ASSERT_NEAR(h.c[d], contact.out.history[d], 1e-12 * contact.out.history_scale * condition);
     }
     p.move(20.0 * dt, 0.2, random);
   }

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What the promise of one trajectory needs of the kernels, to the last bit: no dependence on the lane or
-// on the path (kernel, query), none on which body comes first, none on a restart.
+// What the promise of one trajectory needs of the kernels, to the last bit: no dependence on the
+// lane or on the path (kernel, query), none on which body comes first, none on a restart.
 
 #include "random_contact.h"
 
@@ -23,7 +23,10 @@ struct Result {
   double at_limit;
 };
 
-bool same_bits(const Result &a, const Result &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const Result &a, const Result &b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 Result result_of(const ContactBatch &batch, int lane)
 {
@@ -95,7 +98,8 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
     const ContactForce<double> query = single_contact(law, p, slow::state_of(c), dt, h);
     const Result other{{query.force.x, query.force.y, query.force.z},
                        {query.moment.x, query.moment.y, query.moment.z},
-                       c.history, h.at_limit};
+                       c.history,
+                       h.at_limit};
     ASSERT_TRUE(same_bits(kernel, other)) << n;
   }
 }
@@ -157,7 +161,7 @@ TEST_P(KernelBits, SwappingTheBodiesNegatesTheForceExactly)
 INSTANTIATE_TEST_SUITE_P(AllLaws, KernelBits, testing::ValuesIn(slow::all_laws()),
                          [](const auto &info) {
                            return std::string(name_of(info.param.normal)) + "_" +
-                               name_of(info.param.tangential);
+                                  name_of(info.param.tangential);
                          });
 
 }    // namespace

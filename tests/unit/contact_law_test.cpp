@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Every kernel against the slow twin: forces, torques and histories of random contacts, ordinary and
-// degenerate. Errors are measured relative to the sum of the magnitudes of the terms that make a result
-// (Outcome::force_scale, history_scale): a small difference of large terms cannot be better than these.
+// Every kernel against the slow twin: forces, torques and histories of random contacts, ordinary
+// and degenerate. Errors are measured relative to the sum of the magnitudes of the terms that make
+// a result (Outcome::force_scale, history_scale): a small difference of large terms cannot be
+// better than these.
 
 #include "random_contact.h"
 
@@ -43,8 +44,7 @@ double error_of(const Vector &found, const Vector &expected, double scale)
 double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, const Outcome &expected,
                      ContactLaw law)
 {
-  double worst =
-      error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
+  double worst = error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
   if (law.has_friction()) {
     const Vector moment = slow::lane_of(batch.moment, lane);
     for (int b = 0; b < 2; b++) {
@@ -86,7 +86,8 @@ void count(Coverage &seen, const Contact &c, const Outcome &expected, const Cont
 /// Runs one kernel over all random contacts and compares.
 Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool advance)
 {
-  RandomSource random(20250204 + 8 * static_cast<int>(law.normal) + static_cast<int>(law.tangential));
+  RandomSource random(20250204 + 8 * static_cast<int>(law.normal) +
+                      static_cast<int>(law.tangential));
   const ContactKernel kernel = contact_kernel(law, uniform, advance);
   ContactBatch batch;
   batch.clear();
@@ -96,7 +97,8 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
 
   for (int n = 0; n < num_batches; n++) {
     std::vector<ContactCoefficients> table;
-    for (int r = 0; r < num_rows; r++) table.push_back(slow::random_coefficients(random, limit_damping));
+    for (int r = 0; r < num_rows; r++)
+      table.push_back(slow::random_coefficients(random, limit_damping));
     const double dt = random.decade(-6.0, -2.0);
     std::vector<Contact> contacts;
     std::vector<int> row(ContactBatch::width);
@@ -119,8 +121,8 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
       }
     }
   }
-  EXPECT_LE(worst, tolerance) << slow::title(law) << " limit_damping " << limit_damping << " uniform "
-                              << uniform << " advance " << advance << "\n"
+  EXPECT_LE(worst, tolerance) << slow::title(law) << " limit_damping " << limit_damping
+                              << " uniform " << uniform << " advance " << advance << "\n"
                               << worst_case;
   return seen;
 }
@@ -146,7 +148,7 @@ TEST_P(ContactLawTest, AgreesWithSlowTwin)
 INSTANTIATE_TEST_SUITE_P(AllLaws, ContactLawTest, testing::ValuesIn(slow::all_laws()),
                          [](const auto &info) {
                            return std::string(name_of(info.param.normal)) + "_" +
-                               name_of(info.param.tangential);
+                                  name_of(info.param.tangential);
                          });
 
 // The force at the limit has the length of the limit, however large the terms it is made of.
@@ -190,9 +192,9 @@ TEST(ContactLaw, NamesAreThoseOfInputScripts)
 {
   std::vector<std::string> names;
   for (ContactLaw law : slow::all_laws()) names.push_back(slow::title(law));
-  const std::vector<std::string> expected{
-      "hooke none", "hooke dashpot", "hooke onestep", "hooke multistep",
-      "hertz none", "hertz dashpot", "hertz onestep", "hertz multistep"};
+  const std::vector<std::string> expected{"hooke none",      "hooke dashpot",  "hooke onestep",
+                                          "hooke multistep", "hertz none",     "hertz dashpot",
+                                          "hertz onestep",   "hertz multistep"};
   EXPECT_EQ(names, expected);
 }
 

@@ -68,7 +68,8 @@ void expect_same_contacts(const TestRank &rank, const BruteForce &slow_twin, con
     const Record h = rank.history_of(i, j);
     for (int d = 0; d < 3; d++)
       ASSERT_NEAR(h.c[d], side * expected.out.history[d],
-                  tolerance * expected.out.history_scale * expected.scale / expected.out.force_scale);
+                  tolerance * expected.out.history_scale * expected.scale /
+                      expected.out.force_scale);
     ASSERT_TRUE(!expected.out.clear_case || (h.c[3] > 0.0) == expected.out.at_limit);
   }
 }

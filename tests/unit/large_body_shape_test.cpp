@@ -20,10 +20,17 @@ using slow::Vector;
 
 namespace {
 
-Vector3<double> talus(const Vector &a) { return {a[0], a[1], a[2]}; }
-Vector plain(const Vector3<double> &a) { return {a.x, a.y, a.z}; }
+Vector3<double> talus(const Vector &a)
+{
+  return {a[0], a[1], a[2]};
+}
+Vector plain(const Vector3<double> &a)
+{
+  return {a.x, a.y, a.z};
+}
 
-/// A shape together with the axes it was made from: points are given in these (first, second, normal).
+/// A shape together with the axes it was made from: points are given in these (first, second,
+/// normal).
 struct Placed {
   Vector origin, first, second, normal;
   double half[2];    ///< of the rectangle
@@ -159,8 +166,8 @@ TEST(Rectangle, AgreesWithTheNearestOfManySamples)
   EXPECT_GT(behind, 50);
 }
 
-/// Walks along a path in steps of `step` and demands that nothing jumps: at the distance D from a convex
-/// body the normal turns by step/D at most, and the overlap changes by step at most.
+/// Walks along a path in steps of `step` and demands that nothing jumps: at the distance D from a
+/// convex body the normal turns by step/D at most, and the overlap changes by step at most.
 void expect_smooth(const Placed &p, double step, int steps,
                    const std::function<Vector(double)> &path)
 {

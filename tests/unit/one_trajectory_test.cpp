@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Forces and histories must have the same bits however the particles are numbered, distributed to ranks,
-// and however often the pairs are rebuilt.
+// Forces and histories must have the same bits however the particles are numbered, distributed to
+// ranks, and however often the pairs are rebuilt.
 
 #include "packing.h"
 #include "test_rank.h"
@@ -72,7 +72,8 @@ class Machine {
   {
     std::vector<Vector> all;
     for (const auto &contact : twin.contacts)
-      for (const auto &[i, j] : {contact.first, std::pair(contact.first.second, contact.first.first)})
+      for (const auto &[i, j] :
+           {contact.first, std::pair(contact.first.second, contact.first.first)})
         for (const TestRank &rank : ranks)
           for (int a = 0; a < rank.owned; a++)
             if (rank.particle[a] == i) {
@@ -97,8 +98,8 @@ void expect_same(const Machine &a, const Machine &b)
   EXPECT_EQ(a.contacts, b.contacts);
 }
 
-/// Runs both machines over the same motion. Keys are refreshed every fourth step; machine b is rebuilt
-/// then and at the steps that are multiples of `interval`.
+/// Runs both machines over the same motion. Keys are refreshed every fourth step; machine b is
+/// rebuilt then and at the steps that are multiples of `interval`.
 void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interval)
 {
   RandomSource random(12);
@@ -132,11 +133,26 @@ class OneTrajectory : public testing::TestWithParam<int> {
   }
 };
 
-TEST_P(OneTrajectory, DoesNotDependOnTheNumbering) { run_and_compare(laws(), 1, 1, 4); }
-TEST_P(OneTrajectory, DoesNotDependOnRebuilds) { run_and_compare(laws(), 1, 1, 1); }
-TEST_P(OneTrajectory, TwoRanks) { run_and_compare(laws(), 1, 2, 4); }
-TEST_P(OneTrajectory, ThreeRanksOneOfThemEmptyAtTimes) { run_and_compare(laws(), 1, 3, 2); }
-TEST_P(OneTrajectory, TwoRanksAgainstFive) { run_and_compare(laws(), 2, 5, 3); }
+TEST_P(OneTrajectory, DoesNotDependOnTheNumbering)
+{
+  run_and_compare(laws(), 1, 1, 4);
+}
+TEST_P(OneTrajectory, DoesNotDependOnRebuilds)
+{
+  run_and_compare(laws(), 1, 1, 1);
+}
+TEST_P(OneTrajectory, TwoRanks)
+{
+  run_and_compare(laws(), 1, 2, 4);
+}
+TEST_P(OneTrajectory, ThreeRanksOneOfThemEmptyAtTimes)
+{
+  run_and_compare(laws(), 1, 3, 2);
+}
+TEST_P(OneTrajectory, TwoRanksAgainstFive)
+{
+  run_and_compare(laws(), 2, 5, 3);
+}
 
 INSTANTIATE_TEST_SUITE_P(Laws, OneTrajectory, testing::Values(0, 1, 2));
 

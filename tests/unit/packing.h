@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A random polydisperse packing and its slow twin: all contacts found and added by brute force, histories
-// kept in a map. Particles are known by their place in the arrays; hosts may number them differently.
+// A random polydisperse packing and its slow twin: all contacts found and added by brute force,
+// histories kept in a map. Particles are known by their place in the arrays; hosts may number them
+// differently.
 
 #ifndef TALUS_TEST_PACKING_H
 #define TALUS_TEST_PACKING_H
@@ -126,7 +127,8 @@ class BruteForce {
   /// Contacts by (i, j), i < j. With `advance` the histories move on.
   std::map<std::pair<int, int>, PairOutcome> contacts;
 
-  void compute(const Packing &p, const Talus::LawTable &laws, double dt, bool advance, bool weighted)
+  void compute(const Packing &p, const Talus::LawTable &laws, double dt, bool advance,
+               bool weighted)
   {
     contacts.clear();
     for (const Neighbours &n : candidates(p, 0.0, weighted)) {
@@ -176,7 +178,9 @@ class BruteForce {
     const double distance = norm(separation);
     for (int d = 0; d < 3; d++) c.normal[d] = distance > 0.0 ? separation[d] / distance : 0.0;
     c.overlap = distance > 0.0 ? p.radius[i] + p.radius[j] - distance : 0.0;
-    const auto mass = [&](int a) { return p.mass_override[a] > 0.0 ? p.mass_override[a] : p.mass[a]; };
+    const auto mass = [&](int a) {
+      return p.mass_override[a] > 0.0 ? p.mass_override[a] : p.mass[a];
+    };
     c.radius = {p.radius[i], p.radius[j]};
     c.mass = {mass(i), mass(j)};
     c.velocity = {p.v[i], p.v[j]};

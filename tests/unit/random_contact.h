@@ -44,8 +44,9 @@ inline Talus::ContactCoefficients random_coefficients(RandomSource &random, bool
   return c;
 }
 
-/// Velocities and history are in proportion to overlap, collision time and damping, so that contacts stick and
-/// slide, approach and separate, in comparable numbers; one in three is degenerate in some way.
+/// Velocities and history are in proportion to overlap, collision time and damping, so that
+/// contacts stick and slide, approach and separate, in comparable numbers; one in three is
+/// degenerate in some way.
 inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
                               const Talus::ContactCoefficients &p)
 {
@@ -72,19 +73,49 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
 
   double scale = 1.0;
   switch (random.below(36)) {
-    case 0: c.velocity = {}; break;
-    case 1: c.omega = {}; break;
-    case 2: c.velocity = {}; c.omega = {}; break;
-    case 3: c.history = {}; c.at_limit = false; break;
-    case 4: c.history = {}; break;
-    case 5: c.velocity = {}; c.omega = {}; c.history = {}; break;
-    case 6: c.overlap = 0.0; break;
-    case 7: c.overlap = 0.0; c.normal = {}; break;    // coincident centres
-    case 8: c.mass[0] = infinity; break;
-    case 9: c.mass = {infinity, infinity}; break;
-    case 10: scale = 1e40; break;
-    case 11: scale = 1e-40; break;
-    default: break;
+  case 0:
+    c.velocity = {};
+    break;
+  case 1:
+    c.omega = {};
+    break;
+  case 2:
+    c.velocity = {};
+    c.omega = {};
+    break;
+  case 3:
+    c.history = {};
+    c.at_limit = false;
+    break;
+  case 4:
+    c.history = {};
+    break;
+  case 5:
+    c.velocity = {};
+    c.omega = {};
+    c.history = {};
+    break;
+  case 6:
+    c.overlap = 0.0;
+    break;
+  case 7:
+    c.overlap = 0.0;
+    c.normal = {};
+    break;    // coincident centres
+  case 8:
+    c.mass[0] = infinity;
+    break;
+  case 9:
+    c.mass = {infinity, infinity};
+    break;
+  case 10:
+    scale = 1e40;
+    break;
+  case 11:
+    scale = 1e-40;
+    break;
+  default:
+    break;
   }
   c.overlap *= scale;
   for (int b = 0; b < 2; b++) {

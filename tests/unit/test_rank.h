@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What a pair style does for the pipeline, without a host: one rank with its numbering of owned and ghost
-// particles, rebuilds, and particles that move to another rank together with their histories.
+// What a pair style does for the pipeline, without a host: one rank with its numbering of owned and
+// ghost particles, rebuilds, and particles that move to another rank together with their histories.
 
 #ifndef TALUS_TEST_TEST_RANK_H
 #define TALUS_TEST_TEST_RANK_H
@@ -97,7 +97,7 @@ class TestRank {
       mass.push_back(p.mass[i]);
       mass_override.push_back(p.mass_override[i]);
     }
-    const Talus::ParticleView view{x.data(),    v.data(),    omega.data(),
+    const Talus::ParticleView view{x.data(),      v.data(),    omega.data(),
                                    radius.data(), mass.data(), mass_override.data()};
     report.clear();
     pipeline.compute(view, dt, advance, &report);
