@@ -6,15 +6,17 @@
 
 namespace Talus {
 
-void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners)
+void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners,
+                           const std::int64_t *filed_tag)
 {
+  const std::int64_t *tag = filed_tag ? filed_tag : pairs.tag.data();
   records.assign(pairs.num_pairs(), Record{});
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = pairs.atom_of_slot[pairs.first[c]], b = pairs.atom_of_slot[pairs.second[c]];
     const bool from_first = pairs.is_owned(a);
-    const auto *p = from_first ? partners.find(a, pairs.tag[b]) : partners.find(b, pairs.tag[a]);
+    const auto *p = from_first ? partners.find(a, tag[b]) : partners.find(b, tag[a]);
     if (!p) continue;
     const Record seen{{p->history[0], p->history[1], p->history[2], p->history[3]}};
     records[c] = from_first ? seen : mirrored(seen);

@@ -18,8 +18,10 @@ namespace Talus {
 class ContactHistory {
  public:
   /// After a rebuild: takes the history of each pair from the lists of whichever of its particles is
-  /// owned. Pairs without history start at zero.
-  void fetch(const CandidateList &pairs, const PartnerLists &partners);
+  /// owned. Pairs without history start at zero. `filed_tag`: tags that the particles had when the lists
+  /// were filed, if they may have changed (host's numbering, owned and ghosts; 0 for new particles).
+  void fetch(const CandidateList &pairs, const PartnerLists &partners,
+             const std::int64_t *filed_tag = nullptr);
 
   /// Before particles are renumbered: files the history of every touching pair under each of its
   /// owned particles.

@@ -21,7 +21,8 @@ void ContactPipeline::set_laws(const LawTable &table)
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
 }
 
-void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners)
+void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners,
+                                  const std::int64_t *filed_tag)
 {
   slot_type.clear();
   if (!laws.uniform()) {
@@ -29,7 +30,7 @@ void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners)
     for (int s = 0; s < pairs.num_particles(); s++) slot_type[s] = type[pairs.atom_of_slot[s]];
   }
   if (with_history)
-    history.fetch(pairs, partners);
+    history.fetch(pairs, partners, filed_tag);
   else
     history.release();
   touching_pairs = 0;
@@ -37,7 +38,10 @@ void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners)
 
 void ContactPipeline::file_history(PartnerLists &partners) const
 {
-  if (with_history) history.file(pairs, partners);
+  if (with_history)
+    history.file(pairs, partners);
+  else
+    partners.clear_all();    // what an earlier law has left must not come back
 }
 
 void ContactPipeline::compute(const ParticleView &host, double dt, bool advance,

@@ -36,10 +36,11 @@ class ContactPipeline {
   void set_laws(const LawTable &table);
 
   /// After pairs.finish(): types of all particles (host's numbering, owned and ghosts; not needed if
-  /// the laws are uniform) and the history of the new pairs.
-  void start_pairs(const int *type, const PartnerLists &partners);
+  /// the laws are uniform) and the history of the new pairs; filed_tag: see ContactHistory::fetch().
+  void start_pairs(const int *type, const PartnerLists &partners,
+                   const std::int64_t *filed_tag = nullptr);
 
-  /// Files the current history by particle. Does nothing in a scene without history.
+  /// Files the current history by particle. In a scene without history, all lists are empty then.
   void file_history(PartnerLists &partners) const;
 
   /// Computes all contacts. `advance` is false while a run is set up: histories are then only read.

@@ -28,6 +28,13 @@ void PartnerLists::layout()
   pool.resize(total);
 }
 
+void PartnerLists::clear_all()
+{
+  if (pool.empty()) return;
+  begin();
+  pool.clear();
+}
+
 void PartnerLists::append(int atom, std::int64_t tag, const Record &history)
 {
   Range &r = range[atom];

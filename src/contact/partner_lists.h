@@ -38,6 +38,7 @@ class PartnerLists {
 
   int size(int atom) const { return range[atom].size; }
   void clear(int atom) { range[atom] = {0, 0}; }
+  void clear_all();
   void copy(int from, int to) { range[to] = range[from]; }
 
   /// Packing for messages and restart files: returns the number of doubles, 1 + packed_size * partners.

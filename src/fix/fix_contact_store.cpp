@@ -21,19 +21,21 @@ using namespace FixConst;
 
 namespace {
 
-// keys travel as the bits of a double
-double as_double(std::uint64_t key)
+constexpr int fixed_size = 6;    // key, filed tag, position, number of partners
+
+// keys and tags travel as the bits of a double
+template <class Integer> double as_double(Integer value)
 {
+  static_assert(sizeof value == sizeof(double));
   double bits;
-  std::memcpy(&bits, &key, sizeof bits);
+  std::memcpy(&bits, &value, sizeof bits);
   return bits;
 }
 
-std::uint64_t as_key(double bits)
+template <class Integer> void from_double(double bits, Integer &value)
 {
-  std::uint64_t key;
-  std::memcpy(&key, &bits, sizeof key);
-  return key;
+  static_assert(sizeof value == sizeof bits);
+  std::memcpy(&value, &bits, sizeof value);
 }
 
 }    // namespace
@@ -42,15 +44,16 @@ std::uint64_t as_key(double bits)
 
 FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  if (narg != 4) error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
+  if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
+    error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
   inverse_cell = 1.0 / utils::numeric(FLERR, arg[3], false, lmp);
 
   restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = 5;
-  comm_border = 1;
+  maxexchange = fixed_size;
+  comm_border = 2;
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
 
@@ -142,27 +145,25 @@ void FixContactStore::setup_post_neighbor()
   post_neighbor();
 }
 
-/* Between runs particles may be added, deleted or moved to other ranks: the lists travel with them.
-   Their IDs must then stay: refuse `reset_atoms id` once there is history. */
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists travel with them. */
 
 void FixContactStore::post_run()
 {
   file();
-  int mine = 0, any = 0;
-  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  stores_ids = any > 0 ? 1 : 0;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixContactStore::file()
 {
-  if (client && current) client->file_history(partners);
+  if (client && current) {
+    client->file_history(partners);
+    std::copy(atom->tag, atom->tag + atom->nlocal, filed_tags.begin());
+  }
   current = false;
   int most = 0;
   for (int i = 0; i < atom->nlocal; i++) most = std::max(most, partners.size(i));
-  maxexchange = 5 + Talus::PartnerLists::packed_size * most;
+  maxexchange = fixed_size + Talus::PartnerLists::packed_size * most;
 }
 
 void FixContactStore::refresh_key(int i)
@@ -196,6 +197,7 @@ void FixContactStore::put_positions_back()
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
+  filed_tags.resize(nmax);
   if (guards_positions) positions.resize(3 * nmax);
   partners.resize(nmax);
 }
@@ -203,6 +205,7 @@ void FixContactStore::grow_arrays(int nmax)
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
+  filed_tags[j] = filed_tags[i];
   if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   partners.copy(i, j);
 }
@@ -210,26 +213,36 @@ void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
+  filed_tags[i] = 0;
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   partners.clear(i);
 }
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
 {
-  for (int k = 0; k < n; k++) buf[k] = as_double(keys[list[k]]);
-  return n;
+  int m = 0;
+  for (int k = 0; k < n; k++) {
+    buf[m++] = as_double(keys[list[k]]);
+    buf[m++] = as_double(filed_tags[list[k]]);
+  }
+  return m;
 }
 
 int FixContactStore::unpack_border(int n, int first, double *buf)
 {
-  for (int k = 0; k < n; k++) keys[first + k] = as_key(buf[k]);
-  return n;
+  int m = 0;
+  for (int i = first; i < first + n; i++) {
+    from_double(buf[m++], keys[i]);
+    from_double(buf[m++], filed_tags[i]);
+  }
+  return m;
 }
 
 int FixContactStore::pack_exchange(int i, double *buf)
 {
   int m = 0;
   buf[m++] = as_double(keys[i]);
+  buf[m++] = as_double(filed_tags[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
   return m + partners.pack(i, buf + m);
 }
@@ -237,7 +250,8 @@ int FixContactStore::pack_exchange(int i, double *buf)
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
   int m = 0;
-  keys[i] = as_key(buf[m++]);
+  from_double(buf[m++], keys[i]);
+  from_double(buf[m++], filed_tags[i]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
   return m + partners.unpack(i, buf + m);
 }
@@ -262,7 +276,8 @@ int FixContactStore::pack_restart(int i, double *buf)
 {
   buf[0] = size_restart(i);
   buf[1] = as_double(keys[i]);
-  return 2 + partners.pack(i, buf + 2);
+  buf[2] = as_double(filed_tags[i]);
+  return 3 + partners.pack(i, buf + 3);
 }
 
 void FixContactStore::unpack_restart(int i, int nth)
@@ -270,13 +285,14 @@ void FixContactStore::unpack_restart(int i, int nth)
   const double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  keys[i] = as_key(extra[m + 1]);
-  partners.unpack(i, extra + m + 2);
+  from_double(extra[m + 1], keys[i]);
+  from_double(extra[m + 2], filed_tags[i]);
+  partners.unpack(i, extra + m + 3);
 }
 
 int FixContactStore::size_restart(int i)
 {
-  return 3 + Talus::PartnerLists::packed_size * partners.size(i);
+  return 4 + Talus::PartnerLists::packed_size * partners.size(i);
 }
 
 int FixContactStore::maxsize_restart()
@@ -290,5 +306,6 @@ int FixContactStore::maxsize_restart()
 double FixContactStore::memory_usage()
 {
   return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
+                             filed_tags.capacity() * sizeof(std::int64_t) +
                              positions.capacity() * sizeof(double)) + partners.memory_usage();
 }

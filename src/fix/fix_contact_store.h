@@ -3,7 +3,8 @@
 // Internal fix of pair style gran/penalty: what has to travel with a particle.
 //
 //   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart files;
-//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered;
+//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered, and
+//     the atom ID under which its partners filed it;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box and back
 //     for that, which moves every particle by a rounding error. The positions are put back, so that
 //     load balancing does not change the trajectory.
@@ -48,6 +49,9 @@ class FixContactStore : public Fix {
 
   /// Key of an owned or ghost particle.
   std::uint64_t key(int i) const { return keys[i]; }
+  /// Atom IDs that owned and ghost particles had when the lists were filed: commands between runs may
+  /// give them others. 0 for particles that are new.
+  const std::int64_t *filed_tag_of_atom() const { return filed_tags.data(); }
   const Talus::PartnerLists &partner_lists() const { return partners; }
 
   int setmask() override;
@@ -93,6 +97,7 @@ class FixContactStore : public Fix {
   bool guards_positions = false;      // a fix balance exists
   std::vector<double> positions;      // of owned particles as they were before fix balance
   std::vector<std::uint64_t> keys;
+  std::vector<std::int64_t> filed_tags;
   Talus::PartnerLists partners;
 };
 

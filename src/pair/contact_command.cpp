@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -28,14 +29,20 @@ const char *next_word(const CommandWords &w, int &iarg, const std::string &expec
   return w.arg[iarg++];
 }
 
+/// A keyword that may be given once.
+void once(const CommandWords &w, int iarg, bool &given)
+{
+  if (given) complain(w, iarg, fmt::format("keyword '{}' given twice", w.arg[iarg]));
+  given = true;
+}
+
 /// A number that is not negative.
 double number(const CommandWords &w, int &iarg, const char *name)
 {
   const std::string expected = std::string(name) + " (a number >= 0)";
   const char *word = next_word(w, iarg, expected);
-  const bool is_number = utils::is_double(word);
-  const double value = is_number ? utils::numeric(FLERR, word, false, w.lmp) : -1.0;
-  if (!is_number || !(value >= 0.0) || std::isinf(value))
+  const double value = utils::is_double(word) ? std::strtod(word, nullptr) : -1.0;
+  if (!(value >= 0.0) || std::isinf(value))
     complain(w, iarg - 1, fmt::format("expected {} instead of '{}'", expected, word));
   return value;
 }
@@ -113,12 +120,14 @@ ContactSpec LAMMPS_NS::parse_contact(const CommandWords &words, int &iarg)
   ContactSpec spec;
   parse_normal(words, iarg, spec);
   spec.coefficients.force_floor = -std::numeric_limits<double>::infinity();
+  bool with_tangential = false, with_limit = false;
   while (iarg < words.narg) {
-    if (strcmp(words.arg[iarg], "tangential") == 0)
+    if (strcmp(words.arg[iarg], "tangential") == 0) {
+      once(words, iarg, with_tangential);
       parse_tangential(words, ++iarg, spec);
-    else if (strcmp(words.arg[iarg], "limit_damping") == 0) {
+    } else if (strcmp(words.arg[iarg], "limit_damping") == 0) {
+      once(words, iarg++, with_limit);
       spec.coefficients.force_floor = 0.0;
-      iarg++;
     } else
       break;
   }

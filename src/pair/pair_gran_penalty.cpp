@@ -64,7 +64,8 @@ PairGranPenalty::~PairGranPenalty()
   if (copymode) return;
   delete[] svector;
   delete[] pvector;
-  modify->delete_fix(store ? store_id : placeholder_id);
+  for (const std::string &id : {store_id, placeholder_id})
+    if (modify->get_fix_by_id(id)) modify->delete_fix(id);
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
@@ -200,6 +201,9 @@ void PairGranPenalty::find_largest_radii()
 
 void PairGranPenalty::create_store()
 {
+  if (!modify->get_fix_by_id(store ? store_id : placeholder_id))
+    error->all(FLERR, "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
+               "command", store ? store_id : placeholder_id);
   if (!store) {
     const double cell = largest_radius > 0.0 ? 2.0 * largest_radius : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
@@ -302,7 +306,7 @@ void PairGranPenalty::renumber_pairs()
   pipeline.pairs.order_particles(atom->nlocal, keys, std::move(tags));
   add_candidate_pairs();
   pipeline.pairs.finish();
-  pipeline.start_pairs(atom->type, store->partner_lists());
+  pipeline.start_pairs(atom->type, store->partner_lists(), store->filed_tag_of_atom());
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }
