@@ -51,21 +51,25 @@ class BodyContacts {
   BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt, bool advance);
 
   bool keeps_history() const { return with_history; }
+  bool keeps_onset() const { return with_onset; }
   double memory_usage() const;
 
   /// One record for each particle (host's index), zero without contact; empty if no law keeps history.
   /// The owner resizes, moves and saves it with the particles.
   std::vector<Record> history;
+  std::vector<Record> onset;    ///< the same, for laws that need to know how the contact began
 
  private:
   void add_lane(int lane, int atom, const SurfaceContact &contact, const BodyParticleView &view);
   void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view, double dt,
              bool advance, BodyLoad &load);
-  void apply(int lane, bool friction, const LargeBodyShape &shape, const BodyParticleView &view,
+  void keep_history(int lane);
+  void forget(int atom);
+  void apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
              BodyLoad &load);
 
   LawTable laws;
-  bool with_history = false;
+  bool with_history = false, with_onset = false;
   std::vector<int> candidates;
   ContactBatch batch;
   int atom_of_lane[ContactBatch::width];

@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact history stored by candidate pair during a run: one record for each pair, zero unless the
-// pair touches, seen from the first particle of the pair.
+// pair touches, seen from the first particle of the pair; and a second one, the onset of the contact,
+// in scenes with a law that needs it.
 
 #ifndef TALUS_CONTACT_CONTACT_HISTORY_H
 #define TALUS_CONTACT_CONTACT_HISTORY_H
@@ -18,7 +19,7 @@ namespace Talus {
 class ContactHistory {
  public:
   /// After a rebuild: takes the history of each pair from the lists of whichever of its particles is
-  /// owned. Pairs without history start at zero.
+  /// owned. Pairs without history start at zero. Onsets are kept if the lists have 8 values.
   void fetch(const CandidateList &pairs, const PartnerLists &partners);
 
   /// Before particles are renumbered: files the history of every touching pair under each of its
@@ -35,7 +36,11 @@ class ContactHistory {
   double memory_usage() const;
 
   std::vector<Record> records;           ///< indexed like the candidate pairs
+  std::vector<Record> onsets;            ///< the same, or empty
   std::vector<std::uint8_t> touching;    ///< one bit for each pair: it touched when last computed
+
+ private:
+  void file_entry(double *values, std::int64_t pair, bool from_first) const;
 };
 
 }    // namespace Talus

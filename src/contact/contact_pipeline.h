@@ -39,7 +39,7 @@ class ContactPipeline {
   /// the laws are uniform) and the history of the new pairs.
   void start_pairs(const int *type, const PartnerLists &partners);
 
-  /// Files the current history by particle. Does nothing in a scene without history.
+  /// Files the current history by particle. Empties the lists in a scene without history.
   void file_history(PartnerLists &partners) const;
 
   /// Computes all contacts. `advance` is false while a run is set up: histories are then only read.
@@ -50,8 +50,9 @@ class ContactPipeline {
   /// Adds the sums of the last compute() to the host's arrays.
   void add_forces(double *f, double *torque) const { particles.add_to(pairs, f, torque); }
 
-  /// History of the pair (i, j) in the host's numbering as i sees it; zero if the pair is unknown.
-  Record history_of(int i, int j) const;
+  /// History and onset of the pair (i, j) in the host's numbering as i sees it; zero if the pair is unknown.
+  TangentialHistory<double> history_of(int i, int j) const;
+  ContactOnset<double> onset_of(int i, int j) const;
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.
@@ -71,15 +72,22 @@ class ContactPipeline {
   int arrange(const std::uint32_t *contacts, int count);
   void place(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history> void gather(int end);
+  void gather_resistance(int end);
+  void gather_onsets(int end);
+  void finish_geometry(int end, bool radii_known);
+  void finish_circles(int end);
   void run_kernels(double dt, bool advance);
   void keep_history(int end);
+  void keep_onsets(int end);
   template <bool friction> void transpose_results(int end);
   void apply_weights(int end);
   template <bool friction> void add_up(const std::uint32_t *contacts, int count);
+  void add_couples(const std::uint32_t *contacts, int count);
+  std::int64_t pair_of(int i, int j) const;
   void report_block(const std::uint32_t *contacts, int count);
 
   LawTable laws;
-  bool with_friction = false, with_history = false;
+  bool with_friction = false, with_history = false, with_onset = false, with_resistance = false;
   int block_size = ContactBatch::width;
 
   ParticleRecords particles;
@@ -97,7 +105,9 @@ class ContactPipeline {
   std::uint32_t pair_of_lane[ContactBatch::width];
   int lane_of_contact[ContactBatch::width];
   std::vector<LawRange> ranges;
-  Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width];
+  Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
+      couple_of_lane[ContactBatch::width];
+  alignas(64) double second_radius[ContactBatch::width];
 };
 
 }    // namespace Talus

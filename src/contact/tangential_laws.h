@@ -24,13 +24,16 @@ template <class Real> struct TangentialHistory {
   Real at_limit{};                 ///< 1 if the last force was the Coulomb limit, else 0
 };
 
-/// What a tangential law is given: k, v_t, mu |F_n|, the normal and the time step.
+/// What a tangential law is given: k, v_t, the normal, mu |F_n|, mu F_n, the time step and the speed below which
+/// a law with a threshold does nothing.
 template <class Real> struct TangentialInput {
   Stiffness<Real> k;
   Vector3<Real> velocity;
   Vector3<Real> normal;
   Real limit;
+  Real signed_limit;
   Real dt;
+  Real slip_min;
 };
 
 /// Shortens a trial force to the limit; forces within it pass unchanged.
@@ -59,6 +62,20 @@ struct TangentialOnestep {
   template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
   {
     return capped(-(in.k.kt * in.dt + in.k.gt) * in.velocity, in.limit);
+  }
+};
+
+/// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has the unit
+/// 1/velocity and is not scaled by `units`.
+struct TangentialTanh {
+  static constexpr bool friction = true, history = false;
+
+  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  {
+    const Real speed = square_root(dot(in.velocity, in.velocity));
+    const auto slips = (speed >= in.slip_min) & (speed > splat<Real>(0.0));
+    const Real pull = in.signed_limit * hyperbolic_tangent(5.0 * speed) / speed;
+    return select(slips, -pull, splat<Real>(0.0)) * in.velocity;
   }
 };
 

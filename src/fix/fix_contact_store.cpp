@@ -139,9 +139,9 @@ void FixContactStore::file()
 {
   if (client && current) client->file_history(partners);
   current = false;
-  int most = 0;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, partners.size(i));
-  maxexchange = 2 + Talus::PartnerLists::packed_size * most;
+  maxexchange = 1;
+  for (int i = 0; i < atom->nlocal; i++)
+    maxexchange = std::max(maxexchange, 1 + partners.packed_size(i));
 }
 
 void FixContactStore::refresh_key(int i)
@@ -197,14 +197,18 @@ void FixContactStore::write_restart(FILE *fp)
 {
   file();    // all ranks come here before the particles are packed
   if (comm->me) return;
-  const int size = sizeof inverse_cell;
+  const double state[2] = {inverse_cell, static_cast<double>(partners.num_values())};
+  const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
-  fwrite(&inverse_cell, size, 1, fp);
+  fwrite(state, size, 1, fp);
 }
 
 void FixContactStore::restart(char *buf)
 {
-  std::memcpy(&inverse_cell, buf, sizeof inverse_cell);
+  double state[2];
+  std::memcpy(state, buf, sizeof state);
+  inverse_cell = state[0];
+  partners.set_values(static_cast<int>(state[1]));
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -225,7 +229,7 @@ void FixContactStore::unpack_restart(int i, int nth)
 
 int FixContactStore::size_restart(int i)
 {
-  return 3 + Talus::PartnerLists::packed_size * partners.size(i);
+  return 2 + partners.packed_size(i);
 }
 
 int FixContactStore::maxsize_restart()

@@ -58,10 +58,13 @@ class FixLargeBody : public Fix {
   void make_plane(int narg, char **arg);
   void make_rectangle(int narg, char **arg);
   void set_laws();
+  Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
   void reduce_load();
+  int size_packed() const;
 
   bool two_sided = false;
+  bool with_history = false, with_onset = false;
   std::unique_ptr<Talus::LargeBodyShape> shape;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;

@@ -30,6 +30,14 @@ Vector3<double> row(const double *p)
   return {p[0], p[1], p[2]};
 }
 
+std::string describe(ContactLaw law)
+{
+  std::string text = fmt::format("{} + {}", name_of(law.normal), name_of(law.tangential));
+  if (law.resists) text += law.delayed ? " + delayed resistance" : " + resistance";
+  if (law.adheres) text += " + adhesion";
+  return text;
+}
+
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -124,8 +132,8 @@ void PairGranPenalty::coeff(int narg, char **arg)
   int iarg = 2;
   const ContactSpec parsed = parse_contact(words, iarg);
   if (iarg < narg)
-    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', "
-               "expected tangential or limit_damping", arg[iarg]);
+    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', expected {}",
+               arg[iarg], contact_keywords);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -212,15 +220,12 @@ void PairGranPenalty::create_store()
 double PairGranPenalty::init_one(int i, int j)
 {
   if (setflag[i][j] == 0) {
-    const ContactSpec &a = spec(i, i), &b = spec(j, j);
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
-    if (a.law != b.law)
-      error->all(FLERR, "Pair style gran/penalty: types {} ({}, {}) and {} ({}, {}) have different "
-                 "laws: add 'pair_coeff {} {} ...'", i, name_of(a.law.normal),
-                 name_of(a.law.tangential), j, name_of(b.law.normal), name_of(b.law.tangential),
-                 i, j);
-    spec(i, j) = mix_contacts(a, b, friction_mix);
+    const ContactLaw a = spec(i, i).law, b = spec(j, j).law;
+    if (a != b)
+      error->all(FLERR, "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
+                 "add 'pair_coeff {} {} ...'", i, describe(a), j, describe(b), i, j);
   }
   return std::max({largest_free[i] + largest_free[j], largest_frozen[i] + largest_free[j],
                    largest_free[i] + largest_frozen[j]});
@@ -236,16 +241,21 @@ void PairGranPenalty::prepare_laws()
   const auto is_mine = [&](int i, int j) {
     return setflag[i][j] || (setflag[i][i] && setflag[j][j] && spec(i, i).law == spec(j, j).law);
   };
-  ContactSpec any;
+  int any_i = 1, any_j = 1;
   for (int i = atom_types; i >= 1; i--)
     for (int j = atom_types; j >= i; j--)
-      if (is_mine(i, j)) any = spec(i, j);
+      if (is_mine(i, j)) {
+        any_i = i;
+        any_j = j;
+      }
   for (int i = 1; i <= atom_types; i++)
     for (int j = i; j <= atom_types; j++) {
-      const ContactSpec &s = is_mine(i, j) ? spec(i, j) : any;
-      table.set(i, j, s.law, s.coefficients);
+      const bool mine = is_mine(i, j);
+      table.set(i, j, law_of(mine ? i : any_i, mine ? j : any_j),
+                coefficients_of(mine ? i : any_i, mine ? j : any_j));
     }
   table.finish();
+  store->keep_onsets(table.has_onset());
   pipeline.set_laws(table);
   laws_current = true;
 
@@ -255,14 +265,34 @@ void PairGranPenalty::prepare_laws()
   warn_small_periods();
 }
 
+/* Law and coefficients of a pair of types: as set, or mixed from those of the two types. */
+
+ContactLaw PairGranPenalty::law_of(int i, int j)
+{
+  return (setflag[i][j] ? spec(i, j) : spec(i, i)).law;
+}
+
+ContactCoefficients PairGranPenalty::coefficients_of(int i, int j)
+{
+  if (setflag[i][j]) return contact_coefficients(spec(i, j), spec(i, j), friction_mix);
+  return contact_coefficients(spec(i, i), spec(j, j), friction_mix);
+}
+
+const ContactSpec *PairGranPenalty::own_spec(int type)
+{
+  return allocated && setflag[type][type] ? &spec(type, type) : nullptr;
+}
+
 std::string PairGranPenalty::describe_laws() const
 {
   const LawTable &table = pipeline.law_table();
   std::string laws, left_out;
   for (int n = 0; n < table.num_laws(); n++) {
     const ContactLaw law = table.distinct_law(n);
-    laws += fmt::format("{}{} + {}", n ? ", " : "", name_of(law.normal), name_of(law.tangential));
+    laws += (n ? ", " : "") + describe(law);
   }
+  if (!table.has_resistance()) left_out += " rolling and spinning resistance;";
+  if (!table.has_onset()) left_out += " impact speed and age of contacts;";
   if (!table.has_history()) left_out += " contact history (no multistep law);";
   if (!table.has_friction()) left_out += " spins and torques (no friction);";
   if (table.uniform()) left_out += " look-up by type (one set of coefficients);";
@@ -375,6 +405,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
                                double &fforce)
 {
   fforce = 0.0;
+  if (!laws_current) prepare_laws();
   std::fill(svector, svector + single_extra, 0.0);
   const double ri = atom->radius[i], rj = atom->radius[j];
   if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
@@ -387,11 +418,13 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
   s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
+  s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
+  s.circle = circle_of_intersection(ri, rj, s.overlap);
 
-  const Record h = pipeline.history_of(i, j);
-  const ContactSpec &law = spec(std::min(itype, jtype), std::max(itype, jtype));
-  const ContactForce<double> out =
-      single_contact(law.law, law.coefficients, s, update->dt, {row(h.c), h.c[3]});
+  const int row_of_types = pipeline.law_table().row(itype, jtype);
+  const ContactForce<double> out = single_contact(
+      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
+      update->dt, pipeline.history_of(i, j), pipeline.onset_of(i, j));
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;

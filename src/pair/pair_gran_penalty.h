@@ -42,6 +42,10 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   double atom2cut(int) override;
   double radii2cut(double, double) override;
 
+  /// For large bodies: the material of a type, as set by `pair_coeff type type`, or nullptr.
+  const ContactSpec *own_spec(int type);
+  FrictionMix mix_rule() const { return friction_mix; }
+
   // FixContactStore::Client
   void file_history(Talus::PartnerLists &partners) override;
   void renumber_pairs() override;
@@ -53,6 +57,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void largest_future_radii(std::vector<double> &radius);
   void create_store();
   void prepare_laws();
+  Talus::ContactLaw law_of(int i, int j);
+  Talus::ContactCoefficients coefficients_of(int i, int j);
   std::string describe_laws() const;
   void warn_small_periods();
 
