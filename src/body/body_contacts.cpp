@@ -65,8 +65,10 @@ void BodyContacts::forget(int i)
 }
 
 BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
-                               bool advance)
+                               bool advance, EnergyAccount *account)
 {
+  energies = account;
+  if (energies) remember_velocities(view);
   BodyLoad load;
   for (int law = 0; law < laws.num_laws(); law++) {
     int filled = 0;
@@ -127,6 +129,10 @@ void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
   for (int lane = 0; lane < count; lane++) {
     apply(lane, laws.distinct_law(law), shape, view, load);
     if (with_history && advance) keep_history(lane);
+    if (energies)
+      energies->add(lane_energy(laws.distinct_law(law), laws.coefficients(batch.coefficients[lane]),
+                                batch, lane, dt),
+                    1.0, atom_of_lane[lane], view.radius[atom_of_lane[lane]], -1, 0.0);
   }
 }
 
@@ -157,6 +163,27 @@ void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape, 
   load.force = load.force - force;
   load.torque = load.torque - cross(arm, force) - couple;
   load.contacts += 1.0;
+}
+
+void BodyContacts::remember_velocities(const BodyParticleView &view)
+{
+  energies->begin_step(view.owned);
+  velocity_before.clear();
+  spin_before.clear();
+  for (const int i : candidates) {
+    velocity_before.push_back(row(view.v, i));
+    spin_before.push_back(row(view.omega, i));
+  }
+}
+
+void BodyContacts::account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const
+{
+  for (std::size_t n = 0; n < candidates.size(); n++) {
+    const int i = candidates[n];
+    to.move(i, dt, 0.5 * (velocity_before[n] + row(view.v, i)),
+            0.5 * (spin_before[n] + row(view.omega, i)));
+  }
+  to.end_step();
 }
 
 double BodyContacts::memory_usage() const

@@ -2,6 +2,8 @@
 
 #include "contact/contact_kernel.h"
 
+#include "contact/model_dispatch.h"
+
 namespace Talus {
 namespace {
 
@@ -92,56 +94,11 @@ namespace {
     return advance && live ? compute_batch<Model, false, live> : compute_batch<Model, false, false>;
   }
 
-  // dispatch(law, visitor) calls visitor(Model{}) with the type that stands for the law
-
-  template <class Normal, class Tangential, Resistance resistance, class Visitor>
-  auto dispatch_adhesion(ContactLaw law, Visitor visitor)
-  {
-    if (law.adheres) return visitor(Model<Normal, Tangential, resistance, true>{});
-    return visitor(Model<Normal, Tangential, resistance, false>{});
-  }
-
-  template <class Normal, class Tangential, class Visitor>
-  auto dispatch_resistance(ContactLaw law, Visitor visitor)
-  {
-    if (!law.resists) return dispatch_adhesion<Normal, Tangential, Resistance::NONE>(law, visitor);
-    if (law.delayed) return dispatch_adhesion<Normal, Tangential, Resistance::DELAYED>(law, visitor);
-    return dispatch_adhesion<Normal, Tangential, Resistance::AT_ONCE>(law, visitor);
-  }
-
-  template <class Normal, class Visitor> auto dispatch_tangential(ContactLaw law, Visitor visitor)
-  {
-    switch (law.tangential) {
-      case TangentialLaw::DASHPOT: return dispatch_resistance<Normal, TangentialDashpot>(law, visitor);
-      case TangentialLaw::ONESTEP: return dispatch_resistance<Normal, TangentialOnestep>(law, visitor);
-      case TangentialLaw::MULTISTEP:
-        return dispatch_resistance<Normal, TangentialMultistep>(law, visitor);
-      default: return dispatch_resistance<Normal, TangentialNone>(law, visitor);
-    }
-  }
-
-  template <class Visitor> auto dispatch(ContactLaw law, Visitor visitor)
-  {
-    switch (law.normal) {
-      case NormalLaw::HERTZ: return dispatch_tangential<NormalHertz>(law, visitor);
-      case NormalLaw::FLORES: return dispatch_tangential<NormalFlores>(law, visitor);
-      case NormalLaw::HOOKE_MATERIAL: return dispatch_tangential<NormalHookeMaterial>(law, visitor);
-      case NormalLaw::HERTZ_MATERIAL: return dispatch_tangential<NormalHertzMaterial>(law, visitor);
-      case NormalLaw::FLORES_MATERIAL:
-        return dispatch_tangential<NormalFloresMaterial>(law, visitor);
-      case NormalLaw::PLAINCOULOMB:
-        return dispatch_resistance<NormalPlainCoulomb, TangentialTanh>(law, visitor);
-      case NormalLaw::PLAINCOULOMB_MATERIAL:
-        return dispatch_resistance<NormalPlainCoulombMaterial, TangentialTanh>(law, visitor);
-      default: return dispatch_tangential<NormalHooke>(law, visitor);
-    }
-  }
-
 }    // namespace
 
 ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance)
 {
-  return dispatch(law, [=](auto model) { return pick<decltype(model)>(uniform, advance); });
+  return dispatch_model(law, [=](auto model) { return pick<decltype(model)>(uniform, advance); });
 }
 
 ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
@@ -151,7 +108,7 @@ ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &c
 {
   TangentialHistory<double> history_copy = history;
   ContactOnset<double> onset_copy = onset;
-  return dispatch(law, [&](auto model) {
+  return dispatch_model(law, [&](auto model) {
     return evaluate_contact<decltype(model), false>(coefficients, state, dt, history_copy,
                                                     onset_copy);
   });

@@ -46,9 +46,11 @@ void ContactPipeline::file_history(PartnerLists &partners) const
 }
 
 void ContactPipeline::compute(const ParticleView &host, double dt, bool advance,
-                              std::vector<ReportedContact> *report_to)
+                              std::vector<ReportedContact> *report_to, EnergyAccount *account_to)
 {
   report = report_to;
+  account = account_to;
+  if (account) account->begin_step(pairs.num_particles());
   particles.read(pairs, host, with_friction, with_resistance);
   touching_pairs =
       find_contacts(pairs, particles.position, with_history ? &history : nullptr, contact_list);
@@ -80,6 +82,7 @@ void ContactPipeline::compute_all(double dt, bool advance)
     add_up<friction>(contacts, count);
     if (with_resistance) add_couples(contacts, count);
     if (report) report_block(contacts, count);
+    if (account) account_block(count, dt);
   }
 }
 
@@ -108,17 +111,15 @@ int ContactPipeline::arrange(const std::uint32_t *contacts, int count)
 
   for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
     const int begin = lane;
-    for (int k = 0; k < count; k++) {
-      const int a = slot_type[pairs.first[contacts[k]]], b = slot_type[pairs.second[contacts[k]]];
-      if (laws.law_index(laws.row(a, b)) == law) place(contacts[k], k, lane++);
-    }
+    for (int k = 0; k < count; k++)
+      if (laws.law_index(row_of_pair(contacts[k])) == law) place(contacts[k], k, lane++);
     close_range(law, begin);
   }
 
   if (!laws.uniform())
     for (int k = 0; k < lane; k++) {
       const std::uint32_t c = pair_of_lane[k];
-      batch.coefficients[k] = laws.row(slot_type[pairs.first[c]], slot_type[pairs.second[c]]);
+      batch.coefficients[k] = row_of_pair(c);
     }
   return lane;
 }
@@ -324,25 +325,20 @@ void ContactPipeline::report_block(const std::uint32_t *contacts, int count)
   }
 }
 
-double ContactPipeline::share_of_pair(std::int64_t pair) const
+void ContactPipeline::account_block(int count, double dt)
 {
-  const bool both = pairs.is_owned(pairs.atom_of_slot[pairs.first[pair]]) &&
-      pairs.is_owned(pairs.atom_of_slot[pairs.second[pair]]);
-  return both ? 1.0 : 0.5;
+  for (int n = 0; n < count; n++) {
+    const int lane = lane_of_contact[n];
+    const std::uint32_t pair = pair_of_lane[lane];
+    const int i = pairs.first[pair], j = pairs.second[pair], row = row_of_pair(pair);
+    account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, dt),
+                 share_of_pair(pair), i, particles.position[i].c[3], j, particles.position[j].c[3]);
+  }
 }
 
-double ContactPipeline::count_contacts() const
+int ContactPipeline::row_of_pair(std::int64_t pair) const
 {
-  double count = 0.0;
-  for (std::int64_t n = 0; n < touching_pairs; n++) count += share_of_pair(contact_list[n]);
-  return count;
-}
-
-double ContactPipeline::count_candidates() const
-{
-  double count = 0.0;
-  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) count += share_of_pair(c);
-  return count;
+  return laws.uniform() ? 0 : laws.row(slot_type[pairs.first[pair]], slot_type[pairs.second[pair]]);
 }
 
 std::int64_t ContactPipeline::pair_of(int i, int j) const

@@ -12,6 +12,7 @@
 
 #include "contact/candidate_list.h"
 #include "contact/contact_batch.h"
+#include "contact/contact_energy.h"
 #include "contact/contact_history.h"
 #include "contact/law_table.h"
 #include "contact/narrow_phase.h"
@@ -43,9 +44,12 @@ class ContactPipeline {
   void file_history(PartnerLists &partners) const;
 
   /// Computes all contacts. `advance` is false while a run is set up: histories are then only read.
-  /// `report`, if given, receives every contact.
-  void compute(const ParticleView &host, double dt, bool advance,
-               std::vector<ReportedContact> *report);
+  /// `report`, if given, receives every contact; `account`, if given, their energies.
+  void compute(const ParticleView &host, double dt, bool advance, std::vector<ReportedContact> *report,
+               EnergyAccount *account = nullptr);
+
+  /// For energies: after the integrator has moved velocities, before particles are renumbered.
+  void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
 
   /// Adds the sums of the last compute() to the host's arrays.
   void add_forces(double *f, double *torque) const { particles.add_to(pairs, f, torque); }
@@ -59,6 +63,13 @@ class ContactPipeline {
   double count_contacts() const;
   double count_candidates() const;
 
+  /// Largest overlap over the smaller radius among the contacts of the last compute(); 0 without contacts.
+  double largest_overlap_ratio() const;
+  /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without contacts.
+  double smallest_contact_period() const;
+  /// Largest relative speed of the centres of candidate pairs.
+  double largest_relative_speed() const;
+
   const LawTable &law_table() const { return laws; }
   bool keeps_history() const { return with_history; }
   bool keeps_spins() const { return with_friction; }
@@ -68,6 +79,8 @@ class ContactPipeline {
 
  private:
   double share_of_pair(std::int64_t pair) const;
+  double overlap_of(std::int64_t pair) const;
+  int row_of_pair(std::int64_t pair) const;
   template <bool friction, bool history> void compute_all(double dt, bool advance);
   int arrange(const std::uint32_t *contacts, int count);
   void place(std::uint32_t contact, int position, int lane);
@@ -84,6 +97,7 @@ class ContactPipeline {
   template <bool friction> void add_up(const std::uint32_t *contacts, int count);
   void add_couples(const std::uint32_t *contacts, int count);
   std::int64_t pair_of(int i, int j) const;
+  void account_block(int count, double dt);
   void report_block(const std::uint32_t *contacts, int count);
 
   LawTable laws;
@@ -96,6 +110,7 @@ class ContactPipeline {
   std::vector<std::uint32_t> contact_list;
   std::int64_t touching_pairs = 0;
   std::vector<ReportedContact> *report = nullptr;
+  EnergyAccount *account = nullptr;
 
   // one block of contacts on its way through the kernels
   struct LawRange {

@@ -116,7 +116,7 @@ struct NormalPlainCoulomb {
 
 /// Linear spring from material and characteristic speed: K = 16/15 sqrt(R) E, kn = K (m v^2/K)^(1/5),
 /// kt = kn, gn = gt = f sqrt(m kn). Coefficients: kn = E (effective Young's modulus, pressure),
-/// gn = f = 2 / sqrt(1 + (pi/ln e)^2).
+/// gn = gt = f = 2 / sqrt(1 + (pi/ln e)^2), see restitution.h.
 struct NormalHookeMaterial {
   static constexpr bool needs_radius = true;
 
@@ -125,8 +125,8 @@ struct NormalHookeMaterial {
   {
     const Real scale = (16.0 / 15.0) * square_root(in.radius) * c.kn;
     const Real kn = scale * fifth_root(in.mass * in.speed * in.speed / scale);
-    const Real gn = c.gn * square_root(in.mass * kn);
-    return {kn, gn, kn, gn};
+    const Real damping = square_root(in.mass * kn);
+    return {kn, c.gn * damping, kn, c.gt * damping};
   }
 
   template <class Real>

@@ -16,9 +16,11 @@ double linear_damping_factor(double e);
 /// Antypov and Elliott 2011). Exact for a contact that ends at overlap zero, with its attractive tail.
 double hertz_damping_factor(double e);
 
-/// The same for a contact whose force is cut at zero (limit_damping): it ends as soon as the force vanishes. Solved
-/// from the equation of motion to 1e-6 in e (Thornton, Cummins and Cleary 2013 give a fit). No finite damping
-/// gives e = 0: below .01, that of .01 is returned.
+/// The same two for a contact whose force is cut at zero (limit_damping): it ends as soon as the force vanishes.
+/// Exact (Schwager and Poeschel 2007 for the linear contact; x^(5/4) and the velocity of the Hertzian one obey the
+/// linear equations in stretched time; Thornton, Cummins and Cleary 2013 give a fit). No finite damping gives e = 0:
+/// below .01, that of .01 is returned.
+double linear_damping_factor_limited(double e);
 double hertz_damping_factor_limited(double e);
 
 /// Flores et al. 2011: 8/5 (1-e)/e, with e at least .01.

@@ -67,7 +67,7 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -98,6 +98,11 @@ void FixContactStore::pre_exchange()
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
   next_reneighbor = next_refresh(update->ntimestep);
+}
+
+void FixContactStore::post_integrate()
+{
+  if (client) client->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()

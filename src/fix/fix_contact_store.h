@@ -28,6 +28,8 @@ class FixContactStore : public Fix {
     virtual void file_history(Talus::PartnerLists &partners) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
     virtual void renumber_pairs() = 0;
+    /// The integrator has moved the velocities, and particles are still numbered as in the last compute().
+    virtual void velocities_have_moved() = 0;
 
    protected:
     ~Client() = default;    // never deleted through this interface
@@ -51,6 +53,7 @@ class FixContactStore : public Fix {
 
   int setmask() override;
   void init() override;
+  void post_integrate() override;
   void pre_exchange() override;
   void min_pre_exchange() override;
   void post_neighbor() override;

@@ -211,7 +211,7 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
 
 int FixLargeBody::setmask()
 {
-  return POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE;
+  return POST_INTEGRATE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE;
 }
 
 void FixLargeBody::init()
@@ -220,6 +220,11 @@ void FixLargeBody::init()
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   masses.find_fixes();
   set_laws();
+}
+
+void FixLargeBody::post_integrate()
+{
+  if (account.waits_for_move()) contacts.account_for_move(view(), update->dt, account);
 }
 
 void FixLargeBody::setup_post_neighbor()
@@ -263,7 +268,8 @@ BodyParticleView FixLargeBody::view() const
 
 void FixLargeBody::post_force(int /*vflag*/)
 {
-  const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0);
+  const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0,
+                                         keeps_account ? &account : nullptr);
   const double values[size_load] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
                                     mine.torque.y, mine.torque.z, mine.contacts};
   std::copy(values, values + size_load, load);

@@ -26,6 +26,7 @@ class FixLargeBody : public Fix {
 
   int setmask() override;
   void init() override;
+  void post_integrate() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
   void min_post_neighbor() override;
@@ -36,6 +37,11 @@ class FixLargeBody : public Fix {
 
   /// force(3), torque(3), position(3), quaternion(4), velocity(3), angular velocity(3), contacts.
   double compute_vector(int) override;
+
+  /// For computes: from the next step on energies are accounted for; what the last step found on this rank.
+  void keep_account() { keeps_account = true; }
+  const Talus::EnergyAccount &energy_account() const { return account; }
+  double contacts_here() const { return load[6]; }
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -70,6 +76,9 @@ class FixLargeBody : public Fix {
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;
+
+  bool keeps_account = false;
+  Talus::EnergyAccount account;
 
   double load[7] = {};         // of this rank: force, torque, contacts
   double total_load[7] = {};   // of all ranks

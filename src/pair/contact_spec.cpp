@@ -47,7 +47,9 @@ void mix_materials(const ContactSpec &a, const ContactSpec &b, bool limited, Con
   c.kn = effective_young(a.young, a.poisson, b.young, b.poisson);
   c.kt = effective_shear(a.young, a.poisson, b.young, b.poisson);
   switch (a.law.normal) {
-    case NormalLaw::HOOKE_MATERIAL: c.gn = c.gt = linear_damping_factor(e); break;
+    case NormalLaw::HOOKE_MATERIAL:
+      c.gn = c.gt = limited ? linear_damping_factor_limited(e) : linear_damping_factor(e);
+      break;
     case NormalLaw::FLORES_MATERIAL:
       c.gn = flores_damping_factor(e);
       c.gt = hertz_damping_factor(flores_restitution(e));
