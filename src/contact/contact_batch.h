@@ -23,6 +23,7 @@ struct ContactBatch {
   alignas(64) double inverse_radius[width];
   alignas(64) double relative_spin[3][width];
   alignas(64) double circle[width];
+  alignas(64) double inverse_distance[width];
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
   // input and output: TangentialHistory and ContactOnset; only laws that keep them touch them

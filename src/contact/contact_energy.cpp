@@ -82,6 +82,7 @@ ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficient
   s.inverse_radius = b.inverse_radius[k];
   s.relative_spin = lane_of(b.relative_spin, k);
   s.circle = b.circle[k];
+  s.inverse_distance = b.inverse_distance[k];
   return contact_energy(law, coefficients, s, dt, {lane_of(b.displacement, k), b.at_limit[k]},
                         {b.onset[0][k], b.onset[1][k], b.onset[2][k]});
 }

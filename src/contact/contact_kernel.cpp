@@ -51,6 +51,7 @@ namespace {
     s.inverse_mass = load8(&b.inverse_mass[k]);
     if constexpr (Model::needs_radius) s.inverse_radius = load8(&b.inverse_radius[k]);
     if constexpr (Model::rotates) s.spin = load_lanes(b.spin, k);
+    if constexpr (Model::midpoint) s.inverse_distance = load8(&b.inverse_distance[k]);
     if constexpr (Model::resists) {
       s.relative_spin = load_lanes(b.relative_spin, k);
       s.circle = load8(&b.circle[k]);

@@ -26,10 +26,11 @@ enum class NormalLaw : int {
 ///   ONESTEP    displacement of the current step, dt v_t
 ///   MULTISTEP  displacement accumulated over the life of the contact
 ///   TANH       PlainCoulomb's: mu tanh(5 v_t) F_n
-enum class TangentialLaw : int { NONE, DASHPOT, ONESTEP, MULTISTEP, TANH };
+///   MIDPOINT   MULTISTEP with an update of the displacement that is consistent to second order
+enum class TangentialLaw : int { NONE, DASHPOT, ONESTEP, MULTISTEP, TANH, MIDPOINT };
 
 inline constexpr int num_normal_laws = 8;
-inline constexpr int num_tangential_laws = 5;
+inline constexpr int num_tangential_laws = 6;
 
 /// Which formulas a pair uses; pairs with equal laws share a kernel.
 struct ContactLaw {
@@ -37,7 +38,7 @@ struct ContactLaw {
   TangentialLaw tangential = TangentialLaw::NONE;
   bool resists = false;     ///< rolling or spinning resistance; needs friction
   bool adheres = false;
-  bool delayed = false;     ///< resistance acts only after one collision time; needs MULTISTEP
+  bool delayed = false;     ///< resistance acts only after one collision time
 
   bool operator==(const ContactLaw &o) const
   {
@@ -49,7 +50,10 @@ struct ContactLaw {
   /// Spins are read, torques arise.
   bool has_friction() const { return tangential != TangentialLaw::NONE || resists; }
   /// The tangential displacement is kept.
-  bool has_history() const { return tangential == TangentialLaw::MULTISTEP; }
+  bool has_history() const
+  {
+    return tangential == TangentialLaw::MULTISTEP || tangential == TangentialLaw::MIDPOINT;
+  }
   /// Impact speed and age are kept as well.
   bool has_onset() const
   {

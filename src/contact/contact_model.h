@@ -24,6 +24,7 @@ template <class Normal_, class Tangential_, Resistance resistance_, bool adheres
   static constexpr bool adheres = adheres_;
   static constexpr bool rotates = Tangential::friction || resists;    ///< spins in, torques out
   static constexpr bool history = Tangential::history;
+  static constexpr bool midpoint = Tangential::midpoint;
   static constexpr bool needs_speed = std::is_same<Normal, NormalHookeMaterial>::value ||
       std::is_same<Normal, NormalFloresMaterial>::value;
   static constexpr bool onset =
@@ -41,6 +42,7 @@ template <class Real> struct ContactState {
   Real inverse_radius;            ///< 1/r_1 + 1/r_2; only for models that need it
   Vector3<Real> relative_spin;    ///< omega_1 - omega_2; only for models with resistance
   Real circle;                    ///< radius of the circle of intersection; only for the same
+  Real inverse_distance;          ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
 };
 
 /// How a contact began; kept only by models that need it.
@@ -65,6 +67,21 @@ template <class Real>
 inline Vector3<Real> surface_velocity(const ContactState<Real> &s, Real normal_velocity)
 {
   return s.velocity - normal_velocity * s.normal - cross(s.spin, s.normal);
+}
+
+/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres came here along
+/// straight lines, so the normal half way is known; a contact that began on the way lasted overlap/(-v_n).
+template <class Real>
+inline Vector3<Real> step_displacement(const ContactState<Real> &s, Real normal_velocity, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
+  const Real length = square_root(dot(half_way, half_way));
+  const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
+  const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.spin, n);
+  const Real approach = -normal_velocity * dt;
+  const auto began = approach > s.overlap;
+  return dt * select(began, s.overlap / approach, one) * slip;
 }
 
 /// Impact speed and age at this step; `advance` counts the step.
@@ -104,9 +121,12 @@ inline ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const Co
   out.force = out.normal * s.normal;
 
   if constexpr (Tangential::friction) {
-    const TangentialInput<Real> in{k, surface_velocity(s, normal_velocity), s.normal,
+    TangentialInput<Real> in{k, surface_velocity(s, normal_velocity), s.normal,
                                    c.mu * magnitude(out.normal), c.mu * out.normal, splat<Real>(dt),
-                                   c.slip_min};
+                                   c.slip_min,
+                                   Vector3<Real>{}};
+    if constexpr (Tangential::midpoint && advance)
+      in.increment = step_displacement(s, normal_velocity, dt);
     if constexpr (Tangential::history)
       out.tangential = Tangential::template force<advance>(in, history);
     else

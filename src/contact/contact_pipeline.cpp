@@ -196,7 +196,9 @@ void ContactPipeline::finish_geometry(int end, bool radii_known)
     const Vec8 sum_of_radii = load8(&batch.overlap[k]);
     const Vec8 distance = square_root(dot(separation, separation));
     const auto apart = distance > zero;    // coincident centres have no normal and get no force
-    const Vector3<Vec8> normal = select(apart, one / distance, zero) * separation;
+    const Vec8 inverse = select(apart, one / distance, zero);
+    const Vector3<Vec8> normal = inverse * separation;
+    store(&batch.inverse_distance[k], inverse);
     store(&batch.normal[0][k], normal.x);
     store(&batch.normal[1][k], normal.y);
     store(&batch.normal[2][k], normal.z);

@@ -33,6 +33,8 @@ template <class Normal, class Visitor> auto dispatch_tangential(ContactLaw law, 
     case TangentialLaw::ONESTEP: return dispatch_resistance<Normal, TangentialOnestep>(law, visitor);
     case TangentialLaw::MULTISTEP:
       return dispatch_resistance<Normal, TangentialMultistep>(law, visitor);
+    case TangentialLaw::MIDPOINT:
+      return dispatch_resistance<Normal, TangentialMidpoint>(law, visitor);
     default: return dispatch_resistance<Normal, TangentialNone>(law, visitor);
   }
 }

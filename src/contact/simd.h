@@ -47,6 +47,9 @@ inline const char *instruction_set()
 /// The same number in every lane.
 template <class Real> inline Real splat(double value) { return Real{} + value; }
 
+/// What a comparison of Reals yields.
+template <class Real> using bool_of = decltype(Real{} < Real{});
+
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no) { return mask ? yes : no; }
 

@@ -165,6 +165,10 @@ class Parser {
     if (spec.law.tangential != TangentialLaw::DASHPOT) spec.kt_given = number_or_null("kt", c.kt);
     spec.gt_given = number_or_null("gt", c.gt);
     c.mu = not_negative("mu");
+    if (spec.law.has_history() && at("midpoint")) {
+      i++;
+      spec.law.tangential = TangentialLaw::MIDPOINT;
+    }
     if (spec.kt_given && spec.law.normal == NormalLaw::HOOKE_MATERIAL)
       complain(at_kt, "expected NULL for kt: hooke/material takes kt = kn from the material");
     if (spec.law.normal != NormalLaw::HOOKE) c.kt *= pressure_unit();

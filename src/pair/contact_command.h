@@ -2,7 +2,8 @@
 //
 // The words of a contact law, shared by `pair_coeff I J gran/penalty ...` and `fix large/body ... contact`:
 //
-//   NORMAL args [tangential MODE args] [rolling mu_r [delayed]] [spinning mu_s [delayed]]
+//   NORMAL args
+//   [tangential none | dashpot gt mu | onestep kt gt mu | multistep kt gt mu [midpoint]] [rolling mu_r [delayed]] [spinning mu_s [delayed]]
 //   [adhesion constant F | dmt W | perko S] [vmin slip roll spin] [limit_damping]
 
 #ifndef TALUS_CONTACT_COMMAND_H

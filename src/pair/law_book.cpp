@@ -2,6 +2,8 @@
 
 #include "pair/law_book.h"
 
+#include <cstdio>
+
 using namespace LAMMPS_NS;
 using namespace Talus;
 
@@ -46,6 +48,32 @@ LawTable LawBook::table() const
     }
   table.finish();
   return table;
+}
+
+std::string LawBook::describe_pair(int i, int j) const
+{
+  const ContactLaw l = law(i, j);
+  const ContactCoefficients c = coefficients(i, j);
+  const bool material = l.normal >= NormalLaw::HOOKE_MATERIAL;
+  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " + describe(l) +
+      (is_set(i, j) ? ";" : "; mixed;");
+  const auto add = [&text](const char *name, double value) {
+    char word[64];
+    snprintf(word, sizeof word, " %s %.6g", name, value);
+    text += word;
+  };
+  add(material ? "E_eff" : "kn", c.kn);
+  add(material ? "damping" : "gn", c.gn);
+  if (l.tangential != TangentialLaw::NONE && l.tangential != TangentialLaw::TANH) {
+    add(material ? "G_eff" : "kt", c.kt);
+    add(material ? "tangential damping" : "gt", c.gt);
+  }
+  if (l.tangential != TangentialLaw::NONE) add("mu", c.mu);
+  if (l.resists) add("mu_r", c.mu_roll);
+  if (l.resists) add("mu_s", c.mu_spin);
+  if (l.adheres) add("adhesion", c.adhesion + c.adhesion_dmt + c.adhesion_perko);
+  if (c.force_floor == 0.0) text += " limit_damping";
+  return text;
 }
 
 std::string LAMMPS_NS::describe(ContactLaw law)

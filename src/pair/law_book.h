@@ -29,9 +29,14 @@ class LawBook {
   /// Both types are set and have the same law, so that the pair can be mixed.
   bool can_mix(int i, int j) const;
 
-  /// Law and coefficients of a pair that is set or can be mixed.
+  /// The pair is set or can be mixed; the functions below need that.
+  bool known(int i, int j) const { return is_set(i, j) || can_mix(i, j); }
+
   Talus::ContactLaw law(int i, int j) const;
   Talus::ContactCoefficients coefficients(int i, int j) const;
+
+  /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
+  std::string describe_pair(int i, int j) const;
 
   /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another sub-style of pair
   /// hybrid and never come up: they get the row of one that does, so that uniform laws are recognised.
@@ -44,7 +49,6 @@ class LawBook {
   };
   Entry &entry(int i, int j) { return entries[i * (types + 1) + j]; }
   const Entry &entry(int i, int j) const { return entries[i * (types + 1) + j]; }
-  bool known(int i, int j) const { return is_set(i, j) || can_mix(i, j); }
 
   int types = 0;
   std::vector<Entry> entries;

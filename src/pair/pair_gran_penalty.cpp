@@ -216,19 +216,22 @@ const ContactSpec *PairGranPenalty::own_spec(int type) const
 std::string PairGranPenalty::describe_laws() const
 {
   const LawTable &table = pipeline.law_table();
-  std::string laws, left_out;
-  for (int n = 0; n < table.num_laws(); n++) {
-    const ContactLaw law = table.distinct_law(n);
-    laws += (n ? ", " : "") + describe(law);
-  }
-  if (!table.has_resistance()) left_out += " rolling and spinning resistance;";
-  if (!table.has_onset()) left_out += " impact speed and age of contacts;";
-  if (!table.has_history()) left_out += " contact history (no multistep law);";
-  if (!table.has_friction()) left_out += " spins and torques (no friction);";
-  if (table.uniform()) left_out += " look-up by type (one set of coefficients);";
-  if (!left_out.empty()) left_out.back() = '\n';
-  return fmt::format("Talus gran/penalty: kernels {}; {}\n", laws, instruction_set()) +
-      (left_out.empty() ? "" : "  left out:" + left_out);
+  std::string text = fmt::format("Talus gran/penalty: {} kernel(s), {}\n", table.num_laws(),
+                                 instruction_set());
+  constexpr int most = 10;
+  int lines = 0;
+  for (int i = 1; i <= book.num_types(); i++)
+    for (int j = i; j <= book.num_types(); j++)
+      if (book.known(i, j) && lines++ < most) text += "  " + book.describe_pair(i, j) + "\n";
+  if (lines > most) text += fmt::format("  ... {} more pairs of types\n", lines - most);
+
+  std::string left_out;
+  if (!table.has_resistance()) left_out += ", couples (no rolling or spinning resistance)";
+  if (!table.has_onset()) left_out += ", impact speed and age of contacts (no law reads them)";
+  if (!table.has_history()) left_out += ", contact history (no multistep law)";
+  if (!table.has_friction()) left_out += ", spins and torques (no friction)";
+  if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
+  return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";
 }
 
 void PairGranPenalty::warn_small_periods()
@@ -372,6 +375,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
   s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = circle_of_intersection(ri, rj, s.overlap);
+  s.inverse_distance = 1.0 / r;
 
   const int row_of_types = pipeline.law_table().row(itype, jtype);
   const ContactForce<double> out = single_contact(

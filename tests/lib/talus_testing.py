@@ -12,6 +12,7 @@ a script fails at import: it never skips.
 import collections
 import dataclasses
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -24,6 +25,7 @@ __all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "max_differen
            "read_local", "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
+SLOWER = 4 if os.environ.get("TALUS_SANITIZE") else 1    # what sanitizers cost
 
 # log: text of the log file; output: what the process printed; workdir: where it ran
 Result = collections.namedtuple("Result", "log output returncode workdir")
@@ -87,9 +89,12 @@ def _end(process):
 
 
 def _launch(command, cwd, env, timeout):
-    with tempfile.TemporaryFile("w+", errors="replace") as sink:
-        process = subprocess.Popen(command, cwd=cwd, env=env, stdin=subprocess.DEVNULL,
-                                   stdout=sink, stderr=sink, start_new_session=True)
+    # Open MPI jobs that share a directory for temporary files remove it from under each other.
+    with tempfile.TemporaryDirectory(prefix="mpi-", ignore_cleanup_errors=True) as private, \
+         tempfile.TemporaryFile("w+", errors="replace") as sink:
+        process = subprocess.Popen(command, cwd=cwd, env={**env, "TMPDIR": private},
+                                   stdin=subprocess.DEVNULL, stdout=sink, stderr=sink,
+                                   start_new_session=True)
         try:
             returncode = process.wait(timeout=timeout)
         except BaseException as problem:
@@ -123,7 +128,7 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
         command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
     command += [str(word) for word in arguments]
 
-    returncode, output = _launch(command, cwd, _environment(env), timeout)
+    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
     log = ""
     if os.path.exists(log_path):
         with open(log_path, errors="replace") as file:
@@ -133,7 +138,8 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     def problem(what):
         return AssertionError(f"{what}: {' '.join(command)}\n{log[-3000:]}\n{output[-2000:]}")
 
-    if expect_error and (returncode == 0 or "ERROR" not in log + output):
+    if expect_error and (returncode != 1
+                         or not re.search("^ERROR(:| on proc)", log + "\n" + output, re.MULTILINE)):
         raise problem(f"a LAMMPS error was expected, got return code {returncode}")
     if not expect_error and returncode != 0:
         raise problem(f"return code {returncode}")

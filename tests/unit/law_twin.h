@@ -49,48 +49,10 @@ struct Composite {
   Number kn = 0, gn = 0, kt = 0, gt = 0;
   bool kt_given = false, gt_given = false;    // of material laws
   bool limited = false;
+  Number damping = 0, damping_flores = 0;    // damping ratios
   Number speed = 0, mu = 0, mu_roll = 0, mu_spin = 0;
   Number adhesion = 0, dmt = 0, perko = 0, slip_min = 0, roll_min = 0, spin_min = 0;
 };
-
-inline Composite compose(const LAMMPS_NS::ContactSpec &a, const LAMMPS_NS::ContactSpec &b,
-                         LAMMPS_NS::FrictionMix rule)
-{
-  const auto mean = [](Number p, Number q) { return (p + q) / 2; };
-  const auto friction = [=](Number p, Number q) {
-    if (rule == LAMMPS_NS::FrictionMix::ARITHMETIC) return mean(p, q);
-    return rule == LAMMPS_NS::FrictionMix::GEOMETRIC ? std::sqrt(p * q) : std::min(p, q);
-  };
-  const auto &p = a.given, &q = b.given;
-  Composite c;
-  if (a.is_material()) {
-    const Number ya = a.young, yb = b.young, na = a.poisson, nb = b.poisson;
-    c.young = ya * yb / (yb * (1 - na * na) + ya * (1 - nb * nb));
-    c.shear = ya * yb / (2 * yb * (2 - na) * (1 + na) + 2 * ya * (2 - nb) * (1 + nb));
-    c.restitution = std::min(a.restitution, b.restitution);
-    c.kt_given = a.kt_given && b.kt_given;
-    c.gt_given = a.gt_given && b.gt_given;
-    c.kt = mean(p.kt, q.kt);
-    c.gt = mean(p.gt, q.gt);
-  } else {
-    c.kn = mean(p.kn, q.kn);
-    c.gn = mean(p.gn, q.gn);
-    c.kt = mean(a.kt_given ? p.kt : Number(2) / 7 * p.kn, b.kt_given ? q.kt : Number(2) / 7 * q.kn);
-    c.gt = mean(a.gt_given ? p.gt : Number(p.gn) / 2, b.gt_given ? q.gt : Number(q.gn) / 2);
-  }
-  c.limited = a.limit_damping || b.limit_damping;
-  c.mu = friction(p.mu, q.mu);
-  c.mu_roll = friction(p.mu_roll, q.mu_roll);
-  c.mu_spin = friction(p.mu_spin, q.mu_spin);
-  c.adhesion = std::min(p.adhesion, q.adhesion);
-  c.dmt = std::min(p.adhesion_dmt, q.adhesion_dmt);
-  c.perko = std::min(p.adhesion_perko, q.adhesion_perko);
-  c.speed = std::max(p.speed, q.speed);
-  c.slip_min = std::max(p.slip_min, q.slip_min);
-  c.roll_min = std::max(p.roll_min, q.roll_min);
-  c.spin_min = std::max(p.spin_min, q.spin_min);
-  return c;
-}
 
 /// ln(1/e) of a linear contact of damping ratio z that ends when its force vanishes (Schwager and Poeschel 2007).
 inline Number limited_decay(Number z)
@@ -119,6 +81,49 @@ inline Number damping_ratio(Number e, bool limited)
   return low;
 }
 
+inline Composite compose(const LAMMPS_NS::ContactSpec &a, const LAMMPS_NS::ContactSpec &b,
+                         LAMMPS_NS::FrictionMix rule)
+{
+  const auto mean = [](Number p, Number q) { return (p + q) / 2; };
+  const auto friction = [=](Number p, Number q) {
+    if (rule == LAMMPS_NS::FrictionMix::ARITHMETIC) return mean(p, q);
+    return rule == LAMMPS_NS::FrictionMix::GEOMETRIC ? std::sqrt(p * q) : std::min(p, q);
+  };
+  const auto &p = a.given, &q = b.given;
+  Composite c;
+  if (a.is_material()) {
+    const Number ya = a.young, yb = b.young, na = a.poisson, nb = b.poisson;
+    c.young = ya * yb / (yb * (1 - na * na) + ya * (1 - nb * nb));
+    c.shear = ya * yb / (2 * yb * (2 - na) * (1 + na) + 2 * ya * (2 - nb) * (1 + nb));
+    const Number e = c.restitution = std::min(a.restitution, b.restitution);
+    const bool limited = a.limit_damping || b.limit_damping;
+    const bool clipped = a.law.normal == NormalLaw::HOOKE_MATERIAL && !limited;
+    c.damping = damping_ratio(clipped ? std::min(e, Number(1.0 - epsilon)) : e, limited);
+    c.damping_flores = damping_ratio(std::clamp(e, Number(0.01), Number(1.0 - epsilon)), false);
+    c.kt_given = a.kt_given && b.kt_given;
+    c.gt_given = a.gt_given && b.gt_given;
+    c.kt = mean(p.kt, q.kt);
+    c.gt = mean(p.gt, q.gt);
+  } else {
+    c.kn = mean(p.kn, q.kn);
+    c.gn = mean(p.gn, q.gn);
+    c.kt = mean(a.kt_given ? p.kt : Number(2) / 7 * p.kn, b.kt_given ? q.kt : Number(2) / 7 * q.kn);
+    c.gt = mean(a.gt_given ? p.gt : Number(p.gn) / 2, b.gt_given ? q.gt : Number(q.gn) / 2);
+  }
+  c.limited = a.limit_damping || b.limit_damping;
+  c.mu = friction(p.mu, q.mu);
+  c.mu_roll = friction(p.mu_roll, q.mu_roll);
+  c.mu_spin = friction(p.mu_spin, q.mu_spin);
+  c.adhesion = std::min(p.adhesion, q.adhesion);
+  c.dmt = std::min(p.adhesion_dmt, q.adhesion_dmt);
+  c.perko = std::min(p.adhesion_perko, q.adhesion_perko);
+  c.speed = std::max(p.speed, q.speed);
+  c.slip_min = std::max(p.slip_min, q.slip_min);
+  c.roll_min = std::max(p.roll_min, q.roll_min);
+  c.spin_min = std::max(p.spin_min, q.spin_min);
+  return c;
+}
+
 struct Stiffness {
   Number kn, gn, kt, gt;
 };
@@ -128,7 +133,7 @@ inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Nu
 {
   const Number disc = std::sqrt(radius * overlap), root = std::sqrt(overlap);
   const Number sn = 2 * c.young * disc, st = c.kt_given ? c.kt * disc : 8 * c.shear * disc;
-  const Number hertz = 2 * std::sqrt(Number(5) / 6) * damping_ratio(c.restitution, c.limited);
+  const Number hertz = 2 * std::sqrt(Number(5) / 6) * c.damping;
   switch (law) {
     case NormalLaw::HOOKE: return {c.kn, mass * c.gn, c.kt, mass * c.gt};
     case NormalLaw::HERTZ: return {disc * c.kn, disc * mass * c.gn, disc * c.kt, disc * mass * c.gt};
@@ -138,8 +143,7 @@ inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Nu
     case NormalLaw::HOOKE_MATERIAL: {
       const Number scale = Number(16) / 15 * std::sqrt(radius) * c.young;
       const Number kn = scale * std::pow(mass * speed * speed / scale, Number(1) / 5);
-      const Number e = c.limited ? c.restitution : std::min(c.restitution, Number(1.0 - epsilon));
-      const Number gn = 2 * damping_ratio(e, c.limited) * std::sqrt(mass * kn);
+      const Number gn = 2 * c.damping * std::sqrt(mass * kn);
       return {kn, gn, kn, c.gt_given ? c.gt * std::sqrt(mass * kn) : gn};
     }
     case NormalLaw::HERTZ_MATERIAL:
@@ -148,7 +152,7 @@ inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Nu
     case NormalLaw::FLORES_MATERIAL: {
       const Number e = std::clamp(c.restitution, Number(0.01), Number(1.0 - epsilon));
       const Number shear = c.kt_given ? c.kt * disc * 3 / 2 : st;    // the number given is the stiffness
-      const Number h = 2 * std::sqrt(Number(5) / 6) * damping_ratio(e, false);
+      const Number h = 2 * std::sqrt(Number(5) / 6) * c.damping_flores;
       return {2 * sn / 3, 8 * (1 - e) * (2 * sn / 3) * overlap / (5 * e * speed), 2 * shear / 3,
               (c.gt_given ? c.gt : h) * std::sqrt(shear * mass)};
     }
@@ -192,12 +196,12 @@ inline Number reduced(Number a, Number b)
   return std::isinf(b) ? a : a * b / (a + b);
 }
 
-/// Radius of the circle of intersection of two spheres.
+/// Radius of the circle of intersection of two spheres: height of the triangle of the radii and the distance, by Heron.
 inline Number circle(Number a, Number b, Number overlap)
 {
-  const Number d = a + b - overlap;
-  const Number x = (a * a - b * b) / (2 * d) + d / 2;
-  return std::sqrt(std::max((a - x) * (a + x), Number(0)));
+  const Number d = a + b - overlap, s = a + b - overlap / 2;
+  const Number square = s * (overlap / 2) * (b - overlap / 2) * (a - overlap / 2);
+  return square > 0 ? 2 * std::sqrt(square) / d : Number(0);
 }
 
 /// 0 before one collision time of an under-damped contact, else 1.
@@ -269,7 +273,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     cap((k.kt * dt + k.gt) * speeds);
   } else if (law.tangential == TangentialLaw::TANH) {
     const Number slip = norm(v_t);
-    if (std::fabs(slip - p.slip_min) < 1e-13 * speeds) out.clear_case = false;
+    if (slip > 0 && std::fabs(slip - p.slip_min) < 1e-13 * speeds) out.clear_case = false;
     out.slides = slip > 0 && slip >= p.slip_min;
     out.sticks = !out.slides;
     if (out.slides) f_t = (p.mu * std::tanh(5 * slip) * f_n / slip) * v_t;
@@ -308,10 +312,10 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     out.sticks = !capped;
   }
 
-  // force on body 2 is f_n n - f_t; torque before adhesion
+  // force on body 2 is f_n n - f_t
   const Vector on_two = f_n * c.normal - f_t;
-  out.torque[0] = Number(-1) * outer(arm[0], on_two);
-  out.torque[1] = outer(arm[1], on_two);
+  out.torque[0] = outer(arm[0], f_t);    // -a_1 x force; the normal force is central
+  out.torque[1] = Number(-1) * outer(arm[1], f_t);
   for (int b = 0; b < 2; b++) out.torque_scale[b] = c.radius[b] * scale_t;
 
   if (law.resists) {
@@ -322,7 +326,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
 
     const Vector v_rot = outer(c.omega[1], arm[1]) - outer(c.omega[0], arm[0]);
     const Number rolling = norm(v_rot);
-    if (std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
+    if (rolling > 0 && std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
     if (rolling > p.roll_min && acts > 0) {
       out.rolls = true;
       for (int b = 0; b < 2; b++) {
@@ -334,7 +338,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     }
     const Vector w = c.omega[1] - c.omega[0];
     const Number spinning = norm(w), w_scale = norm(c.omega[0]) + norm(c.omega[1]);
-    if (std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
+    if (spinning > 0 && std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
     if (spinning > p.spin_min && acts > 0) {
       out.spins = true;
       const Number strength = p.mu_spin * circle(c.radius[0], c.radius[1], c.overlap);
