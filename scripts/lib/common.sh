@@ -18,7 +18,11 @@ have() { command -v "$1" >/dev/null 2>&1; }
 # nproc answers with OMP_NUM_THREADS where that is set, which is not the question here.
 number_of_cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
-cache_dir() { printf '%s/talus' "${XDG_CACHE_HOME:-$HOME/.cache}"; }
+# The tilde works where HOME is not set, as in some containers.
+cache_dir() {
+  local home=~
+  printf '%s/talus' "${XDG_CACHE_HOME:-$home/.cache}"
+}
 
 # Show the usage text of a script: its comment block after the first line.
 usage() {

@@ -3,12 +3,15 @@
 # The host: which LAMMPS, where it is cached, and its build. After prepare_host:
 #   HOST_SOURCE  source tree      HOST_BINARY  build directory with lmp
 
-# name, version of Debian's source package, suite that has it
+# name, version of Debian's source package, suite that has it, packages that only it has
 TALUS_HOSTS="4Feb2025 20250204+dfsg.1 trixie
-4Jul2026 20260704+dfsg forky"
+4Jul2026 20260704+dfsg forky GRAPHICS"
 TALUS_DEFAULT_HOST=4Feb2025
 
 TALUS_HOST_PACKAGES=(GRANULAR MOLECULE RIGID OPENMP PLUGIN EXTRA-FIX EXTRA-COMPUTE DIPOLE BPM)
+
+# GRAPHICS has `dump image` in newer versions; older ones have it in the core.
+packages_of_tree() { if [[ -d $1/src/GRAPHICS ]]; then echo GRAPHICS; fi; }
 
 host_field() { awk -v name="$1" -v field="$2" '$1 == name { print $field }' <<<"$TALUS_HOSTS"; }
 
@@ -42,7 +45,7 @@ check_tree_age() {
 
 host_compiler() { printf '%s' "${CXX:-g++}"; }
 
-# Everything that makes one build of the host different from another.
+# host_options SIZES [PACKAGE]: all that makes one build of the host different from another.
 host_options() {
   local sizes=$1 arch=${TALUS_ARCH:-native} package
   printf -- '-D\n%s\n' CMAKE_BUILD_TYPE=Release "CMAKE_CXX_COMPILER=$(host_compiler)" \
@@ -50,16 +53,17 @@ host_options() {
     BUILD_SHARED_LIBS=on BUILD_MPI=on BUILD_OMP=on BUILD_TOOLS=off \
     WITH_PNG=on WITH_JPEG=off WITH_FFMPEG=off WITH_CURL=off \
     DOWNLOAD_POTENTIALS=off FETCHCONTENT_FULLY_DISCONNECTED=on
-  for package in "${TALUS_HOST_PACKAGES[@]}"; do
+  for package in "${TALUS_HOST_PACKAGES[@]}" ${2:+"$2"}; do
     printf -- '-D\nPKG_%s=on\n' "$package"
   done
 }
 
-# "native" means another thing on every machine, and a home directory may be shared.
+# host_key SIZES PACKAGE TREE: "native" means another thing on every machine, and a home directory
+# may be shared.
 host_key() {
   {
-    host_options "$1"
-    printf '%s\n' "${2:-}"
+    host_options "$1" "$2"
+    printf '%s\n' "$3"
     "$(host_compiler)" --version | head -n 1
     "$(host_compiler)" "-march=${TALUS_ARCH:-native}" -Q --help=target 2>/dev/null
     mpirun --version 2>/dev/null | head -n 1
@@ -73,7 +77,7 @@ stamp_is_good() {
 
 run_host_build() {
   local source=$1 dir=$2 sizes=$3 options
-  mapfile -t options < <(host_options "$sizes")
+  mapfile -t options < <(host_options "$sizes" "$(packages_of_tree "$source")")
   note "configuring LAMMPS $(tree_version "$source") ($sizes)"
   cmake -S "$source/cmake" -B "$dir/build" -G Ninja "${options[@]}" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
@@ -91,7 +95,7 @@ prune_host_build() {
 finish_host() {
   local dir=$1 source=$2 sizes=$3
   prune_host_build "$dir"
-  host_options "$sizes" | grep -v '^-D$' >"$dir/stamp.new"
+  host_options "$sizes" "$(packages_of_tree "$source")" | grep -v '^-D$' >"$dir/stamp.new"
   mv "$dir/stamp.new" "$dir/stamp"
   note "host ready: $dir"
 }
@@ -123,11 +127,12 @@ build_users_host() {
 }
 
 released_host_dir() {
-  printf '%s/host-%s-%s-%s' "$(cache_dir)" "$1" "$2" "$(host_key "$2")"
+  printf '%s/host-%s-%s-%s' "$(cache_dir)" "$1" "$2" "$(host_key "$2" "$(host_field "$1" 4)" '')"
 }
 
 users_host_dir() {
-  printf '%s/host-%s-%s-%s' "$(cache_dir)" "$(tree_version "$1")" "$2" "$(host_key "$2" "$1")"
+  printf '%s/host-%s-%s-%s' "$(cache_dir)" "$(tree_version "$1")" "$2" \
+    "$(host_key "$2" "$(packages_of_tree "$1")" "$1")"
 }
 
 is_build_directory() { [[ -f $1/CMakeCache.txt ]] && grep -q '^LAMMPS_SIZES:' "$1/CMakeCache.txt"; }

@@ -2,10 +2,15 @@
 # shellcheck shell=bash
 # The build of Talus itself, against the host that prepare_host has made ready.
 
-# show_build TITLE DIR LOG: run Ninja with a display of its progress; the log keeps everything.
+# What to build: everything, unless a script needs less.
+TALUS_TARGETS=()
+
+# show_build TITLE DIR LOG [TARGET...]: run Ninja with a display of its progress; the log keeps
+# everything.
 show_build() {
   local title=$1 dir=$2 log=$3
-  NINJA_STATUS='[%f/%t] ' ninja -C "$dir" -j "$(number_of_cores)" 2>&1 </dev/null |
+  shift 3
+  NINJA_STATUS='[%f/%t] ' ninja -C "$dir" -j "$(number_of_cores)" "$@" 2>&1 </dev/null |
     tee "$log" | python3 "$TALUS_LIB/progress.py" build "$title"
 }
 
@@ -33,7 +38,7 @@ configure_talus() {
 compile_talus() {
   local dir=$1 log=$1/build.log
   configure_talus "$@"
-  show_build "building Talus" "$dir" "$log" || {
+  show_build "building Talus" "$dir" "$log" "${TALUS_TARGETS[@]}" || {
     grep -E -A 12 'FAILED|error:' "$log" | head -n 60 >&2
     die "Talus could not be built; all of it is in $log"
   }

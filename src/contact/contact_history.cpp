@@ -6,7 +6,8 @@
 
 namespace Talus {
 
-void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners)
+void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners,
+                           const std::vector<std::int64_t> &filed_tag)
 {
   const bool with_onsets = partners.num_values() == 8;
   records.assign(pairs.num_pairs(), Record{});
@@ -16,7 +17,8 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = pairs.atom_of_slot[pairs.first[c]], b = pairs.atom_of_slot[pairs.second[c]];
     const bool from_first = pairs.is_owned(a);
-    const double *v = from_first ? partners.find(a, pairs.tag[b]) : partners.find(b, pairs.tag[a]);
+    const int owner = from_first ? a : b, partner = from_first ? b : a;
+    const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
     if (!v) continue;
     const Record seen{{v[0], v[1], v[2], v[3]}};
     records[c] = from_first ? seen : mirrored(seen);
@@ -51,6 +53,22 @@ void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_fir
   std::copy(std::begin(seen.c), std::end(seen.c), values);
   if (!onsets.empty())
     std::copy(std::begin(onsets[pair].c), std::end(onsets[pair].c), values + 4);
+}
+
+void ContactHistory::adopt_first_copies(
+    const CandidateList &pairs, PartnerLists &partners,
+    const std::function<const double *(int, std::int64_t)> &ghost_values) const
+{
+  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
+    const int a = pairs.atom_of_slot[pairs.first[c]], b = pairs.atom_of_slot[pairs.second[c]];
+    if (!touches(c) || pairs.is_owned(a)) continue;
+    const double *theirs = ghost_values(a, pairs.tag[b]);
+    double *mine = partners.find(b, pairs.tag[a]);
+    if (!theirs || !mine) continue;
+    const Record seen = mirrored({{theirs[0], theirs[1], theirs[2], theirs[3]}});
+    std::copy(std::begin(seen.c), std::end(seen.c), mine);
+    std::copy(theirs + 4, theirs + partners.num_values(), mine + 4);
+  }
 }
 
 void ContactHistory::release()

@@ -12,6 +12,7 @@
 #include "contact/record.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -19,12 +20,20 @@ namespace Talus {
 class ContactHistory {
  public:
   /// After a rebuild: takes the history of each pair from the lists of whichever of its particles is
-  /// owned. Pairs without history start at zero. Onsets are kept if the lists have 8 values.
-  void fetch(const CandidateList &pairs, const PartnerLists &partners);
+  /// owned. `filed_tag` is the name of each particle (host's index) in the lists, 0 if it is in none; it differs from
+  /// the tag if IDs were renumbered since. Pairs without history start at zero. Onsets are kept if the lists have
+  /// 8 values.
+  void fetch(const CandidateList &pairs, const PartnerLists &partners,
+             const std::vector<std::int64_t> &filed_tag);
 
   /// Before particles are renumbered: files the history of every touching pair under each of its
   /// owned particles.
   void file(const CandidateList &pairs, PartnerLists &partners) const;
+
+  /// After file(): pairs whose first particle is a ghost take over the history that its owner has filed, which
+  /// ghost_values(host's index of the first, tag of the second) returns or nullptr.
+  void adopt_first_copies(const CandidateList &pairs, PartnerLists &partners,
+                          const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Gives all memory back: for scenes whose laws keep no history.
   void release();

@@ -23,7 +23,8 @@ void ContactPipeline::set_laws(const LawTable &table)
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
 }
 
-void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners)
+void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners,
+                                  const std::vector<std::int64_t> &filed_tag)
 {
   slot_type.clear();
   if (!laws.uniform()) {
@@ -31,7 +32,7 @@ void ContactPipeline::start_pairs(const int *type, const PartnerLists &partners)
     for (int s = 0; s < pairs.num_particles(); s++) slot_type[s] = type[pairs.atom_of_slot[s]];
   }
   if (with_history)
-    history.fetch(pairs, partners);
+    history.fetch(pairs, partners, filed_tag);
   else
     history.release();
   touching_pairs = 0;
@@ -43,6 +44,13 @@ void ContactPipeline::file_history(PartnerLists &partners) const
     history.file(pairs, partners);
   else
     partners.begin();
+}
+
+void ContactPipeline::adopt_first_copies(
+    PartnerLists &partners,
+    const std::function<const double *(int, std::int64_t)> &ghost_values) const
+{
+  if (with_history) history.adopt_first_copies(pairs, partners, ghost_values);
 }
 
 void ContactPipeline::compute(const ParticleView &host, double dt, bool advance,

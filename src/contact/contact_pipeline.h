@@ -37,11 +37,15 @@ class ContactPipeline {
   void set_laws(const LawTable &table);
 
   /// After pairs.finish(): types of all particles (host's numbering, owned and ghosts; not needed if
-  /// the laws are uniform) and the history of the new pairs.
-  void start_pairs(const int *type, const PartnerLists &partners);
+  /// the laws are uniform) and the history of the new pairs; for filed_tag see ContactHistory::fetch().
+  void start_pairs(const int *type, const PartnerLists &partners,
+                   const std::vector<std::int64_t> &filed_tag);
 
   /// Files the current history by particle. Empties the lists in a scene without history.
   void file_history(PartnerLists &partners) const;
+  /// See ContactHistory::adopt_first_copies(). Call after file_history().
+  void adopt_first_copies(PartnerLists &partners,
+                          const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Computes all contacts. `advance` is false while a run is set up: histories are then only read.
   /// `report`, if given, receives every contact; `account`, if given, their energies.

@@ -70,6 +70,11 @@ const double *PartnerLists::find(int atom, std::int64_t tag) const
   return nullptr;
 }
 
+void PartnerLists::copy_entry(int atom, int n, double *to) const
+{
+  std::memcpy(to, &pool[(range[atom].begin + n) * stride()], sizeof(double) * stride());
+}
+
 int PartnerLists::pack(int atom, double *buffer) const
 {
   const Range &r = range[atom];

@@ -33,6 +33,14 @@ class PartnerLists {
   /// Values of `atom` with the partner `tag`, or nullptr. Valid until the next refill or unpack.
   const double *find(int atom, std::int64_t tag) const;
 
+  double *find(int atom, std::int64_t tag)
+  {
+    return const_cast<double *>(static_cast<const PartnerLists *>(this)->find(atom, tag));
+  }
+
+  /// Copies entry n of a list: the tag, as the bits of a double, and the values.
+  void copy_entry(int atom, int n, double *to) const;
+
   int size(int atom) const { return range[atom].size; }
   void clear(int atom) { range[atom] = {0, 0}; }
   void copy(int from, int to) { range[to] = range[from]; }

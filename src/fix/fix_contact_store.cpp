@@ -6,31 +6,35 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "modify.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
 namespace {
 
-// keys travel as the bits of a double
-double as_double(std::uint64_t key)
+// keys and tags travel as the bits of a double
+template <class Integer> double as_double(Integer value)
 {
+  static_assert(sizeof value == sizeof(double));
   double bits;
-  std::memcpy(&bits, &key, sizeof bits);
+  std::memcpy(&bits, &value, sizeof bits);
   return bits;
 }
 
-std::uint64_t as_key(double bits)
+template <class Integer> Integer from_double(double bits)
 {
-  std::uint64_t key;
-  std::memcpy(&key, &bits, sizeof key);
-  return key;
+  Integer value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
 }
 
 }    // namespace
@@ -46,8 +50,9 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, n
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = 2;
-  comm_border = 1;
+  maxexchange = 6;
+  comm_border = 2;
+  comm_forward = 1 + 8;    // one entry of a list
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
 
@@ -67,7 +72,7 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -82,6 +87,8 @@ void FixContactStore::init()
                  "which migrates atoms: move the pair_style command up", ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
+  guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
+  positions.resize(guards_positions ? 3 * keys.size() : 0);
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -95,6 +102,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   file();
+  keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
   next_reneighbor = next_refresh(update->ntimestep);
@@ -108,6 +116,21 @@ void FixContactStore::post_integrate()
 void FixContactStore::min_pre_exchange()
 {
   pre_exchange();
+}
+
+void FixContactStore::setup_pre_exchange()
+{
+  keep_positions();
+}
+
+void FixContactStore::setup_pre_neighbor()
+{
+  put_positions_back();
+}
+
+void FixContactStore::pre_neighbor()
+{
+  put_positions_back();
 }
 
 void FixContactStore::post_neighbor()
@@ -126,27 +149,80 @@ void FixContactStore::setup_post_neighbor()
   post_neighbor();
 }
 
-/* Between runs particles may be added, deleted or moved to other ranks: the lists travel with them.
-   Their IDs must then stay: refuse `reset_atoms id` once there is history. */
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists travel with
+   them. */
 
 void FixContactStore::post_run()
 {
   file();
-  int mine = 0, any = 0;
-  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  stores_ids = any > 0 ? 1 : 0;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixContactStore::file()
 {
-  if (client && current) client->file_history(partners);
+  if (client && current) {
+    client->file_history(partners);
+    for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
+    if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();
+  }
   current = false;
-  maxexchange = 1;
-  for (int i = 0; i < atom->nlocal; i++)
-    maxexchange = std::max(maxexchange, 1 + partners.packed_size(i));
+  maxexchange = 0;
+  for (int i = 0; i < atom->nlocal; i++) maxexchange = std::max(maxexchange, partners.packed_size(i));
+  maxexchange += 5;
+}
+
+/* Across a periodic border both sides compute a pair, from positions that were shifted and rounded differently, so
+   their histories may differ in the last bits. Which of them would live on depends on the decomposition: let it
+   be that of the first particle, everywhere. */
+
+void FixContactStore::agree_on_shared_pairs()
+{
+  int mine = 0;
+  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
+  MPI_Allreduce(&mine, &most_entries, 1, MPI_INT, MPI_MAX, world);
+  if (most_entries == 0) return;
+
+  ghost_entries.assign(static_cast<std::size_t>(atom->nghost) * most_entries * comm_forward, 0.0);
+  for (sent_entry = 0; sent_entry < most_entries; sent_entry++) comm->forward_comm(this);
+
+  client->adopt_first_copies(partners, [this](int atom_index, std::int64_t tag) -> const double * {
+    for (int n = 0; n < most_entries; n++) {
+      const double *entry = ghost_entry(atom_index, n);
+      if (from_double<std::int64_t>(entry[0]) == tag) return entry + 1;
+    }
+    return nullptr;
+  });
+  std::vector<double>().swap(ghost_entries);
+}
+
+double *FixContactStore::ghost_entry(int i, int n)
+{
+  const std::size_t index = static_cast<std::size_t>(i - atom->nlocal) * most_entries + n;
+  return &ghost_entries[index * comm_forward];
+}
+
+int FixContactStore::pack_forward_comm(int n, int *list, double *buf, int, int *)
+{
+  for (int k = 0; k < n; k++) {
+    double *entry = buf + static_cast<std::size_t>(k) * comm_forward;
+    std::fill(entry, entry + comm_forward, 0.0);
+    const int i = list[k];
+    // a ghost that is passed on to the next rank
+    if (i >= atom->nlocal)
+      std::copy(ghost_entry(i, sent_entry), ghost_entry(i, sent_entry) + comm_forward, entry);
+    else if (sent_entry < partners.size(i))
+      partners.copy_entry(i, sent_entry, entry);
+  }
+  return n * comm_forward;
+}
+
+void FixContactStore::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++)
+    std::copy(buf + static_cast<std::size_t>(k) * comm_forward,
+              buf + static_cast<std::size_t>(k + 1) * comm_forward,
+              ghost_entry(first + k, sent_entry));
 }
 
 void FixContactStore::refresh_key(int i)
@@ -154,46 +230,87 @@ void FixContactStore::refresh_key(int i)
   keys[i] = Talus::canonical_key(atom->x[i], inverse_cell);
 }
 
+void FixContactStore::keep_positions()
+{
+  if (!guards_positions) return;
+  domain->pbc();    // as fix balance will: what it then changes is rounding only
+  for (int i = 0; i < atom->nlocal; i++)
+    std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+}
+
+/* Undoes rounding, never a move that somebody meant. */
+
+void FixContactStore::put_positions_back()
+{
+  if (!guards_positions) return;
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) {
+      const double largest = std::fabs(domain->boxlo[d]) + domain->prd[d];
+      double &x = atom->x[i][d];
+      if (std::fabs(x - positions[3 * i + d]) <= rounding * largest) x = positions[3 * i + d];
+    }
+  comm->forward_comm();    // ghosts were made of the rounded positions
+}
+
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
+  filed_tags.resize(nmax);
+  if (guards_positions) positions.resize(3 * nmax);
   partners.resize(nmax);
 }
 
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
+  filed_tags[j] = filed_tags[i];
+  if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   partners.copy(i, j);
 }
 
 void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
+  filed_tags[i] = 0;
+  if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   partners.clear(i);
 }
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
 {
-  for (int k = 0; k < n; k++) buf[k] = as_double(keys[list[k]]);
-  return n;
+  for (int k = 0; k < n; k++) {
+    buf[2 * k] = as_double(keys[list[k]]);
+    buf[2 * k + 1] = as_double(filed_tags[list[k]]);
+  }
+  return 2 * n;
 }
 
 int FixContactStore::unpack_border(int n, int first, double *buf)
 {
-  for (int k = 0; k < n; k++) keys[first + k] = as_key(buf[k]);
-  return n;
+  for (int k = 0; k < n; k++) {
+    keys[first + k] = from_double<std::uint64_t>(buf[2 * k]);
+    filed_tags[first + k] = from_double<std::int64_t>(buf[2 * k + 1]);
+  }
+  return 2 * n;
 }
 
 int FixContactStore::pack_exchange(int i, double *buf)
 {
-  buf[0] = as_double(keys[i]);
-  return 1 + partners.pack(i, buf + 1);
+  int m = 0;
+  buf[m++] = as_double(keys[i]);
+  buf[m++] = as_double(filed_tags[i]);
+  for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
+  return m + partners.pack(i, buf + m);
 }
 
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
-  keys[i] = as_key(buf[0]);
-  return 1 + partners.unpack(i, buf + 1);
+  int m = 0;
+  keys[i] = from_double<std::uint64_t>(buf[m++]);
+  filed_tags[i] = from_double<std::int64_t>(buf[m++]);
+  for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
+  return m + partners.unpack(i, buf + m);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -220,7 +337,8 @@ int FixContactStore::pack_restart(int i, double *buf)
 {
   buf[0] = size_restart(i);
   buf[1] = as_double(keys[i]);
-  return 2 + partners.pack(i, buf + 2);
+  buf[2] = as_double(filed_tags[i]);
+  return 3 + partners.pack(i, buf + 3);
 }
 
 void FixContactStore::unpack_restart(int i, int nth)
@@ -228,13 +346,14 @@ void FixContactStore::unpack_restart(int i, int nth)
   const double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  keys[i] = as_key(extra[m + 1]);
-  partners.unpack(i, extra + m + 2);
+  keys[i] = from_double<std::uint64_t>(extra[m + 1]);
+  filed_tags[i] = from_double<std::int64_t>(extra[m + 2]);
+  partners.unpack(i, extra + m + 3);
 }
 
 int FixContactStore::size_restart(int i)
 {
-  return 2 + partners.packed_size(i);
+  return 3 + partners.packed_size(i);
 }
 
 int FixContactStore::maxsize_restart()
@@ -247,5 +366,6 @@ int FixContactStore::maxsize_restart()
 
 double FixContactStore::memory_usage()
 {
-  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t)) + partners.memory_usage();
+  return static_cast<double>((keys.capacity() + filed_tags.capacity()) * sizeof(std::uint64_t) +
+                             positions.capacity() * sizeof(double)) + partners.memory_usage();
 }

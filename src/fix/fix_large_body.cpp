@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -219,7 +220,28 @@ void FixLargeBody::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   masses.find_fixes();
+  find_frozen();
   set_laws();
+}
+
+/* A fix freeze that stands before this fix in the input has done its work when forces are added here. */
+
+void FixLargeBody::find_frozen()
+{
+  already_frozen = 0;
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (ifix == this) break;
+    if (utils::strmatch(ifix->style, "^freeze")) already_frozen |= ifix->groupbit;
+  }
+}
+
+void FixLargeBody::clear_frozen()
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & already_frozen)) continue;
+    std::fill(atom->f[i], atom->f[i] + 3, 0.0);
+    std::fill(atom->torque[i], atom->torque[i] + 3, 0.0);
+  }
 }
 
 void FixLargeBody::post_integrate()
@@ -270,6 +292,7 @@ void FixLargeBody::post_force(int /*vflag*/)
 {
   const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0,
                                          keeps_account ? &account : nullptr);
+  if (already_frozen) clear_frozen();
   const double values[size_load] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
                                     mine.torque.y, mine.torque.z, mine.contacts};
   std::copy(values, values + size_load, load);

@@ -67,6 +67,8 @@ class FixLargeBody : public Fix {
   Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
   void reduce_load();
+  void find_frozen();
+  void clear_frozen();
   int size_packed() const;
 
   bool two_sided = false;
@@ -76,6 +78,7 @@ class FixLargeBody : public Fix {
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;
+  int already_frozen = 0;    // groups whose forces a fix freeze has set to zero before this fix
 
   bool keeps_account = false;
   Talus::EnergyAccount account;

@@ -2,6 +2,8 @@
 
 #include "pair/law_book.h"
 
+#include "contact/simd.h"
+
 #include <cstdio>
 
 using namespace LAMMPS_NS;
@@ -55,7 +57,7 @@ std::string LawBook::describe_pair(int i, int j) const
   const ContactLaw l = law(i, j);
   const ContactCoefficients c = coefficients(i, j);
   const bool material = l.normal >= NormalLaw::HOOKE_MATERIAL;
-  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " + describe(l) +
+  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " + describe_law(l) +
       (is_set(i, j) ? ";" : "; mixed;");
   const auto add = [&text](const char *name, double value) {
     char word[64];
@@ -76,7 +78,27 @@ std::string LawBook::describe_pair(int i, int j) const
   return text;
 }
 
-std::string LAMMPS_NS::describe(ContactLaw law)
+std::string LawBook::describe(const LawTable &table) const
+{
+  std::string text =
+      std::to_string(table.num_laws()) + " kernel(s), " + instruction_set() + "\n";
+  constexpr int most = 10;
+  int lines = 0;
+  for (int i = 1; i <= types; i++)
+    for (int j = i; j <= types; j++)
+      if (known(i, j) && lines++ < most) text += "  " + describe_pair(i, j) + "\n";
+  if (lines > most) text += "  ... " + std::to_string(lines - most) + " more pairs of types\n";
+
+  std::string left_out;
+  if (!table.has_resistance()) left_out += ", couples (no rolling or spinning resistance)";
+  if (!table.has_onset()) left_out += ", impact speed and age of contacts (no law reads them)";
+  if (!table.has_history()) left_out += ", contact history (no multistep law)";
+  if (!table.has_friction()) left_out += ", spins and torques (no friction)";
+  if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
+  return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";
+}
+
+std::string LAMMPS_NS::describe_law(ContactLaw law)
 {
   std::string text = std::string(name_of(law.normal)) + " + " + name_of(law.tangential);
   if (law.resists) text += law.delayed ? " + delayed resistance" : " + resistance";

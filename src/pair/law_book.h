@@ -38,6 +38,9 @@ class LawBook {
   /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
   std::string describe_pair(int i, int j) const;
 
+  /// For the log, several lines: kernels, pairs of types, and what `table` lets a scene do without.
+  std::string describe(const Talus::LawTable &table) const;
+
   /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another sub-style of pair
   /// hybrid and never come up: they get the row of one that does, so that uniform laws are recognised.
   Talus::LawTable table() const;
@@ -55,7 +58,7 @@ class LawBook {
 };
 
 /// A law in words, e.g. "hertz + multistep + resistance".
-std::string describe(Talus::ContactLaw law);
+std::string describe_law(Talus::ContactLaw law);
 
 }    // namespace LAMMPS_NS
 

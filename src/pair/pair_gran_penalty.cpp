@@ -64,7 +64,8 @@ PairGranPenalty::~PairGranPenalty()
   if (copymode) return;
   delete[] svector;
   delete[] pvector;
-  modify->delete_fix(store ? store_id : placeholder_id);
+  for (const auto &internal : {store_id, placeholder_id})
+    if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
@@ -171,6 +172,9 @@ void PairGranPenalty::check_host()
 
 void PairGranPenalty::create_store()
 {
+  if (store && !modify->get_fix_by_id(store_id))
+    error->all(FLERR, "Pair style gran/penalty: its internal fix {} was deleted: repeat 'pair_style none', "
+               "pair_style and pair_coeff", store_id);
   if (!store) {
     const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
@@ -187,8 +191,8 @@ double PairGranPenalty::init_one(int i, int j)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
     if (!book.can_mix(i, j))
       error->all(FLERR, "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
-                 "add 'pair_coeff {} {} ...'", i, describe(book.law(i, i)), j,
-                 describe(book.law(j, j)), i, j);
+                 "add 'pair_coeff {} {} ...'", i, describe_law(book.law(i, i)), j,
+                 describe_law(book.law(j, j)), i, j);
   }
   return radii.cutoff(i, j);
 }
@@ -202,7 +206,7 @@ void PairGranPenalty::prepare_laws()
   pipeline.set_laws(table);
   laws_current = true;
 
-  const std::string description = describe_laws();
+  const std::string description = "Talus gran/penalty: " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
   warn_small_periods();
@@ -211,27 +215,6 @@ void PairGranPenalty::prepare_laws()
 const ContactSpec *PairGranPenalty::own_spec(int type) const
 {
   return allocated && book.is_set(type, type) ? &book.spec(type, type) : nullptr;
-}
-
-std::string PairGranPenalty::describe_laws() const
-{
-  const LawTable &table = pipeline.law_table();
-  std::string text = fmt::format("Talus gran/penalty: {} kernel(s), {}\n", table.num_laws(),
-                                 instruction_set());
-  constexpr int most = 10;
-  int lines = 0;
-  for (int i = 1; i <= book.num_types(); i++)
-    for (int j = i; j <= book.num_types(); j++)
-      if (book.known(i, j) && lines++ < most) text += "  " + book.describe_pair(i, j) + "\n";
-  if (lines > most) text += fmt::format("  ... {} more pairs of types\n", lines - most);
-
-  std::string left_out;
-  if (!table.has_resistance()) left_out += ", couples (no rolling or spinning resistance)";
-  if (!table.has_onset()) left_out += ", impact speed and age of contacts (no law reads them)";
-  if (!table.has_history()) left_out += ", contact history (no multistep law)";
-  if (!table.has_friction()) left_out += ", spins and torques (no friction)";
-  if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
-  return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";
 }
 
 void PairGranPenalty::warn_small_periods()
@@ -266,6 +249,12 @@ void PairGranPenalty::file_history(PartnerLists &partners)
   pipeline.file_history(partners);
 }
 
+void PairGranPenalty::adopt_first_copies(PartnerLists &partners,
+                                         const FixContactStore::GhostValues &ghosts)
+{
+  pipeline.adopt_first_copies(partners, ghosts);
+}
+
 void PairGranPenalty::velocities_have_moved()
 {
   if (account.waits_for_move())
@@ -277,15 +266,16 @@ void PairGranPenalty::renumber_pairs()
   if (!laws_current) prepare_laws();
   const int nall = atom->nlocal + atom->nghost;
   std::vector<std::uint64_t> keys(nall);
-  std::vector<std::int64_t> tags(nall);
+  std::vector<std::int64_t> tags(nall), filed_tags(nall);
   for (int i = 0; i < nall; i++) {
     keys[i] = store->key(i);
     tags[i] = atom->tag[i];
+    filed_tags[i] = store->filed_tag(i);
   }
   pipeline.pairs.order_particles(atom->nlocal, keys, std::move(tags));
   add_candidate_pairs();
   pipeline.pairs.finish();
-  pipeline.start_pairs(atom->type, store->partner_lists());
+  pipeline.start_pairs(atom->type, store->partner_lists(), filed_tags);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }

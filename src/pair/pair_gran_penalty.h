@@ -10,6 +10,7 @@
 
 #include "contact/contact_pipeline.h"
 #include "fix/fix_contact_store.h"
+#include "lammps_compat.h"
 #include "pair.h"
 #include "pair/contact_command.h"
 #include "pair/critical_time_step.h"
@@ -42,8 +43,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
-  double atom2cut(int) override;
-  double radii2cut(double, double) override;
+  double atom2cut(int) TALUS_OVERRIDE_ATOM2CUT;
+  double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
   /// For large bodies: the material of a type, as set by `pair_coeff type type`, or nullptr.
   const ContactSpec *own_spec(int type) const;
@@ -57,6 +58,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
 
   // FixContactStore::Client
   void file_history(Talus::PartnerLists &partners) override;
+  void adopt_first_copies(Talus::PartnerLists &partners,
+                          const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;
   void velocities_have_moved() override;
 
@@ -65,7 +68,6 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void check_host();
   void create_store();
   void prepare_laws();
-  std::string describe_laws() const;
   void warn_small_periods();
   void warn_large_time_step();
 

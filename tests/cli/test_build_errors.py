@@ -257,6 +257,7 @@ class InterruptedHostBuild(ScriptCase):
         self.working_ninja()
 
     def working_ninja(self):
+        # called as: ninja -C DIR ...
         self.command("ninja", f"echo ninja >> '{self.path('calls')}'\n"
                      'mkdir -p "$2" && touch "$2/lmp" "$2/liblammps.so" && chmod +x "$2/lmp"\n')
 

@@ -281,9 +281,10 @@ class ImpactTables(SceneCase):
 
     def test_6_sliding_spins_are_exact(self):
         """The friction of a sliding patch is mu |F_n|: its impulse is mu (1+e) m v_n with limit_damping;
-        without, the attractive end of the contact adds to it.  With a tangential dashpot (default) the
-        stored displacement of a sliding contact leads the force by gt v_t/kt, which changes faster than
-        the limit: friction falls short of mu |F_n| by up to a quarter, and never exceeds it."""
+        without, the attractive end of the contact adds to it.  The spring needs a little way to follow
+        the damping force at the beginning (2 %) and through the change of sign.  With a tangential
+        dashpot (default) the stored displacement is off by gt v_t/kt, which changes faster than the
+        limit: friction falls short of mu |F_n| by up to a quarter at e = .5.  It never exceeds it."""
         for gt in "0.0", "NULL":
             for limit in "", "limit_damping":
                 ratios = [w * 0.1 / 0.2 for w in SPINS_6]
@@ -297,7 +298,8 @@ class ImpactTables(SceneCase):
                     slides = exact < (0.0 if limit else -0.2)
                     print(f"{2 * ratio:6.3f}{y[0]:9.4f}{y[1]:9.4f}" + (f"{exact:9.4f}" if slides else ""))
                     for value in y if slides else []:
-                        short = 1e-3 if gt == "0.0" else 0.25 * (1 + exact)
+                        tail = 3.5 * 0.4 * (impulse - 1.5) / ratio
+                        short = tail + (0.02 if gt == "0.0" else 0.25) * (1 + exact)
                         self.assertLess(value, exact + 1e-3, f"spin {2 * ratio}")
                         self.assertGreater(value, exact - short, f"spin {2 * ratio}")
 

@@ -1,5 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""fix nve/sphere/symplectic: order, stability, conservation, exact restart, gravity, orientation."""
+# ctest: procs=2
+"""fix nve/sphere/symplectic: order, stability, conservation, restart, gravity, orientation."""
 
 import math
 import os
@@ -284,7 +285,7 @@ class Restart(SceneCase):
             parts = self.last(self.script(start) + "run 1\nrun 36\nrun 0\nrun 63\n")
             self.assert_same_bits(once, parts)
             self.assert_same_bits(once, self.last(self.script(start) + "run 100\n",
-                                                  env={"OMP_NUM_THREADS": 3}))
+                                                  np=2, env={"OMP_NUM_THREADS": 3}))
             self.run_lammps(self.script(start) + "run 37\nwrite_restart middle\n")
             self.assert_same_bits(once, self.last(self.continued(start)))
             self.assert_same_bits(once, self.last(self.script(start) + "run 37\n"
@@ -310,7 +311,8 @@ class Restart(SceneCase):
 
 class Gravity(SceneCase):
 
-    STYLES = ("vector 1 -2 3", "vector 0 0 -0.001", "chute 26", "spherical 30 140", "spherical 0 90")
+    STYLES = ("vector 1 -2 3", "vector 0 0 -0.001", "chute 26", "spherical 30 140",
+              "spherical 0 90")
 
     def velocity(self, fixes, units, dimension):
         more = ("pair_style none\ncomm_modify cutoff 2\ntimestep 0.001\n" + fixes + dump("out")
@@ -328,10 +330,11 @@ class Gravity(SceneCase):
                 if dimension == 2 and style == "vector 0 0 -0.001":
                     continue
                 for units in "si", "real":
-                    ours = self.velocity(f"fix step all nve/sphere/symplectic gravity 9.81 {style}\n",
-                                         units, dimension)
+                    ours = self.velocity("fix step all nve/sphere/symplectic "
+                                         f"gravity 9.81 {style}\n", units, dimension)
                     stock = self.velocity(f"fix g all gravity 9.81 {style}\n"
-                                          "fix step all nve/sphere/symplectic\n", units, dimension)
+                                          "fix step all nve/sphere/symplectic\n",
+                                          units, dimension)
                     size = max(abs(value) for row in stock.atoms.values() for value in row[4:7])
                     self.assertLess(max_difference(ours, stock, ("vx", "vy", "vz")), 1e-14 * size,
                                     f"{style} {units} {dimension}d")

@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: procs=2
 """Every refusal of fix nve/sphere/symplectic: its text, the word it points at, on 1 and 2 ranks."""
 
 import os
@@ -43,7 +44,8 @@ BAD_WORDS = [
     ("orientation maybe", "orientation: expected yes or no instead of 'maybe'", "maybe"),
     ("orientation yes", "orientation: expected an atom style with a quaternion or a dipole", "yes"),
     ("disc", "disc: expected a 2d simulation", "disc"),
-    ("gravity", "expected magnitude and one of chute, spherical, vector after 'gravity'", "gravity"),
+    ("gravity", "expected magnitude and one of chute, spherical, vector after 'gravity'",
+     "gravity"),
     ("gravity 1", "expected magnitude and one of chute, spherical, vector after 'gravity'",
      "gravity"),
     ("gravity up chute 1", "gravity: expected a number for the magnitude instead of 'up'", "up"),

@@ -26,7 +26,7 @@ using LAMMPS_NS::ContactSpec;
 
 namespace {
 
-constexpr double tolerance = 1e-6;
+constexpr double tolerance = 1e-9;    // the file has 12 digits
 
 /// One line of the file: x, v, omega, force of both bodies.
 struct Snapshot {

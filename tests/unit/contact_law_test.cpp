@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Every kernel against the slow twin: forces, torques and histories of random contacts, ordinary and
-// degenerate. Errors are measured relative to the sum of the magnitudes of the terms that make a result
-// (Outcome::force_scale, history_scale): a small difference of large terms cannot be better than these.
+// Every kernel against the slow twin: forces, torques and histories of random contacts, ordinary
+// and degenerate. Errors are measured relative to the sum of the magnitudes of the terms that make
+// a result (Outcome::force_scale, history_scale): a small difference of large terms cannot be
+// better than these.
 
 #include "random_contact.h"
 
@@ -43,8 +44,7 @@ double error_of(const Vector &found, const Vector &expected, double scale)
 double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, const Outcome &expected,
                      ContactLaw law)
 {
-  double worst =
-      error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
+  double worst = error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
   if (law.has_friction()) {
     const Vector moment = slow::lane_of(batch.moment, lane);
     for (int b = 0; b < 2; b++) {
@@ -74,7 +74,7 @@ std::string describe(const Contact &c, const Outcome &expected, const ContactBat
 
 void count(Coverage &seen, const Contact &c, const Outcome &expected, const ContactCoefficients &p)
 {
-  const double f_n = slow::inner(expected.force, c.normal);
+  const double f_n = expected.normal_force;
   const Vector f_t = slow::axpy(-f_n, c.normal, expected.force);
   const double limit = p.mu * std::fabs(f_n), size = slow::norm(f_t);
   seen.contacts++;
@@ -86,7 +86,8 @@ void count(Coverage &seen, const Contact &c, const Outcome &expected, const Cont
 /// Runs one kernel over all random contacts and compares.
 Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool advance)
 {
-  RandomSource random(20250204 + 8 * static_cast<int>(law.normal) + static_cast<int>(law.tangential));
+  RandomSource random(20250204 + 8 * static_cast<int>(law.normal) +
+                      static_cast<int>(law.tangential));
   const ContactKernel kernel = contact_kernel(law, uniform, advance);
   ContactBatch batch;
   batch.clear();
@@ -96,21 +97,22 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
 
   for (int n = 0; n < num_batches; n++) {
     std::vector<ContactCoefficients> table;
-    for (int r = 0; r < num_rows; r++) table.push_back(random_coefficients(random, limit_damping));
+    for (int r = 0; r < num_rows; r++)
+      table.push_back(slow::random_coefficients(random, limit_damping));
     const double dt = random.decade(-6.0, -2.0);
     std::vector<Contact> contacts;
     std::vector<int> row(ContactBatch::width);
     for (int lane = 0; lane < ContactBatch::width; lane++) {
       row[lane] = random.below(num_rows);    // uniform kernels must not look at it
-      contacts.push_back(random_contact(random, law, table[uniform ? 0 : row[lane]]));
-      put(batch, lane, contacts[lane], row[lane]);
+      contacts.push_back(slow::random_contact(random, law, table[uniform ? 0 : row[lane]]));
+      slow::put(batch, lane, contacts[lane], row[lane]);
     }
     kernel(batch, 0, ContactBatch::width, table.data(), dt);
 
     for (int lane = 0; lane < ContactBatch::width; lane++) {
       const Contact &c = contacts[lane];
       const ContactCoefficients &p = table[uniform ? 0 : row[lane]];
-      const Outcome expected = evaluate(c, law, p, dt, advance);
+      const Outcome expected = slow::evaluate(c, law, p, dt, advance);
       count(seen, c, expected, p);
       const double error = error_of_lane(batch, lane, c, expected, law);
       if (!(error <= worst)) {
@@ -119,8 +121,8 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
       }
     }
   }
-  EXPECT_LE(worst, tolerance) << title(law) << " limit_damping " << limit_damping << " uniform "
-                              << uniform << " advance " << advance << "\n"
+  EXPECT_LE(worst, tolerance) << slow::title(law) << " limit_damping " << limit_damping
+                              << " uniform " << uniform << " advance " << advance << "\n"
                               << worst_case;
   return seen;
 }
@@ -136,7 +138,7 @@ TEST_P(ContactLawTest, AgreesWithSlowTwin)
         const Coverage seen = compare_kernel(law, limit_damping, uniform, advance);
         EXPECT_GE(seen.contacts, 100000);
         EXPECT_GT((limit_damping ? seen.floored : seen.attractive), seen.contacts / 50);
-        if (limit_damping) EXPECT_LT(seen.attractive, seen.contacts / 50);    // rounding only
+        EXPECT_EQ(limit_damping && seen.attractive, false);
         if (!law.has_friction()) continue;
         EXPECT_GT(seen.sliding, seen.contacts / 10);
         EXPECT_GT(seen.sticking, seen.contacts / 10);
@@ -146,7 +148,7 @@ TEST_P(ContactLawTest, AgreesWithSlowTwin)
 INSTANTIATE_TEST_SUITE_P(AllLaws, ContactLawTest, testing::ValuesIn(slow::all_laws()),
                          [](const auto &info) {
                            return std::string(name_of(info.param.normal)) + "_" +
-                               name_of(info.param.tangential);
+                                  name_of(info.param.tangential);
                          });
 
 // The force at the limit has the length of the limit, however large the terms it is made of.
@@ -165,7 +167,7 @@ TEST(ContactLaw, ForceAtLimitHasTheLengthOfTheLimit)
       ASSERT_LE(size, limit * (1.0 + 1e-14));
       if (limit > 0.0 && size > limit * (1.0 - 1e-14)) sliding++;
     }
-    if (law.has_friction()) EXPECT_GT(sliding, 2000) << title(law);
+    EXPECT_GE(sliding, law.has_friction() ? 2000 : 0) << slow::title(law);
   }
 }
 
@@ -181,18 +183,18 @@ TEST(ContactLaw, CoincidentCentresExertNoForce)
       const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]},
                                         c.at_limit ? 1.0 : 0.0};
       const ContactForce<double> out = single_contact(law, p, slow::state_of(c), 1e-5, h);
-      ASSERT_EQ(dot(out.force, out.force), 0.0) << title(law);
-      ASSERT_EQ(dot(out.moment, out.moment), 0.0) << title(law);
+      ASSERT_EQ(dot(out.force, out.force), 0.0) << slow::title(law);
+      ASSERT_EQ(dot(out.moment, out.moment), 0.0) << slow::title(law);
     }
 }
 
 TEST(ContactLaw, NamesAreThoseOfInputScripts)
 {
   std::vector<std::string> names;
-  for (ContactLaw law : slow::all_laws()) names.push_back(title(law));
-  const std::vector<std::string> expected{
-      "hooke none", "hooke dashpot", "hooke onestep", "hooke multistep",
-      "hertz none", "hertz dashpot", "hertz onestep", "hertz multistep"};
+  for (ContactLaw law : slow::all_laws()) names.push_back(slow::title(law));
+  const std::vector<std::string> expected{"hooke none",      "hooke dashpot",  "hooke onestep",
+                                          "hooke multistep", "hertz none",     "hertz dashpot",
+                                          "hertz onestep",   "hertz multistep"};
   EXPECT_EQ(names, expected);
 }
 

@@ -9,6 +9,7 @@
 #include "random_source.h"
 #include "slow_contact.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -37,14 +38,15 @@ inline Talus::ContactCoefficients random_coefficients(RandomSource &random, bool
   c.kn = random.decade(3.0, 7.0);
   c.kt = c.kn * random.uniform(0.1, 1.0);
   c.gn = random.chance(0.1) ? 0.0 : random.decade(0.0, 4.0);
-  c.gt = random.chance(0.1) ? 0.0 : random.decade(0.0, 4.0);
+  c.gt = random.chance(0.1) ? 0.0 : random.decade(-0.5, 0.5) * std::max(c.gn, 1.0);
   c.mu = random.chance(0.1) ? 0.0 : random.uniform(0.05, 1.5);
   c.force_floor = limit_damping ? 0.0 : -infinity;
   return c;
 }
 
-/// Velocities and history are in proportion to overlap and collision time, so that contacts stick and
-/// slide, approach and separate, in comparable numbers; one in three is degenerate in some way.
+/// Velocities and history are in proportion to overlap, collision time and damping, so that
+/// contacts stick and slide, approach and separate, in comparable numbers; one in three is
+/// degenerate in some way.
 inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
                               const Talus::ContactCoefficients &p)
 {
@@ -57,7 +59,10 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
   c.overlap = c.radius[0] * random.decade(-6.0, -0.5);
   double k = p.kn;
   if (law.normal == Talus::NormalLaw::HERTZ) k *= std::sqrt(c.overlap * c.radius[0]);
-  const double speed = c.overlap * std::sqrt(k / c.mass[0]) * random.decade(-2.0, 1.0);
+  double speed = c.overlap * std::sqrt(k / c.mass[0]);
+  if (random.chance(0.5) && p.gn > 0.0)    // where damping balances the spring
+    speed = p.kn * c.overlap / (p.gn * reduced(c.mass[0], c.mass[1]));
+  speed *= random.decade(-1.5, 1.5);
   for (int b = 0; b < 2; b++) {
     c.velocity[b] = random.in_cube(speed);
     c.omega[b] = random.in_cube(speed / c.radius[b]);
@@ -68,19 +73,49 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
 
   double scale = 1.0;
   switch (random.below(36)) {
-    case 0: c.velocity = {}; break;
-    case 1: c.omega = {}; break;
-    case 2: c.velocity = {}; c.omega = {}; break;
-    case 3: c.history = {}; c.at_limit = false; break;
-    case 4: c.history = {}; break;
-    case 5: c.velocity = {}; c.omega = {}; c.history = {}; break;
-    case 6: c.overlap = 0.0; break;
-    case 7: c.overlap = 0.0; c.normal = {}; break;    // coincident centres
-    case 8: c.mass[0] = infinity; break;
-    case 9: c.mass = {infinity, infinity}; break;
-    case 10: scale = 1e40; break;
-    case 11: scale = 1e-40; break;
-    default: break;
+  case 0:
+    c.velocity = {};
+    break;
+  case 1:
+    c.omega = {};
+    break;
+  case 2:
+    c.velocity = {};
+    c.omega = {};
+    break;
+  case 3:
+    c.history = {};
+    c.at_limit = false;
+    break;
+  case 4:
+    c.history = {};
+    break;
+  case 5:
+    c.velocity = {};
+    c.omega = {};
+    c.history = {};
+    break;
+  case 6:
+    c.overlap = 0.0;
+    break;
+  case 7:
+    c.overlap = 0.0;
+    c.normal = {};
+    break;    // coincident centres
+  case 8:
+    c.mass[0] = infinity;
+    break;
+  case 9:
+    c.mass = {infinity, infinity};
+    break;
+  case 10:
+    scale = 1e40;
+    break;
+  case 11:
+    scale = 1e-40;
+    break;
+  default:
+    break;
   }
   c.overlap *= scale;
   for (int b = 0; b < 2; b++) {

@@ -46,7 +46,8 @@ class RandomSource {
 
   template <class T> void shuffle(std::vector<T> &list)
   {
-    for (std::size_t n = list.size(); n > 1; n--) std::swap(list[n - 1], list[engine() % n]);
+    using std::swap;
+    for (std::size_t n = list.size(); n > 1; n--) swap(list[n - 1], list[engine() % n]);
   }
 
  private:

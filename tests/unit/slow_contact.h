@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The slow twin of the contact kernels: one contact of two bodies in plain scalar code, written from the
-// equations and from the logic of the stock gran/hooke/history and gran/hertz/history, sharing no line with
-// src/contact. It works on the bodies (arms, surface points, torques), not on the reduced state.
+// The slow twin of the contact kernels: one contact of two bodies in plain scalar code, written
+// from the equations and from the logic of the stock gran/hooke/history and gran/hertz/history,
+// sharing no line with src/contact. It works on the bodies (arms, surface points, torques), not on
+// the reduced state.
 
 #ifndef TALUS_TEST_SLOW_CONTACT_H
 #define TALUS_TEST_SLOW_CONTACT_H
@@ -21,7 +22,10 @@ inline double inner(const Vector &a, const Vector &b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-inline double norm(const Vector &a) { return std::sqrt(inner(a, a)); }
+inline double norm(const Vector &a)
+{
+  return std::sqrt(inner(a, a));
+}
 
 inline Vector axpy(double s, const Vector &a, const Vector &b)
 {
@@ -33,20 +37,22 @@ inline Vector outer(const Vector &a, const Vector &b)
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Two bodies in contact. Infinite masses and radii are allowed; a body of infinite radius does not spin.
+/// Two bodies in contact. Infinite masses and radii are allowed; a body of infinite radius does not
+/// spin.
 struct Contact {
-  Vector normal{};         ///< from body 1 to body 0; zero if the centres coincide
+  Vector normal{};    ///< from body 1 to body 0; zero if the centres coincide
   double overlap = 0.0;
   std::array<double, 2> radius{1.0, 1.0}, mass{1.0, 1.0};
   std::array<Vector, 2> velocity{}, omega{};
-  Vector history{};        ///< displacement as body 0 sees it
+  Vector history{};    ///< displacement as body 0 sees it
   bool at_limit = false;
 };
 
-/// Force on body 0 (body 1: the opposite), torques on both, and the history afterwards. The scales are
-/// the sums of the magnitudes of all terms of a result: what its rounding error is measured by.
+/// Force on body 0 (body 1: the opposite), torques on both, and the history afterwards. The scales
+/// are the sums of the magnitudes of all terms of a result: what its rounding error is measured by.
 struct Outcome {
   Vector force{};
+  double normal_force = 0.0;
   std::array<Vector, 2> torque{};
   Vector history{};
   bool at_limit = false;
@@ -61,8 +67,8 @@ inline double reduced(double a, double b)
   return std::isinf(b) ? a : a * b / (a + b);
 }
 
-inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Talus::ContactCoefficients &p,
-                        double dt, bool advance)
+inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
+                        const Talus::ContactCoefficients &p, double dt, bool advance)
 {
   const double m_eff = reduced(c.mass[0], c.mass[1]);
   double factor = 1.0;
@@ -137,6 +143,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Talus::Co
   }
 
   if (law.tangential != Talus::TangentialLaw::NONE) tangential_scale += p.mu * normal_scale;
+  out.normal_force = f_n;
   out.force = axpy(f_n, c.normal, f_t);
   out.force_scale = normal_scale + tangential_scale;
   if (law.tangential != Talus::TangentialLaw::NONE) {

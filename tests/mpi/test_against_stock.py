@@ -1,0 +1,214 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300
+"""gran/penalty against the stock granular styles with the same law, particle by particle.
+
+Both run the same script with fix nve/sphere from the same data file, on 1, 2 and 4 ranks."""
+
+import collections
+import math
+import os
+import random
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import (SceneCase, Sphere, max_difference, read_dump, read_local,
+                           relative_difference, thermo, write_sphere_data)
+
+RANKS = 1, 2, 4
+STEPS = 1000
+
+# name: (stock pair_style, gran/penalty words); NULL asks both for the stock default of kt and gt
+LAWS = {
+    "hooke none": ("gran/hooke 1000.0 NULL 20.0 0.0 0.0 0", "hooke 1000.0 20.0"),
+    "hooke dashpot": ("gran/hooke 2000.0 NULL 10.0 30.0 0.5 1",
+                      "hooke 2000.0 10.0 tangential dashpot 30.0 0.5"),
+    "hooke multistep": ("gran/hooke/history 2000.0 NULL 10.0 NULL 0.5 1",
+                        "hooke 2000.0 10.0 tangential multistep NULL NULL 0.5"),
+    "hertz none": ("gran/hertz/history 6000.0 NULL 150.0 0.0 0.0 0", "hertz 6000.0 150.0"),
+    "hertz multistep": ("gran/hertz/history 10000.0 NULL 10.0 NULL 0.5 1",
+                        "hertz 10000.0 10.0 tangential multistep NULL NULL 0.5"),
+    "hooke multistep limit_damping": (
+        "gran/hooke/history 2000.0 1500.0 20.0 30.0 0.3 1 limit_damping",
+        "hooke 2000.0 20.0 tangential multistep 1500.0 30.0 0.3 limit_damping"),
+    "hertz multistep limit_damping": (
+        "gran/hertz/history 10000.0 8000.0 100.0 90.0 0.3 1 limit_damping",
+        "hertz 10000.0 100.0 tangential multistep 8000.0 90.0 0.3 limit_damping"),
+}
+
+SCRIPT = """
+units lj
+boundary p p p
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+read_data {data}
+{pair}
+neighbor 0.1 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.001
+fix step all nve/sphere
+compute stress all stress/atom NULL
+thermo_style custom step pxx pyy pzz pxy pxz pyz
+thermo_modify format float %.17g norm no
+thermo 20
+variable when equal (step<20)*20+(step>=20)*1000+(step>=1000)*1000
+dump state all custom 1 state.* id xu yu zu fx fy fz tqx tqy tqz c_stress[*]
+dump_modify state format float %.17g every v_when first yes
+dump ranks all custom 50 ranks id proc
+{more}
+run {steps}
+"""
+CONTACTS = """
+compute ends all property/local patom1 patom2 cutoff radius
+dump ends all local 10 contacts index c_ends[*]
+dump_modify ends format float %.0f
+"""
+
+VECTORS = {"force": ("fx", "fy", "fz"), "torque": ("tqx", "tqy", "tqz"),
+           "stress": tuple(f"c_stress[{n}]" for n in range(1, 7))}
+PRESSURE = "Pxx Pyy Pzz Pxy Pxz Pyz".split()
+
+
+def stock(words):
+    return f"pair_style {words}\npair_coeff * *"
+
+
+def talus(words):
+    return f"pair_style gran/penalty\npair_coeff * * {words}"
+
+
+def grains():
+    """2000 fast spheres of diameter 0.8 to 1.2 that overlap, in a periodic box, drifting."""
+    draw = random.Random(2)
+    sites = [(i, j, k) for i in range(20) for j in range(10) for k in range(10)]
+    draw.shuffle(sites)
+    return [Sphere(tuple(s + 0.5 + draw.uniform(-0.15, 0.15) for s in site),
+                   tuple(draw.gauss(mean, 1.0) for mean in (2.0, 1.0, 1.0)),
+                   tuple(draw.gauss(0, 3.0) for _ in "xyz"), draw.uniform(0.8, 1.2))
+            for site in sites]
+
+
+# ---- comparing -------------------------------------------------------------------------------
+
+def norm(values):
+    return math.sqrt(sum(v * v for v in values))
+
+
+def worst(frame, reference, columns):
+    """Largest difference of a vector or tensor over the particles, relative to its own length."""
+    k = [frame.columns.index(c) for c in columns]
+    return max(norm([row[n] - reference.atoms[tag][n] for n in k]) /
+               (norm([reference.atoms[tag][n] for n in k]) or 1.0)
+               for tag, row in frame.atoms.items())
+
+
+def virial_difference(row, reference):
+    size = norm([reference[key] for key in PRESSURE])
+    return norm([row[key] - reference[key] for key in PRESSURE]) / size
+
+
+def differences(run, reference, step):
+    found = {what: worst(run.frames[step], reference.frames[step], columns)
+             for what, columns in VECTORS.items()}
+    found["virial"] = virial_difference(run.thermo[step], reference.thermo[step])
+    return found
+
+
+def distance(run, other):
+    return max_difference(run.frames[STEPS], other.frames[STEPS], ("xu", "yu", "zu"))
+
+
+def collisions(path):
+    """Contacts that began and ended, by particle; those shorter than 10 steps may be missed."""
+    count, begun, before = collections.Counter(), set(), None
+    for frame in read_local(path):
+        now = {(int(row[1]), int(row[2])) if row[1] < row[2] else (int(row[2]), int(row[1]))
+               for row in frame.rows}
+        if before is not None:
+            for pair in (before - now) & begun:
+                count.update(pair)
+            begun = (begun | (now - before)) & now
+        before = now
+    return count
+
+
+def crossings(path):
+    frames = [frame.column("proc") for frame in read_dump(path)]
+    return sum(a[tag] != b[tag] for a, b in zip(frames, frames[1:]) for tag in a)
+
+
+Run = collections.namedtuple("Run", "folder log frames thermo")    # frames, thermo: by step
+
+
+class AgainstStock(SceneCase):
+
+    def scene(self, name, pair, np, steps, more=""):
+        folder = self.path(f"{name}-{np}".replace(" ", "-"))
+        os.mkdir(folder)
+        log = self.run_lammps(SCRIPT.format(data="../grains", pair=pair, steps=steps, more=more),
+                              np=np, cwd=folder).log
+        frames = {step: read_dump(os.path.join(folder, f"state.{step}"))[0]
+                  for step in sorted({0, 20, steps})}
+        return Run(folder, log, frames, {row["Step"]: row for row in thermo(log)})
+
+    def test_forces_torques_virial_stress(self):
+        write_sphere_data(self.path("grains"), ((0, 20), (0, 10), (0, 10)), grains())
+        print(f"\n{'relative difference from stock':52}", *(f"{w:>8}" for w in [*VECTORS, "virial"]))
+        for law, (theirs, ours) in LAWS.items():
+            reference = self.scene("stock " + law, stock(theirs), 1, 20)
+            for np in RANKS:
+                run = self.scene(law, talus(ours), np, 20)
+                for step, limit in ((0, 1e-12), (20, 1e-11)):
+                    found = differences(run, reference, step)
+                    print(f"{f'{law}, {np} ranks, step {step}':52}",
+                          *(f"{value:8.1e}" for value in found.values()))
+                    for what, value in found.items():
+                        self.assertLess(value, limit, f"{what}: {law}, {np} ranks, step {step}")
+            if "none" not in law:
+                self.assert_torque_acts(reference)
+
+    def assert_torque_acts(self, run):
+        for step in (0, 20) if "dashpot" in run.folder else (20,):    # no displacement at first
+            torques = [norm(row[7:10]) for row in run.frames[step].atoms.values()]
+            self.assertGreater(sum(t > 0.1 for t in torques), len(torques) / 2)
+
+    def test_positions_after_1000_steps(self):
+        write_sphere_data(self.path("grains"), ((0, 20), (0, 10), (0, 10)), grains())
+        print(f"\n{'positions after 1000 steps':28}{'on 1':>9}{'on 2':>9}{'on 4 ranks':>11}"
+              f"{'stock 1-2':>11}   collisions  rebuilds  crossings")
+        for law, (theirs, ours) in list(LAWS.items())[:5]:
+            reference = self.scene("stock " + law, stock(theirs), 1, STEPS)
+            own = distance(self.scene("stock " + law, stock(theirs), 2, STEPS), reference)
+            runs = [self.scene(law, talus(ours), np, STEPS, CONTACTS if np == 1 else "")
+                    for np in RANKS]
+            found = [distance(run, reference) for run in runs]
+            count = collisions(os.path.join(runs[0].folder, "contacts"))
+            fewest, mean = min(count[tag] for tag in range(1, 2001)), sum(count.values()) / 2000
+            builds = int(re.findall(r"Neighbor list builds = (\d+)", runs[0].log)[-1])
+            crossed = crossings(os.path.join(runs[2].folder, "ranks"))
+            print(f"{law:28}{found[0]:9.1e}{found[1]:9.1e}{found[2]:11.1e}{own:11.1e}"
+                  f"{fewest:5} to {mean:.1f} {builds:8}{crossed:11}")
+            self.assertLess(max(found), 1e-9, law)
+            self.assertGreaterEqual(fewest, 5, law)
+            self.assertGreaterEqual(builds, 5, law)
+            self.assertGreaterEqual(crossed, 500, law)
+
+    def test_chute_of_the_host(self):
+        bench = os.path.join(os.environ["TALUS_LAMMPS_SOURCE"], "bench")
+        with open(os.path.join(bench, "in.chute")) as file:
+            script = file.read()
+        script = re.sub(r"data\.chute", os.path.join(bench, "data.chute"), script)
+        script, n = re.subn(r"(?m)^pair_style.*\npair_coeff.*$", talus(
+            "hooke 200000.0 50.0 tangential multistep NULL 0 0.5"), script)
+        self.assertEqual(n, 1)
+        for np in RANKS:
+            row = thermo(self.run_lammps(script, np=np).log)[-1]
+            print(f"chute on {np} ranks, step {row['Step']:.0f}: {row['KinEng']} {row['c_1']}")
+            self.assertEqual((row["Step"], row["KinEng"], row["c_1"]), (100, 784292.08, 1571.0968))
+
+
+if __name__ == "__main__":
+    unittest.main()

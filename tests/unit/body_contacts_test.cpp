@@ -1,0 +1,230 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contacts of particles with a large body: forces against the slow twin, balance of forces and
+// torques, life and death of the history.
+
+#include "body/body_contacts.h"
+#include "body/plane.h"
+#include "body/rectangle.h"
+#include "packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+constexpr double dt = 1e-3, skin = 0.2;
+
+/// Particles on both sides of a tilted wall, some near its edges, some far away.
+class BodyContactsTest : public testing::TestWithParam<int> {
+ protected:
+  BodyContactsTest() : p(random_packing(1500, random))
+  {
+    const Vector3<double> point{0.5, -0.3, 0.2}, normal{0.6, 0.0, 0.8}, edge{0.8, 0.0, -0.6};
+    if (GetParam() % 2)
+      shape = std::make_unique<Rectangle>(point, normal, edge, 16.0, 14.0, true);
+    else
+      shape = std::make_unique<Plane>(point, normal, false);
+    laws = GetParam() < 2
+               ? mixed_laws()
+               : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
+    contacts.set_laws(laws);
+    if (contacts.keeps_history()) contacts.history.resize(p.size());
+    mask.assign(p.size(), 1);
+  }
+
+  BodyLoad compute(bool advance)
+  {
+    force.assign(p.size(), Vector{});
+    torque.assign(p.size(), Vector{});
+    return contacts.compute(*shape, view(), dt, advance);
+  }
+
+  void find() { contacts.find_candidates(*shape, view(), mask.data(), 1, skin); }
+
+  BodyParticleView view()
+  {
+    return {p.size(),
+            p.x[0].data(),
+            p.v[0].data(),
+            p.omega[0].data(),
+            p.radius.data(),
+            p.mass.data(),
+            p.mass_override.data(),
+            p.type.data(),
+            force.empty() ? nullptr : force[0].data(),
+            torque.empty() ? nullptr : torque[0].data()};
+  }
+
+  /// The contact of particle i as the twin wants it: with a resting, infinitely large and heavy
+  /// body.
+  Contact contact_of(int i, const SurfaceContact &surface) const
+  {
+    Contact c;
+    c.normal = {surface.normal.x, surface.normal.y, surface.normal.z};
+    c.overlap = surface.overlap;
+    c.radius = {p.radius[i], infinity};
+    c.mass = {p.mass_override[i] > 0.0 ? p.mass_override[i] : p.mass[i], infinity};
+    c.velocity[0] = p.v[i];
+    c.omega[0] = p.omega[i];
+    return c;
+  }
+
+  bool touches(int i, SurfaceContact &surface) const
+  {
+    return shape->touches({p.x[i][0], p.x[i][1], p.x[i][2]}, p.radius[i], surface);
+  }
+
+  RandomSource random{21};
+  Packing p;
+  std::unique_ptr<LargeBodyShape> shape;
+  LawTable laws;
+  BodyContacts contacts;
+  std::vector<int> mask;
+  std::vector<Vector> force, torque;
+};
+
+TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
+{
+  std::vector<Vector> displacement(p.size());
+  std::vector<char> at_limit(p.size(), 0);
+  find();
+  int touching = 0;
+  for (int step = 0; step < 15; step++) {
+    const bool advance = step != 0 && step != 7;
+    if (step % 5 == 4) find();
+    const BodyLoad load = compute(advance);
+    Vector sum_force{}, sum_torque{};
+    double scale = 0.0;
+    touching = 0;
+    for (int i = 0; i < p.size(); i++) {
+      SurfaceContact surface;
+      const bool in_contact = touches(i, surface);
+      Outcome expected;
+      if (in_contact) {
+        Contact c = contact_of(i, surface);
+        c.history = displacement[i];
+        c.at_limit = at_limit[i];
+        const int row = laws.row(p.type[i], p.type[i]);
+        expected = evaluate(c, laws.law(row), laws.coefficients(row), dt, advance);
+        touching++;
+      }
+      const double error = 1e-12 * expected.force_scale;
+      ASSERT_LE(norm(axpy(-1.0, expected.force, force[i])), error) << i << " step " << step;
+      ASSERT_LE(norm(axpy(-1.0, expected.torque[0], torque[i])), error * p.radius[i]) << i;
+      displacement[i] = expected.history;
+      at_limit[i] = expected.at_limit;
+      if (contacts.keeps_history()) {
+        const Record &h = contacts.history[i];
+        const Vector found{h.c[0], h.c[1], h.c[2]};
+        ASSERT_LE(norm(axpy(-1.0, displacement[i], found)), 1e-12 * norm(displacement[i]) + 1e-15);
+      }
+
+      const Vector3<double> about = shape->reference_point();
+      const Vector arm = axpy(-1.0, {about.x, about.y, about.z}, p.x[i]);
+      sum_force = axpy(1.0, force[i], sum_force);
+      sum_torque = axpy(1.0, torque[i], axpy(1.0, outer(arm, force[i]), sum_torque));
+      scale += norm(force[i]) * (1.0 + norm(arm)) + norm(torque[i]);
+    }
+    // Newton's third law, for forces and for torques about the reference point
+    ASSERT_GT(scale, 0.0);
+    const Vector reaction{load.force.x, load.force.y, load.force.z};
+    const Vector moment{load.torque.x, load.torque.y, load.torque.z};
+    ASSERT_LE(norm(axpy(1.0, reaction, sum_force)), 1e-14 * scale);
+    ASSERT_LE(norm(axpy(1.0, moment, sum_torque)), 1e-14 * scale);
+    ASSERT_EQ(load.contacts, touching);
+    p.move(5.0 * dt, 0.1, random);
+  }
+  EXPECT_GT(touching, ContactBatch::width);    // more than one batch
+}
+
+TEST_P(BodyContactsTest, ForcesAreAdded)
+{
+  find();
+  compute(false);
+  const std::vector<Vector> once = force;
+  contacts.compute(*shape, view(), dt, false);
+  for (int i = 0; i < p.size(); i++)
+    for (int d = 0; d < 3; d++) EXPECT_EQ(force[i][d], 2.0 * once[i][d]);
+}
+
+// A force computed anew from the stored history has the same bits, and the history stays.
+TEST_P(BodyContactsTest, WithoutAdvanceTheHistoryStays)
+{
+  find();
+  for (int step = 0; step < 3; step++) compute(true);
+  const std::vector<Record> history = contacts.history;
+  const std::vector<Vector> before = force;
+  for (int repeat = 0; repeat < 2; repeat++) {
+    compute(false);
+    EXPECT_EQ(force, before);
+    for (std::size_t i = 0; i < history.size(); i++)
+      ASSERT_TRUE(std::equal(history[i].c, history[i].c + 4, contacts.history[i].c));
+  }
+}
+
+TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
+{
+  ASSERT_TRUE(contacts.keeps_history());
+  find();
+  compute(true);
+  const auto has_history = [this](int i) { return contacts.history[i].c[0] != 0.0; };
+  std::vector<int> touching;
+  for (int i = 0; i < p.size(); i++)
+    if (has_history(i)) touching.push_back(i);
+  ASSERT_GT(touching.size(), 20U);
+
+  find();    // a rebuild changes nothing
+  for (int i : touching) EXPECT_TRUE(has_history(i));
+
+  const std::vector<Vector> home = p.x;
+  for (std::size_t n = 0; n < touching.size(); n++) {
+    const int i = touching[n];
+    if (n % 3 == 0) p.x[i] = {40.0, 3.0, 30.0};    // far off, until the next rebuild a candidate
+    if (n % 3 == 1) mask[i] = 2;                   // no longer in the group, noticed at the rebuild
+  }
+  compute(true);
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 != 0);
+  find();
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
+
+  p.x = home;
+  find();
+  compute(false);    // back in contact, but without history
+  for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
+}
+
+TEST_P(BodyContactsTest, OnlyMembersOfTheGroupAreTouched)
+{
+  for (int i = 0; i < p.size(); i++) mask[i] = i % 2 ? 1 | 8 : 2 | 8;
+  find();
+  compute(true);
+  int pushed = 0;
+  for (int i = 0; i < p.size(); i++) {
+    SurfaceContact surface;
+    const bool feels = force[i] != Vector{};
+    ASSERT_LE(feels, i % 2 == 1 && touches(i, surface)) << i;
+    pushed += feels;
+  }
+  EXPECT_GT(pushed, 10);
+}
+
+TEST_P(BodyContactsTest, NoParticlesNoLoad)
+{
+  p = random_packing(0, random);
+  const BodyParticleView nothing{0,       nullptr, nullptr, nullptr, nullptr,
+                                 nullptr, nullptr, nullptr, nullptr, nullptr};
+  contacts.find_candidates(*shape, nothing, nullptr, 1, skin);
+  const BodyLoad load = contacts.compute(*shape, nothing, dt, true);
+  EXPECT_EQ(load.contacts, 0.0);
+  EXPECT_EQ(dot(load.force, load.force) + dot(load.torque, load.torque), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(ShapesAndLaws, BodyContactsTest, testing::Values(0, 1, 2, 3));
+
+}    // namespace

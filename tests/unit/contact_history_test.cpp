@@ -1,0 +1,175 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The history of a contact over rebuilds: kept when pairs are renumbered or turned round, lost when
+// the particles separate, and the same on both sides.
+
+#include "packing.h"
+#include "test_rank.h"
+
+#include <gtest/gtest.h>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+LawTable history_laws()
+{
+  return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, true);
+}
+
+void rebuild(TestRank &rank, const Packing &p, double skin, RandomSource &random)
+{
+  Luggage luggage;
+  rank.depart(luggage);
+  rank.rebuild(p, everyone(p), candidates(p, skin, false), luggage, random);
+}
+
+bool is_zero(const Record &h)
+{
+  return h.c[0] == 0.0 && h.c[1] == 0.0 && h.c[2] == 0.0;
+}
+
+bool same(const Record &a, const Record &b)
+{
+  return std::equal(a.c, a.c + 4, b.c);
+}
+
+TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
+{
+  RandomSource random(1);
+  Packing p = random_packing(200, random);
+  TestRank rank(history_laws());
+  BruteForce twin;
+  rebuild(rank, p, 0.5, random);
+  for (int step = 0; step < 3; step++) rank.compute(p, dt, true);
+  twin.compute(p, history_laws(), dt, true, false);
+
+  std::map<std::pair<int, int>, Record> before;
+  for (const auto &contact : twin.contacts) {
+    const auto [i, j] = contact.first;
+    before[{i, j}] = rank.history_of(i, j);
+    ASSERT_FALSE(is_zero(before[{i, j}]));
+    ASSERT_TRUE(same(rank.history_of(j, i), mirrored(before[{i, j}])));
+  }
+  for (std::uint64_t &key : p.key) key = ~key;
+  for (int round = 0; round < 2; round++) {    // the second one without a step in between
+    rebuild(rank, p, 0.5, random);
+    for (const auto &[pair, history] : before)
+      ASSERT_TRUE(same(rank.history_of(pair.first, pair.second), history));
+  }
+}
+
+TEST(ContactHistory, FollowsTheSlowTwinOverRebuilds)
+{
+  RandomSource random(2);
+  Packing p = random_packing(200, random);
+  const LawTable laws = mixed_laws();
+  TestRank rank(laws);
+  BruteForce twin;
+  for (int step = 0; step < 20; step++) {
+    if (step % 5 == 0) {
+      p.refresh_keys(0.3 + 0.05 * step);
+      rebuild(rank, p, 1.5, random);
+    }
+    rank.compute(p, dt, true);
+    twin.compute(p, laws, dt, true, false);
+    for (const auto &[pair, contact] : twin.contacts) {
+      const int row = laws.row(p.type[pair.first], p.type[pair.second]);
+      const Record h = rank.history_of(pair.first, pair.second);
+      if (!laws.law(row).has_history()) {
+        ASSERT_TRUE(is_zero(h));
+        continue;
+      }
+      const double condition = contact.scale / contact.out.force_scale;
+      for (int d = 0; d < 3; d++)
+        ASSERT_NEAR(h.c[d], contact.out.history[d], 1e-12 * contact.out.history_scale * condition);
+    }
+    p.move(20.0 * dt, 0.2, random);
+  }
+}
+
+/// Two spheres that slide along each other.
+Packing two_spheres()
+{
+  RandomSource random(3);
+  Packing p = random_packing(2, random);
+  p.x = {Vector{0.0, 0.0, 0.0}, Vector{1.9, 0.0, 0.0}};
+  p.v = {Vector{0.0, 1.0, 0.0}, Vector{0.0, -1.0, 0.5}};
+  p.radius = {1.0, 1.0};
+  return p;
+}
+
+TEST(ContactHistory, IsLostOnSeparation)
+{
+  RandomSource random(4);
+  for (bool rebuilt : {false, true}) {
+    Packing p = two_spheres();
+    TestRank rank(history_laws());
+    rebuild(rank, p, 0.5, random);
+    rank.compute(p, dt, true);
+    ASSERT_FALSE(is_zero(rank.history_of(0, 1)));
+    p.x[1][0] = 2.1;
+    rank.compute(p, dt, true);
+    EXPECT_TRUE(is_zero(rank.history_of(0, 1)));
+    if (rebuilt) rebuild(rank, p, 0.5, random);
+    p.x[1][0] = 1.9;
+    rank.compute(p, dt, false);
+    EXPECT_TRUE(is_zero(rank.history_of(0, 1)));
+  }
+}
+
+TEST(ContactHistory, IsLostWithTheCandidatePair)
+{
+  RandomSource random(5);
+  Packing p = two_spheres();
+  TestRank rank(history_laws());
+  rebuild(rank, p, 0.5, random);
+  rank.compute(p, dt, true);
+  p.x[1][0] = 9.0;
+  rebuild(rank, p, 0.5, random);    // no pair any more
+  rank.compute(p, dt, true);
+  EXPECT_TRUE(is_zero(rank.history_of(0, 1)));
+  p.x[1][0] = 1.9;
+  rebuild(rank, p, 0.5, random);
+  EXPECT_TRUE(is_zero(rank.history_of(0, 1)));
+}
+
+TEST(ContactHistory, OnlyAdvancingStepsChangeIt)
+{
+  RandomSource random(6);
+  Packing p = random_packing(100, random);
+  TestRank rank(history_laws());
+  BruteForce twin;
+  rebuild(rank, p, 0.5, random);
+  rank.compute(p, dt, true);
+  twin.compute(p, history_laws(), dt, true, false);
+  const std::vector<Vector> force = rank.force;
+  for (int repeat = 0; repeat < 3; repeat++) {
+    rank.compute(p, dt, false);
+    EXPECT_EQ(rank.force, force);    // set-up after a restart: the same force again
+  }
+  for (const auto &[pair, contact] : twin.contacts) {
+    const Record h = rank.history_of(pair.first, pair.second);
+    for (int d = 0; d < 3; d++)
+      ASSERT_NEAR(h.c[d], contact.out.history[d], 1e-12 * contact.out.history_scale);
+  }
+}
+
+TEST(ContactHistory, NoneWithoutLawsThatKeepIt)
+{
+  RandomSource random(7);
+  const Packing p = two_spheres();
+  TestRank rank(single_law({NormalLaw::HERTZ, TangentialLaw::ONESTEP}, true));
+  rebuild(rank, p, 0.5, random);
+  rank.compute(p, dt, true);
+  EXPECT_FALSE(rank.pipeline.keeps_history());
+  EXPECT_TRUE(is_zero(rank.history_of(0, 1)));
+  Luggage luggage;
+  rank.depart(luggage);
+  EXPECT_EQ(luggage[0].size(), 1U);
+}
+
+}    // namespace

@@ -1,0 +1,167 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What the promise of one trajectory needs of the kernels, to the last bit: no dependence on the
+// lane or on the path (kernel, query), none on which body comes first, none on a restart.
+
+#include "random_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+using namespace Talus;
+using slow::Contact;
+using slow::Vector;
+
+namespace {
+
+constexpr double dt = 2e-5;
+constexpr int width = ContactBatch::width;
+
+struct Result {
+  Vector force, moment, history;
+  double at_limit;
+};
+
+bool same_bits(const Result &a, const Result &b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+Result result_of(const ContactBatch &batch, int lane)
+{
+  return {slow::lane_of(batch.force, lane), slow::lane_of(batch.moment, lane),
+          slow::lane_of(batch.displacement, lane), batch.at_limit[lane]};
+}
+
+/// One contact in one lane of a batch whose other lanes hold whatever they held before.
+Result run_in_lane(ContactBatch &batch, int lane, ContactLaw law, const Contact &c,
+                   const ContactCoefficients &p, bool uniform, bool advance)
+{
+  slow::put(batch, lane, c, 0);
+  const int begin = lane / lanes * lanes;
+  contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
+  return result_of(batch, lane);
+}
+
+class KernelBits : public testing::TestWithParam<ContactLaw> {
+ protected:
+  KernelBits() { batch.clear(); }
+
+  /// A new random contact with coefficients of its own.
+  void next()
+  {
+    p = slow::random_coefficients(random, random.chance(0.5));
+    c = slow::random_contact(random, law, p);
+  }
+
+  const ContactLaw law = GetParam();
+  RandomSource random{42};
+  ContactBatch batch;
+  ContactCoefficients p;
+  Contact c;
+};
+
+TEST_P(KernelBits, DoNotDependOnTheLane)
+{
+  for (int n = 0; n < 500; n++) {
+    next();
+    const bool advance = random.chance(0.5);
+    const Result first = run_in_lane(batch, 0, law, c, p, true, advance);
+    for (int lane = 1; lane < width; lane++)
+      for (bool uniform : {false, true})
+        ASSERT_TRUE(same_bits(first, run_in_lane(batch, lane, law, c, p, uniform, advance)))
+            << "lane " << lane << " uniform " << uniform << " advance " << advance;
+  }
+}
+
+TEST_P(KernelBits, KernelsComputeOnlyTheRangeTheyAreGiven)
+{
+  next();
+  for (int lane = 0; lane < width; lane++) slow::put(batch, lane, c, 0);
+  contact_kernel(law, true, true)(batch, 16, 40, &p, dt);
+  const Result computed = result_of(batch, 16);
+  for (int lane = 0; lane < width; lane++) {
+    const bool inside = lane >= 16 && lane < 40;
+    const Result untouched{{}, {}, c.history, c.at_limit ? 1.0 : 0.0};
+    EXPECT_TRUE(same_bits(inside ? computed : untouched, result_of(batch, lane))) << lane;
+  }
+}
+
+TEST_P(KernelBits, QueriesAgreeWithKernels)
+{
+  for (int n = 0; n < 20000; n++) {
+    next();
+    const Result kernel = run_in_lane(batch, n % width, law, c, p, true, false);
+    const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]},
+                                      c.at_limit ? 1.0 : 0.0};
+    const ContactForce<double> query = single_contact(law, p, slow::state_of(c), dt, h);
+    const Result other{{query.force.x, query.force.y, query.force.z},
+                       {query.moment.x, query.moment.y, query.moment.z},
+                       c.history,
+                       h.at_limit};
+    ASSERT_TRUE(same_bits(kernel, other)) << n;
+  }
+}
+
+// A run that stops and starts again computes the force of its last step from the stored history.
+TEST_P(KernelBits, ForceIsReproducedFromTheStoredHistory)
+{
+  int at_limit = 0, below = 0;
+  for (int n = 0; n < 20000; n++) {
+    next();
+    const Result before = run_in_lane(batch, n % width, law, c, p, true, true);
+    Contact stored = c;
+    stored.history = before.history;
+    stored.at_limit = before.at_limit > 0.0;
+    (stored.at_limit ? at_limit : below)++;
+    const Result after = run_in_lane(batch, (n + 3) % width, law, stored, p, true, false);
+    ASSERT_TRUE(same_bits(before, after)) << n;
+  }
+  if (law.has_history()) {
+    EXPECT_GT(at_limit, 2000);
+    EXPECT_GT(below, 2000);
+  }
+}
+
+TEST_P(KernelBits, QueriesLeaveTheHistory)
+{
+  for (int n = 0; n < 1000; n++) {
+    next();
+    const Result out = run_in_lane(batch, 0, law, c, p, false, false);
+    ASSERT_EQ(out.history, c.history);
+    ASSERT_EQ(out.at_limit, c.at_limit ? 1.0 : 0.0);
+  }
+}
+
+// Either body may come first: force and history change sign, the moment stays. (Zeros may differ in
+// sign: no sum notices.)
+TEST_P(KernelBits, SwappingTheBodiesNegatesTheForceExactly)
+{
+  const auto negated = [](const Vector &v) { return Vector{-v[0], -v[1], -v[2]}; };
+  for (int n = 0; n < 20000; n++) {
+    next();
+    Contact swapped = c;
+    swapped.normal = negated(c.normal);
+    swapped.history = negated(c.history);
+    std::swap(swapped.radius[0], swapped.radius[1]);
+    std::swap(swapped.mass[0], swapped.mass[1]);
+    std::swap(swapped.velocity[0], swapped.velocity[1]);
+    std::swap(swapped.omega[0], swapped.omega[1]);
+    const bool advance = random.chance(0.7);
+    const Result a = run_in_lane(batch, n % width, law, c, p, true, advance);
+    const Result b = run_in_lane(batch, (n + 11) % width, law, swapped, p, true, advance);
+    ASSERT_EQ(a.force, negated(b.force)) << n;
+    ASSERT_EQ(a.moment, b.moment) << n;
+    ASSERT_EQ(a.history, negated(b.history)) << n;
+    ASSERT_EQ(a.at_limit, b.at_limit) << n;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllLaws, KernelBits, testing::ValuesIn(slow::all_laws()),
+                         [](const auto &info) {
+                           return std::string(name_of(info.param.normal)) + "_" +
+                                  name_of(info.param.tangential);
+                         });
+
+}    // namespace

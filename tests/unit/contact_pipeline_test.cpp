@@ -1,0 +1,186 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The whole way from positions to forces on one rank, against brute force over all pairs.
+
+#include "packing.h"
+#include "test_rank.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <set>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+constexpr double tolerance = 1e-12;    // of the sums of magnitudes; histories add up over the steps
+constexpr double dt = 1e-3;
+
+struct Scene {
+  std::string name;
+  LawTable laws;
+};
+
+std::vector<Scene> scenes()
+{
+  std::vector<Scene> list{{"mixed", mixed_laws()}};
+  for (ContactLaw law : all_laws())
+    for (bool spread : {false, true})
+      list.push_back({title(law) + (spread ? " spread" : " uniform"), single_law(law, spread)});
+  return list;
+}
+
+bool close(const Vector &a, const Vector &b, double scale)
+{
+  return norm(axpy(-1.0, b, a)) <= tolerance * scale;    // false if anything is not a number
+}
+
+void expect_same_sums(const TestRank &rank, const BruteForce &slow_twin, const Packing &p)
+{
+  const BruteForce::Sums sums = slow_twin.sums(p.size());
+  for (int i = 0; i < p.size(); i++) {
+    ASSERT_TRUE(close(rank.force[i], sums.force[i], sums.scale[i])) << "force on " << i;
+    ASSERT_TRUE(close(rank.torque[i], sums.torque[i], sums.scale[i])) << "torque on " << i;
+  }
+}
+
+void expect_same_contacts(const TestRank &rank, const BruteForce &slow_twin, const Packing &p,
+                          bool with_history)
+{
+  ASSERT_EQ(rank.report.size(), slow_twin.contacts.size());
+  ASSERT_EQ(rank.pipeline.count_contacts(), static_cast<double>(slow_twin.contacts.size()));
+  std::set<std::pair<int, int>> seen;
+  for (const ReportedContact &r : rank.report) {
+    const int i = rank.particle[r.i], j = rank.particle[r.j];
+    ASSERT_TRUE(seen.insert(std::minmax(i, j)).second) << "reported twice";
+    const auto found = slow_twin.contacts.find(std::minmax(i, j));
+    ASSERT_NE(found, slow_twin.contacts.end()) << "reported without contact";
+    const PairOutcome &expected = found->second;
+    const double side = i < j ? 1.0 : -1.0;
+    for (int d = 0; d < 3; d++) {
+      const double force = side * expected.weight * expected.out.force[d];
+      ASSERT_NEAR(r.force[d], force, tolerance * expected.scale);
+      ASSERT_EQ(r.separation[d], p.x[i][d] - p.x[j][d]);
+    }
+    if (!with_history) continue;
+    const Record h = rank.history_of(i, j);
+    for (int d = 0; d < 3; d++)
+      ASSERT_NEAR(h.c[d], side * expected.out.history[d],
+                  tolerance * expected.out.history_scale * expected.scale /
+                      expected.out.force_scale);
+    ASSERT_TRUE(!expected.out.clear_case || (h.c[3] > 0.0) == expected.out.at_limit);
+  }
+}
+
+class Pipeline : public testing::TestWithParam<Scene> {};
+
+TEST_P(Pipeline, AgreesWithBruteForce)
+{
+  const LawTable &laws = GetParam().laws;
+  for (bool weighted : {false, true}) {
+    RandomSource random(weighted ? 3 : 4);
+    Packing p = random_packing(300, random);
+    TestRank rank(laws);
+    BruteForce twin;
+    rank.rebuild(p, everyone(p), candidates(p, 1.0, weighted), {}, random);
+    EXPECT_EQ(rank.pipeline.pairs.weighted(), weighted);
+    EXPECT_EQ(rank.pipeline.count_candidates(),
+              static_cast<double>(candidates(p, 1.0, weighted).size()));
+    for (int step = 0; step < 12; step++) {
+      const bool advance = step != 0 && step != 6;    // as in the set-up of a run
+      rank.compute(p, dt, advance);
+      twin.compute(p, laws, dt, advance, weighted);
+      ASSERT_GT(twin.contacts.size(), 500U);
+      ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p)) << "step " << step;
+      ASSERT_NO_FATAL_FAILURE(expect_same_contacts(rank, twin, p, laws.has_history() && advance))
+          << "step " << step;
+      p.move(20.0 * dt, 0.2, random);
+    }
+  }
+}
+
+// Blocks of 64 contacts and vectors of 8 with every kind of remainder.
+TEST_P(Pipeline, HandlesAnyNumberOfContacts)
+{
+  const LawTable &laws = GetParam().laws;
+  RandomSource random(5);
+  std::set<std::size_t> counts;
+  for (int n = 1; n <= 60; n++) {
+    const Packing p = random_packing(n, random);
+    TestRank rank(laws);
+    BruteForce twin;
+    rank.rebuild(p, everyone(p), candidates(p, 0.3, false), {}, random);
+    rank.compute(p, dt, true);
+    twin.compute(p, laws, dt, true, false);
+    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p)) << twin.contacts.size();
+    ASSERT_NO_FATAL_FAILURE(expect_same_contacts(rank, twin, p, laws.has_history()));
+    counts.insert(twin.contacts.size() % 8);
+  }
+  EXPECT_EQ(counts.size(), 8U);
+}
+
+TEST_P(Pipeline, EmptyRank)
+{
+  RandomSource random(6);
+  const Packing p = random_packing(0, random);
+  TestRank rank(GetParam().laws);
+  for (int n = 0; n < 2; n++) {
+    Luggage luggage;
+    rank.depart(luggage);
+    rank.rebuild(p, {}, {}, luggage, random);
+    rank.compute(p, dt, true);
+    EXPECT_TRUE(rank.report.empty());
+    EXPECT_EQ(rank.pipeline.count_contacts(), 0.0);
+    EXPECT_EQ(rank.pipeline.count_candidates(), 0.0);
+  }
+}
+
+TEST_P(Pipeline, CoincidentCentresGiveNoForce)
+{
+  RandomSource random(7);
+  Packing p = random_packing(40, random);
+  for (int i = 0; i < 40; i += 2) p.x[i] = p.x[i + 1];
+  TestRank rank(GetParam().laws);
+  BruteForce twin;
+  rank.rebuild(p, everyone(p), candidates(p, 1.0, false), {}, random);
+  for (int step = 0; step < 3; step++) {
+    rank.compute(p, dt, true);
+    twin.compute(p, GetParam().laws, dt, true, false);
+    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p));
+    EXPECT_EQ(rank.pipeline.count_contacts(), static_cast<double>(twin.contacts.size()));
+  }
+}
+
+// Masses may be replaced or not, and spins are not looked at where nothing needs them.
+TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
+{
+  const double x[] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0}, v[] = {1.0, 2.0, 0.0, 0.0, 0.0, 0.0};
+  const double radius[] = {1.0, 1.0}, mass[] = {2.0, 2.0};
+  const LawTable laws = single_law({NormalLaw::HOOKE, TangentialLaw::NONE}, false);
+  ContactPipeline pipeline;
+  pipeline.set_laws(laws);
+  EXPECT_FALSE(pipeline.keeps_history());
+  EXPECT_FALSE(pipeline.keeps_spins());
+  pipeline.pairs.order_particles(2, {0, 0}, {1, 2});
+  pipeline.pairs.add_pair(1, 0, 1.0);
+  pipeline.pairs.finish();
+  pipeline.start_pairs(nullptr, PartnerLists());
+  pipeline.compute({x, v, nullptr, radius, mass, nullptr}, dt, true, nullptr);
+  double f[6] = {10.0, 20.0, 30.0, 40.0, 50.0, 60.0};    // forces are added
+  pipeline.add_forces(f, nullptr);
+  const double push = 800.0 * 0.5 + 1.0 * 3.0 * 1.0;    // kn overlap + m_eff gn (approach)
+  EXPECT_DOUBLE_EQ(f[0], 10.0 - push);
+  EXPECT_DOUBLE_EQ(f[3], 40.0 + push);
+  EXPECT_EQ(f[1], 20.0);
+  EXPECT_EQ(f[5], 60.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, Pipeline, testing::ValuesIn(scenes()), [](const auto &info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+}    // namespace

@@ -1,0 +1,127 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/narrow_phase.h"
+#include "random_source.h"
+
+#include <gtest/gtest.h>
+
+using namespace Talus;
+
+namespace {
+
+bool touch(const Record &a, const Record &b)
+{
+  const double x = a.c[0] - b.c[0], y = a.c[1] - b.c[1], z = a.c[2] - b.c[2];
+  const double reach = a.c[3] + b.c[3];
+  return x * x + y * y + z * z < reach * reach;
+}
+
+constexpr int num_particles = 30;
+
+/// A list of exactly `count` pairs of random particles, all different.
+CandidateList random_pairs(int count, RandomSource &random)
+{
+  CandidateList list;
+  std::vector<std::uint64_t> key;
+  std::vector<std::int64_t> tag;
+  for (int a = 0; a < num_particles; a++) {
+    key.push_back(random.bits());
+    tag.push_back(1 + a);
+  }
+  list.order_particles(num_particles, key, tag);
+  std::vector<std::pair<int, int>> all;
+  for (int i = 0; i < num_particles; i++)
+    for (int j = i + 1; j < num_particles; j++) all.emplace_back(i, j);
+  random.shuffle(all);
+  for (int c = 0; c < count; c++) list.add_pair(all[c].first, all[c].second, 1.0);
+  list.finish();
+  return list;
+}
+
+std::vector<Record> random_positions(RandomSource &random)
+{
+  std::vector<Record> position;    // half of the pairs touch
+  for (int a = 0; a < num_particles; a++) {
+    const auto x = random.in_cube(1.0);
+    position.push_back({{x[0], x[1], x[2], random.uniform(0.3, 0.75)}});
+  }
+  return position;
+}
+
+std::vector<std::uint32_t> by_brute_force(const CandidateList &pairs,
+                                          const std::vector<Record> &position)
+{
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t c = 0; c < pairs.num_pairs(); c++)
+    if (touch(position[pairs.first[c]], position[pairs.second[c]])) found.push_back(c);
+  return found;
+}
+
+TEST(NarrowPhase, FindsWhatTouchesForAnyNumberOfPairs)
+{
+  RandomSource random(1);
+  std::vector<std::uint32_t> contacts;
+  int touching = 0, pairs_seen = 0;
+  for (int count = 0; count <= 40; count++)
+    for (int round = 0; round < 50; round++) {
+      const CandidateList pairs = random_pairs(count, random);
+      const std::vector<Record> position = random_positions(random);
+      const auto found = find_contacts(pairs, position, nullptr, contacts);
+      ASSERT_EQ(std::vector<std::uint32_t>(contacts.begin(), contacts.begin() + found),
+                by_brute_force(pairs, position))
+          << count << " pairs";
+      touching += static_cast<int>(found);
+      pairs_seen += count;
+    }
+  EXPECT_GT(touching, pairs_seen / 4);
+  EXPECT_LT(touching, 3 * pairs_seen / 4);
+}
+
+TEST(NarrowPhase, SpheresThatJustReachEachOtherDoNotTouch)
+{
+  RandomSource random(2);
+  constexpr int all = num_particles * (num_particles - 1) / 2;
+  const CandidateList pairs = random_pairs(all, random);
+  std::vector<std::uint32_t> contacts;
+  std::vector<Record> position(num_particles, Record{{0.0, 0.0, 0.0, 0.5}});
+  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), all);    // even with the same centre
+  for (int a = 0; a < num_particles; a++) position[a].c[0] = a;
+  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), 0);
+  for (Record &p : position) p.c[3] = std::nextafter(0.5, 1.0);
+  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), num_particles - 1);
+}
+
+TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
+{
+  RandomSource random(3);
+  std::vector<std::uint32_t> contacts;
+  int forgotten = 0;
+  for (int count = 0; count <= 40; count++) {
+    const CandidateList pairs = random_pairs(count, random);
+    PartnerLists none;
+    none.resize(num_particles);
+    ContactHistory history;
+    history.fetch(pairs, none);
+    std::vector<Record> expected(count);
+    for (int step = 0; step < 20; step++) {
+      const std::vector<Record> position = random_positions(random);
+      find_contacts(pairs, position, &history, contacts);
+      for (int c = 0; c < count; c++) {
+        const bool now = touch(position[pairs.first[c]], position[pairs.second[c]]);
+        ASSERT_EQ(history.touches(c), now);
+        forgotten += !now && expected[c].c[0] != 0.0;
+        if (!now) expected[c] = Record{};
+        ASSERT_TRUE(std::equal(expected[c].c, expected[c].c + 4, history.records[c].c));
+        if (now) {    // what a kernel would write
+          expected[c] = {{random.uniform(1.0, 2.0), -1.0, 3.0, 1.0}};
+          history.records[c] = expected[c];
+        }
+      }
+      const int bits_beyond = count % 8 ? history.touching.back() >> count % 8 : 0;
+      ASSERT_EQ(bits_beyond, 0);
+    }
+  }
+  EXPECT_GT(forgotten, 1000);
+}
+
+}    // namespace

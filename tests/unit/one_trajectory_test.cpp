@@ -1,0 +1,179 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Forces and histories must have the same bits however the particles are numbered, distributed to
+// ranks, and however often the pairs are rebuilt.
+
+#include "packing.h"
+#include "test_rank.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+constexpr double dt = 1e-3;
+constexpr double skin = 1.5;
+
+bool same_bits(const std::vector<Vector> &a, const std::vector<Vector> &b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vector)) == 0;
+}
+
+/// Several ranks that share a packing.
+class Machine {
+ public:
+  Machine(int num_ranks, const LawTable &laws, std::uint64_t seed) :
+      ranks(num_ranks, TestRank(laws)), random(seed)
+  {
+  }
+
+  /// Distributes the particles anew, at random or in slabs, and rebuilds all pairs.
+  void rebuild(const Packing &p, bool slabs)
+  {
+    Luggage luggage;
+    for (TestRank &rank : ranks) rank.depart(luggage);
+    const int n = static_cast<int>(ranks.size());
+    std::vector<std::vector<int>> owned(n);
+    for (int i = 0; i < p.size(); i++) {
+      const int slab = p.x[i][0] < 0.0 ? 0 : n - 1;
+      owned[slabs ? slab : random.below(n)].push_back(i);
+    }
+    for (int r = 0; r < n; r++)
+      ranks[r].rebuild(p, owned[r], candidates(p, skin, true), luggage, random);
+  }
+
+  void compute(const Packing &p, bool advance)
+  {
+    force.assign(p.size(), Vector{});
+    torque.assign(p.size(), Vector{});
+    contacts = 0.0;
+    for (TestRank &rank : ranks) {
+      rank.compute(p, dt, advance);
+      contacts += rank.pipeline.count_contacts();
+      for (int a = 0; a < static_cast<int>(rank.particle.size()); a++) {
+        const int i = rank.particle[a];
+        if (a < rank.owned) {
+          force[i] = rank.force[i];
+          torque[i] = rank.torque[i];
+        } else {
+          EXPECT_EQ(rank.force[i], Vector{});    // ghosts get nothing
+          EXPECT_EQ(rank.torque[i], Vector{});
+        }
+      }
+    }
+  }
+
+  /// Histories of all contacts as their particles see them, from the ranks that own these.
+  std::vector<Vector> histories(const BruteForce &twin) const
+  {
+    std::vector<Vector> all;
+    for (const auto &contact : twin.contacts)
+      for (const auto &[i, j] :
+           {contact.first, std::pair(contact.first.second, contact.first.first)})
+        for (const TestRank &rank : ranks)
+          for (int a = 0; a < rank.owned; a++)
+            if (rank.particle[a] == i) {
+              const Record h = rank.history_of(i, j);
+              all.push_back({h.c[0], h.c[1], h.c[2]});
+            }
+    return all;
+  }
+
+  std::vector<Vector> force, torque;
+  double contacts = 0.0;
+
+ private:
+  std::vector<TestRank> ranks;
+  RandomSource random;
+};
+
+void expect_same(const Machine &a, const Machine &b)
+{
+  EXPECT_TRUE(same_bits(a.force, b.force)) << "forces differ";
+  EXPECT_TRUE(same_bits(a.torque, b.torque)) << "torques differ";
+  EXPECT_EQ(a.contacts, b.contacts);
+}
+
+/// Runs both machines over the same motion. Keys are refreshed every fourth step; machine b is
+/// rebuilt then and at the steps that are multiples of `interval`.
+void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interval)
+{
+  RandomSource random(12);
+  Packing p = random_packing(200, random);
+  Machine a(ranks_a, laws, 1), b(ranks_b, laws, 2);
+  BruteForce twin;
+  for (int step = 0; step < 12; step++) {
+    const bool refresh = step % 4 == 0;
+    if (refresh) {
+      p.refresh_keys(0.3 + 0.1 * step);
+      a.rebuild(p, false);
+    }
+    if (refresh || step % interval == 0) b.rebuild(p, step % 3 == 0);
+    a.compute(p, step > 0);
+    b.compute(p, step > 0);
+    ASSERT_GT(a.contacts, 300.0);
+    ASSERT_NO_FATAL_FAILURE(expect_same(a, b)) << "step " << step;
+    twin.compute(p, laws, dt, step > 0, true);
+    ASSERT_TRUE(same_bits(a.histories(twin), b.histories(twin))) << "step " << step;
+    p.move(10.0 * dt, 0.2, random);
+  }
+}
+
+class OneTrajectory : public testing::TestWithParam<int> {
+ protected:
+  LawTable laws() const
+  {
+    if (GetParam() == 0) return mixed_laws();
+    const bool spread = GetParam() == 2;
+    return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, spread);
+  }
+};
+
+TEST_P(OneTrajectory, DoesNotDependOnTheNumbering)
+{
+  run_and_compare(laws(), 1, 1, 4);
+}
+TEST_P(OneTrajectory, DoesNotDependOnRebuilds)
+{
+  run_and_compare(laws(), 1, 1, 1);
+}
+TEST_P(OneTrajectory, TwoRanks)
+{
+  run_and_compare(laws(), 1, 2, 4);
+}
+TEST_P(OneTrajectory, ThreeRanksOneOfThemEmptyAtTimes)
+{
+  run_and_compare(laws(), 1, 3, 2);
+}
+TEST_P(OneTrajectory, TwoRanksAgainstFive)
+{
+  run_and_compare(laws(), 2, 5, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, OneTrajectory, testing::Values(0, 1, 2));
+
+// Negative control: another order gives other bits, so the tests above can fail.
+TEST(OneTrajectoryControl, AnotherOrderGivesOtherBits)
+{
+  RandomSource random(13);
+  Packing p = random_packing(200, random);
+  std::fill(p.key.begin(), p.key.end(), 0);
+  const LawTable laws = mixed_laws();
+  Machine a(1, laws, 1), b(1, laws, 2), c(1, laws, 3);
+  a.rebuild(p, false);
+  a.compute(p, true);
+  b.rebuild(p, false);
+  b.compute(p, true);
+  EXPECT_TRUE(same_bits(a.force, b.force));
+  for (std::int64_t &tag : p.tag) tag = p.size() + 1 - tag;
+  c.rebuild(p, false);
+  c.compute(p, true);
+  EXPECT_FALSE(same_bits(a.force, c.force));
+  EXPECT_FALSE(same_bits(a.torque, c.torque));
+}
+
+}    // namespace

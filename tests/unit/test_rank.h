@@ -1,0 +1,139 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What a pair style does for the pipeline, without a host: one rank with its numbering of owned and
+// ghost particles, rebuilds, and particles that move to another rank together with their histories.
+
+#ifndef TALUS_TEST_TEST_RANK_H
+#define TALUS_TEST_TEST_RANK_H
+
+#include "contact/contact_pipeline.h"
+#include "packing.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace slow {
+
+/// Packed histories of particles under way, by particle.
+using Luggage = std::map<int, std::vector<double>>;
+
+class TestRank {
+ public:
+  Talus::ContactPipeline pipeline;
+  std::vector<int> particle;    ///< host's number -> particle of the packing, owned ones first
+  int owned = 0;
+  std::vector<Vector> force, torque;    ///< by particle of the packing; of owned ones
+  std::vector<Talus::ReportedContact> report;
+
+  explicit TestRank(const Talus::LawTable &laws) { pipeline.set_laws(laws); }
+
+  /// Before a rebuild: histories leave with their particles.
+  void depart(Luggage &luggage)
+  {
+    if (particle.empty()) return;
+    pipeline.file_history(partners);
+    for (int a = 0; a < owned; a++) {
+      std::vector<double> &buffer = luggage[particle[a]];
+      buffer.resize(1 + Talus::PartnerLists::packed_size * partners.size(a));
+      partners.pack(a, buffer.data());
+    }
+  }
+
+  /// Takes the given particles in an order of its own, and what it needs of the others as ghosts.
+  void rebuild(const Packing &p, std::vector<int> mine, const std::vector<Neighbours> &near,
+               const Luggage &luggage, RandomSource &random)
+  {
+    random.shuffle(mine);
+    owned = static_cast<int>(mine.size());
+    particle = mine;
+    std::vector<int> number(p.size(), -1);
+    for (int a = 0; a < owned; a++) number[mine[a]] = a;
+    const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
+    for (const Neighbours &n : near)
+      for (const auto &[i, j] : {std::pair(n.i, n.j), std::pair(n.j, n.i)})
+        if (is_mine(i) && number[j] < 0) {
+          number[j] = static_cast<int>(particle.size());
+          particle.push_back(j);
+        }
+
+    partners = Talus::PartnerLists();
+    partners.resize(owned);
+    for (int a = 0; a < owned; a++) {
+      const auto found = luggage.find(particle[a]);
+      if (found != luggage.end()) partners.unpack(a, found->second.data());
+    }
+
+    std::vector<std::uint64_t> key;
+    std::vector<std::int64_t> tag;
+    std::vector<int> type;
+    for (const int i : particle) {
+      key.push_back(p.key[i]);
+      tag.push_back(p.tag[i]);
+      type.push_back(p.type[i]);
+    }
+    pipeline.pairs.order_particles(owned, key, tag);
+    std::vector<Neighbours> shuffled = near;
+    random.shuffle(shuffled);
+    for (Neighbours n : shuffled) {
+      if (!is_mine(n.i) && !is_mine(n.j)) continue;
+      if (random.chance(0.5)) std::swap(n.i, n.j);
+      pipeline.pairs.add_pair(number[n.i], number[n.j], n.weight);
+    }
+    pipeline.pairs.finish();
+    pipeline.start_pairs(type.data(), partners);
+  }
+
+  void compute(const Packing &p, double dt, bool advance)
+  {
+    const int total = static_cast<int>(particle.size());
+    std::vector<double> x, v, omega, radius, mass, mass_override;
+    for (const int i : particle) {
+      x.insert(x.end(), p.x[i].begin(), p.x[i].end());
+      v.insert(v.end(), p.v[i].begin(), p.v[i].end());
+      omega.insert(omega.end(), p.omega[i].begin(), p.omega[i].end());
+      radius.push_back(p.radius[i]);
+      mass.push_back(p.mass[i]);
+      mass_override.push_back(p.mass_override[i]);
+    }
+    const Talus::ParticleView view{x.data(),      v.data(),    omega.data(),
+                                   radius.data(), mass.data(), mass_override.data()};
+    report.clear();
+    pipeline.compute(view, dt, advance, &report);
+
+    std::vector<double> f(3 * total, 0.0), t(3 * total, 0.0);
+    pipeline.add_forces(f.data(), t.data());
+    force.assign(p.size(), Vector{});
+    torque.assign(p.size(), Vector{});
+    for (int a = 0; a < total; a++)
+      for (int d = 0; d < 3; d++) {
+        force[particle[a]][d] = f[3 * a + d];
+        torque[particle[a]][d] = t[3 * a + d];
+      }
+  }
+
+  /// History of a pair as particle i sees it.
+  Talus::Record history_of(int i, int j) const
+  {
+    const auto number = [this](int wanted) {
+      return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
+                              particle.begin());
+    };
+    return pipeline.history_of(number(i), number(j));
+  }
+
+ private:
+  Talus::PartnerLists partners;
+};
+
+inline std::vector<int> everyone(const Packing &p)
+{
+  std::vector<int> all(p.size());
+  for (int i = 0; i < p.size(); i++) all[i] = i;
+  return all;
+}
+
+}    // namespace slow
+
+#endif
