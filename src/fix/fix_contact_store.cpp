@@ -338,8 +338,11 @@ int FixContactStore::pack_restart(int i, double *buf)
   buf[0] = size_restart(i);
   buf[1] = as_double(keys[i]);
   buf[2] = as_double(filed_tags[i]);
-  return 3 + partners.pack(i, buf + 3);
+  buf[3] = as_double(static_cast<std::int64_t>(atom->tag[i]));
+  return 4 + partners.pack(i, buf + 4);
 }
+
+/* The host does not move what it has read for us when particles are deleted before this fix exists. */
 
 void FixContactStore::unpack_restart(int i, int nth)
 {
@@ -348,12 +351,15 @@ void FixContactStore::unpack_restart(int i, int nth)
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
   keys[i] = from_double<std::uint64_t>(extra[m + 1]);
   filed_tags[i] = from_double<std::int64_t>(extra[m + 2]);
-  partners.unpack(i, extra + m + 3);
+  if (from_double<std::int64_t>(extra[m + 3]) != atom->tag[i])
+    error->one(FLERR, "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
+               "the first run, so that contact history cannot be assigned: put 'run 0' in between");
+  partners.unpack(i, extra + m + 4);
 }
 
 int FixContactStore::size_restart(int i)
 {
-  return 3 + partners.packed_size(i);
+  return 4 + partners.packed_size(i);
 }
 
 int FixContactStore::maxsize_restart()

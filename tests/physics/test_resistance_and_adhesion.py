@@ -85,12 +85,15 @@ class OnPlane(Scene):
         spheres = [resting(n, *case[1:]) for n, case in enumerate(cases)]
         return self.simulate(laws, spheres, floor(laws), steps, every=every)
 
-    def assert_line(self, what, frames, tag, column, start, rate, until, unit=None):
-        """A column falls linearly from `start`, and stays at zero from step * DT = until on."""
+    def assert_line(self, what, frames, tag, column, start, rate, until, unit=None, after=0.0):
+        """A column falls linearly from `start`, and stays at zero from step * DT = until on.
+        Frames before `after` do not count."""
         unit = unit or abs(start)
         worst = 0.0
         for frame in frames:
             time = frame.step * DT
+            if time < after:
+                continue
             expected = start - math.copysign(rate, start) * time if time < until else 0.0
             worst = max(worst, abs(frame.column(column)[tag] - expected) / unit)
         print(f"{what:44} rate {rate:10.5f}  stops at {until:7.4f} s  worst difference {worst:.1e}")
@@ -117,12 +120,21 @@ class OnPlane(Scene):
         for tag, (what, _, factor, omega, v) in enumerate(cases, 1):
             speed = math.hypot(*omega)
             rate = factor * G / R
+            settled = 0.2 if v[0] else 0.0    # the tangential spring swings in
             for column, start in zip(("omegax", "omegay"), omega):
                 if start:
                     self.assert_line(what, frames, tag, column, start, rate * abs(start) / speed,
-                                     speed / rate, unit=speed)
+                                     speed / rate, unit=speed, after=settled)
             if v[0]:
-                self.assert_line("   its velocity", frames, tag, "vx", v[0], rate * R, speed / rate)
+                rolls = [f for f in frames if f.step * DT < speed / rate]    # then it rocks on its spring
+                self.assert_line("   its velocity", rolls, tag, "vx", v[0], rate * R, speed / rate,
+                                 after=settled)
+                self.assertLess(abs(frames[-1].column("vx")[tag]), 0.02 * v[0])
+                for frame in frames:    # angular momentum about the contact, whatever friction does
+                    time = frame.step * DT
+                    mean = (2 / 5 * R * frame.column("omegay")[tag] + frame.column("vx")[tag]) / (7 / 5 * R)
+                    if time < speed / rate - 0.01:
+                        self.assertAlmostEqual(mean, speed - rate * time, delta=1e-9)
 
     def test_stop_within_the_threshold(self):
         """What remains after a stop is less than the threshold of speed and one kick."""

@@ -188,6 +188,8 @@ inline Talus::ContactState<double> state_of(const Contact &c)
   s.inverse_mass = 1.0 / static_cast<double>(c.mass[0]) + 1.0 / static_cast<double>(c.mass[1]);
   s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
   s.relative_spin = {relative[0], relative[1], relative[2]};
+  const bool apart = norm(c.normal) > 0;    // from the sum of radii, as the kernels' callers
+  s.inverse_distance = apart ? 1.0 / (r[0] + r[1] - s.overlap) : 0.0;
   s.circle = Talus::circle_of_intersection(r[0], r[1], s.overlap);
   return s;
 }
@@ -228,6 +230,7 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   batch.inverse_mass[lane] = s.inverse_mass;
   batch.inverse_radius[lane] = s.inverse_radius;
   batch.circle[lane] = s.circle;
+  batch.inverse_distance[lane] = s.inverse_distance;
   batch.at_limit[lane] = h.at_limit;
   batch.coefficients[lane] = row;
 }

@@ -222,6 +222,38 @@ inline Number delay(NormalLaw law, const Stiffness &s, Number overlap, Number ma
   return age <= duration ? 0 : 1;
 }
 
+/// d turned into the plane normal to n, with its length; enlarges its scale if it is almost along n.
+inline Vector turned(const Vector &d, const Vector &n, Number &scale)
+{
+  const Vector flat = d - inner(d, n) * n;
+  if (!(norm(flat) > 0)) return {};
+  scale *= norm(d) / norm(flat);
+  return (norm(d) / norm(flat)) * flat;
+}
+
+/// Displacement of body 2 against body 1 in the step that led here, along the surface half way through it.
+struct Step {
+  Vector displacement;
+  Number scale;
+};
+
+inline Step step_half_way(const Contact &c, Number v_n, Number dt)
+{
+  const Number distance = c.radius[0] + c.radius[1] - c.overlap;
+  const Vector v = c.velocity[1] - c.velocity[0];
+  Vector n = distance * c.normal - (norm(c.normal) > 0 ? dt / 2 : Number(0)) * v;
+  const Number length = norm(n);
+  const Number enlarged = length > 0 ? 1 + (distance + dt * norm(v)) / length : Number(1);
+  n = (length > 0 ? 1 / length : Number(0)) * n;
+  const Vector surface = v - outer(c.omega[1], c.radius[1] * n) - outer(c.omega[0], c.radius[0] * n);
+  // a contact that began on the way lasted overlap/|v_n|
+  const Number lasted = -v_n * dt > c.overlap ? c.overlap / -v_n : dt;
+  const Number centres = norm(c.velocity[0]) + norm(c.velocity[1]);
+  const Number speeds = centres + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
+  const Number uncertain = lasted < dt ? 1 + centres / std::fabs(v_n) : Number(1);
+  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain};
+}
+
 inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
                         bool advance)
 {
@@ -279,13 +311,23 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     if (out.slides) f_t = (p.mu * std::tanh(5 * slip) * f_n / slip) * v_t;
     scale_t = p.mu * normal_scale +
         limit * (slip > 0 ? std::min(Number(5), 1 / slip) : Number(5)) * speeds;
-  } else if (law.tangential == TangentialLaw::MULTISTEP) {
+  } else if (law.has_history()) {
     Vector s = c.history;
-    if (advance) s = s + dt * v_t;
-    const bool moved = norm(s) > 0;
-    if (advance) s = s - inner(s, c.normal) * c.normal;
+    Number reach = norm(c.history);
+    bool moved = norm(s) > 0;
+    if (advance && law.tangential == TangentialLaw::MULTISTEP) {
+      s = s + dt * v_t;
+      moved = norm(s) > 0;
+      s = s - inner(s, c.normal) * c.normal;
+      reach += dt * speeds;
+    } else if (advance) {
+      Step step = step_half_way(c, v_n, dt);
+      s = turned(s, c.normal, reach) + turned(step.displacement, c.normal, step.scale);
+      moved = norm(s) > 0;
+      reach = reach + step.scale;
+    }
     f_t = k.kt * s + k.gt * v_t;
-    const Number size = norm(f_t), reach = norm(c.history) + (advance ? dt * speeds : Number(0));
+    const Number size = norm(f_t);
     const Number trial_scale = k.kt * reach + k.gt * speeds;
     if (std::fabs(size - limit) < 1e-13 * (trial_scale + p.mu * normal_scale)) out.clear_case = false;
     const bool exceeds = size > limit;

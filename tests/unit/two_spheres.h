@@ -89,6 +89,7 @@ class TwoSpheres {
     batch.overlap[0] = overlap();
     batch.inverse_mass[0] = 1.0 / effective_mass();
     batch.inverse_radius[0] = 1.0 / effective_radius();
+    batch.inverse_distance[0] = 1.0 / norm(separation());
     batch.circle[0] = Talus::circle_of_intersection(a.radius, b.radius, overlap());
   }
 };
