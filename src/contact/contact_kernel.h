@@ -28,7 +28,7 @@ ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance);
 ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
                                     const TangentialHistory<double> &history,
-                                    const ContactOnset<double> &onset);
+                                    const ContactOnset<double> &onset = {});
 
 }    // namespace Talus
 

@@ -43,7 +43,8 @@ template <class Integer> Integer from_double(double bits)
 
 FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  if (narg != 4) error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
+  if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
+    error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
   inverse_cell = 1.0 / utils::numeric(FLERR, arg[3], false, lmp);
 
   restart_global = 1;

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -76,10 +77,11 @@ double FixLargeBody::number(int iarg, int narg, char **arg, const char *name)
 {
   if (iarg >= narg)
     error->all(FLERR, narg - 1, "fix large/body {}: missing {}", narg > 3 ? arg[3] : "", name);
-  if (!utils::is_double(arg[iarg]))
+  const double value = utils::is_double(arg[iarg]) ? std::strtod(arg[iarg], nullptr) : NAN;
+  if (!std::isfinite(value))
     error->all(FLERR, iarg, "fix large/body {}: expected a number for {} instead of '{}'", arg[3],
                name, arg[iarg]);
-  return utils::numeric(FLERR, arg[iarg], false, lmp);
+  return value;
 }
 
 Vector3<double> FixLargeBody::vector(int iarg, int narg, char **arg, const char *name)

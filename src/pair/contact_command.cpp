@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -54,7 +55,7 @@ class Parser {
     const std::string expected = std::string(name) + " (" + range + ")";
     const char *word = next(expected);
     const bool is_number = utils::is_double(word);
-    const double value = is_number ? utils::numeric(FLERR, word, false, w.lmp) : 0.0;
+    const double value = is_number ? std::strtod(word, nullptr) : 0.0;
     const bool inside = (open ? value > lo : value >= lo) && value <= hi && !std::isinf(value);
     if (!is_number || !inside)
       complain(i - 1, fmt::format("expected {} instead of '{}'", expected, word));
@@ -132,7 +133,7 @@ class Parser {
     for (const auto &entry : known) {
       if (entry.first != word) continue;
       if (std::find(seen.begin(), seen.end(), word) != seen.end())
-        complain(i, fmt::format("'{}' given twice", word));
+        complain(i, fmt::format("keyword '{}' given twice", word));
       seen.push_back(word);
       i++;
       (this->*entry.second)();

@@ -172,9 +172,10 @@ void PairGranPenalty::check_host()
 
 void PairGranPenalty::create_store()
 {
-  if (store && !modify->get_fix_by_id(store_id))
-    error->all(FLERR, "Pair style gran/penalty: its internal fix {} was deleted: repeat 'pair_style none', "
-               "pair_style and pair_coeff", store_id);
+  const std::string &expected = store ? store_id : placeholder_id;
+  if (!modify->get_fix_by_id(expected))
+    error->all(FLERR, "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
+               "command", expected);
   if (!store) {
     const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);

@@ -111,7 +111,7 @@ class OnPlane(Scene):
              2.5 * 0.01, (0, -0.5, 0), (0, 0, 0)),
             ("rolling, multistep", HOOKE + f" {stick} rolling 0.02", 5 / 7 * 0.02, (0, 0.3, 0),
              (0.3 * R, 0, 0)),
-            ("rolling, dashpot", HOOKE + " tangential dashpot 1e4 0.8 rolling 0.02", 5 / 7 * 0.02,
+            ("rolling, dashpot", HOOKE + " tangential dashpot 1e3 0.8 rolling 0.02", 5 / 7 * 0.02,
              (0, 0.3, 0), (0.3 * R, 0, 0)),
             ("rolling, spinning resistance beside it", HOOKE + f" {stick} rolling 0.02 spinning 0.1",
              5 / 7 * 0.02, (0, 0.3, 0), (0.3 * R, 0, 0)),

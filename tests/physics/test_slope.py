@@ -33,7 +33,7 @@ atom_style sphere
 atom_modify map yes
 newton off
 comm_modify vel yes
-read_data data {extra}
+read_data data
 pair_style gran/penalty
 {pairs}
 fix floor all large/body plane 0 0 0 0 0 1 {contacts}
@@ -55,7 +55,7 @@ def gravity(tangent):
 
 class Slope(SceneCase):
 
-    def simulate(self, laws, tangent, steps, every=None, move="nve", spheres=None, extra="", name=""):
+    def simulate(self, laws, tangent, steps, every=None, move="nve", spheres=None):
         """laws: words for each type; one sphere of each by default, in contact under its own weight."""
         cos = 1 / math.hypot(1, tangent)
         if not spheres:
@@ -64,8 +64,7 @@ class Slope(SceneCase):
         write_sphere_data(self.path("data"), ((-10, 2000), (-9, 3 * len(spheres) + 9), (-3, 3)), spheres,
                           types=len(laws))
         moves = {"nve": f"fix step all nve\nfix g all {gravity(tangent)}",
-                 "symplectic": f"fix step all nve/sphere/symplectic {gravity(tangent)}",
-                 "clump": f"fix step all rigid/small molecule\nfix g all {gravity(tangent)}"}
+                 "symplectic": f"fix step all nve/sphere/symplectic {gravity(tangent)}"}
         pairs = "\n".join(f"pair_coeff {i} {j} hooke {KN} {GN}" for i in range(1, len(laws) + 1)
                           for j in range(i, len(laws) + 1))
         if any("material" in law for law in laws):
@@ -74,7 +73,7 @@ class Slope(SceneCase):
             pairs += "".join(f"\npair_coeff {t} {t} {w}" for t, w in enumerate(own, 1))
         contacts = " ".join(f"contact types {t} {w}" for t, w in enumerate(laws, 1))
         self.run_lammps(SCRIPT.format(pairs=pairs, contacts=contacts, move=moves[move], dt=repr(DT),
-                                      steps=steps, every=every or steps, extra=extra), timeout=1500)
+                                      steps=steps, every=every or steps), timeout=1500)
         return read_dump(self.path("out"))
 
 
@@ -96,8 +95,8 @@ def rest(law, cos):
 MULTISTEP = {
     "hooke": f"hooke {KN} {GN} tangential multistep {KT} {GT} {MU}",
     "hooke, defaults": f"hooke {KN} {GN} tangential multistep NULL NULL {MU}",
-    "hertz": f"hertz 1e8 100.0 tangential multistep NULL NULL {MU}",
-    "flores": f"flores 1e8 1e6 tangential multistep NULL 300.0 {MU}",
+    "hertz": f"hertz 1e8 2000.0 tangential multistep NULL NULL {MU}",
+    "flores": f"flores 1e8 2e6 tangential multistep NULL 2000.0 {MU}",
     "hertz/material": f"hertz/material 1e8 0.5 0.3 tangential multistep NULL NULL {MU}",
     "flores/material": f"flores/material 1e8 0.5 0.3 1.0 tangential multistep NULL NULL {MU}",
     "hooke/material": f"hooke/material 1e8 0.5 0.3 1.0 tangential multistep NULL NULL {MU}",
@@ -123,7 +122,7 @@ class Rests(Slope):
                 creep, way = self.creep(frames, tag, 0.2), frames[-1].column("x")[tag]
                 print(f"tan a {tangent:5} {name:18}{creep / R:10.1e}{way / R:12.3e}")
                 self.assertLess(creep, 1e-6 * R, name)
-                if name == "hooke":
+                if name == "hooke" and tangent < 0.49:    # near the limit it slips first
                     sin = tangent / math.hypot(1, tangent)
                     self.assert_close(way, MASS * G * sin / KT, 1e-3)
 
@@ -139,50 +138,33 @@ class Rests(Slope):
         print(f"\nclump: creep over radius from a fifth of {self.STEPS} steps on")
         for tangent in (0.3, 0.45):
             write_sphere_data(self.path("data"), ((-10, 200), (-9, 30), (-3, 3)), spheres)
-            cos = 1 / math.hypot(1, tangent)
-            moves = (f"{molecules}\nneigh_modify exclude molecule/intra all\n"
+            moves = (f"fix molecule all property/atom mol\n{molecules}\n"
+                     f"neigh_modify exclude molecule/intra all\nthermo_style custom step\n"
                      f"fix g all {gravity(tangent)}\nfix step all rigid/small molecule")
-            script = SCRIPT.format(
+            self.run_lammps(SCRIPT.format(
                 pairs=f"pair_coeff * * hooke {KN} {GN}", move=moves, dt=repr(DT), steps=self.STEPS,
                 contacts=" ".join(f"contact types {t} {w}" for t, w in enumerate(laws, 1)),
-                every=self.STEPS // 20, extra="").replace("atom_style sphere", "atom_style hybrid sphere molecular")
-            self.run_lammps(script.replace("read_data data", "read_data data.hybrid")
-                            if self.hybrid() else script, timeout=1500)
+                every=self.STEPS // 20), timeout=1500)
             frames = read_dump(self.path("out"))
             for n, name in enumerate(("hooke", "hertz", "hooke, defaults")):
                 creep = max(self.creep(frames, 3 * n + k, 0.2) for k in (1, 2, 3))
                 print(f"tan a {tangent:5} {name:18}{creep / R:10.1e}")
                 self.assertLess(creep, 1e-6 * R, name)
 
-    def hybrid(self):
-        """Rewrites the data file for atom_style hybrid sphere molecular: a molecule ID behind each line."""
-        lines = open(self.path("data")).read().replace("Atoms # sphere", "Atoms # hybrid").splitlines()
-        atoms = lines.index("Atoms # hybrid")
-        speeds = lines.index("Velocities")
-        for n in range(atoms + 2, speeds - 1):
-            lines[n] += f" {(int(lines[n].split()[0]) - 1) // 3 + 1}"
-        # hybrid wants: id type x y z, then diameter density, then molecule
-        for n in range(atoms + 2, speeds - 1):
-            tag, kind, diameter, density, x, y, z, molecule = lines[n].split()
-            lines[n] = f"{tag} {kind} {x} {y} {z} {diameter} {density} {molecule}"
-        with open(self.path("data.hybrid"), "w") as file:
-            file.write("\n".join(lines) + "\n")
-        return True
-
     def test_a_rolling_sphere_creeps_at_the_threshold_of_resistance(self):
-        """mu_r > tan a: resistance stops a sphere only down to `vmin roll`, or to what one time step does:
-        it goes on at about that speed.  Without a threshold the creep is that of single kicks."""
+        """mu_r > tan a: resistance stops a sphere only down to `vmin roll` and to what it does in one time
+        step, 5/2 mu_r g dt: within that it goes on, on its tangential spring and in kicks."""
         thresholds = (1e-3, 1e-4, 1e-5, 0.0)
         laws = [f"{MULTISTEP['hooke']} rolling 0.4 vmin 0 {roll} 0" for roll in thresholds]
         tangent, steps = 0.2, self.STEPS
         frames = self.simulate(laws, tangent, steps, steps // 20, move="symplectic")
-        kick = G * DT * tangent
-        print(f"\ncreep of a rolling sphere, tan a {tangent}, mu_r .4; g dt sin a = {kick:.1e} m/s")
+        kick = 2.5 * 0.4 * G * DT
+        print(f"\ncreep of a rolling sphere, tan a {tangent}, mu_r .4; 5/2 mu_r g dt = {kick:.1e} m/s")
         for tag, roll in enumerate(thresholds, 1):
             first, last = frames[len(frames) // 5], frames[-1]
             speed = (last.column("x")[tag] - first.column("x")[tag]) / ((last.step - first.step) * DT)
             print(f"threshold {roll:7}: {speed:10.2e} m/s")
-            self.assertLess(abs(speed), max(1.2 * roll, 2 * kick))
+            self.assertLess(abs(speed), roll + kick)
 
 
 class Creeps(Slope):
@@ -201,8 +183,8 @@ class Creeps(Slope):
                                         weight * sin / (MASS * 1e3)),
                 "onestep": (f"hooke {KN} {GN} tangential onestep {KT} {GT} {MU}",
                             weight * sin / (KT * DT + MASS * GT)),
-                "onestep, no dashpot": (f"hooke {KN} {GN} tangential onestep {KT} 0.0 {MU}",
-                                        weight * sin / (KT * DT)),
+                "onestep, no dashpot": (f"hooke {KN} {GN} tangential onestep 4e7 0.0 {MU}",
+                                        weight * sin / (4e7 * DT)),
                 "plaincoulomb": (f"plaincoulomb {kn!r} 1e4 {MU}", math.atanh(tangent / MU) / 5),
             }
             laws = [law for law, _ in cases.values()]

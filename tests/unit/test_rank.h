@@ -36,7 +36,7 @@ class TestRank {
     pipeline.file_history(partners);
     for (int a = 0; a < owned; a++) {
       std::vector<double> &buffer = luggage[particle[a]];
-      buffer.resize(1 + Talus::PartnerLists::packed_size * partners.size(a));
+      buffer.resize(partners.packed_size(a));
       partners.pack(a, buffer.data());
     }
   }
@@ -82,7 +82,7 @@ class TestRank {
       pipeline.pairs.add_pair(number[n.i], number[n.j], n.weight);
     }
     pipeline.pairs.finish();
-    pipeline.start_pairs(type.data(), partners);
+    pipeline.start_pairs(type.data(), partners, tag);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -120,7 +120,8 @@ class TestRank {
       return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
                               particle.begin());
     };
-    return pipeline.history_of(number(i), number(j));
+    const auto h = pipeline.history_of(number(i), number(j));
+    return {{h.displacement.x, h.displacement.y, h.displacement.z, h.at_limit}};
   }
 
  private:
