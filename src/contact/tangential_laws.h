@@ -100,7 +100,9 @@ inline Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real
     history.displacement = d;
     history.at_limit = select(at_limit, splat<Real>(1.0), zero);
   } else {
-    at_limit = at_limit | (history.at_limit > zero);
+    // the flag counts as long as the force is at the limit but for rounding: not after a change of coefficients
+    const Real slack = in.limit + in.k.gt * square_root(dot(in.velocity, in.velocity));
+    at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-6 * slack >= in.limit));
   }
 
   const Real length = square_root(dot(reach, reach));
