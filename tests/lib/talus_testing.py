@@ -21,8 +21,8 @@ import sys
 import tempfile
 import unittest
 
-__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "max_difference", "read_dump",
-           "read_local", "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
+__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
+           "read_dump", "read_local", "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
 SLOWER = 4 if os.environ.get("TALUS_SANITIZE") else 1    # what sanitizers cost
@@ -256,6 +256,15 @@ def thermo(log):
             except ValueError:
                 pass    # a warning between the lines
     return rows
+
+
+def marked_word(log):
+    """The word of the input line that an error message marks with ^^^^, or None."""
+    lines = log.splitlines()
+    for above, below in zip(lines, lines[1:]):
+        if re.fullmatch(r" *\^+", below):
+            return above[below.index("^"):][:below.count("^")]
+    return None
 
 
 # ---- what LAMMPS reads -----------------------------------------------------------------------

@@ -62,6 +62,36 @@ TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
   }
 }
 
+TEST(ContactHistory, FollowsParticlesThatGetOtherTags)
+{
+  RandomSource random(8);
+  Packing p = random_packing(200, random);
+  TestRank rank(history_laws());
+  BruteForce twin;
+  rebuild(rank, p, 0.5, random);
+  rank.compute(p, dt, true);
+  twin.compute(p, history_laws(), dt, true, false);
+  std::map<std::pair<int, int>, Record> before;
+  for (const auto &contact : twin.contacts)
+    before[contact.first] = rank.history_of(contact.first.first, contact.first.second);
+
+  Luggage luggage;
+  rank.depart(luggage);
+  std::vector<std::int64_t> old_tag = p.tag;
+  random.shuffle(p.tag);
+  old_tag[7] = 0;    // a new particle in the place of an old one
+  luggage.erase(7);
+  rank.rebuild(p, everyone(p), candidates(p, 0.5, false), luggage, random, &old_tag);
+  int forgotten = 0;
+  for (const auto &[pair, history] : before) {
+    const auto [i, j] = pair;
+    const bool is_new = i == 7 || j == 7;
+    forgotten += is_new;
+    ASSERT_TRUE(same(rank.history_of(i, j), is_new ? Record{} : history)) << i << " " << j;
+  }
+  EXPECT_GT(forgotten, 0);
+}
+
 TEST(ContactHistory, FollowsTheSlowTwinOverRebuilds)
 {
   RandomSource random(2);
@@ -170,6 +200,21 @@ TEST(ContactHistory, NoneWithoutLawsThatKeepIt)
   Luggage luggage;
   rank.depart(luggage);
   EXPECT_EQ(luggage[0].size(), 1U);
+}
+
+TEST(ContactHistory, DoesNotComeBackAfterALawWithoutIt)
+{
+  RandomSource random(9);
+  const Packing p = two_spheres();
+  TestRank rank(history_laws());
+  rebuild(rank, p, 0.5, random);
+  rank.compute(p, dt, true);
+  Luggage with, without;
+  rank.depart(with);
+  EXPECT_EQ(with[0].size(), 1U + 1U + 4U);    // number of partners; tag and history of one
+  rank.pipeline.set_laws(single_law({NormalLaw::HERTZ, TangentialLaw::ONESTEP}, true));
+  rank.depart(without);
+  EXPECT_EQ(without[0].size(), 1U);
 }
 
 }    // namespace

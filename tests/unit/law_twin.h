@@ -342,7 +342,8 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
       out.history = s;
       out.at_limit = capped;
     }
-    capped = capped || (!advance && c.at_limit);
+    const bool near_limit = size + 1e-6 * (limit + k.gt * norm(v_t)) >= limit;
+    capped = capped || (!advance && c.at_limit && near_limit);
     // a force that was at the limit stays there, along the trial force
     if (capped)
       f_t = size > 0 ? (limit / size) * f_t : Vector{};

@@ -172,6 +172,10 @@ TEST(PartnerLists, CopyAndClear)
   const Model again = random_model(n, random);
   fill(lists, again, random);
   for (int a = 0; a < n; a++) expect_holds(lists, a, again[a]);
+  lists.begin();
+  for (int a = 0; a < n; a++) expect_holds(lists, a, {});
+  fill(lists, again, random);
+  for (int a = 0; a < n; a++) expect_holds(lists, a, again[a]);
   EXPECT_GT(lists.memory_usage(), 0.0);
 }
 

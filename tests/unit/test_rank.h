@@ -42,8 +42,10 @@ class TestRank {
   }
 
   /// Takes the given particles in an order of its own, and what it needs of the others as ghosts.
+  /// `old_tag`: the tags under which the luggage was packed, if they have changed since.
   void rebuild(const Packing &p, std::vector<int> mine, const std::vector<Neighbours> &near,
-               const Luggage &luggage, RandomSource &random)
+               const Luggage &luggage, RandomSource &random,
+               const std::vector<std::int64_t> *old_tag = nullptr)
   {
     random.shuffle(mine);
     owned = static_cast<int>(mine.size());
@@ -66,11 +68,12 @@ class TestRank {
     }
 
     std::vector<std::uint64_t> key;
-    std::vector<std::int64_t> tag;
+    std::vector<std::int64_t> tag, filed_tag;
     std::vector<int> type;
     for (const int i : particle) {
       key.push_back(p.key[i]);
       tag.push_back(p.tag[i]);
+      filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
       type.push_back(p.type[i]);
     }
     pipeline.pairs.order_particles(owned, key, tag);
@@ -82,7 +85,7 @@ class TestRank {
       pipeline.pairs.add_pair(number[n.i], number[n.j], n.weight);
     }
     pipeline.pairs.finish();
-    pipeline.start_pairs(type.data(), partners, tag);
+    pipeline.start_pairs(type.data(), partners, filed_tag);
   }
 
   void compute(const Packing &p, double dt, bool advance)
