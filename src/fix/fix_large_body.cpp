@@ -226,6 +226,13 @@ void FixLargeBody::init()
   set_laws();
 }
 
+double FixLargeBody::contact_period(int type, double mass, double radius)
+{
+  const double k =
+      tangent_stiffness(specs[type].law, coefficients_of(type), 0.01 * radius, mass, radius);
+  return k > 0.0 ? std::sqrt(mass / k) : 0.0;
+}
+
 /* A fix freeze that stands before this fix in the input has done its work when forces are added here. */
 
 void FixLargeBody::find_frozen()

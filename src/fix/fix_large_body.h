@@ -43,6 +43,10 @@ class FixLargeBody : public Fix {
   const Talus::EnergyAccount &energy_account() const { return account; }
   double contacts_here() const { return load[6]; }
 
+  /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective mass, are those of
+  /// a particle of this type, mass and radius against the body. Returns sqrt(m/k), 0 without stiffness.
+  double contact_period(int type, double mass, double radius);
+
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;

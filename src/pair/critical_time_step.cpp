@@ -2,9 +2,12 @@
 
 #include "pair/critical_time_step.h"
 
+#include "fix/fix_large_body.h"
+
 #include "atom.h"
 #include "force.h"
 #include "math_const.h"
+#include "modify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +55,7 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   const double unit = 1.0 / std::sqrt(force->ftm2v);
   contact = unit * reduce_smallest(contacts.smallest_contact_period());
   if (!(contact > 0.0)) contact = unit * law_period;
+  contact = smaller_defined(contact, unit * smallest_body_period(laws.num_types()));
   rayleigh *= unit;
   hertz *= std::pow(unit, 0.8);
 }
@@ -100,6 +104,18 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
     hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
   if (i == j && laws.spec(i, i).is_material())
     rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
+}
+
+double CriticalTimeStep::smallest_body_period(int types) const
+{
+  double smallest = 0.0;
+  for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
+    auto *body = dynamic_cast<FixLargeBody *>(ifix);
+    for (int type = 1; body && type <= types; type++)
+      if (!std::isinf(radius[type]))
+        smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+  }
+  return smallest;
 }
 
 double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const

@@ -17,7 +17,11 @@ void LawBook::resize(int ntypes)
 
 bool LawBook::can_mix(int i, int j) const
 {
-  return is_set(i, i) && is_set(j, j) && spec(i, i).law == spec(j, j).law;
+  if (!is_set(i, i) || !is_set(j, j)) return false;
+  const ContactSpec &a = spec(i, i), &b = spec(j, j);
+  // a number for one material and NULL for the other have no common meaning
+  const bool same_words = a.kt_given == b.kt_given && a.gt_given == b.gt_given;
+  return a.law == b.law && (same_words || !a.is_material());
 }
 
 ContactLaw LawBook::law(int i, int j) const

@@ -26,7 +26,8 @@ class LawBook {
   bool is_set(int i, int j) const { return entry(i, j).set; }
   const ContactSpec &spec(int i, int j) const { return entry(i, j).spec; }
 
-  /// Both types are set and have the same law, so that the pair can be mixed.
+  /// Both types are set and have the same law, so that the pair can be mixed. Material laws must also agree on whether
+  /// kt and gt are numbers or NULL.
   bool can_mix(int i, int j) const;
 
   /// The pair is set or can be mixed; the functions below need that.

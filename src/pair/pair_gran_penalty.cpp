@@ -190,10 +190,13 @@ double PairGranPenalty::init_one(int i, int j)
   if (setflag[i][j] == 0) {
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
-    if (!book.can_mix(i, j))
+    if (book.spec(i, i).law != book.spec(j, j).law)
       error->all(FLERR, "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
                  "add 'pair_coeff {} {} ...'", i, describe_law(book.law(i, i)), j,
                  describe_law(book.law(j, j)), i, j);
+    if (!book.can_mix(i, j))
+      error->all(FLERR, "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt: "
+                 "add 'pair_coeff {} {} ...'", i, j, i, j);
   }
   return radii.cutoff(i, j);
 }

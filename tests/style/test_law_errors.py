@@ -220,7 +220,8 @@ class LawErrors(SceneCase):
     def test_accepted(self):
         for words in ACCEPTED:
             with self.subTest(words):
-                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\nfix step all nve/sphere/symplectic\n"
+                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
+                                "fix step all nve/sphere/symplectic\n"
                                 "compute s all penalty/stats\ncompute t all timestep/gran\n"
                                 "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")
 
