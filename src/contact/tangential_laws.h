@@ -8,7 +8,9 @@
 // the stored displacement is set back such that spring and dashpot together just reach the limit.
 // The force of a contact at its limit is taken along (d_t + gt/kt v_t) of the *stored* displacement,
 // with the length of the limit: so the force is a function of positions, velocities and stored history
-// alone, and a restart or a new run reproduces it bit for bit without advancing the history.
+// alone, and a restart or a new run reproduces it bit for bit without advancing the history. (If other
+// velocities have come in between, as with fix nve/sphere, and the force is clearly below the limit with
+// them, then it is not at the limit.)
 
 #ifndef TALUS_CONTACT_TANGENTIAL_LAWS_H
 #define TALUS_CONTACT_TANGENTIAL_LAWS_H
@@ -100,9 +102,11 @@ inline Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real
     history.displacement = d;
     history.at_limit = select(at_limit, splat<Real>(1.0), zero);
   } else {
-    // the flag counts as long as the force is at the limit but for rounding: not after a change of coefficients
-    const Real slack = in.limit + in.k.gt * square_root(dot(in.velocity, in.velocity));
-    at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-6 * slack >= in.limit));
+    // the flag counts as long as spring and dashpot reach the limit but for rounding: not with other velocities or
+    // coefficients
+    const Real parts = in.k.kt * square_root(dot(d, d)) +
+        in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
+    at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts >= in.limit));
   }
 
   const Real length = square_root(dot(reach, reach));

@@ -86,7 +86,7 @@ SURPLUS = [    # words behind a complete law
     ("hooke 1 1 tangential dashpot 1 1 33", "33"),
     ("hooke 1 1 tangential multistep 1 1 1 limit_damping 33", "33"),
     ("hooke 1 1 limit_damping yes", "yes"),
-    ("hooke 1 1 rolling 33", "rolling"),
+    ("hooke 1 1 bouncing 33", "bouncing"),
 ]
 
 PLANE, RECTANGLE = "plane 0 0 0 0 0 1", "rectangle 0 0 0 0 0 1 1 0 0 2 3"

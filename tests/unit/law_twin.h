@@ -342,7 +342,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
       out.history = s;
       out.at_limit = capped;
     }
-    const bool near_limit = size + 1e-6 * (limit + k.gt * norm(v_t)) >= limit;
+    const bool near_limit = size + 1e-12 * (k.kt * norm(s) + k.gt * norm(v_t) + limit) >= limit;
     capped = capped || (!advance && c.at_limit && near_limit);
     // a force that was at the limit stays there, along the trial force
     if (capped)

@@ -133,8 +133,10 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
       out.at_limit = slides;
       const double slip = kt > 0.0 ? (gt * speeds + p.mu * normal_scale) / kt : 0.0;
       out.history_scale = reach + slip;
-    } else
-      slides = slides || (c.at_limit && size + 1e-6 * (limit + gt * norm(v_t)) >= limit);
+    } else {
+      const double parts = kt * norm(s) + gt * norm(v_t) + limit;
+      slides = slides || (c.at_limit && size + 1e-12 * parts >= limit);
+    }
 
     // a force at the limit points along the trial force, whatever the size of that is
     if (slides || size > limit)
