@@ -38,6 +38,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Said of every vector type used as a template argument, where nothing is lost.
   target_compile_options(talus_flags INTERFACE -Wno-ignored-attributes)
 endif()
+# Vector types wider than the machine's registers are passed in memory: nothing of ours crosses a library with them.
+target_compile_options(talus_flags INTERFACE -Wno-psabi)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarm in the compiler's own AVX-512 headers once they are inlined (GCC bug 105593).
   target_compile_options(talus_flags INTERFACE -Wno-maybe-uninitialized)

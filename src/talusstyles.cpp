@@ -3,6 +3,8 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "compute/compute_penalty_stats.h"
+#include "compute/compute_timestep_gran.h"
 #include "fix/fix_contact_store.h"
 #include "fix/fix_large_body.h"
 #include "fix/fix_nve_sphere_symplectic.h"
@@ -46,6 +48,12 @@ class Registry {
     add("pair", name, info);
   }
 
+  template <typename Style> void compute(const char *name, const char *info)
+  {
+    entry.creator.v2 = &create<Compute, Style>;
+    add("compute", name, info);
+  }
+
   template <typename Style> void fix(const char *name, const char *info)
   {
     entry.creator.v2 = &create<Fix, Style>;
@@ -76,5 +84,7 @@ extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp,
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
+  registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
+  registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
 }

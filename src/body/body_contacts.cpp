@@ -2,6 +2,7 @@
 
 #include "body/body_contacts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace Talus {
@@ -42,6 +43,7 @@ void BodyContacts::set_laws(const LawTable &table)
 {
   laws = table;
   with_history = laws.has_history();
+  with_onset = laws.has_onset();
 }
 
 void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyParticleView &view,
@@ -52,13 +54,21 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyPartic
     const bool near = (mask[i] & group) &&
         shape.distance_bound(row(view.x, i)) < view.radius[i] + skin;
     if (near) candidates.push_back(i);
-    if (!near && with_history) history[i] = Record{};
+    if (!near) forget(i);
   }
 }
 
-BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
-                               bool advance)
+void BodyContacts::forget(int i)
 {
+  if (with_history) history[i] = Record{};
+  if (with_onset) onset[i] = Record{};
+}
+
+BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
+                               bool advance, EnergyAccount *account)
+{
+  energies = account;
+  if (energies) remember_velocities(view);
   BodyLoad load;
   for (int law = 0; law < laws.num_laws(); law++) {
     int filled = 0;
@@ -66,7 +76,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleVi
       if (laws.law_index(laws.row(view.type[i], view.type[i])) != law) continue;
       SurfaceContact contact;
       if (!shape.touches(row(view.x, i), view.radius[i], contact)) {
-        if (with_history) history[i] = Record{};
+        forget(i);
         continue;
       }
       add_lane(filled++, i, contact, view);
@@ -95,10 +105,19 @@ void BodyContacts::add_lane(int lane, int i, const SurfaceContact &contact,
   batch.inverse_mass[lane] = 1.0 / (replaced ? view.mass_override[i] : view.mass[i]);
   batch.inverse_radius[lane] = 1.0 / view.radius[i];
   batch.coefficients[lane] = laws.row(view.type[i], view.type[i]);
+  if (laws.has_resistance()) {
+    // the body is flat on the scale of the contact: the circle in which it cuts the sphere
+    const double r = view.radius[i], d = contact.overlap;
+    set_lane(batch.relative_spin, lane, row(view.omega, i));
+    batch.circle[lane] = std::sqrt(std::max(2.0 * r * d - d * d, 0.0));
+  }
   if (!with_history) return;
   const Record &h = history[i];
   set_lane(batch.displacement, lane, {h.c[0], h.c[1], h.c[2]});
   batch.at_limit[lane] = h.c[3];
+  if (!with_onset) return;
+  const Record &o = onset[i];
+  set_lane(batch.onset, lane, {o.c[0], o.c[1], o.c[2]});
 }
 
 void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
@@ -108,36 +127,68 @@ void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
   const int end = (count + lanes - 1) / lanes * lanes;
   laws.kernel(law, advance)(batch, 0, end, laws.coefficients(), dt);
   for (int lane = 0; lane < count; lane++) {
-    apply(lane, laws.distinct_law(law).has_friction(), shape, view, load);
-    if (with_history && advance) {
-      const Vector3<double> d = lane_of(batch.displacement, lane);
-      history[atom_of_lane[lane]] = {{d.x, d.y, d.z, batch.at_limit[lane]}};
-    }
+    apply(lane, laws.distinct_law(law), shape, view, load);
+    if (with_history && advance) keep_history(lane);
+    if (energies)
+      energies->add(lane_energy(laws.distinct_law(law), laws.coefficients(batch.coefficients[lane]),
+                                batch, lane, dt),
+                    1.0, atom_of_lane[lane], view.radius[atom_of_lane[lane]], -1, 0.0);
   }
+}
+
+void BodyContacts::keep_history(int lane)
+{
+  const int i = atom_of_lane[lane];
+  const Vector3<double> d = lane_of(batch.displacement, lane), o = lane_of(batch.onset, lane);
+  history[i] = {{d.x, d.y, d.z, batch.at_limit[lane]}};
+  if (with_onset) onset[i] = {{o.x, o.y, o.z, 0.0}};
 }
 
 /* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and torques of
    particle and body balance exactly. */
 
-void BodyContacts::apply(int lane, bool friction, const LargeBodyShape &shape, const BodyParticleView &view,
+void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
                          BodyLoad &load)
 {
   const int i = atom_of_lane[lane];
   const double r = view.radius[i];
   const Vector3<double> force = lane_of(batch.force, lane);
   add(view.f, i, force);
-  if (friction) add(view.torque, i, -r * lane_of(batch.moment, lane));
+  const Vector3<double> couple =
+      law.resists ? lane_of(batch.couple, lane) : Vector3<double>{0.0, 0.0, 0.0};
+  if (law.has_friction()) add(view.torque, i, couple - r * lane_of(batch.moment, lane));
 
   const Vector3<double> arm =
       row(view.x, i) - r * lane_of(batch.normal, lane) - shape.reference_point();
   load.force = load.force - force;
-  load.torque = load.torque - cross(arm, force);
+  load.torque = load.torque - cross(arm, force) - couple;
   load.contacts += 1.0;
+}
+
+void BodyContacts::remember_velocities(const BodyParticleView &view)
+{
+  energies->begin_step(view.owned);
+  velocity_before.clear();
+  spin_before.clear();
+  for (const int i : candidates) {
+    velocity_before.push_back(row(view.v, i));
+    spin_before.push_back(row(view.omega, i));
+  }
+}
+
+void BodyContacts::account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const
+{
+  for (std::size_t n = 0; n < candidates.size(); n++) {
+    const int i = candidates[n];
+    to.move(i, dt, 0.5 * (velocity_before[n] + row(view.v, i)),
+            0.5 * (spin_before[n] + row(view.omega, i)));
+  }
+  to.end_step();
 }
 
 double BodyContacts::memory_usage() const
 {
-  return static_cast<double>(history.capacity() * sizeof(Record) +
+  return static_cast<double>((history.capacity() + onset.capacity()) * sizeof(Record) +
                              candidates.capacity() * sizeof(int));
 }
 

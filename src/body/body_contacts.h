@@ -11,6 +11,7 @@
 
 #include "body/large_body_shape.h"
 #include "contact/contact_batch.h"
+#include "contact/contact_energy.h"
 #include "contact/law_table.h"
 #include "contact/record.h"
 
@@ -47,27 +48,38 @@ class BodyContacts {
                        int group, double skin);
 
   /// Adds the contact forces to the particles and returns their reaction. `advance` is false while a run
-  /// is set up: histories are then only read.
-  BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt, bool advance);
+  /// is set up: histories are then only read. `account`, if given, receives the energies.
+  BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt, bool advance,
+                   EnergyAccount *account = nullptr);
+
+  /// For energies: after the integrator has moved velocities, before particles are renumbered.
+  void account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const;
 
   bool keeps_history() const { return with_history; }
+  bool keeps_onset() const { return with_onset; }
   double memory_usage() const;
 
   /// One record for each particle (host's index), zero without contact; empty if no law keeps history.
   /// The owner resizes, moves and saves it with the particles.
   std::vector<Record> history;
+  std::vector<Record> onset;    ///< the same, for laws that need to know how the contact began
 
  private:
   void add_lane(int lane, int atom, const SurfaceContact &contact, const BodyParticleView &view);
   void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view, double dt,
              bool advance, BodyLoad &load);
-  void apply(int lane, bool friction, const LargeBodyShape &shape, const BodyParticleView &view,
+  void keep_history(int lane);
+  void remember_velocities(const BodyParticleView &view);
+  void forget(int atom);
+  void apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
              BodyLoad &load);
 
   LawTable laws;
-  bool with_history = false;
+  bool with_history = false, with_onset = false;
   std::vector<int> candidates;
   ContactBatch batch;
+  EnergyAccount *energies = nullptr;
+  std::vector<Vector3<double>> velocity_before, spin_before;    // of candidates, only with an account
   int atom_of_lane[ContactBatch::width];
 };
 

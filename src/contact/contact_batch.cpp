@@ -9,9 +9,11 @@ namespace Talus {
 
 void ContactBatch::clear()
 {
-  for (auto *vector : {normal, velocity, spin, displacement, force, moment})
+  for (auto *vector : {normal, velocity, spin, relative_spin, displacement, onset, force, moment, couple})
     for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
+  std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
+  std::fill(std::begin(circle), std::end(circle), 0.0);
   std::fill(std::begin(at_limit), std::end(at_limit), 0.0);
   std::fill(std::begin(inverse_mass), std::end(inverse_mass), 1.0);
   std::fill(std::begin(inverse_radius), std::end(inverse_radius), 1.0);

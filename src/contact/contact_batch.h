@@ -21,15 +21,20 @@ struct ContactBatch {
   alignas(64) double spin[3][width];
   alignas(64) double inverse_mass[width];
   alignas(64) double inverse_radius[width];
+  alignas(64) double relative_spin[3][width];
+  alignas(64) double circle[width];
+  alignas(64) double inverse_distance[width];
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
-  // input and output: TangentialHistory; only laws with history touch it
+  // input and output: TangentialHistory and ContactOnset; only laws that keep them touch them
   alignas(64) double displacement[3][width];
   alignas(64) double at_limit[width];
+  alignas(64) double onset[3][width];    ///< speed, age, begun
 
   // output, see ContactForce
   alignas(64) double force[3][width];
   alignas(64) double moment[3][width];
+  alignas(64) double couple[3][width];
 
   /// Puts a harmless contact of overlap zero into every lane. Call once after construction.
   void clear();

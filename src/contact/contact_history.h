@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact history stored by candidate pair during a run: one record for each pair, zero unless the
-// pair touches, seen from the first particle of the pair.
+// pair touches, seen from the first particle of the pair; and a second one, the onset of the contact,
+// in scenes with a law that needs it.
 
 #ifndef TALUS_CONTACT_CONTACT_HISTORY_H
 #define TALUS_CONTACT_CONTACT_HISTORY_H
@@ -11,6 +12,7 @@
 #include "contact/record.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -18,14 +20,20 @@ namespace Talus {
 class ContactHistory {
  public:
   /// After a rebuild: takes the history of each pair from the lists of whichever of its particles is
-  /// owned. Pairs without history start at zero. `filed_tag`: tags that the particles had when the lists
-  /// were filed, if they may have changed (host's numbering, owned and ghosts; 0 for new particles).
+  /// owned. `filed_tag` is the name of each particle (host's index) in the lists, 0 if it is in none; it differs from
+  /// the tag if IDs were renumbered since. Pairs without history start at zero. Onsets are kept if the lists have
+  /// 8 values.
   void fetch(const CandidateList &pairs, const PartnerLists &partners,
-             const std::int64_t *filed_tag = nullptr);
+             const std::vector<std::int64_t> &filed_tag);
 
   /// Before particles are renumbered: files the history of every touching pair under each of its
   /// owned particles.
   void file(const CandidateList &pairs, PartnerLists &partners) const;
+
+  /// After file(): pairs whose first particle is a ghost take over the history that its owner has filed, which
+  /// ghost_values(host's index of the first, tag of the second) returns or nullptr.
+  void adopt_first_copies(const CandidateList &pairs, PartnerLists &partners,
+                          const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Gives all memory back: for scenes whose laws keep no history.
   void release();
@@ -37,7 +45,11 @@ class ContactHistory {
   double memory_usage() const;
 
   std::vector<Record> records;           ///< indexed like the candidate pairs
+  std::vector<Record> onsets;            ///< the same, or empty
   std::vector<std::uint8_t> touching;    ///< one bit for each pair: it touched when last computed
+
+ private:
+  void file_entry(double *values, std::int64_t pair, bool from_first) const;
 };
 
 }    // namespace Talus

@@ -2,6 +2,8 @@
 
 #include "contact/contact_kernel.h"
 
+#include "contact/model_dispatch.h"
+
 namespace Talus {
 namespace {
 
@@ -19,97 +21,97 @@ namespace {
     store(&v[2][k], value.z);
   }
 
-  Coefficients<Vec8> spread(const ContactCoefficients &c)
-  {
-    return {splat<Vec8>(c.kn), splat<Vec8>(c.gn), splat<Vec8>(c.kt),
-            splat<Vec8>(c.gt), splat<Vec8>(c.mu), splat<Vec8>(c.force_floor)};
-  }
+  // Coefficients<Real> is a row of Reals: the same numbers, one or eight contacts wide
+  constexpr int num_coefficients = sizeof(ContactCoefficients) / sizeof(double);
+  static_assert(sizeof(Coefficients<Vec8>) == num_coefficients * sizeof(Vec8));
 
   Coefficients<Vec8> collect(const ContactCoefficients *table, const int *row)
   {
     Coefficients<Vec8> c;
+    auto *wide = reinterpret_cast<double *>(&c);
     for (int lane = 0; lane < lanes; lane++) {
-      const ContactCoefficients &one = table[row[lane]];
-      c.kn[lane] = one.kn;
-      c.gn[lane] = one.gn;
-      c.kt[lane] = one.kt;
-      c.gt[lane] = one.gt;
-      c.mu[lane] = one.mu;
-      c.force_floor[lane] = one.force_floor;
+      const auto *one = reinterpret_cast<const double *>(&table[row[lane]]);
+      for (int n = 0; n < num_coefficients; n++) wide[n * lanes + lane] = one[n];
     }
     return c;
   }
 
-  template <class Normal, class Tangential, bool uniform, bool advance>
+  Coefficients<Vec8> spread(const ContactCoefficients &c)
+  {
+    const int same[lanes] = {};
+    return collect(&c, same);
+  }
+
+  template <class Model> ContactState<Vec8> load_state(const ContactBatch &b, int k)
+  {
+    ContactState<Vec8> s{};
+    s.normal = load_lanes(b.normal, k);
+    s.overlap = load8(&b.overlap[k]);
+    s.velocity = load_lanes(b.velocity, k);
+    s.inverse_mass = load8(&b.inverse_mass[k]);
+    if constexpr (Model::needs_radius) s.inverse_radius = load8(&b.inverse_radius[k]);
+    if constexpr (Model::rotates) s.spin = load_lanes(b.spin, k);
+    if constexpr (Model::midpoint) s.inverse_distance = load8(&b.inverse_distance[k]);
+    if constexpr (Model::resists) {
+      s.relative_spin = load_lanes(b.relative_spin, k);
+      s.circle = load8(&b.circle[k]);
+    }
+    return s;
+  }
+
+  template <class Model, bool uniform, bool advance>
   void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficients *table, double dt)
   {
     const Coefficients<Vec8> common = spread(table[0]);
     for (int k = begin; k < end; k += lanes) {
-      ContactState<Vec8> state{load_lanes(b.normal, k),    load8(&b.overlap[k]),
-                               load_lanes(b.velocity, k),  Vector3<Vec8>{},
-                               load8(&b.inverse_mass[k]),  Vec8{}};
       TangentialHistory<Vec8> history;
-      if constexpr (Normal::needs_radius) state.inverse_radius = load8(&b.inverse_radius[k]);
-      if constexpr (Tangential::friction) state.spin = load_lanes(b.spin, k);
-      if constexpr (Tangential::history)
+      ContactOnset<Vec8> onset;
+      if constexpr (Model::history)
         history = {load_lanes(b.displacement, k), load8(&b.at_limit[k])};
+      if constexpr (Model::onset)
+        onset = {load8(&b.onset[0][k]), load8(&b.onset[1][k]), load8(&b.onset[2][k])};
 
-      const auto out = evaluate_contact<Normal, Tangential, advance>(
-          uniform ? common : collect(table, &b.coefficients[k]), state, dt, history);
+      const auto out = evaluate_contact<Model, advance>(
+          uniform ? common : collect(table, &b.coefficients[k]), load_state<Model>(b, k), dt,
+          history, onset);
 
       store_lanes(b.force, k, out.force);
-      if constexpr (Tangential::friction) store_lanes(b.moment, k, out.moment);
-      if constexpr (Tangential::history && advance) {
+      if constexpr (Model::rotates) store_lanes(b.moment, k, out.moment);
+      if constexpr (Model::resists) store_lanes(b.couple, k, out.couple);
+      if constexpr (Model::history && advance) {
         store_lanes(b.displacement, k, history.displacement);
         store(&b.at_limit[k], history.at_limit);
       }
+      if constexpr (Model::onset && advance)
+        store_lanes(b.onset, k, {onset.speed, onset.age, onset.begun});
     }
   }
 
-  template <class Normal, class Tangential> ContactKernel pick(bool uniform, bool advance)
+  template <class Model> ContactKernel pick(bool uniform, bool advance)
   {
+    constexpr bool live = Model::history;    // without history both kinds of step are the same
     if (uniform)
-      return advance ? compute_batch<Normal, Tangential, true, true>
-                     : compute_batch<Normal, Tangential, true, false>;
-    return advance ? compute_batch<Normal, Tangential, false, true>
-                   : compute_batch<Normal, Tangential, false, false>;
-  }
-
-  /// Calls visitor(Normal{}, Tangential{}) with the types that stand for the law.
-  template <class Normal, class Visitor> auto dispatch_tangential(TangentialLaw law, Visitor visitor)
-  {
-    switch (law) {
-      case TangentialLaw::DASHPOT: return visitor(Normal{}, TangentialDashpot{});
-      case TangentialLaw::ONESTEP: return visitor(Normal{}, TangentialOnestep{});
-      case TangentialLaw::MULTISTEP: return visitor(Normal{}, TangentialMultistep{});
-      default: return visitor(Normal{}, TangentialNone{});
-    }
-  }
-
-  template <class Visitor> auto dispatch(ContactLaw law, Visitor visitor)
-  {
-    if (law.normal == NormalLaw::HOOKE)
-      return dispatch_tangential<NormalHooke>(law.tangential, visitor);
-    return dispatch_tangential<NormalHertz>(law.tangential, visitor);
+      return advance && live ? compute_batch<Model, true, live> : compute_batch<Model, true, false>;
+    return advance && live ? compute_batch<Model, false, live> : compute_batch<Model, false, false>;
   }
 
 }    // namespace
 
 ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance)
 {
-  return dispatch(law, [=](auto normal, auto tangential) {
-    return pick<decltype(normal), decltype(tangential)>(uniform, advance);
-  });
+  return dispatch_model(law, [=](auto model) { return pick<decltype(model)>(uniform, advance); });
 }
 
 ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const TangentialHistory<double> &history)
+                                    const TangentialHistory<double> &history,
+                                    const ContactOnset<double> &onset)
 {
-  TangentialHistory<double> copy = history;
-  return dispatch(law, [&](auto normal, auto tangential) {
-    return evaluate_contact<decltype(normal), decltype(tangential), false>(coefficients, state, dt,
-                                                                           copy);
+  TangentialHistory<double> history_copy = history;
+  ContactOnset<double> onset_copy = onset;
+  return dispatch_model(law, [&](auto model) {
+    return evaluate_contact<decltype(model), false>(coefficients, state, dt, history_copy,
+                                                    onset_copy);
   });
 }
 

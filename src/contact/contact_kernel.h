@@ -27,7 +27,8 @@ ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance);
 /// One contact alone, history only read: for queries. Same bits as the kernels.
 ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const TangentialHistory<double> &history);
+                                    const TangentialHistory<double> &history,
+                                    const ContactOnset<double> &onset = {});
 
 }    // namespace Talus
 

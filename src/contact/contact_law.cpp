@@ -6,17 +6,17 @@ namespace Talus {
 
 const char *name_of(NormalLaw law)
 {
-  return law == NormalLaw::HOOKE ? "hooke" : "hertz";
+  static const char *const names[num_normal_laws] = {
+      "hooke",          "hertz",          "flores",          "plaincoulomb",
+      "hooke/material", "hertz/material", "flores/material", "plaincoulomb/material"};
+  return names[static_cast<int>(law)];
 }
 
 const char *name_of(TangentialLaw law)
 {
-  switch (law) {
-    case TangentialLaw::DASHPOT: return "dashpot";
-    case TangentialLaw::ONESTEP: return "onestep";
-    case TangentialLaw::MULTISTEP: return "multistep";
-    default: return "none";
-  }
+  static const char *const names[num_tangential_laws] = {"none", "dashpot", "onestep", "multistep",
+                                                         "tanh", "multistep midpoint"};
+  return names[static_cast<int>(law)];
 }
 
 }    // namespace Talus

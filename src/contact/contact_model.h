@@ -8,26 +8,57 @@
 
 #include "contact/contact_law.h"
 #include "contact/normal_laws.h"
+#include "contact/resistance.h"
 #include "contact/tangential_laws.h"
+
+#include <type_traits>
 
 namespace Talus {
 
-/// State of one contact as the laws see it. The first body is the one that receives `force`.
-template <class Real> struct ContactState {
-  Vector3<Real> normal;      ///< unit vector from the second body to the first; 0 if centres coincide
-  Real overlap;              ///< > 0; 0 if centres coincide, which switches the contact off
-  Vector3<Real> velocity;    ///< v_1 - v_2 of the centres (of the surface point for a large body)
-  Vector3<Real> spin;        ///< r_1 omega_1 + r_2 omega_2
-  Real inverse_mass;         ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
-  Real inverse_radius;       ///< 1/r_1 + 1/r_2
+/// A combination of laws, as types.
+template <class Normal_, class Tangential_, Resistance resistance_, bool adheres_> struct Model {
+  using Normal = Normal_;
+  using Tangential = Tangential_;
+  static constexpr Resistance resistance = resistance_;
+  static constexpr bool resists = resistance_ != Resistance::NONE;
+  static constexpr bool adheres = adheres_;
+  static constexpr bool rotates = Tangential::friction || resists;    ///< spins in, torques out
+  static constexpr bool history = Tangential::history;
+  static constexpr bool midpoint = Tangential::midpoint;
+  static constexpr bool needs_speed = std::is_same<Normal, NormalHookeMaterial>::value ||
+      std::is_same<Normal, NormalFloresMaterial>::value;
+  static constexpr bool onset =
+      history && (needs_speed || resistance_ == Resistance::DELAYED);
+  static constexpr bool needs_radius = Normal::needs_radius || adheres;
 };
 
-/// Result of one contact. The torque on body i about its centre is -r_i moment, for both bodies.
+/// State of one contact as the laws see it. The first body is the one that receives `force`.
+template <class Real> struct ContactState {
+  Vector3<Real> normal;           ///< unit vector from the second body to the first; 0 if centres coincide
+  Real overlap;                   ///< > 0; 0 if centres coincide, which switches the contact off
+  Vector3<Real> velocity;         ///< v_1 - v_2 of the centres (of the surface point for a large body)
+  Vector3<Real> spin;             ///< r_1 omega_1 + r_2 omega_2; only for models that rotate
+  Real inverse_mass;              ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
+  Real inverse_radius;            ///< 1/r_1 + 1/r_2; only for models that need it
+  Vector3<Real> relative_spin;    ///< omega_1 - omega_2; only for models with resistance
+  Real circle;                    ///< radius of the circle of intersection; only for the same
+  Real inverse_distance;          ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
+};
+
+/// How a contact began; kept only by models that need it.
+template <class Real> struct ContactOnset {
+  Real speed{};    ///< normal speed in the first step
+  Real age{};      ///< time since the first step
+  Real begun{};    ///< 1 after the first step
+};
+
+/// Result of one contact. Torques about the centres: -r_1 moment + couple on body 1, -r_2 moment - couple on 2.
 template <class Real> struct ContactForce {
   Vector3<Real> force{};         ///< on the first body; the second receives the opposite
   Vector3<Real> tangential{};    ///< the tangential part of it
-  Vector3<Real> moment{};        ///< normal x tangential
-  Real normal{};                 ///< normal force, repulsive if positive
+  Vector3<Real> moment{};        ///< normal x tangential, and rolling resistance
+  Vector3<Real> couple{};        ///< spinning resistance
+  Real normal{};                 ///< normal force without adhesion, repulsive if positive
 };
 
 /// Relative surface velocity of body 1 against body 2 in the tangent plane:
@@ -38,32 +69,83 @@ inline Vector3<Real> surface_velocity(const ContactState<Real> &s, Real normal_v
   return s.velocity - normal_velocity * s.normal - cross(s.spin, s.normal);
 }
 
-/// Evaluates a contact. `advance` is false while a run is set up and in queries: forces are then
-/// those of the stored history, which is left as it is.
-template <class Normal, class Tangential, bool advance, class Real>
-inline ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s,
-                                           double dt, TangentialHistory<Real> &history)
+/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres came here along
+/// straight lines, so the normal half way is known; a contact that began on the way lasted overlap/(-v_n).
+template <class Real>
+inline Vector3<Real> step_displacement(const ContactState<Real> &s, Real normal_velocity, double dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
+  const Real length = square_root(dot(half_way, half_way));
+  const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
+  const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.spin, n);
+  const Real approach = -normal_velocity * dt;
+  const auto began = approach > s.overlap;
+  return dt * select(began, s.overlap / approach, one) * slip;
+}
+
+/// Impact speed and age at this step; `advance` counts the step.
+template <bool advance, class Real>
+inline void follow_onset(ContactOnset<Real> &onset, Real normal_velocity, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const auto begun = onset.begun > zero;
+  onset.speed = select(begun, onset.speed, magnitude(normal_velocity));
+  if (!advance) return;
+  onset.age = select(begun, onset.age + dt, zero);
+  onset.begun = one;
+}
+
+/// Evaluates a contact. `advance` is false while a run is set up and in queries: forces are then
+/// those of the stored history, which is left as it is.
+template <class Model, bool advance, class Real>
+inline ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s,
+                                           double dt, TangentialHistory<Real> &history,
+                                           ContactOnset<Real> &onset)
+{
+  using Normal = typename Model::Normal;
+  using Tangential = typename Model::Tangential;
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   ContactForce<Real> out;
-  const Real mass_eff = select(s.inverse_mass > zero, one / s.inverse_mass, zero);
-  const Real radius_eff = Normal::needs_radius ? one / s.inverse_radius : zero;
-  const Stiffness<Real> k = Normal::stiffness(c, s.overlap, mass_eff, radius_eff);
 
   const Real normal_velocity = dot(s.velocity, s.normal);
+  if constexpr (Model::onset) follow_onset<advance>(onset, normal_velocity, dt);
+  const Real speed = Model::onset ? select(onset.speed > c.speed, onset.speed, c.speed) : c.speed;
+  const Real mass_eff = select(s.inverse_mass > zero, one / s.inverse_mass, zero);
+  const Real radius_eff = Model::needs_radius ? one / s.inverse_radius : zero;
+  const Stiffness<Real> k =
+      Normal::stiffness(c, NormalInput<Real>{s.overlap, mass_eff, radius_eff, speed});
+
   const Real elastic_damped = k.kn * s.overlap - k.gn * normal_velocity;
   out.normal = select(elastic_damped < c.force_floor, c.force_floor, elastic_damped);
   out.force = out.normal * s.normal;
 
   if constexpr (Tangential::friction) {
-    const TangentialInput<Real> in{k, surface_velocity(s, normal_velocity), s.normal,
-                                   c.mu * magnitude(out.normal), splat<Real>(dt)};
+    TangentialInput<Real> in{k, surface_velocity(s, normal_velocity), s.normal,
+                                   c.mu * magnitude(out.normal), c.mu * out.normal, splat<Real>(dt),
+                                   c.slip_min,
+                                   Vector3<Real>{}};
+    if constexpr (Tangential::midpoint && advance)
+      in.increment = step_displacement(s, normal_velocity, dt);
     if constexpr (Tangential::history)
       out.tangential = Tangential::template force<advance>(in, history);
     else
       out.tangential = Tangential::force(in);
     out.force = out.force + out.tangential;
     out.moment = cross(s.normal, out.tangential);
+  }
+  if constexpr (Model::resists) {
+    Real acts = out.normal;
+    if constexpr (Model::resistance == Resistance::DELAYED)
+      acts = acts * resistance_gate<Normal>(k, s.overlap, mass_eff, onset.age);
+    out.moment = out.moment + rolling_moment(c.mu_roll * acts, c.roll_min, s.spin, s.normal);
+    out.couple =
+        spinning_couple(c.mu_spin * s.circle * acts, c.spin_min, s.relative_spin, s.normal);
+  }
+  if constexpr (Model::adheres) {
+    const Real pull =
+        c.adhesion + c.adhesion_dmt * square_root(radius_eff) + c.adhesion_perko * radius_eff;
+    out.force = out.force - pull * s.normal;
   }
   return out;
 }

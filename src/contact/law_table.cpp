@@ -42,14 +42,29 @@ ContactKernel LawTable::kernel(int law_index, bool advance) const
   return contact_kernel(distinct[law_index], one_row, advance);
 }
 
+template <class Predicate> bool LawTable::any(Predicate holds) const
+{
+  return std::any_of(distinct.begin(), distinct.end(), holds);
+}
+
 bool LawTable::has_friction() const
 {
-  return std::any_of(distinct.begin(), distinct.end(), [](ContactLaw l) { return l.has_friction(); });
+  return any([](ContactLaw law) { return law.has_friction(); });
 }
 
 bool LawTable::has_history() const
 {
-  return std::any_of(distinct.begin(), distinct.end(), [](ContactLaw l) { return l.has_history(); });
+  return any([](ContactLaw law) { return law.has_history(); });
+}
+
+bool LawTable::has_onset() const
+{
+  return any([](ContactLaw law) { return law.has_onset(); });
+}
+
+bool LawTable::has_resistance() const
+{
+  return any([](ContactLaw law) { return law.resists; });
 }
 
 }    // namespace Talus

@@ -38,8 +38,12 @@ class LawTable {
   bool uniform() const { return one_row; }
   bool has_friction() const;
   bool has_history() const;
+  bool has_onset() const;
+  bool has_resistance() const;
 
  private:
+  template <class Predicate> bool any(Predicate holds) const;
+
   int types = 0;
   bool one_row = true;
   std::vector<ContactCoefficients> rows;

@@ -6,7 +6,8 @@
 
 namespace Talus {
 
-void ParticleRecords::read(const CandidateList &order, const ParticleView &host, bool spins)
+void ParticleRecords::read(const CandidateList &order, const ParticleView &host, bool spins,
+                           bool couples)
 {
   const int n = order.num_particles();
   position.resize(n);
@@ -14,6 +15,7 @@ void ParticleRecords::read(const CandidateList &order, const ParticleView &host,
   spin.resize(spins ? n : 0);
   force.assign(n, Record{});
   moment.assign(spins ? n : 0, Record{});
+  couple.assign(couples ? n : 0, Record{});
 
   for (int s = 0; s < n; s++) {
     const int a = order.atom_of_slot[s];
@@ -42,6 +44,8 @@ void ParticleRecords::add_to(const CandidateList &order, double *f, double *torq
     if (!spins) continue;
     const double r = position[s].c[3];
     for (int d = 0; d < 3; d++) torque[3L * a + d] -= r * moment[s].c[d];
+    if (couple.empty()) continue;
+    for (int d = 0; d < 3; d++) torque[3L * a + d] += couple[s].c[d];
   }
 }
 
@@ -49,7 +53,7 @@ double ParticleRecords::memory_usage() const
 {
   return static_cast<double>(sizeof(Record)) *
       (position.capacity() + velocity.capacity() + spin.capacity() + force.capacity() +
-       moment.capacity());
+       moment.capacity() + couple.capacity());
 }
 
 }    // namespace Talus

@@ -23,17 +23,17 @@ struct ParticleView {
 class ParticleRecords {
  public:
   /// Reads the state of all particles and clears the sums. `spins` is false in scenes without friction:
-  /// spin records and moments are then neither read nor kept.
-  void read(const CandidateList &order, const ParticleView &host, bool spins);
+  /// spin records and moments are then neither read nor kept. `couples`: laws with resistance occur.
+  void read(const CandidateList &order, const ParticleView &host, bool spins, bool couples);
 
   /// Adds the summed forces, and torques if spins are kept, to the host's rows of owned particles:
-  /// f += F, torque -= r M.
+  /// f += F, torque += C - r M.
   void add_to(const CandidateList &order, double *f, double *torque) const;
 
   double memory_usage() const;
 
   std::vector<Record> position, velocity, spin;    ///< see record.h
-  std::vector<Record> force, moment;
+  std::vector<Record> force, moment, couple;
 };
 
 }    // namespace Talus

@@ -6,6 +6,32 @@
 #include <cstring>
 
 namespace Talus {
+namespace {
+
+  static_assert(sizeof(std::int64_t) == sizeof(double), "tags travel as the bits of a double");
+
+  void set_tag(double *entry, std::int64_t tag) { std::memcpy(entry, &tag, sizeof tag); }
+
+  std::int64_t tag_of(const double *entry)
+  {
+    std::int64_t tag;
+    std::memcpy(&tag, entry, sizeof tag);
+    return tag;
+  }
+
+}    // namespace
+
+void PartnerLists::set_values(int n)
+{
+  if (n == values) return;
+  const std::size_t entries = pool.size() / stride();
+  std::vector<double> converted(entries * (1 + n), 0.0);
+  for (std::size_t e = 0; e < entries; e++)
+    std::memcpy(&converted[e * (1 + n)], &pool[e * stride()],
+                sizeof(double) * (1 + std::min(n, values)));
+  pool.swap(converted);
+  values = n;
+}
 
 void PartnerLists::resize(int capacity)
 {
@@ -25,64 +51,53 @@ void PartnerLists::layout()
     total += r.size;
     r.size = 0;    // counts up again in append()
   }
-  pool.resize(total);
+  pool.resize(total * stride());
 }
 
-void PartnerLists::clear_all()
-{
-  if (pool.empty()) return;
-  begin();
-  pool.clear();
-}
-
-void PartnerLists::append(int atom, std::int64_t tag, const Record &history)
+double *PartnerLists::append(int atom, std::int64_t tag)
 {
   Range &r = range[atom];
-  Partner &p = pool[r.begin + r.size++];
-  p.tag = tag;
-  std::copy(std::begin(history.c), std::end(history.c), p.history);
+  double *entry = &pool[(r.begin + r.size++) * stride()];
+  set_tag(entry, tag);
+  return entry + 1;
 }
 
-const PartnerLists::Partner *PartnerLists::find(int atom, std::int64_t tag) const
+const double *PartnerLists::find(int atom, std::int64_t tag) const
 {
-  const Partner *p = pool.data() + range[atom].begin;
-  for (int n = 0; n < range[atom].size; n++, p++)
-    if (p->tag == tag) return p;
+  const double *entry = pool.data() + range[atom].begin * stride();
+  for (int n = 0; n < range[atom].size; n++, entry += stride())
+    if (tag_of(entry) == tag) return entry + 1;
   return nullptr;
+}
+
+void PartnerLists::copy_entry(int atom, int n, double *to) const
+{
+  std::memcpy(to, &pool[(range[atom].begin + n) * stride()], sizeof(double) * stride());
 }
 
 int PartnerLists::pack(int atom, double *buffer) const
 {
-  int m = 0;
-  buffer[m++] = range[atom].size;
-  for (int n = 0; n < range[atom].size; n++) {
-    const Partner &p = pool[range[atom].begin + n];
-    static_assert(sizeof p.tag == sizeof *buffer, "tags travel as the bits of a double");
-    std::memcpy(&buffer[m++], &p.tag, sizeof p.tag);
-    std::copy(std::begin(p.history), std::end(p.history), &buffer[m]);
-    m += 4;
-  }
-  return m;
+  const Range &r = range[atom];
+  buffer[0] = r.size;
+  const double *begin = pool.data() + r.begin * stride();
+  // tags are bit patterns: copied as memory, never as numbers
+  if (r.size) std::memcpy(buffer + 1, begin, sizeof(double) * r.size * stride());
+  return packed_size(atom);
 }
 
 int PartnerLists::unpack(int atom, const double *buffer)
 {
-  int m = 0;
   Range &r = range[atom];
-  r = {static_cast<std::int64_t>(pool.size()), static_cast<int>(buffer[m++])};
-  for (int n = 0; n < r.size; n++) {
-    Partner p;
-    std::memcpy(&p.tag, &buffer[m++], sizeof p.tag);
-    std::copy(&buffer[m], &buffer[m] + 4, p.history);
-    m += 4;
-    pool.push_back(p);
-  }
-  return m;
+  r = {static_cast<std::int64_t>(pool.size()) / stride(), static_cast<int>(buffer[0])};
+  pool.resize(pool.size() + static_cast<std::size_t>(r.size) * stride());
+  if (r.size)
+    std::memcpy(&pool[r.begin * stride()], buffer + 1, sizeof(double) * r.size * stride());
+  return packed_size(atom);
 }
 
 double PartnerLists::memory_usage() const
 {
-  return static_cast<double>(range.capacity() * sizeof(Range) + pool.capacity() * sizeof(Partner));
+  return static_cast<double>(range.capacity() * sizeof(Range) + pool.capacity() * sizeof(double));
 }
 
 }    // namespace Talus

@@ -8,8 +8,6 @@
 #ifndef TALUS_CONTACT_PARTNER_LISTS_H
 #define TALUS_CONTACT_PARTNER_LISTS_H
 
-#include "contact/record.h"
-
 #include <cstdint>
 #include <vector>
 
@@ -17,43 +15,53 @@ namespace Talus {
 
 class PartnerLists {
  public:
-  struct Partner {
-    std::int64_t tag;
-    double history[4];    ///< see record.h
-  };
-  static constexpr int packed_size = 5;    ///< doubles of one packed partner
+  /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed already is
+  /// converted: new numbers are zero, surplus ones are dropped.
+  void set_values(int n);
+  int num_values() const { return values; }
 
   /// Room for particles 0 ... capacity-1; new ones have no partners.
   void resize(int capacity);
 
   /// Refills all lists: begin(), then count() once for every entry, then layout(), then append() for
-  /// the same entries.
+  /// the same entries; append() returns where to write the values of the entry.
   void begin();
   void count(int atom) { range[atom].size++; }
   void layout();
-  void append(int atom, std::int64_t tag, const Record &history);
+  double *append(int atom, std::int64_t tag);
 
-  /// History of `atom` with the partner `tag`, or nullptr. Valid until the next refill or unpack.
-  const Partner *find(int atom, std::int64_t tag) const;
+  /// Values of `atom` with the partner `tag`, or nullptr. Valid until the next refill or unpack.
+  const double *find(int atom, std::int64_t tag) const;
+
+  double *find(int atom, std::int64_t tag)
+  {
+    return const_cast<double *>(static_cast<const PartnerLists *>(this)->find(atom, tag));
+  }
+
+  /// Copies entry n of a list: the tag, as the bits of a double, and the values.
+  void copy_entry(int atom, int n, double *to) const;
 
   int size(int atom) const { return range[atom].size; }
   void clear(int atom) { range[atom] = {0, 0}; }
-  void clear_all();
   void copy(int from, int to) { range[to] = range[from]; }
 
-  /// Packing for messages and restart files: returns the number of doubles, 1 + packed_size * partners.
+  /// Packing for messages and restart files: returns the number of doubles, packed_size(atom).
   int pack(int atom, double *buffer) const;
   int unpack(int atom, const double *buffer);
+  int packed_size(int atom) const { return 1 + stride() * range[atom].size; }
 
   double memory_usage() const;
 
  private:
+  int stride() const { return 1 + values; }    // the tag, as the bits of a double, and the values
+
   struct Range {
-    std::int64_t begin = 0;
+    std::int64_t begin = 0;    // in entries
     int size = 0;
   };
+  int values = 4;
   std::vector<Range> range;
-  std::vector<Partner> pool;
+  std::vector<double> pool;
 };
 
 }    // namespace Talus

@@ -7,7 +7,8 @@
 //   velocity record  { vx, vy, vz, 1/m }                 velocity, 1/mass
 //   spin record      { r wx, r wy, r wz, 1/r }           velocity, 1/length
 //   history record   { dx, dy, dz, at limit }            length, 0 or 1; see TangentialHistory
-//   force, moment    { x, y, z, unused }
+//   onset record     { speed, age, begun, unused }       see ContactOnset
+//   force, moment, couple  { x, y, z, unused }
 //
 // The fourth entries of the first three are chosen such that the sum of two records gives what a pair
 // needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.

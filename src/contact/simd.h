@@ -47,6 +47,9 @@ inline const char *instruction_set()
 /// The same number in every lane.
 template <class Real> inline Real splat(double value) { return Real{} + value; }
 
+/// What a comparison of Reals yields.
+template <class Real> using bool_of = decltype(Real{} < Real{});
+
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no) { return mask ? yes : no; }
 
@@ -65,6 +68,24 @@ inline Vec8 square_root(Vec8 a)
 template <class Real> inline Real magnitude(Real a)
 {
   return select(a < splat<Real>(0.0), -a, a);
+}
+
+inline double hyperbolic_tangent(double a) { return std::tanh(a); }
+inline Vec8 hyperbolic_tangent(Vec8 a)
+{
+  for (int k = 0; k < lanes; k++) a[k] = std::tanh(a[k]);    // the library's: the same for each lane
+  return a;
+}
+
+/// Fifth root of a number >= 0, to two units in the last place.
+inline double fifth_root(double a)
+{
+  return a > 0.0 ? std::pow(a, 0.2) : 0.0;
+}
+inline Vec8 fifth_root(Vec8 a)
+{
+  for (int k = 0; k < lanes; k++) a[k] = fifth_root(a[k]);
+  return a;
 }
 
 /// One bit for each lane: set where a < b.

@@ -26,13 +26,17 @@ template <class Real> struct TangentialHistory {
   Real at_limit{};                 ///< 1 if the last force was the Coulomb limit, else 0
 };
 
-/// What a tangential law is given: k, v_t, mu |F_n|, the normal and the time step.
+/// What a tangential law is given: k, v_t, the normal, mu |F_n|, mu F_n, the time step and the speed below which
+/// a law with a threshold does nothing.
 template <class Real> struct TangentialInput {
   Stiffness<Real> k;
   Vector3<Real> velocity;
   Vector3<Real> normal;
   Real limit;
+  Real signed_limit;
   Real dt;
+  Real slip_min;
+  Vector3<Real> increment;    ///< displacement of this step; only for the midpoint law
 };
 
 /// Shortens a trial force to the limit; forces within it pass unchanged.
@@ -43,11 +47,11 @@ template <class Real> inline Vector3<Real> capped(Vector3<Real> trial, Real limi
 }
 
 struct TangentialNone {
-  static constexpr bool friction = false, history = false;
+  static constexpr bool friction = false, history = false, midpoint = false;
 };
 
 struct TangentialDashpot {
-  static constexpr bool friction = true, history = false;
+  static constexpr bool friction = true, history = false, midpoint = false;
 
   template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
   {
@@ -56,7 +60,7 @@ struct TangentialDashpot {
 };
 
 struct TangentialOnestep {
-  static constexpr bool friction = true, history = false;
+  static constexpr bool friction = true, history = false, midpoint = false;
 
   template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
   {
@@ -64,45 +68,98 @@ struct TangentialOnestep {
   }
 };
 
+/// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has the unit
+/// 1/velocity and is not scaled by `units`.
+struct TangentialTanh {
+  static constexpr bool friction = true, history = false, midpoint = false;
+
+  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  {
+    const Real speed = square_root(dot(in.velocity, in.velocity));
+    const auto slips = (speed >= in.slip_min) & (speed > splat<Real>(0.0));
+    const Real pull = in.signed_limit * hyperbolic_tangent(5.0 * speed) / speed;
+    return select(slips, -pull, splat<Real>(0.0)) * in.velocity;
+  }
+};
+
+/// From the trial displacement to the force: the Coulomb limit, and the displacement that is stored.
+template <bool advance, class Real>
+inline Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d, bool_of<Real> moved,
+                                   TangentialHistory<Real> &history)
+{
+  const Real zero = splat<Real>(0.0);
+  // without overlap kt is zero; so is the limit, and any finite number serves
+  const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
+  const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
+  const Real size = square_root(dot(trial, trial));
+  const auto exceeds = size > in.limit;
+
+  Vector3<Real> reach = d + slide * in.velocity;
+  auto at_limit = moved & exceeds;
+  if (advance) {
+    d = select(at_limit, in.limit / size * reach - slide * in.velocity, d);
+    reach = d + slide * in.velocity;
+    history.displacement = d;
+    history.at_limit = select(at_limit, splat<Real>(1.0), zero);
+  } else {
+    // the flag counts as long as spring and dashpot reach the limit but for rounding: not with other velocities or
+    // coefficients
+    const Real parts = in.k.kt * square_root(dot(d, d)) +
+        in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
+    at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts >= in.limit));
+  }
+
+  const Real length = square_root(dot(reach, reach));
+  const Real pull = select(length > zero, -in.limit / length, zero);
+  // beyond the limit without any displacement (first force of a run): none, as the stock styles
+  const Vector3<Real> within = select(exceeds, Vector3<Real>{zero, zero, zero}, trial);
+  return select(at_limit, pull * reach, within);
+}
+
 struct TangentialMultistep {
-  static constexpr bool friction = true, history = true;
+  static constexpr bool friction = true, history = true, midpoint = false;
 
   /// Force on the first body. `advance` adds the displacement of this step and turns the stored one
   /// into the tangent plane; without it (set-up of a run, queries) the history is only read.
   template <bool advance, class Real>
   static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
   {
-    const Real zero = splat<Real>(0.0);
     Vector3<Real> d = history.displacement;
     if (advance) d = d + in.dt * in.velocity;
-    const auto moved = dot(d, d) > zero;
+    const auto moved = dot(d, d) > splat<Real>(0.0);
     if (advance) d = d - dot(d, in.normal) * in.normal;
+    return limited_force<advance>(in, d, moved, history);
+  }
+};
 
-    // without overlap kt is zero; so is the limit, and any finite number serves
-    const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
-    const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
-    const Real size = square_root(dot(trial, trial));
-    const auto exceeds = size > in.limit;
+/// As multistep, but consistent to second order in the time step:
+///   * the displacement of a step is taken along the surface half way through it, not at its end;
+///   * a contact that began during the step adds only the part of it that it lasted;
+///   * the stored displacement keeps its length when it turns with the contact.
+/// (Xue et al. 2023, CMES 134, 1469, on why the usual update limits a scheme to first order.)
+struct TangentialMidpoint {
+  static constexpr bool friction = true, history = true, midpoint = true;
 
-    Vector3<Real> reach = d + slide * in.velocity;
-    auto at_limit = moved & exceeds;
+  template <bool advance, class Real>
+  static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  {
+    const Real zero = splat<Real>(0.0);
+    Vector3<Real> d = history.displacement;
+    auto moved = dot(d, d) > zero;
     if (advance) {
-      d = select(at_limit, in.limit / size * reach - slide * in.velocity, d);
-      reach = d + slide * in.velocity;
-      history.displacement = d;
-      history.at_limit = select(at_limit, splat<Real>(1.0), zero);
-    } else {
-      // spring and dashpot reach the limit as exactly as rounding allows, unless the velocity is a new one
-      const Real parts = in.k.kt * square_root(dot(d, d)) +
-          in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
-      at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts >= in.limit));
+      d = turned(d, in.normal) + turned(in.increment, in.normal);
+      moved = dot(d, d) > zero;
     }
+    return limited_force<advance>(in, d, moved, history);
+  }
 
-    const Real length = square_root(dot(reach, reach));
-    const Real pull = select(length > zero, -in.limit / length, zero);
-    // beyond the limit without any displacement (first force of a run): none, as the stock styles
-    const Vector3<Real> within = select(exceeds, Vector3<Real>{zero, zero, zero}, trial);
-    return select(at_limit, pull * reach, within);
+ private:
+  /// d in the plane normal to n, with its length.
+  template <class Real> static Vector3<Real> turned(const Vector3<Real> &d, const Vector3<Real> &n)
+  {
+    const Vector3<Real> flat = d - dot(d, n) * n;
+    const Real before = dot(d, d), after = dot(flat, flat);
+    return select(after > splat<Real>(0.0), square_root(before / after), splat<Real>(0.0)) * flat;
   }
 };
 

@@ -21,8 +21,6 @@ using namespace FixConst;
 
 namespace {
 
-constexpr int fixed_size = 6;    // key, filed tag, position, number of partners
-
 // keys and tags travel as the bits of a double
 template <class Integer> double as_double(Integer value)
 {
@@ -32,10 +30,11 @@ template <class Integer> double as_double(Integer value)
   return bits;
 }
 
-template <class Integer> void from_double(double bits, Integer &value)
+template <class Integer> Integer from_double(double bits)
 {
-  static_assert(sizeof value == sizeof bits);
+  Integer value;
   std::memcpy(&value, &bits, sizeof value);
+  return value;
 }
 
 }    // namespace
@@ -52,8 +51,9 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, n
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = fixed_size;
+  maxexchange = 6;
   comm_border = 2;
+  comm_forward = 1 + 8;    // one entry of a list
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
 
@@ -73,7 +73,7 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -107,6 +107,11 @@ void FixContactStore::pre_exchange()
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
   next_reneighbor = next_refresh(update->ntimestep);
+}
+
+void FixContactStore::post_integrate()
+{
+  if (client) client->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()
@@ -145,7 +150,8 @@ void FixContactStore::setup_post_neighbor()
   post_neighbor();
 }
 
-/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists travel with them. */
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists travel with
+   them. */
 
 void FixContactStore::post_run()
 {
@@ -158,12 +164,66 @@ void FixContactStore::file()
 {
   if (client && current) {
     client->file_history(partners);
-    std::copy(atom->tag, atom->tag + atom->nlocal, filed_tags.begin());
+    for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
+    if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();
   }
   current = false;
-  int most = 0;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, partners.size(i));
-  maxexchange = fixed_size + Talus::PartnerLists::packed_size * most;
+  maxexchange = 0;
+  for (int i = 0; i < atom->nlocal; i++) maxexchange = std::max(maxexchange, partners.packed_size(i));
+  maxexchange += 5;
+}
+
+/* Across a periodic border both sides compute a pair, from positions that were shifted and rounded differently, so
+   their histories may differ in the last bits. Which of them would live on depends on the decomposition: let it
+   be that of the first particle, everywhere. */
+
+void FixContactStore::agree_on_shared_pairs()
+{
+  int mine = 0;
+  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
+  MPI_Allreduce(&mine, &most_entries, 1, MPI_INT, MPI_MAX, world);
+  if (most_entries == 0) return;
+
+  ghost_entries.assign(static_cast<std::size_t>(atom->nghost) * most_entries * comm_forward, 0.0);
+  for (sent_entry = 0; sent_entry < most_entries; sent_entry++) comm->forward_comm(this);
+
+  client->adopt_first_copies(partners, [this](int atom_index, std::int64_t tag) -> const double * {
+    for (int n = 0; n < most_entries; n++) {
+      const double *entry = ghost_entry(atom_index, n);
+      if (from_double<std::int64_t>(entry[0]) == tag) return entry + 1;
+    }
+    return nullptr;
+  });
+  std::vector<double>().swap(ghost_entries);
+}
+
+double *FixContactStore::ghost_entry(int i, int n)
+{
+  const std::size_t index = static_cast<std::size_t>(i - atom->nlocal) * most_entries + n;
+  return &ghost_entries[index * comm_forward];
+}
+
+int FixContactStore::pack_forward_comm(int n, int *list, double *buf, int, int *)
+{
+  for (int k = 0; k < n; k++) {
+    double *entry = buf + static_cast<std::size_t>(k) * comm_forward;
+    std::fill(entry, entry + comm_forward, 0.0);
+    const int i = list[k];
+    // a ghost that is passed on to the next rank
+    if (i >= atom->nlocal)
+      std::copy(ghost_entry(i, sent_entry), ghost_entry(i, sent_entry) + comm_forward, entry);
+    else if (sent_entry < partners.size(i))
+      partners.copy_entry(i, sent_entry, entry);
+  }
+  return n * comm_forward;
+}
+
+void FixContactStore::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++)
+    std::copy(buf + static_cast<std::size_t>(k) * comm_forward,
+              buf + static_cast<std::size_t>(k + 1) * comm_forward,
+              ghost_entry(first + k, sent_entry));
 }
 
 void FixContactStore::refresh_key(int i)
@@ -220,22 +280,20 @@ void FixContactStore::set_arrays(int i)
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
 {
-  int m = 0;
   for (int k = 0; k < n; k++) {
-    buf[m++] = as_double(keys[list[k]]);
-    buf[m++] = as_double(filed_tags[list[k]]);
+    buf[2 * k] = as_double(keys[list[k]]);
+    buf[2 * k + 1] = as_double(filed_tags[list[k]]);
   }
-  return m;
+  return 2 * n;
 }
 
 int FixContactStore::unpack_border(int n, int first, double *buf)
 {
-  int m = 0;
-  for (int i = first; i < first + n; i++) {
-    from_double(buf[m++], keys[i]);
-    from_double(buf[m++], filed_tags[i]);
+  for (int k = 0; k < n; k++) {
+    keys[first + k] = from_double<std::uint64_t>(buf[2 * k]);
+    filed_tags[first + k] = from_double<std::int64_t>(buf[2 * k + 1]);
   }
-  return m;
+  return 2 * n;
 }
 
 int FixContactStore::pack_exchange(int i, double *buf)
@@ -250,8 +308,8 @@ int FixContactStore::pack_exchange(int i, double *buf)
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
   int m = 0;
-  from_double(buf[m++], keys[i]);
-  from_double(buf[m++], filed_tags[i]);
+  keys[i] = from_double<std::uint64_t>(buf[m++]);
+  filed_tags[i] = from_double<std::int64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
   return m + partners.unpack(i, buf + m);
 }
@@ -262,14 +320,18 @@ void FixContactStore::write_restart(FILE *fp)
 {
   file();    // all ranks come here before the particles are packed
   if (comm->me) return;
-  const int size = sizeof inverse_cell;
+  const double state[2] = {inverse_cell, static_cast<double>(partners.num_values())};
+  const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
-  fwrite(&inverse_cell, size, 1, fp);
+  fwrite(state, size, 1, fp);
 }
 
 void FixContactStore::restart(char *buf)
 {
-  std::memcpy(&inverse_cell, buf, sizeof inverse_cell);
+  double state[2];
+  std::memcpy(state, buf, sizeof state);
+  inverse_cell = state[0];
+  partners.set_values(static_cast<int>(state[1]));
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -277,22 +339,28 @@ int FixContactStore::pack_restart(int i, double *buf)
   buf[0] = size_restart(i);
   buf[1] = as_double(keys[i]);
   buf[2] = as_double(filed_tags[i]);
-  return 3 + partners.pack(i, buf + 3);
+  buf[3] = as_double(static_cast<std::int64_t>(atom->tag[i]));
+  return 4 + partners.pack(i, buf + 4);
 }
+
+/* The host does not move what it has read for us when particles are deleted before this fix exists. */
 
 void FixContactStore::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  from_double(extra[m + 1], keys[i]);
-  from_double(extra[m + 2], filed_tags[i]);
-  partners.unpack(i, extra + m + 3);
+  keys[i] = from_double<std::uint64_t>(extra[m + 1]);
+  filed_tags[i] = from_double<std::int64_t>(extra[m + 2]);
+  if (from_double<std::int64_t>(extra[m + 3]) != atom->tag[i])
+    error->one(FLERR, "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
+               "the first run, so that contact history cannot be assigned: put 'run 0' in between");
+  partners.unpack(i, extra + m + 4);
 }
 
 int FixContactStore::size_restart(int i)
 {
-  return 4 + Talus::PartnerLists::packed_size * partners.size(i);
+  return 4 + partners.packed_size(i);
 }
 
 int FixContactStore::maxsize_restart()
@@ -305,7 +373,6 @@ int FixContactStore::maxsize_restart()
 
 double FixContactStore::memory_usage()
 {
-  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
-                             filed_tags.capacity() * sizeof(std::int64_t) +
+  return static_cast<double>((keys.capacity() + filed_tags.capacity()) * sizeof(std::uint64_t) +
                              positions.capacity() * sizeof(double)) + partners.memory_usage();
 }

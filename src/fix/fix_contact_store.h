@@ -3,8 +3,8 @@
 // Internal fix of pair style gran/penalty: what has to travel with a particle.
 //
 //   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart files;
-//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered, and
-//     the atom ID under which its partners filed it;
+//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered, and the
+//     tag under which the lists of others know this particle: IDs may be renumbered between runs;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box and back
 //     for that, which moves every particle by a rounding error. The positions are put back, so that
 //     load balancing does not change the trajectory.
@@ -19,19 +19,27 @@
 #include "fix.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class FixContactStore : public Fix {
  public:
+  /// Values of ghost `atom` with the partner `tag`, or nullptr.
+  using GhostValues = std::function<const double *(int atom, std::int64_t tag)>;
+
   /// What the pair style has to provide.
   class Client {
    public:
     /// Files the history of the current pairs by particle.
     virtual void file_history(Talus::PartnerLists &partners) = 0;
+    /// Makes both copies of a pair that is computed twice the same: that of its first particle.
+    virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
     virtual void renumber_pairs() = 0;
+    /// The integrator has moved the velocities, and particles are still numbered as in the last compute().
+    virtual void velocities_have_moved() = 0;
 
    protected:
     ~Client() = default;    // never deleted through this interface
@@ -43,19 +51,19 @@ class FixContactStore : public Fix {
 
   /// To be called by the pair style right after creation.
   void serve(Client *c) { client = c; }
+  /// Impact speed and age of contacts are kept as well.
+  void keep_onsets(bool yes) { partners.set_values(yes ? 8 : 4); }
   /// To be called by the pair style whenever it has computed forces: its pairs hold the latest history.
   void pairs_are_current() { current = true; }
-  bool pairs_current() const { return current; }
 
-  /// Key of an owned or ghost particle.
+  /// Key of an owned or ghost particle, and its name in the lists (0: in none).
   std::uint64_t key(int i) const { return keys[i]; }
-  /// Atom IDs that owned and ghost particles had when the lists were filed: commands between runs may
-  /// give them others. 0 for particles that are new.
-  const std::int64_t *filed_tag_of_atom() const { return filed_tags.data(); }
+  std::int64_t filed_tag(int i) const { return filed_tags[i]; }
   const Talus::PartnerLists &partner_lists() const { return partners; }
 
   int setmask() override;
   void init() override;
+  void post_integrate() override;
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void min_pre_exchange() override;
@@ -71,6 +79,8 @@ class FixContactStore : public Fix {
   void set_arrays(int) override;
   int pack_border(int, int *, double *) override;
   int unpack_border(int, int, double *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;
@@ -86,19 +96,26 @@ class FixContactStore : public Fix {
 
  private:
   void file();
+  void agree_on_shared_pairs();
   void refresh_key(int i);
   void keep_positions();
   void put_positions_back();
   bigint next_refresh(bigint step) const;
+  double *ghost_entry(int atom, int n);
 
   Client *client = nullptr;
   bool current = false;
   double inverse_cell;
-  bool guards_positions = false;      // a fix balance exists
-  std::vector<double> positions;      // of owned particles as they were before fix balance
   std::vector<std::uint64_t> keys;
   std::vector<std::int64_t> filed_tags;
   Talus::PartnerLists partners;
+
+  bool guards_positions = false;      // a fix balance exists
+  std::vector<double> positions;      // of owned particles as they were before fix balance
+
+  // while lists go to ghosts, one entry of each list at a time
+  int sent_entry = 0, most_entries = 0;
+  std::vector<double> ghost_entries;
 };
 
 }    // namespace LAMMPS_NS

@@ -5,8 +5,12 @@
 #include "body/plane.h"
 #include "body/rectangle.h"
 
+#include "pair/pair_gran_penalty.h"
+
 #include "atom.h"
 #include "error.h"
+#include "force.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -22,7 +26,7 @@ using namespace Talus;
 namespace {
 constexpr int first_shape_word = 4;    // fix ID group large/body SHAPE ...
 constexpr int size_load = 7;
-constexpr int size_history = 4;
+constexpr int size_record = 4;
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -39,18 +43,21 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   for (int iarg = first_shape_word; iarg < narg; iarg++)
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   parse_keywords(parse_shape(narg, arg), narg, arg);
-  set_laws();
+  with_history = std::any_of(specs.begin(), specs.end(),
+                             [](const ContactSpec &s) { return s.law.has_history(); });
+  with_onset = std::any_of(specs.begin(), specs.end(),
+                           [](const ContactSpec &s) { return s.law.has_onset(); });
 
   vector_flag = 1;
   size_vector = 20;
   global_freq = 1;
   extvector = 0;
   dynamic_group_allow = 1;
-  if (!contacts.keeps_history()) return;
+  if (!with_history) return;
 
   restart_peratom = 1;
   create_attribute = 1;
-  maxexchange = size_history;
+  maxexchange = size_packed();
   FixLargeBody::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -59,7 +66,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 
 FixLargeBody::~FixLargeBody()
 {
-  if (!contacts.keeps_history()) return;
+  if (!with_history) return;
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
 }
@@ -141,8 +148,8 @@ void FixLargeBody::parse_keywords(int iarg, int narg, char **arg)
     } else if (strcmp(arg[iarg], "two-sided") == 0) {
       iarg++;
     } else {
-      error->all(FLERR, iarg, "fix large/body: unknown word '{}', expected contact or two-sided",
-                 arg[iarg]);
+      error->all(FLERR, iarg, "fix large/body: unknown word '{}', expected contact, two-sided, or in a contact {}",
+                 arg[iarg], contact_keywords);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
@@ -171,16 +178,43 @@ void FixLargeBody::set_laws()
   LawTable table;
   table.reset(atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
-    for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, specs[i].coefficients);
+    for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
   table.finish();
   contacts.set_laws(table);
+}
+
+/* A body given by numbers is used as given; a body given by its material is mixed with the material of the
+   particles. Friction and resistance of particles whose own law has none are those of the body. */
+
+ContactCoefficients FixLargeBody::coefficients_of(int type)
+{
+  const ContactSpec &body = specs[type];
+  if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
+
+  auto *pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
+  const ContactSpec *own = pair ? pair->own_spec(type) : nullptr;
+  if (!own || !own->is_material())
+    error->all(FLERR, "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
+               "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law", id,
+               name_of(body.law.normal), type, type, type);
+  ContactSpec particle = body;
+  particle.young = own->young;
+  particle.poisson = own->poisson;
+  particle.restitution = own->restitution;
+  particle.limit_damping = own->limit_damping;
+  if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
+  if (own->law.resists) {
+    particle.given.mu_roll = own->given.mu_roll;
+    particle.given.mu_spin = own->given.mu_spin;
+  }
+  return contact_coefficients(body, particle, pair->mix_rule());
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixLargeBody::setmask()
 {
-  return POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE;
+  return POST_INTEGRATE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE;
 }
 
 void FixLargeBody::init()
@@ -188,6 +222,40 @@ void FixLargeBody::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   masses.find_fixes();
+  find_frozen();
+  set_laws();
+}
+
+double FixLargeBody::contact_period(int type, double mass, double radius)
+{
+  const double k =
+      tangent_stiffness(specs[type].law, coefficients_of(type), 0.01 * radius, mass, radius);
+  return k > 0.0 ? std::sqrt(mass / k) : 0.0;
+}
+
+/* A fix freeze that stands before this fix in the input has done its work when forces are added here. */
+
+void FixLargeBody::find_frozen()
+{
+  already_frozen = 0;
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (ifix == this) break;
+    if (utils::strmatch(ifix->style, "^freeze")) already_frozen |= ifix->groupbit;
+  }
+}
+
+void FixLargeBody::clear_frozen()
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & already_frozen)) continue;
+    std::fill(atom->f[i], atom->f[i] + 3, 0.0);
+    std::fill(atom->torque[i], atom->torque[i] + 3, 0.0);
+  }
+}
+
+void FixLargeBody::post_integrate()
+{
+  if (account.waits_for_move()) contacts.account_for_move(view(), update->dt, account);
 }
 
 void FixLargeBody::setup_post_neighbor()
@@ -231,7 +299,9 @@ BodyParticleView FixLargeBody::view() const
 
 void FixLargeBody::post_force(int /*vflag*/)
 {
-  const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0);
+  const BodyLoad mine = contacts.compute(*shape, view(), update->dt, update->setupflag == 0,
+                                         keeps_account ? &account : nullptr);
+  if (already_frozen) clear_frozen();
   const double values[size_load] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
                                     mine.torque.y, mine.torque.z, mine.contacts};
   std::copy(values, values + size_load, load);
@@ -256,31 +326,41 @@ double FixLargeBody::compute_vector(int n)
 
 /* ---------------------------------------------------------------------- */
 
+int FixLargeBody::size_packed() const
+{
+  return with_onset ? 2 * size_record : size_record;
+}
+
 void FixLargeBody::grow_arrays(int nmax)
 {
   contacts.history.resize(nmax);
+  if (with_onset) contacts.onset.resize(nmax);
 }
 
 void FixLargeBody::copy_arrays(int i, int j, int /*delflag*/)
 {
   contacts.history[j] = contacts.history[i];
+  if (with_onset) contacts.onset[j] = contacts.onset[i];
 }
 
 void FixLargeBody::set_arrays(int i)
 {
   contacts.history[i] = Record{};
+  if (with_onset) contacts.onset[i] = Record{};
 }
 
 int FixLargeBody::pack_exchange(int i, double *buf)
 {
-  std::copy(contacts.history[i].c, contacts.history[i].c + size_history, buf);
-  return size_history;
+  std::copy(contacts.history[i].c, contacts.history[i].c + size_record, buf);
+  if (with_onset) std::copy(contacts.onset[i].c, contacts.onset[i].c + size_record, buf + size_record);
+  return size_packed();
 }
 
 int FixLargeBody::unpack_exchange(int i, double *buf)
 {
-  std::copy(buf, buf + size_history, contacts.history[i].c);
-  return size_history;
+  std::copy(buf, buf + size_record, contacts.history[i].c);
+  if (with_onset) std::copy(buf + size_record, buf + 2 * size_record, contacts.onset[i].c);
+  return size_packed();
 }
 
 int FixLargeBody::pack_restart(int i, double *buf)
@@ -289,22 +369,27 @@ int FixLargeBody::pack_restart(int i, double *buf)
   return 1 + pack_exchange(i, buf + 1);
 }
 
+/* The restart file may hold less than this fix keeps, or more, if its words have changed. */
+
 void FixLargeBody::unpack_restart(int i, int nth)
 {
   double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  unpack_exchange(i, extra + m + 1);
+  const int stored = static_cast<int>(extra[m]) - 1;
+  double values[2 * size_record] = {};
+  std::copy(extra + m + 1, extra + m + 1 + std::min(stored, 2 * size_record), values);
+  unpack_exchange(i, values);
 }
 
 int FixLargeBody::size_restart(int /*i*/)
 {
-  return 1 + size_history;
+  return 1 + size_packed();
 }
 
 int FixLargeBody::maxsize_restart()
 {
-  return 1 + size_history;
+  return 1 + size_packed();
 }
 
 double FixLargeBody::memory_usage()

@@ -26,6 +26,7 @@ class FixLargeBody : public Fix {
 
   int setmask() override;
   void init() override;
+  void post_integrate() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
   void min_post_neighbor() override;
@@ -36,6 +37,15 @@ class FixLargeBody : public Fix {
 
   /// force(3), torque(3), position(3), quaternion(4), velocity(3), angular velocity(3), contacts.
   double compute_vector(int) override;
+
+  /// For computes: from the next step on energies are accounted for; what the last step found on this rank.
+  void keep_account() { keeps_account = true; }
+  const Talus::EnergyAccount &energy_account() const { return account; }
+  double contacts_here() const { return load[6]; }
+
+  /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective mass, are those of
+  /// a particle of this type, mass and radius against the body. Returns sqrt(m/k), 0 without stiffness.
+  double contact_period(int type, double mass, double radius);
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -58,15 +68,24 @@ class FixLargeBody : public Fix {
   void make_plane(int narg, char **arg);
   void make_rectangle(int narg, char **arg);
   void set_laws();
+  Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
   void reduce_load();
+  void find_frozen();
+  void clear_frozen();
+  int size_packed() const;
 
   bool two_sided = false;
+  bool with_history = false, with_onset = false;
   std::unique_ptr<Talus::LargeBodyShape> shape;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;
+  int already_frozen = 0;    // groups whose forces a fix freeze has set to zero before this fix
+
+  bool keeps_account = false;
+  Talus::EnergyAccount account;
 
   double load[7] = {};         // of this rank: force, torque, contacts
   double total_load[7] = {};   // of all ranks

@@ -3,6 +3,7 @@
 #include "pair/contact_command.h"
 
 #include "error.h"
+#include "force.h"
 #include "lammps.h"
 #include "utils.h"
 
@@ -10,136 +11,220 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
+#include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
 namespace {
 
-[[noreturn]] void complain(const CommandWords &w, int iarg, const std::string &text)
-{
-  const int at = std::min(iarg, w.narg - 1) + w.shift;
-  w.lmp->error->all(FLERR, at, "{}: {}", w.command, text);
-}
+constexpr double default_threshold = 1.0e-4;    // Chrono's, for speeds of slip, roll and spin
 
-const char *next_word(const CommandWords &w, int &iarg, const std::string &expected)
-{
-  if (iarg >= w.narg) complain(w, iarg, "missing " + expected);
-  return w.arg[iarg++];
-}
+class Parser {
+ public:
+  Parser(const CommandWords &words, int &iarg) : w(words), i(iarg) {}
 
-/// A keyword that may be given once.
-void once(const CommandWords &w, int iarg, bool &given)
-{
-  if (given) complain(w, iarg, fmt::format("keyword '{}' given twice", w.arg[iarg]));
-  given = true;
-}
-
-/// A number that is not negative.
-double number(const CommandWords &w, int &iarg, const char *name)
-{
-  const std::string expected = std::string(name) + " (a number >= 0)";
-  const char *word = next_word(w, iarg, expected);
-  const double value = utils::is_double(word) ? std::strtod(word, nullptr) : -1.0;
-  if (!(value >= 0.0) || std::isinf(value))
-    complain(w, iarg - 1, fmt::format("expected {} instead of '{}'", expected, word));
-  return value;
-}
-
-/// As number(), or the word NULL for the default.
-double number_or_null(const CommandWords &w, int &iarg, const char *name, double default_value)
-{
-  if (iarg < w.narg && strcmp(w.arg[iarg], "NULL") == 0) {
-    iarg++;
-    return default_value;
+  ContactSpec parse()
+  {
+    ContactCoefficients &c = spec.given;
+    c.slip_min = c.roll_min = c.spin_min = default_threshold;
+    normal();
+    while (i < w.narg && keyword(w.arg[i])) {}
+    if (spec.law.delayed && !spec.law.resists) spec.law.delayed = false;
+    return spec;
   }
-  return number(w, iarg, name);
-}
 
-void parse_normal(const CommandWords &w, int &iarg, ContactSpec &spec)
-{
-  const char *word = next_word(w, iarg, "normal law: hooke or hertz");
-  if (strcmp(word, "hooke") == 0)
-    spec.law.normal = NormalLaw::HOOKE;
-  else if (strcmp(word, "hertz") == 0)
-    spec.law.normal = NormalLaw::HERTZ;
-  else
-    complain(w, iarg - 1, fmt::format("unknown normal law '{}', expected hooke or hertz", word));
-  spec.coefficients.kn = number(w, iarg, "kn");
-  spec.coefficients.gn = number(w, iarg, "gn");
-}
-
-void parse_tangential(const CommandWords &w, int &iarg, ContactSpec &spec)
-{
-  const std::string modes = "none, dashpot, onestep or multistep";
-  const char *word = next_word(w, iarg, "tangential law: " + modes);
-  ContactCoefficients &c = spec.coefficients;
-  c.kt = c.gt = c.mu = 0.0;
-
-  if (strcmp(word, "none") == 0) {
-    spec.law.tangential = TangentialLaw::NONE;
-    return;
+ private:
+  [[noreturn]] void complain(int at, const std::string &text)
+  {
+    w.lmp->error->all(FLERR, std::min(at, w.narg - 1) + w.shift, "{}: {}", w.command, text);
   }
-  if (strcmp(word, "dashpot") == 0)
-    spec.law.tangential = TangentialLaw::DASHPOT;
-  else if (strcmp(word, "onestep") == 0)
-    spec.law.tangential = TangentialLaw::ONESTEP;
-  else if (strcmp(word, "multistep") == 0)
-    spec.law.tangential = TangentialLaw::MULTISTEP;
-  else
-    complain(w, iarg - 1, fmt::format("unknown tangential law '{}', expected {}", word, modes));
 
-  // defaults of the stock gran/* styles
-  const int iarg_kt = iarg;
-  if (spec.law.tangential != TangentialLaw::DASHPOT)
-    c.kt = number_or_null(w, iarg, "kt", 2.0 / 7.0 * c.kn);
-  c.gt = number_or_null(w, iarg, "gt", 0.5 * c.gn);
-  c.mu = number(w, iarg, "mu");
-  if (spec.law.has_history() && c.kt == 0.0)
-    complain(w, iarg_kt, "tangential multistep needs kt > 0; without a tangential spring use "
-             "'tangential dashpot'");
-}
+  const char *next(const std::string &expected)
+  {
+    if (i >= w.narg) complain(i, "missing " + expected);
+    return w.arg[i++];
+  }
 
-double mean(double a, double b)
-{
-  return 0.5 * (a + b);
-}
+  bool at(const char *word) const { return i < w.narg && strcmp(w.arg[i], word) == 0; }
 
-double mix_friction(double a, double b, FrictionMix rule)
-{
-  if (rule == FrictionMix::ARITHMETIC) return mean(a, b);
-  if (rule == FrictionMix::GEOMETRIC) return std::sqrt(a * b);
-  return std::min(a, b);
-}
+  /// A number with lo <= number <= hi, or lo < number if `open`.
+  double number(const char *name, const char *range, double lo, double hi, bool open = false)
+  {
+    const std::string expected = std::string(name) + " (" + range + ")";
+    const char *word = next(expected);
+    const bool is_number = utils::is_double(word);
+    const double value = is_number ? std::strtod(word, nullptr) : 0.0;
+    const bool inside = (open ? value > lo : value >= lo) && value <= hi && !std::isinf(value);
+    if (!is_number || !inside)
+      complain(i - 1, fmt::format("expected {} instead of '{}'", expected, word));
+    return value;
+  }
+  double not_negative(const char *name) { return number(name, "a number >= 0", 0.0, INFINITY); }
+  double positive(const char *name) { return number(name, "a number > 0", 0.0, INFINITY, true); }
+
+  /// A number, or the word NULL for the default; returns whether it was a number.
+  bool number_or_null(const char *name, double &value)
+  {
+    if (at("NULL")) {
+      i++;
+      return false;
+    }
+    value = not_negative(name);
+    return true;
+  }
+
+  void normal()
+  {
+    std::string known;
+    for (int n = 0; n < num_normal_laws; n++)
+      known += std::string(n ? ", " : "") + name_of(static_cast<NormalLaw>(n));
+    const char *word = next("normal law: " + known);
+    int n = 0;
+    while (n < num_normal_laws && strcmp(word, name_of(static_cast<NormalLaw>(n))) != 0) n++;
+    if (n == num_normal_laws)
+      complain(i - 1, fmt::format("unknown normal law '{}', expected {}", word, known));
+    spec.law.normal = static_cast<NormalLaw>(n);
+    if (spec.is_material())
+      material();
+    else
+      coefficients();
+    if (is_plaincoulomb()) {
+      spec.given.mu = not_negative("mu");
+      spec.law.tangential = TangentialLaw::TANH;
+    }
+  }
+
+  bool is_plaincoulomb() const
+  {
+    return spec.law.normal == NormalLaw::PLAINCOULOMB ||
+        spec.law.normal == NormalLaw::PLAINCOULOMB_MATERIAL;
+  }
+
+  /// LAMMPS' unit of pressure in terms of force and distance.
+  double pressure_unit() const { return 1.0 / w.lmp->force->nktv2p; }
+
+  void coefficients()
+  {
+    spec.given.kn = not_negative("kn");
+    spec.given.gn = not_negative("gn");
+    if (spec.law.normal != NormalLaw::HOOKE) spec.given.kn *= pressure_unit();
+  }
+
+  void material()
+  {
+    spec.young = positive("Young's modulus E") * pressure_unit();
+    spec.restitution = number("restitution e", "a number from 0 to 1", 0.0, 1.0);
+    spec.poisson = number("Poisson's ratio nu", "a number from -1 to .5", -1.0, 0.5, true);
+    const bool with_speed =
+        spec.law.normal == NormalLaw::HOOKE_MATERIAL || spec.law.normal == NormalLaw::FLORES_MATERIAL;
+    if (with_speed) spec.given.speed = positive("characteristic speed vchar");
+  }
+
+  /// Parses one keyword with its arguments; false if the word is none.
+  bool keyword(const std::string &word)
+  {
+    using Method = void (Parser::*)();
+    static const std::vector<std::pair<std::string, Method>> known = {
+        {"tangential", &Parser::tangential}, {"rolling", &Parser::rolling},
+        {"spinning", &Parser::spinning},     {"adhesion", &Parser::adhesion},
+        {"vmin", &Parser::vmin},             {"limit_damping", &Parser::limit_damping}};
+    for (const auto &entry : known) {
+      if (entry.first != word) continue;
+      if (std::find(seen.begin(), seen.end(), word) != seen.end())
+        complain(i, fmt::format("keyword '{}' given twice", word));
+      seen.push_back(word);
+      i++;
+      (this->*entry.second)();
+      return true;
+    }
+    return false;
+  }
+
+  void tangential()
+  {
+    const std::string modes = "none, dashpot, onestep or multistep";
+    if (is_plaincoulomb())
+      complain(i - 1, fmt::format("'{}' has a tangential force of its own: remove 'tangential'",
+                                  name_of(spec.law.normal)));
+    const char *word = next("tangential law: " + modes);
+    int n = 0;
+    while (n < static_cast<int>(TangentialLaw::TANH) &&
+           strcmp(word, name_of(static_cast<TangentialLaw>(n))) != 0)
+      n++;
+    spec.law.tangential = static_cast<TangentialLaw>(n);
+    if (spec.law.tangential == TangentialLaw::TANH)
+      complain(i - 1, fmt::format("unknown tangential law '{}', expected {}", word, modes));
+    if (spec.law.tangential != TangentialLaw::NONE) tangential_numbers();
+  }
+
+  void tangential_numbers()
+  {
+    ContactCoefficients &c = spec.given;
+    const int at_kt = i;
+    if (spec.law.tangential != TangentialLaw::DASHPOT) spec.kt_given = number_or_null("kt", c.kt);
+    spec.gt_given = number_or_null("gt", c.gt);
+    c.mu = not_negative("mu");
+    if (spec.law.has_history() && at("midpoint")) {
+      i++;
+      spec.law.tangential = TangentialLaw::MIDPOINT;
+    }
+    if (spec.kt_given && spec.law.normal == NormalLaw::HOOKE_MATERIAL)
+      complain(at_kt, "expected NULL for kt: hooke/material takes kt = kn from the material");
+    if (spec.law.normal != NormalLaw::HOOKE) c.kt *= pressure_unit();
+    const bool no_spring = spec.kt_given ? c.kt == 0.0 : !spec.is_material() && c.kn == 0.0;
+    if (spec.law.has_history() && no_spring)
+      complain(at_kt, "tangential multistep needs kt > 0; without a tangential spring use "
+               "'tangential dashpot'");
+  }
+
+  void resistance(double &mu, const char *name)
+  {
+    mu = not_negative(name);
+    const bool delayed = at("delayed");
+    if (delayed) i++;
+    if (spec.law.resists && delayed != spec.law.delayed)
+      complain(i - 1, "rolling and spinning must both be delayed, or both not");
+    spec.law.resists = true;
+    spec.law.delayed = delayed;
+  }
+  void rolling() { resistance(spec.given.mu_roll, "mu_r"); }
+  void spinning() { resistance(spec.given.mu_spin, "mu_s"); }
+
+  void adhesion()
+  {
+    const char *word = next("adhesion: constant, dmt or perko");
+    ContactCoefficients &c = spec.given;
+    if (strcmp(word, "constant") == 0)
+      c.adhesion = not_negative("adhesive force F");
+    else if (strcmp(word, "dmt") == 0)
+      c.adhesion_dmt = not_negative("adhesion W");
+    else if (strcmp(word, "perko") == 0)
+      c.adhesion_perko = not_negative("adhesion S");
+    else
+      complain(i - 1, fmt::format("unknown adhesion '{}', expected constant, dmt or perko", word));
+    spec.law.adheres = true;
+  }
+
+  void vmin()
+  {
+    spec.given.slip_min = not_negative("slip speed");
+    spec.given.roll_min = not_negative("roll speed");
+    spec.given.spin_min = not_negative("spin speed");
+  }
+
+  void limit_damping() { spec.limit_damping = true; }
+
+  const CommandWords &w;
+  int &i;
+  ContactSpec spec;
+  std::vector<std::string> seen;
+};
 
 }    // namespace
 
 ContactSpec LAMMPS_NS::parse_contact(const CommandWords &words, int &iarg)
 {
-  ContactSpec spec;
-  parse_normal(words, iarg, spec);
-  spec.coefficients.force_floor = -std::numeric_limits<double>::infinity();
-  bool with_tangential = false, with_limit = false;
-  while (iarg < words.narg) {
-    if (strcmp(words.arg[iarg], "tangential") == 0) {
-      once(words, iarg, with_tangential);
-      parse_tangential(words, ++iarg, spec);
-    } else if (strcmp(words.arg[iarg], "limit_damping") == 0) {
-      once(words, iarg++, with_limit);
-      spec.coefficients.force_floor = 0.0;
-    } else
-      break;
-  }
-  return spec;
-}
-
-ContactSpec LAMMPS_NS::mix_contacts(const ContactSpec &a, const ContactSpec &b, FrictionMix rule)
-{
-  const ContactCoefficients &p = a.coefficients, &q = b.coefficients;
-  ContactSpec mixed = a;
-  mixed.coefficients = {mean(p.kn, q.kn), mean(p.gn, q.gn),
-                        mean(p.kt, q.kt), mean(p.gt, q.gt),
-                        mix_friction(p.mu, q.mu, rule), std::max(p.force_floor, q.force_floor)};
-  return mixed;
+  return Parser(words, iarg).parse();
 }

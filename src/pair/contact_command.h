@@ -2,22 +2,18 @@
 //
 // The words of a contact law, shared by `pair_coeff I J gran/penalty ...` and `fix large/body ... contact`:
 //
-//   NORMAL args [tangential MODE args] [limit_damping]
+//   NORMAL args
+//   [tangential none | dashpot gt mu | onestep kt gt mu | multistep kt gt mu [midpoint]] [rolling mu_r [delayed]] [spinning mu_s [delayed]]
+//   [adhesion constant F | dmt W | perko S] [vmin slip roll spin] [limit_damping]
 
 #ifndef TALUS_CONTACT_COMMAND_H
 #define TALUS_CONTACT_COMMAND_H
 
-#include "contact/contact_law.h"
+#include "pair/contact_spec.h"
 
 namespace LAMMPS_NS {
 
 class LAMMPS;
-
-/// What a user asked for one pair of materials. Plain data: goes to restart files as it is.
-struct ContactSpec {
-  Talus::ContactLaw law;
-  Talus::ContactCoefficients coefficients;
-};
 
 /// Where the words come from, for error messages.
 struct CommandWords {
@@ -29,15 +25,12 @@ struct CommandWords {
 };
 
 /// Parses from arg[iarg] on, and leaves iarg at the first word that belongs to no contact law.
-/// Bad and missing words end in error->all() naming command, word and what was expected.
+/// Bad, missing and repeated words end in error->all() naming command, word and what was expected.
 ContactSpec parse_contact(const CommandWords &words, int &iarg);
 
-/// Rule by which the coefficient of friction of unlike materials is found.
-enum class FrictionMix : int { MINIMUM, ARITHMETIC, GEOMETRIC };
-
-/// Coefficients of a pair of unlike materials with the same law: stiffness and damping by the
-/// arithmetic mean, friction by `rule`; damping is limited if either material asks for it.
-ContactSpec mix_contacts(const ContactSpec &a, const ContactSpec &b, FrictionMix rule);
+/// The keywords that parse_contact() knows, for messages about others.
+inline constexpr const char *contact_keywords =
+    "tangential, rolling, spinning, adhesion, vmin or limit_damping";
 
 }    // namespace LAMMPS_NS
 

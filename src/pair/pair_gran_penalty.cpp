@@ -34,7 +34,7 @@ Vector3<double> row(const double *p)
 
 /* ---------------------------------------------------------------------- */
 
-PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp)
+PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp), radii(lmp), critical(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -64,8 +64,8 @@ PairGranPenalty::~PairGranPenalty()
   if (copymode) return;
   delete[] svector;
   delete[] pvector;
-  for (const std::string &id : {store_id, placeholder_id})
-    if (modify->get_fix_by_id(id)) modify->delete_fix(id);
+  for (const auto &internal : {store_id, placeholder_id})
+    if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
@@ -75,20 +75,19 @@ PairGranPenalty::~PairGranPenalty()
 void PairGranPenalty::allocate()
 {
   allocated = 1;
-  atom_types = atom->ntypes;
-  const int n = atom_types + 1;
+  const int n = atom->ntypes + 1;
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) setflag[i][j] = 0;
-  specs.assign(n * n, ContactSpec{});
+  book.resize(atom->ntypes);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairGranPenalty::settings(int narg, char **arg)
 {
-  friction_mix = FrictionMix::MINIMUM;
+  book.mix = FrictionMix::MINIMUM;
   if (narg == 0) return;
   if (strcmp(arg[0], "mix") != 0)
     error->all(FLERR, 1, "pair_style gran/penalty: unknown word '{}', expected mix", arg[0]);
@@ -96,11 +95,11 @@ void PairGranPenalty::settings(int narg, char **arg)
     error->all(FLERR, 1, "pair_style gran/penalty: missing rule after mix: "
                "min, arithmetic or geometric");
   if (strcmp(arg[1], "min") == 0)
-    friction_mix = FrictionMix::MINIMUM;
+    book.mix = FrictionMix::MINIMUM;
   else if (strcmp(arg[1], "arithmetic") == 0)
-    friction_mix = FrictionMix::ARITHMETIC;
+    book.mix = FrictionMix::ARITHMETIC;
   else if (strcmp(arg[1], "geometric") == 0)
-    friction_mix = FrictionMix::GEOMETRIC;
+    book.mix = FrictionMix::GEOMETRIC;
   else
     error->all(FLERR, 2, "pair_style gran/penalty: unknown rule '{}' after mix, "
                "expected min, arithmetic or geometric", arg[1]);
@@ -125,13 +124,13 @@ void PairGranPenalty::coeff(int narg, char **arg)
   int iarg = 2;
   const ContactSpec parsed = parse_contact(words, iarg);
   if (iarg < narg)
-    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', "
-               "expected tangential or limit_damping", arg[iarg]);
+    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', expected {}",
+               arg[iarg], contact_keywords);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
-      spec(i, j) = parsed;
+      book.set(i, j, parsed);
       setflag[i][j] = 1;
       count++;
     }
@@ -148,7 +147,7 @@ void PairGranPenalty::init_style()
   check_host();
   neighbor->add_request(this, NeighConst::REQ_SIZE);
   masses.find_fixes();
-  find_largest_radii();
+  radii.find(masses.frozen_groups());
   create_store();
   laws_current = false;    // init_one() will mix what is not set
 }
@@ -171,41 +170,14 @@ void PairGranPenalty::check_host()
                "start LAMMPS without '-k on'");
 }
 
-void PairGranPenalty::largest_future_radii(std::vector<double> &radius)
-{
-  for (const char *style : {"^pour", "^deposit"})
-    for (const auto &ifix : modify->get_fix_by_style(style))
-      for (int type = 1; type <= atom->ntypes; type++) {
-        int itype = type;
-        auto *largest = static_cast<double *>(ifix->extract("radius", itype));
-        if (largest) radius[type] = std::max(radius[type], *largest);
-      }
-}
-
-void PairGranPenalty::find_largest_radii()
-{
-  const int n = atom->ntypes + 1;
-  std::vector<double> mine(n, 0.0), mine_frozen(n, 0.0);
-  largest_future_radii(mine);
-  for (int i = 0; i < atom->nlocal; i++) {
-    double &r = (atom->mask[i] & masses.frozen_groups() ? mine_frozen : mine)[atom->type[i]];
-    r = std::max(r, atom->radius[i]);
-  }
-  largest_free.resize(n);
-  largest_frozen.resize(n);
-  MPI_Allreduce(mine.data(), largest_free.data(), n, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(mine_frozen.data(), largest_frozen.data(), n, MPI_DOUBLE, MPI_MAX, world);
-  largest_radius = std::max(*std::max_element(largest_free.begin(), largest_free.end()),
-                            *std::max_element(largest_frozen.begin(), largest_frozen.end()));
-}
-
 void PairGranPenalty::create_store()
 {
-  if (!modify->get_fix_by_id(store ? store_id : placeholder_id))
+  const std::string &expected = store ? store_id : placeholder_id;
+  if (!modify->get_fix_by_id(expected))
     error->all(FLERR, "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
-               "command", store ? store_id : placeholder_id);
+               "command", expected);
   if (!store) {
-    const double cell = largest_radius > 0.0 ? 2.0 * largest_radius : 1.0;
+    const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
     store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
     if (!store) error->all(FLERR, "Pair style gran/penalty: cannot create fix {}", store_id);
@@ -216,74 +188,62 @@ void PairGranPenalty::create_store()
 double PairGranPenalty::init_one(int i, int j)
 {
   if (setflag[i][j] == 0) {
-    const ContactSpec &a = spec(i, i), &b = spec(j, j);
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
-    if (a.law != b.law)
-      error->all(FLERR, "Pair style gran/penalty: types {} ({}, {}) and {} ({}, {}) have different "
-                 "laws: add 'pair_coeff {} {} ...'", i, name_of(a.law.normal),
-                 name_of(a.law.tangential), j, name_of(b.law.normal), name_of(b.law.tangential),
-                 i, j);
-    spec(i, j) = mix_contacts(a, b, friction_mix);
+    if (book.spec(i, i).law != book.spec(j, j).law)
+      error->all(FLERR, "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
+                 "add 'pair_coeff {} {} ...'", i, describe_law(book.law(i, i)), j,
+                 describe_law(book.law(j, j)), i, j);
+    if (!book.can_mix(i, j))
+      error->all(FLERR, "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt: "
+                 "add 'pair_coeff {} {} ...'", i, j, i, j);
   }
-  return std::max({largest_free[i] + largest_free[j], largest_frozen[i] + largest_free[j],
-                   largest_free[i] + largest_frozen[j]});
+  return radii.cutoff(i, j);
 }
 
-/* Once all pairs of types are known. Pairs that another sub-style of a hybrid style computes never come
-   up: they get the row of a pair that does, so that uniform laws are recognised as such. */
+/* Once all pairs of types are known: at the first rebuild of a run, or the first question. */
 
 void PairGranPenalty::prepare_laws()
 {
-  LawTable table;
-  table.reset(atom_types);
-  const auto is_mine = [&](int i, int j) {
-    return setflag[i][j] || (setflag[i][i] && setflag[j][j] && spec(i, i).law == spec(j, j).law);
-  };
-  ContactSpec any;
-  for (int i = atom_types; i >= 1; i--)
-    for (int j = atom_types; j >= i; j--)
-      if (is_mine(i, j)) any = spec(i, j);
-  for (int i = 1; i <= atom_types; i++)
-    for (int j = i; j <= atom_types; j++) {
-      const ContactSpec &s = is_mine(i, j) ? spec(i, j) : any;
-      table.set(i, j, s.law, s.coefficients);
-    }
-  table.finish();
+  const LawTable table = book.table();
+  store->keep_onsets(table.has_onset());
   pipeline.set_laws(table);
   laws_current = true;
 
-  const std::string description = describe_laws();
+  const std::string description = "Talus gran/penalty: " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
   warn_small_periods();
 }
 
-std::string PairGranPenalty::describe_laws() const
+const ContactSpec *PairGranPenalty::own_spec(int type) const
 {
-  const LawTable &table = pipeline.law_table();
-  std::string laws, left_out;
-  for (int n = 0; n < table.num_laws(); n++) {
-    const ContactLaw law = table.distinct_law(n);
-    laws += fmt::format("{}{} + {}", n ? ", " : "", name_of(law.normal), name_of(law.tangential));
-  }
-  if (!table.has_history()) left_out += " contact history (no multistep law);";
-  if (!table.has_friction()) left_out += " spins and torques (no friction);";
-  if (table.uniform()) left_out += " look-up by type (one set of coefficients);";
-  if (!left_out.empty()) left_out.back() = '\n';
-  return fmt::format("Talus gran/penalty: kernels {}; {}\n", laws, instruction_set()) +
-      (left_out.empty() ? "" : "  left out:" + left_out);
+  return allocated && book.is_set(type, type) ? &book.spec(type, type) : nullptr;
 }
 
 void PairGranPenalty::warn_small_periods()
 {
   if (!pipeline.keeps_history() || comm->me) return;
-  const double cut = 2.0 * largest_radius;
+  const double cut = 2.0 * radii.largest();
   for (int d = 0; d < 3; d++)
     if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
       error->warning(FLERR, "Pair style gran/penalty: the box is periodic in {} with a period below "
                      "two diameters: particles that touch from both sides share one contact history",
                      "xyz"[d]);
+}
+
+/* Once at the start of a run, with the contacts of its first step. */
+
+void PairGranPenalty::warn_large_time_step()
+{
+  constexpr double advised = 0.2;
+  critical.compute(book, pipeline, 1);
+  const double limit = critical.smallest();
+  if (comm->me == 0 && limit > 0.0 && update->dt > advised * limit)
+    error->warning(FLERR, "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
+                   "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
+                   update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
+                   advised);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -293,20 +253,33 @@ void PairGranPenalty::file_history(PartnerLists &partners)
   pipeline.file_history(partners);
 }
 
+void PairGranPenalty::adopt_first_copies(PartnerLists &partners,
+                                         const FixContactStore::GhostValues &ghosts)
+{
+  pipeline.adopt_first_copies(partners, ghosts);
+}
+
+void PairGranPenalty::velocities_have_moved()
+{
+  if (account.waits_for_move())
+    pipeline.account_for_move(atom->v[0], atom->omega[0], update->dt, account);
+}
+
 void PairGranPenalty::renumber_pairs()
 {
   if (!laws_current) prepare_laws();
   const int nall = atom->nlocal + atom->nghost;
   std::vector<std::uint64_t> keys(nall);
-  std::vector<std::int64_t> tags(nall);
+  std::vector<std::int64_t> tags(nall), filed_tags(nall);
   for (int i = 0; i < nall; i++) {
     keys[i] = store->key(i);
     tags[i] = atom->tag[i];
+    filed_tags[i] = store->filed_tag(i);
   }
   pipeline.pairs.order_particles(atom->nlocal, keys, std::move(tags));
   add_candidate_pairs();
   pipeline.pairs.finish();
-  pipeline.start_pairs(atom->type, store->partner_lists(), store->filed_tag_of_atom());
+  pipeline.start_pairs(atom->type, store->partner_lists(), filed_tags);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }
@@ -352,10 +325,12 @@ void PairGranPenalty::compute(int eflag, int vflag)
 
   reported.clear();
   const bool advance = update->setupflag == 0;
-  pipeline.compute(view(), update->dt, advance, vflag_either ? &reported : nullptr);
+  pipeline.compute(view(), update->dt, advance, vflag_either ? &reported : nullptr,
+                   keeps_account ? &account : nullptr);
   store->pairs_are_current();
   if (atom->nlocal) pipeline.add_forces(atom->f[0], atom->torque[0]);
 
+  if (update->setupflag) warn_large_time_step();
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
 }
@@ -379,6 +354,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
                                double &fforce)
 {
   fforce = 0.0;
+  if (!laws_current) prepare_laws();
   std::fill(svector, svector + single_extra, 0.0);
   const double ri = atom->radius[i], rj = atom->radius[j];
   if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
@@ -391,11 +367,14 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
   s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
+  s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
+  s.circle = circle_of_intersection(ri, rj, s.overlap);
+  s.inverse_distance = 1.0 / r;
 
-  const Record h = pipeline.history_of(i, j);
-  const ContactSpec &law = spec(std::min(itype, jtype), std::max(itype, jtype));
-  const ContactForce<double> out =
-      single_contact(law.law, law.coefficients, s, update->dt, {row(h.c), h.c[3]});
+  const int row_of_types = pipeline.law_table().row(itype, jtype);
+  const ContactForce<double> out = single_contact(
+      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
+      update->dt, pipeline.history_of(i, j), pipeline.onset_of(i, j));
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;
@@ -411,10 +390,10 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
 void PairGranPenalty::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
-  for (int i = 1; i <= atom_types; i++)
-    for (int j = i; j <= atom_types; j++) {
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
       fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      fwrite(&spec(i, j), sizeof(ContactSpec), 1, fp);
+      fwrite(&book.spec(i, j), sizeof(ContactSpec), 1, fp);
     }
 }
 
@@ -422,27 +401,29 @@ void PairGranPenalty::read_restart(FILE *fp)
 {
   read_restart_settings(fp);
   if (!allocated) allocate();
-  for (int i = 1; i <= atom_types; i++)
-    for (int j = i; j <= atom_types; j++) {
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      ContactSpec spec;
       if (comm->me == 0) {
         utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-        utils::sfread(FLERR, &spec(i, j), sizeof(ContactSpec), 1, fp, nullptr, error);
+        utils::sfread(FLERR, &spec, sizeof spec, 1, fp, nullptr, error);
       }
       MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      MPI_Bcast(&spec(i, j), sizeof(ContactSpec), MPI_BYTE, 0, world);
+      MPI_Bcast(&spec, sizeof spec, MPI_BYTE, 0, world);
+      if (setflag[i][j]) book.set(i, j, spec);
     }
 }
 
 void PairGranPenalty::write_restart_settings(FILE *fp)
 {
-  fwrite(&friction_mix, sizeof friction_mix, 1, fp);
+  fwrite(&book.mix, sizeof book.mix, 1, fp);
 }
 
 void PairGranPenalty::read_restart_settings(FILE *fp)
 {
   if (comm->me == 0)
-    utils::sfread(FLERR, &friction_mix, sizeof friction_mix, 1, fp, nullptr, error);
-  MPI_Bcast(&friction_mix, sizeof friction_mix, MPI_BYTE, 0, world);
+    utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
+  MPI_Bcast(&book.mix, sizeof book.mix, MPI_BYTE, 0, world);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -13,7 +13,10 @@
 #include "lammps_compat.h"
 #include "pair.h"
 #include "pair/contact_command.h"
+#include "pair/critical_time_step.h"
 #include "pair/effective_masses.h"
+#include "pair/largest_radii.h"
+#include "pair/law_book.h"
 
 #include <string>
 #include <vector>
@@ -43,40 +46,49 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   double atom2cut(int) TALUS_OVERRIDE_ATOM2CUT;
   double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
+  /// For large bodies: the material of a type, as set by `pair_coeff type type`, or nullptr.
+  const ContactSpec *own_spec(int type) const;
+  FrictionMix mix_rule() const { return book.mix; }
+
+  /// For computes: from the next step on energies are accounted for; what the last step found.
+  void keep_account() { keeps_account = true; }
+  const Talus::EnergyAccount &energy_account() const { return account; }
+  const Talus::ContactPipeline &contacts() const { return pipeline; }
+  const LawBook &laws() const { return book; }
+
   // FixContactStore::Client
   void file_history(Talus::PartnerLists &partners) override;
+  void adopt_first_copies(Talus::PartnerLists &partners,
+                          const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;
+  void velocities_have_moved() override;
 
  private:
   void allocate();
   void check_host();
-  void find_largest_radii();
-  void largest_future_radii(std::vector<double> &radius);
   void create_store();
   void prepare_laws();
-  std::string describe_laws() const;
   void warn_small_periods();
+  void warn_large_time_step();
 
   void add_candidate_pairs();
   Talus::ParticleView view() const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);
   void count_contacts();
 
-  FrictionMix friction_mix = FrictionMix::MINIMUM;
-  std::vector<ContactSpec> specs;    // (ntypes+1)^2, upper triangle is used
-  ContactSpec &spec(int i, int j) { return specs[i * (atom_types + 1) + j]; }
-  int atom_types = 0;
+  LawBook book;
   bool laws_current = false;
   std::string announced;    // last description of the laws in the log
 
   Talus::ContactPipeline pipeline;
   std::vector<Talus::ReportedContact> reported;
 
-  // largest radius of each type, particles that are frozen apart: two frozen ones never interact
-  std::vector<double> largest_free, largest_frozen;
-  double largest_radius = 0.0;
+  bool keeps_account = false;
+  Talus::EnergyAccount account;
 
   EffectiveMasses masses;
+  LargestRadii radii;
+  CriticalTimeStep critical;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

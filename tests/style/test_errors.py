@@ -43,7 +43,7 @@ def number(name, word):
 
 
 CONTACT = [    # words of a contact law, message, marked word
-    ("hook 1 1", "unknown normal law 'hook', expected hooke or hertz", "hook"),
+    ("hook 1 1", "unknown normal law 'hook', expected hooke, hertz, flores", "hook"),
     ("hooke", "missing kn (a number >= 0)", "hooke"),
     ("hertz 11", "missing gn (a number >= 0)", "11"),
     ("hooke x 1", *number("kn", "x")),
@@ -86,7 +86,7 @@ SURPLUS = [    # words behind a complete law
     ("hooke 1 1 tangential dashpot 1 1 33", "33"),
     ("hooke 1 1 tangential multistep 1 1 1 limit_damping 33", "33"),
     ("hooke 1 1 limit_damping yes", "yes"),
-    ("hooke 1 1 rolling 33", "rolling"),
+    ("hooke 1 1 bouncing 33", "bouncing"),
 ]
 
 PLANE, RECTANGLE = "plane 0 0 0 0 0 1", "rectangle 0 0 0 0 0 1 1 0 0 2 3"
@@ -117,11 +117,11 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
      "or 'contact types 1 NORMAL args ...'", None),
     (f"{RECTANGLE} contact types 1 hooke 1 1", "fix large/body: no contact law for particles of type 2",
      None),
-    (f"{PLANE} contact", "fix large/body contact: missing normal law: hooke or hertz", "contact"),
+    (f"{PLANE} contact", "fix large/body contact: missing normal law: hooke, hertz, flores", "contact"),
     (f"{PLANE} contact types", "fix large/body contact: missing types, e.g. 1 or 1*3", "types"),
     (f"{PLANE} contact types 3 hooke 1 1", "Numeric index 3 is out of bounds (1-2)", None),
     (f"{PLANE} contact types hooke 1 1", "Invalid range string: hooke", None),
-    (f"{PLANE} {LAW} move none", "fix large/body: unknown word 'move', expected contact or two-sided",
+    (f"{PLANE} {LAW} move none", "fix large/body: unknown word 'move', expected contact, two-sided",
      "move"),
     (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact or "
      "two-sided", "onesided"),
@@ -137,7 +137,7 @@ INPUT = [    # commands after the box, message
     (STYLE + MOVE + "run 0", "All pair coeffs are not set"),
     (STYLE + MOVE + "pair_coeff 1 1 hooke 1 1\nrun 0", "All pair coeffs are not set"),
     (STYLE + MOVE + "pair_coeff 1 1 hooke 1 1\npair_coeff 2 2 hertz 1 1 tangential multistep 1 1 1\n"
-     "run 0", "Pair style gran/penalty: types 1 (hooke, none) and 2 (hertz, multistep) have different "
+     "run 0", "Pair style gran/penalty: types 1 (hooke + none) and 2 (hertz + multistep) have different "
      "laws: add 'pair_coeff 1 2 ...'"),
     ("pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty hooke 1 x",
      "pair_coeff gran/penalty: expected gn (a number >= 0) instead of 'x'"),
@@ -201,7 +201,7 @@ class Errors(SceneCase):
                               "pair_coeff gran/penalty: " + message, word)
         for words, word in SURPLUS:
             self.assert_error(f"{box()}{STYLE}pair_coeff * * {words}", "pair_coeff gran/penalty: "
-                              f"unknown word '{word}', expected tangential or limit_damping", word)
+                              f"unknown word '{word}', expected tangential, rolling, spinning", word)
 
     def test_contact_of_large_body(self):
         for words, message, word in CONTACT[:3] + CONTACT[11:13] + CONTACT[-3:]:
@@ -209,7 +209,7 @@ class Errors(SceneCase):
                               "fix large/body contact: " + message, word)
         for words, word in SURPLUS[:3]:
             self.assert_error(f"{box()}fix f all large/body {PLANE} contact {words}", "fix large/body: "
-                              f"unknown word '{word}', expected contact or two-sided", word)
+                              f"unknown word '{word}', expected contact, two-sided", word)
 
     def test_large_body(self):
         for words, message, word in LARGE_BODY:

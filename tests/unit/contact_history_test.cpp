@@ -211,7 +211,7 @@ TEST(ContactHistory, DoesNotComeBackAfterALawWithoutIt)
   rank.compute(p, dt, true);
   Luggage with, without;
   rank.depart(with);
-  EXPECT_EQ(with[0].size(), 1U + PartnerLists::packed_size);
+  EXPECT_EQ(with[0].size(), 1U + 1U + 4U);    // number of partners; tag and history of one
   rank.pipeline.set_laws(single_law({NormalLaw::HERTZ, TangentialLaw::ONESTEP}, true));
   rank.depart(without);
   EXPECT_EQ(without[0].size(), 1U);

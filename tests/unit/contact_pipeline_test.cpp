@@ -166,7 +166,7 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   pipeline.pairs.order_particles(2, {0, 0}, {1, 2});
   pipeline.pairs.add_pair(1, 0, 1.0);
   pipeline.pairs.finish();
-  pipeline.start_pairs(nullptr, PartnerLists());
+  pipeline.start_pairs(nullptr, PartnerLists(), {1, 2});
   pipeline.compute({x, v, nullptr, radius, mass, nullptr}, dt, true, nullptr);
   double f[6] = {10.0, 20.0, 30.0, 40.0, 50.0, 60.0};    // forces are added
   pipeline.add_forces(f, nullptr);

@@ -101,7 +101,7 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
     PartnerLists none;
     none.resize(num_particles);
     ContactHistory history;
-    history.fetch(pairs, none);
+    history.fetch(pairs, none, std::vector<std::int64_t>(num_particles, 0));
     std::vector<Record> expected(count);
     for (int step = 0; step < 20; step++) {
       const std::vector<Record> position = random_positions(random);

@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "contact/partner_lists.h"
+#include "contact/record.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 using namespace Talus;
 
 namespace {
+
+constexpr int entry_size = 1 + 4;    // doubles: the tag and four values
 
 struct Entry {
   std::int64_t tag;
@@ -44,17 +47,16 @@ void fill(PartnerLists &lists, const Model &model, RandomSource &random)
   lists.begin();
   for (const auto &item : all) lists.count(item.first);
   lists.layout();
-  for (const auto &[atom, entry] : all) lists.append(atom, entry.tag, entry.history);
+  for (const auto &[atom, entry] : all) std::copy_n(entry.history.c, 4, lists.append(atom, entry.tag));
 }
 
 void expect_holds(const PartnerLists &lists, int atom, const std::vector<Entry> &entries)
 {
   ASSERT_EQ(lists.size(atom), static_cast<int>(entries.size()));
   for (const Entry &e : entries) {
-    const PartnerLists::Partner *p = lists.find(atom, e.tag);
-    ASSERT_NE(p, nullptr);
-    ASSERT_EQ(p->tag, e.tag);
-    ASSERT_TRUE(std::equal(p->history, p->history + 4, e.history.c));
+    const double *values = lists.find(atom, e.tag);
+    ASSERT_NE(values, nullptr);
+    ASSERT_TRUE(std::equal(values, values + 4, e.history.c));
   }
   EXPECT_EQ(lists.find(atom, -1), nullptr);
 }
@@ -96,11 +98,12 @@ TEST(PartnerLists, SurvivePackingAndUnpacking)
   fill(from, model, random);
   fill(to, random_model(n, random), random);    // replaced by what is unpacked
 
-  std::vector<double> buffer(n * (1 + 13 * PartnerLists::packed_size), -1.0);
+  std::vector<double> buffer(n * (1 + 13 * entry_size), -1.0);
   int written = 0, read = 0;
   for (int a = 0; a < n; a++) {
     const int size = from.pack(a, &buffer[written]);
-    EXPECT_EQ(size, 1 + PartnerLists::packed_size * from.size(a));
+    EXPECT_EQ(size, 1 + entry_size * from.size(a));
+    EXPECT_EQ(size, from.packed_size(a));
     written += size;
     EXPECT_EQ(buffer[written], -1.0);    // nothing beyond the announced length
   }
@@ -121,11 +124,29 @@ TEST(PartnerLists, PackEveryBitOfATag)
     PartnerLists lists;
     lists.resize(2);
     fill(lists, {{{tag, {{1.0, 2.0, 3.0, 1.0}}}}, {}}, random);
-    double buffer[1 + PartnerLists::packed_size];
+    double buffer[1 + entry_size];
     lists.pack(0, buffer);
     lists.unpack(1, buffer);
     expect_holds(lists, 1, {{tag, {{1.0, 2.0, 3.0, 1.0}}}});
   }
+}
+
+TEST(PartnerLists, ChangeOfValuesKeepsWhatIsFiled)
+{
+  RandomSource random(6);
+  const Model model = random_model(30, random);
+  PartnerLists lists;
+  lists.resize(30);
+  fill(lists, model, random);
+  lists.set_values(8);
+  for (int a = 0; a < 30; a++) {
+    expect_holds(lists, a, model[a]);
+    for (const Entry &e : model[a])
+      for (int k = 4; k < 8; k++) EXPECT_EQ(lists.find(a, e.tag)[k], 0.0);
+    EXPECT_EQ(lists.packed_size(a), 1 + 9 * lists.size(a));
+  }
+  lists.set_values(4);
+  for (int a = 0; a < 30; a++) expect_holds(lists, a, model[a]);
 }
 
 // What the host does when particles leave: the last one takes the place of the one that left.
@@ -151,7 +172,7 @@ TEST(PartnerLists, CopyAndClear)
   const Model again = random_model(n, random);
   fill(lists, again, random);
   for (int a = 0; a < n; a++) expect_holds(lists, a, again[a]);
-  lists.clear_all();
+  lists.begin();
   for (int a = 0; a < n; a++) expect_holds(lists, a, {});
   fill(lists, again, random);
   for (int a = 0; a < n; a++) expect_holds(lists, a, again[a]);

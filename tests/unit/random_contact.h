@@ -18,12 +18,15 @@ namespace slow {
 
 inline const double infinity = std::numeric_limits<double>::infinity();
 
+/// The laws of the twin in slow_contact.h: those that the stock styles have as well.
 inline std::vector<Talus::ContactLaw> all_laws()
 {
+  using N = Talus::NormalLaw;
+  using T = Talus::TangentialLaw;
   std::vector<Talus::ContactLaw> laws;
-  for (int n = 0; n < Talus::num_normal_laws; n++)
-    for (int t = 0; t < Talus::num_tangential_laws; t++)
-      laws.push_back({static_cast<Talus::NormalLaw>(n), static_cast<Talus::TangentialLaw>(t)});
+  for (N normal : {N::HOOKE, N::HERTZ})
+    for (T tangential : {T::NONE, T::DASHPOT, T::ONESTEP, T::MULTISTEP})
+      laws.push_back({normal, tangential});
   return laws;
 }
 

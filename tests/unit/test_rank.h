@@ -36,7 +36,7 @@ class TestRank {
     pipeline.file_history(partners);
     for (int a = 0; a < owned; a++) {
       std::vector<double> &buffer = luggage[particle[a]];
-      buffer.resize(1 + Talus::PartnerLists::packed_size * partners.size(a));
+      buffer.resize(partners.packed_size(a));
       partners.pack(a, buffer.data());
     }
   }
@@ -73,7 +73,7 @@ class TestRank {
     for (const int i : particle) {
       key.push_back(p.key[i]);
       tag.push_back(p.tag[i]);
-      filed_tag.push_back(old_tag ? (*old_tag)[i] : 0);
+      filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
       type.push_back(p.type[i]);
     }
     pipeline.pairs.order_particles(owned, key, tag);
@@ -85,7 +85,7 @@ class TestRank {
       pipeline.pairs.add_pair(number[n.i], number[n.j], n.weight);
     }
     pipeline.pairs.finish();
-    pipeline.start_pairs(type.data(), partners, old_tag ? filed_tag.data() : nullptr);
+    pipeline.start_pairs(type.data(), partners, filed_tag);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -123,7 +123,8 @@ class TestRank {
       return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
                               particle.begin());
     };
-    return pipeline.history_of(number(i), number(j));
+    const auto h = pipeline.history_of(number(i), number(j));
+    return {{h.displacement.x, h.displacement.y, h.displacement.z, h.at_limit}};
   }
 
  private:

@@ -1,0 +1,43 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "compute/compute_timestep_gran.h"
+
+#include "pair/pair_gran_penalty.h"
+
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+ComputeTimestepGran::ComputeTimestepGran(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), critical(lmp)
+{
+  if (narg > 3) error->all(FLERR, 3, "compute timestep/gran: surplus word '{}'", arg[3]);
+  vector_flag = 1;
+  size_vector = 6;
+  extvector = 0;
+  vector = new double[size_vector]();
+}
+
+ComputeTimestepGran::~ComputeTimestepGran()
+{
+  delete[] vector;
+}
+
+void ComputeTimestepGran::init()
+{
+  pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
+  if (!pair) error->all(FLERR, "Compute timestep/gran requires one pair style gran/penalty");
+}
+
+void ComputeTimestepGran::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  critical.compute(pair->laws(), pair->contacts(), groupbit);
+  const double steps[3] = {critical.contact, critical.rayleigh, critical.hertz};
+  for (int n = 0; n < 3; n++) {
+    vector[n] = steps[n];
+    vector[n + 3] = steps[n] > 0.0 ? update->dt / steps[n] : 0.0;
+  }
+}

@@ -1,0 +1,30 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// compute ID group timestep/gran: critical time steps (see pair/critical_time_step.h) and the present time step
+// as a fraction of each. doc/compute_timestep_gran.md is the user's page.
+
+#ifndef LMP_COMPUTE_TIMESTEP_GRAN_H
+#define LMP_COMPUTE_TIMESTEP_GRAN_H
+
+#include "compute.h"
+#include "pair/critical_time_step.h"
+
+namespace LAMMPS_NS {
+
+class ComputeTimestepGran : public Compute {
+ public:
+  ComputeTimestepGran(class LAMMPS *, int, char **);
+  ~ComputeTimestepGran() override;
+  void init() override;
+
+  /// contact, rayleigh, hertz, then dt over each of them; 0 where it is not defined.
+  void compute_vector() override;
+
+ private:
+  class PairGranPenalty *pair = nullptr;
+  CriticalTimeStep critical;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,127 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "pair/critical_time_step.h"
+
+#include "fix/fix_large_body.h"
+
+#include "atom.h"
+#include "force.h"
+#include "math_const.h"
+#include "modify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// 0 stands for "not defined".
+double smaller_defined(double a, double b)
+{
+  if (!(a > 0.0)) return b;
+  return b > 0.0 ? std::min(a, b) : a;
+}
+
+/// Effective Young's modulus of a law with Hertzian stiffness, 0 for others.
+double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
+{
+  switch (law.normal) {
+    case NormalLaw::HERTZ:
+    case NormalLaw::FLORES: return 0.75 * c.kn;
+    case NormalLaw::HERTZ_MATERIAL:
+    case NormalLaw::FLORES_MATERIAL: return c.kn;
+    default: return 0.0;
+  }
+}
+
+}    // namespace
+
+void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
+{
+  find_smallest_particles(laws.num_types(), group);
+  const double mine = contacts.largest_relative_speed();
+  double speed;
+  MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
+
+  law_period = rayleigh = hertz = 0.0;
+  for (int i = 1; i <= laws.num_types(); i++)
+    for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
+  // forces are in LAMMPS' units: force/mass is acceleration only after conversion
+  const double unit = 1.0 / std::sqrt(force->ftm2v);
+  contact = unit * reduce_smallest(contacts.smallest_contact_period());
+  if (!(contact > 0.0)) contact = unit * law_period;
+  contact = smaller_defined(contact, unit * smallest_body_period(laws.num_types()));
+  rayleigh *= unit;
+  hertz *= std::pow(unit, 0.8);
+}
+
+double CriticalTimeStep::smallest() const
+{
+  return smaller_defined(contact, smaller_defined(rayleigh, hertz));
+}
+
+void CriticalTimeStep::find_smallest_particles(int types, int group)
+{
+  std::vector<double> mine(2 * (types + 1), never), all(mine);
+  double *const r = mine.data(), *const m = r + types + 1;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & group)) continue;
+    const int type = atom->type[i];
+    r[type] = std::min(r[type], atom->radius[i]);
+    m[type] = std::min(m[type], atom->rmass[i]);
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
+  radius.assign(all.begin(), all.begin() + types + 1);
+  mass.assign(all.begin() + types + 1, all.end());
+}
+
+double CriticalTimeStep::reduce_smallest(double mine) const
+{
+  const double defined = mine > 0.0 ? mine : never;
+  double all;
+  MPI_Allreduce(&defined, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return std::isinf(all) ? 0.0 : all;
+}
+
+void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double speed)
+{
+  if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
+  if (!laws.is_set(i, j) && !laws.can_mix(i, j)) return;
+  const ContactLaw law = laws.law(i, j);
+  const ContactCoefficients c = laws.coefficients(i, j);
+  const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
+  const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
+
+  const double k = tangent_stiffness(law, c, 0.01 * std::min(radius[i], radius[j]), m, r);
+  if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
+  const double modulus = hertzian_modulus(law, c);
+  if (modulus > 0.0 && speed > 0.0)
+    hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
+  if (i == j && laws.spec(i, i).is_material())
+    rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
+}
+
+double CriticalTimeStep::smallest_body_period(int types) const
+{
+  double smallest = 0.0;
+  for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
+    auto *body = dynamic_cast<FixLargeBody *>(ifix);
+    for (int type = 1; body && type <= types; type++)
+      if (!std::isinf(radius[type]))
+        smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+  }
+  return smallest;
+}
+
+double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
+{
+  const double r = radius[type];
+  const double density = mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
+  const double shear = spec.young / (2.0 * (1.0 + spec.poisson));
+  return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * spec.poisson + 0.8766);
+}

@@ -1,0 +1,51 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Time steps that a granular scene allows, by the three usual rules (units of time; 0 if not defined):
+//
+//   contact    sqrt(m_eff/k), smallest over the contacts of the moment, k = dF_n/d overlap; without contacts over
+//              the lightest pair of every pair of types at an overlap of 1 % of the smaller radius; and over the
+//              lightest particle of every type against every large body at 1 % of its radius
+//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and Ghadiri 2006);
+//              only types with a material law
+//   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the largest
+//              relative speed v of neighboring particles; only laws with Hertzian stiffness, and only if v > 0
+//
+// Collective: all ranks of `world` must call compute().
+
+#ifndef TALUS_CRITICAL_TIME_STEP_H
+#define TALUS_CRITICAL_TIME_STEP_H
+
+#include "contact/contact_pipeline.h"
+#include "pair/law_book.h"
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class CriticalTimeStep : protected Pointers {
+ public:
+  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp) {}
+
+  double contact = 0.0, rayleigh = 0.0, hertz = 0.0;
+
+  /// `group` selects the particles whose sizes count.
+  void compute(const LawBook &laws, const Talus::ContactPipeline &contacts, int group);
+
+  /// Smallest of those that are defined, 0 if none is.
+  double smallest() const;
+
+ private:
+  void find_smallest_particles(int types, int group);
+  double reduce_smallest(double mine) const;
+  void consider_pair(const LawBook &laws, int i, int j, double speed);
+  double smallest_body_period(int types) const;
+  double rayleigh_of(const ContactSpec &spec, int type) const;
+
+  std::vector<double> radius, mass;    // of the smallest particle of each type; infinite if there is none
+  double law_period = 0.0;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

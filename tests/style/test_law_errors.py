@@ -1,0 +1,230 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=600
+"""Every refusal of the words of a contact law, in pair_coeff gran/penalty and in fix large/body, and of the computes
+that go with them: its text and the word it points at, on 1 and 2 ranks."""
+
+import concurrent.futures
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase
+
+BOX = """
+units si
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+region box block -4 4 -4 4 -4 4
+create_box 2 box
+create_atoms 1 single -2 0 0
+create_atoms 2 single 2 0 0
+set group all diameter 1 density 1
+pair_style gran/penalty
+"""
+PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
+GOOD = "hertz/material 1e6 0.5 0.3"
+LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, plaincoulomb/material"
+KEYWORDS = "expected tangential, rolling, spinning, adhesion, vmin or limit_damping"
+
+NOT_NEGATIVE, POSITIVE, UNIT = r"\(a number >= 0\)", r"\(a number > 0\)", r"\(a number from 0 to 1\)"
+POISSON = r"\(a number from -1 to .5\)"
+
+# arguments of each normal law: name in messages, range, a good word, bad words
+E = ("Young's modulus E", POSITIVE, "1e6", ("0", "-1", "x", "1e999", "nan"))
+RESTITUTION = ("restitution e", UNIT, "0.5", ("-0.1", "1.1", "x"))
+NU = ("Poisson's ratio nu", POISSON, "0.3", ("-1", "0.51", "x"))
+VCHAR = ("characteristic speed vchar", POSITIVE, "1.0", ("0", "-1", "x"))
+KN = ("kn", NOT_NEGATIVE, "1e3", ("-1", "x", "inf"))
+GN = ("gn", NOT_NEGATIVE, "2.0", ("-1", "x"))
+MU = ("mu", NOT_NEGATIVE, "0.5", ("-0.5", "x"))
+ARGUMENTS = {
+    "hooke": (KN, GN), "hertz": (KN, GN), "flores": (KN, GN), "plaincoulomb": (KN, GN, MU),
+    "hooke/material": (E, RESTITUTION, NU, VCHAR), "hertz/material": (E, RESTITUTION, NU),
+    "flores/material": (E, RESTITUTION, NU, VCHAR), "plaincoulomb/material": (E, RESTITUTION, NU, MU),
+}
+KT = ("kt", NOT_NEGATIVE, "1e3", ("-1", "x"))
+GT = ("gt", NOT_NEGATIVE, "2.0", ("-1", "x"))
+KEYWORD_ARGUMENTS = {
+    "tangential dashpot": (GT, MU), "tangential onestep": (KT, GT, MU), "tangential multistep": (KT, GT, MU),
+    "rolling": (("mu_r", NOT_NEGATIVE, "0.1", ("-0.1", "delayed")),),
+    "spinning": (("mu_s", NOT_NEGATIVE, "0.1", ("-0.1", "NULL")),),
+    "adhesion constant": (("adhesive force F", NOT_NEGATIVE, "1.0", ("-1", "x")),),
+    "adhesion dmt": (("adhesion W", NOT_NEGATIVE, "1.0", ("-1",)),),
+    "adhesion perko": (("adhesion S", NOT_NEGATIVE, "1.0", ("-1",)),),
+    "vmin": (("slip speed", NOT_NEGATIVE, "1e-4", ("-1", "x")), ("roll speed", NOT_NEGATIVE, "1e-4", ("-1",)),
+             ("spin speed", NOT_NEGATIVE, "1e-4", ("-1", "limit_damping"))),
+}
+
+
+def argument_cases(words, arguments):
+    """Words with one argument too few, and with one bad argument, at every position."""
+    for n, (name, unit, _, bad) in enumerate(arguments):
+        before = [a[2] for a in arguments[:n]]
+        yield " ".join([words, *before]), f"missing {name} {unit}", (words.split() + before)[-1]
+        for word in bad:
+            after = [a[2] for a in arguments[n + 1:]]
+            yield (" ".join([words, *before, word, *after]), f"expected {name} {unit} instead of '{word}'", word)
+
+
+def law_cases():
+    """(words of a contact, what the message says, the word it points at)"""
+    yield "hook 1e3 2.0", f"unknown normal law 'hook', expected {LAWS}", "hook"
+    yield "material 1e3 2.0", f"unknown normal law 'material', expected {LAWS}", "material"
+    for law, arguments in ARGUMENTS.items():
+        yield from argument_cases(law, arguments)
+        good = " ".join([law, *(a[2] for a in arguments)])
+        yield f"{good} 7.0", None, "7.0"    # surplus: text depends on the command
+    for words, arguments in KEYWORD_ARGUMENTS.items():
+        for case in argument_cases(f"{GOOD} {words}", arguments):
+            yield case
+    yield f"{GOOD} tangential", "missing tangential law: none, dashpot, onestep or multistep", "tangential"
+    yield (f"{GOOD} tangential mindlin", "unknown tangential law 'mindlin', expected none, dashpot, onestep or "
+           "multistep", "mindlin")
+    yield f"{GOOD} tangential tanh 0.5", "unknown tangential law 'tanh'", "tanh"
+    yield f"{GOOD} tangential none 0.5", None, "0.5"
+    yield "hooke 1e3 2.0 tangential multistep 1e3", "missing gt", "1e3"
+    yield "hooke 1e3 2.0 tangential multistep 0.0 2.0 0.5", "tangential multistep needs kt > 0", "0.0"
+    yield "hooke 0.0 2.0 tangential multistep NULL 2.0 0.5", "tangential multistep needs kt > 0", "NULL"
+    yield ("hooke/material 1e6 0.5 0.3 1.0 tangential multistep 1e3 NULL 0.5",
+           "expected NULL for kt: hooke/material takes kt = kn", "1e3")
+    yield ("hooke/material 1e6 0.5 0.3 1.0 tangential onestep 1e3 NULL 0.5",
+           "expected NULL for kt: hooke/material takes kt = kn", "1e3")
+    yield f"{GOOD} tangential multistep NULL NULL NULL", "expected mu .* instead of 'NULL'", "NULL"
+    for law in "plaincoulomb 1e3 2.0 0.5", "plaincoulomb/material 1e6 0.5 0.3 0.5":
+        name = law.split()[0]
+        for mode in "multistep NULL NULL 0.5", "none":
+            yield (f"{law} tangential {mode}",
+                   f"'{name}' has a tangential force of its own: remove 'tangential'", "tangential")
+    for keyword in ("tangential none", "rolling 0.1", "spinning 0.1", "adhesion dmt 1.0", "vmin 0 0 0",
+                    "limit_damping"):
+        word = keyword.split()[0]
+        yield f"{GOOD} {keyword} {keyword}", f"'{word}' given twice", word
+    yield f"{GOOD} rolling 0.1 spinning 0.1 rolling 0.2", "'rolling' given twice", "rolling"
+    both = "rolling and spinning must both be delayed, or both not"
+    yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 delayed spinning 0.1", both, "0.1"
+    yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.1 delayed", both, "delayed"
+    yield f"{GOOD} adhesion", "missing adhesion: constant, dmt or perko", "adhesion"
+    yield (f"{GOOD} adhesion jkr 1.0", "unknown adhesion 'jkr', expected constant, dmt or perko", "jkr")
+    yield f"{GOOD} adhesion 1.0", "unknown adhesion '1.0', expected constant, dmt or perko", "1.0"
+    yield f"{GOOD} delayed", None, "delayed"
+    yield f"{GOOD} rolling 0.1 delayed delayed", None, "delayed"
+    yield f"{GOOD} limit_damping yes", None, "yes"
+    yield f"{GOOD} foo", None, "foo"
+
+
+PAIR = f"pair_coeff * * {GOOD}\n"
+
+# lines after the box, what the message says, the word it points at
+OTHERS = [
+    ("pair_style gran/penalty foo", "pair_style gran/penalty: unknown word 'foo', expected mix", "foo"),
+    ("pair_style gran/penalty mix", "missing rule after mix: min, arithmetic or geometric", "mix"),
+    ("pair_style gran/penalty mix max", "unknown rule 'max' after mix, expected min", "max"),
+    ("pair_style gran/penalty mix min 1", "surplus word '1'", "1"),
+    ("pair_coeff * *", "expected two types and a contact law", None),
+    ("pair_coeff 1 1 hooke 1e3 2.0\nrun 0", "All pair coeffs are not set", None),
+    ("pair_coeff 1 1 hooke 1e3 2.0\npair_coeff 2 2 hertz 1e3 2.0\nrun 0",
+     r"types 1 \(hooke \+ none\) and 2 \(hertz \+ none\) have different laws: add 'pair_coeff 1 2 ...'", None),
+    ("pair_coeff 1 1 hooke 1e3 2.0 rolling 0.1\npair_coeff 2 2 hooke 1e3 2.0\nrun 0",
+     "have different laws: add 'pair_coeff 1 2 ...'", None),
+    ("pair_coeff 1 1 hooke 1e3 2.0 adhesion constant 1.0\npair_coeff 2 2 hooke 1e3 2.0\nrun 0",
+     "have different laws: add 'pair_coeff 1 2 ...'", None),
+    # large/body
+    (f"pair_coeff * * hooke 1e3 2.0\n{PLANE} contact {GOOD}\nrun 0",
+     "Fix large/body floor: the material law hertz/material needs the material of particles of type 1", None),
+    (f"pair_coeff 1 1 {GOOD}\npair_coeff 1 2 hooke 1e3 2.0\npair_coeff 2 2 hooke 1e3 2.0\n{PLANE} contact {GOOD}\n"
+     "run 0", "needs the material of particles of type 2", None),
+    (f"pair_style none\n{PLANE} contact {GOOD}\nrun 0", "needs the material of particles of type 1", None),
+    (f"{PAIR}{PLANE}", "no contact law for particles of type 1", None),
+    (f"{PAIR}{PLANE} contact types 2 {GOOD}", "no contact law for particles of type 1", None),
+    (f"{PAIR}{PLANE} contact types", "missing types", "types"),
+    (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
+    # computes
+    (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
+    (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),
+    (f"{PAIR}compute t all timestep/gran foo", "compute timestep/gran: surplus word 'foo'", "foo"),
+    ("pair_style none\ncompute s all penalty/stats\nrun 0", "requires one pair style gran/penalty", None),
+    ("pair_style none\ncompute t all timestep/gran\nrun 0", "requires one pair style gran/penalty", None),
+    ("pair_style gran/hooke/history 1e3 NULL 1.0 NULL 0.5 1\npair_coeff * *\ncompute s all penalty/stats\nrun 0",
+     "requires one pair style gran/penalty", None),
+]
+
+ACCEPTED = [
+    *(" ".join([law, *(a[2] for a in arguments)]) for law, arguments in ARGUMENTS.items()),
+    *(" ".join([GOOD, words, *(a[2] for a in arguments)]) for words, arguments in KEYWORD_ARGUMENTS.items()),
+    "hertz/material 1e6 0 0.5", "hertz/material 1e6 1 0", "hertz/material 1e6 1 -0.99",
+    "flores/material 1e6 0 0.3 1e-9", "hooke 0 0", "hooke 0.0 0.0 tangential dashpot 1.0 0.5",
+    "hertz/material 1e6 0.5 0.3 tangential multistep 1e6 0.5 0.5",
+    "hooke/material 1e6 0.5 0.3 1.0 tangential multistep NULL 0.5 0.5",
+    "plaincoulomb 1e3 2.0 0.0 rolling 0.1 delayed spinning 0.1 delayed adhesion perko 1.0 vmin 0 0 0 limit_damping",
+    "limit_damping".join(["hooke 1e3 2.0 ", " spinning 0.1 tangential none"]),
+    "hertz 1e3 2.0 tangential none rolling 0.0 spinning 0.0",
+]
+
+
+def marked_word(log):
+    """The word of the last input line above the ^^^^ of an error message."""
+    lines = log.splitlines()
+    for above, below in zip(lines, lines[1:]):
+        if re.fullmatch(r" *\^+", below):
+            return above[below.index("^"):][:below.count("^")]
+    return None
+
+
+class LawErrors(SceneCase):
+
+    def log_of(self, script, np, expect_error=True):
+        with tempfile.TemporaryDirectory(dir=self.dir) as folder:
+            return self.run_lammps(script, np=np, expect_error=expect_error, timeout=60, cwd=folder).log
+
+    def assert_errors(self, cases, expected_start):
+        """cases: (lines after the box, message, marked word); two processes at a time."""
+        cases = list(cases)
+        jobs = [(case, np) for case in cases for np in (1, 2)]
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            logs = list(pool.map(lambda job: self.log_of(f"{BOX}{job[0][0]}\n", job[1]), jobs))
+        for ((lines, message, word), np), log in zip(jobs, logs):
+            with self.subTest(lines=lines, ranks=np):
+                error, = re.findall(r"^ERROR.*", log, re.MULTILINE)
+                self.assertRegex(error, f"^ERROR: {expected_start}.*{message}")    # not "ERROR on proc"
+                self.assertEqual(marked_word(log), word)
+        print(f"\n{len(cases)} refusals on 1 and 2 ranks")
+
+    def test_pair_coeff(self):
+        self.assert_errors(((f"pair_coeff * * {words}", message or f"unknown word '{word}', {KEYWORDS}", word)
+                            for words, message, word in law_cases()), "pair_coeff gran/penalty: ")
+
+    def test_contact_of_a_large_body(self):
+        """The same parser: one case of each kind, and what is behind a contact."""
+        cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
+        self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
+                             message or f"unknown word '{word}', expected contact, two-sided, or in a contact "
+                             "tangential, rolling, spinning, adhesion, vmin or limit_damping", word)
+                            for words, message, word in cases), "fix large/body")
+
+    def test_under_pair_hybrid(self):
+        self.assert_errors([
+            ("pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty hooke 1e3", "missing gn", "1e3"),
+            ("pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty hooke 1e3 -2.0",
+             "expected gn .* instead of '-2.0'", "-2.0"),
+            ("pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty hooke 1e3 2.0 foo",
+             "unknown word 'foo'", "foo")], "pair_coeff gran/penalty: ")
+
+    def test_others(self):
+        self.assert_errors(OTHERS, "")
+
+    def test_accepted(self):
+        for words in ACCEPTED:
+            with self.subTest(words):
+                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
+                                "fix step all nve/sphere/symplectic\n"
+                                "compute s all penalty/stats\ncompute t all timestep/gran\n"
+                                "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

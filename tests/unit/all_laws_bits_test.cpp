@@ -1,0 +1,149 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What the promise of one trajectory needs of every combination of laws, to the last bit: no dependence on the lane,
+// on the kind of kernel or on the path (kernel, query), none on which body comes first, none on a restart.
+
+#include "law_states.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+using namespace Talus;
+using namespace twin;
+
+namespace {
+
+constexpr double dt = 2e-5;
+constexpr int width = ContactBatch::width;
+using Triple = std::array<double, 3>;
+
+Triple row_of(const Lanes &v, int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
+Triple row_of(const Vector3<double> &v) { return {v.x, v.y, v.z}; }
+Triple negated(const Triple &v) { return {-v[0], -v[1], -v[2]}; }
+
+struct Result {
+  Triple force, moment, couple, history, onset;
+  double at_limit;
+};
+
+bool same_bits(const Result &a, const Result &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+class LawBits : public testing::TestWithParam<ContactLaw> {
+ protected:
+  LawBits() { batch.clear(); }
+
+  /// A new random contact with coefficients and a variant of the law of its own.
+  void next()
+  {
+    const std::vector<ContactLaw> laws = variants(GetParam());
+    law = laws[random.below(static_cast<int>(laws.size()))];
+    const ContactSpec spec = random_spec(random, law.normal, random.chance(0.3));
+    p = contact_coefficients(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM);
+    c = random_contact(random, law, compose(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM), dt);
+  }
+
+  /// One contact in one lane of a batch whose other lanes hold whatever they held before.
+  Result run(int lane, const Contact &contact, bool uniform, bool advance)
+  {
+    put(batch, lane, contact, 0);
+    const int begin = lane / lanes * lanes;
+    for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
+    contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
+    return {row_of(batch.force, lane),        row_of(batch.moment, lane), row_of(batch.couple, lane),
+            row_of(batch.displacement, lane), row_of(batch.onset, lane),  batch.at_limit[lane]};
+  }
+
+  RandomSource random{4711};
+  ContactBatch batch;
+  ContactLaw law;
+  ContactCoefficients p;
+  Contact c;
+};
+
+TEST_P(LawBits, DoNotDependOnTheLaneOrTheKindOfKernel)
+{
+  for (int n = 0; n < 300; n++) {
+    next();
+    const bool advance = random.chance(0.5);
+    const Result first = run(0, c, true, advance);
+    for (int lane = 1; lane < width; lane++)
+      ASSERT_TRUE(same_bits(first, run(lane, c, lane % 2 == 0, advance))) << title(law) << " lane " << lane;
+  }
+}
+
+TEST_P(LawBits, QueriesAgreeWithKernels)
+{
+  for (int n = 0; n < 10000; n++) {
+    next();
+    const Result kernel = run(n % width, c, true, false);
+    const ContactForce<double> query =
+        single_contact(law, p, state_of(c), dt, history_of(c),
+                       law.has_onset() ? onset_of(c) : ContactOnset<double>{});
+    ASSERT_EQ(kernel.force, row_of(query.force)) << title(law);
+    ASSERT_EQ(kernel.moment, row_of(query.moment)) << title(law);
+    ASSERT_EQ(kernel.couple, row_of(query.couple)) << title(law);
+    // and leave what is remembered
+    ASSERT_EQ(kernel.history, row_of(history_of(c).displacement)) << title(law);
+    ASSERT_EQ(kernel.onset[0], onset_of(c).speed) << title(law);
+    ASSERT_EQ(kernel.onset[1], onset_of(c).age) << title(law);
+    ASSERT_EQ(kernel.onset[2], onset_of(c).begun) << title(law);
+  }
+}
+
+// A run that stops and starts again computes the force of its last step from what is stored.
+TEST_P(LawBits, ForceIsReproducedFromTheStoredHistory)
+{
+  int at_limit = 0, below = 0, fresh = 0;
+  for (int n = 0; n < 10000; n++) {
+    next();
+    const Result before = run(n % width, c, true, true);
+    fresh += !c.begun;
+    (before.at_limit > 0.0 ? at_limit : below)++;
+    Contact stored = c;
+    for (int d = 0; d < 3; d++) stored.history[d] = -before.history[d];
+    stored.at_limit = before.at_limit > 0.0;
+    stored.impact_speed = before.onset[0];
+    stored.age = before.onset[1];
+    stored.begun = before.onset[2] > 0.0;
+    const Result after = run((n + 3) % width, stored, false, false);
+    ASSERT_TRUE(same_bits(before, after)) << title(law) << " " << n;
+    ASSERT_EQ(before.onset[2] > 0.0, law.has_onset() || c.begun) << title(law);
+  }
+  EXPECT_GT(fresh, 1000);
+  if (!GetParam().has_history()) return;
+  EXPECT_GT(at_limit, 1000);
+  EXPECT_GT(below, 1000);
+}
+
+// Either body may come first: force, couple and displacement change sign, moment and onset stay. (Zeros may differ
+// in sign: no sum notices.)
+TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
+{
+  for (int n = 0; n < 10000; n++) {
+    next();
+    Contact swapped = c;
+    for (int d = 0; d < 3; d++) {
+      swapped.normal[d] = -c.normal[d];
+      swapped.history[d] = -c.history[d];
+    }
+    std::swap(swapped.radius[0], swapped.radius[1]);
+    std::swap(swapped.mass[0], swapped.mass[1]);
+    std::swap(swapped.velocity[0], swapped.velocity[1]);
+    std::swap(swapped.omega[0], swapped.omega[1]);
+    const bool advance = random.chance(0.7);
+    const Result a = run(n % width, c, true, advance);
+    const Result b = run((n + 11) % width, swapped, true, advance);
+    ASSERT_EQ(a.force, negated(b.force)) << title(law);
+    ASSERT_EQ(a.moment, b.moment) << title(law);
+    ASSERT_EQ(a.couple, negated(b.couple)) << title(law);
+    ASSERT_EQ(a.history, negated(b.history)) << title(law);
+    ASSERT_EQ(a.onset, b.onset) << title(law);
+    ASSERT_EQ(a.at_limit, b.at_limit) << title(law);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Grammar, LawBits, testing::ValuesIn(law_pairs()),
+                         [](const auto &info) { return identifier(info.param); });
+
+}    // namespace

@@ -1,0 +1,219 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Every combination of laws against the slow twin, from the words of the user (two ContactSpecs, mixed) to force,
+// torques, history and onset of random contacts. Errors are relative to the sum of the magnitudes of the terms of
+// a result: kn overlap + gn |v| for the normal force, kt |d| + gt (|v| + r |omega|) and mu times the former for the
+// tangential one, and so on (scales in law_twin.h). States in which rounding decides on which side of a
+// threshold a contact is are left out, and counted.
+
+#include "law_states.h"
+
+#include <gtest/gtest.h>
+
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+using namespace Talus;
+using namespace twin;
+
+namespace {
+
+constexpr Number tolerance = 1e-13L;
+constexpr int num_contacts = 100000;    // of each pair of laws, with and without advancing histories
+constexpr int num_rows = 32;
+
+/// A pair of materials as the twin and as the kernels see it.
+struct Table {
+  std::vector<Composite> composite;
+  std::vector<ContactCoefficients> row;
+
+  Table(RandomSource &random, NormalLaw normal)
+  {
+    for (int r = 0; r < num_rows; r++) {
+      const bool limited = random.chance(0.3);
+      const ContactSpec a = random_spec(random, normal, limited);
+      const ContactSpec b = random.chance(0.5) ? a : random_spec(random, normal, random.chance(0.3));
+      const auto rule = static_cast<LAMMPS_NS::FrictionMix>(random.below(3));
+      composite.push_back(compose(a, b, rule));
+      row.push_back(contact_coefficients(a, b, rule));
+    }
+  }
+};
+
+/// What the states of a test covered, to be sure that no case is missing.
+struct Coverage {
+  int contacts = 0, unclear = 0, slides = 0, sticks = 0, attracts = 0, floored = 0, rolls = 0, spins = 0,
+      delayed = 0, resists_late = 0, begun = 0;
+  std::set<int> kernels;
+
+  void count(const Contact &c, const Outcome &o, const Composite &p, ContactLaw law)
+  {
+    contacts++;
+    unclear += !o.clear_case;
+    slides += o.slides;
+    sticks += o.sticks;
+    attracts += o.normal_force < 0;
+    floored += p.limited && o.normal_force == 0 && c.overlap > 0;
+    rolls += o.rolls;
+    spins += o.spins;
+    delayed += o.delayed;
+    resists_late += law.delayed && !o.delayed;
+    begun += c.begun;
+  }
+};
+
+Number error_of(const Vector &found, const Vector &expected, Number scale)
+{
+  Number worst = 0;
+  for (int d = 0; d < 3; d++) {
+    if (!std::isfinite(static_cast<double>(found[d]))) return infinity;
+    const Number off = std::fabs(found[d] - expected[d]);
+    if (off > 0) worst = std::max(worst, scale > 0 ? off / scale : Number(infinity));
+  }
+  return worst;
+}
+
+struct Worst {
+  Number force = 0, torque = 0, history = 0, onset = 0;
+  std::string where;
+  Number largest() const { return std::max({force, torque, history, onset}); }
+};
+
+void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outcome &expected,
+                  ContactLaw law, bool advance, Worst &worst)
+{
+  const Number before = worst.largest();
+  const auto keep = [](Number &largest, Number error) { largest = std::max(largest, error); };
+  keep(worst.force, error_of(lane_of(b.force, lane), expected.force, expected.force_scale));
+  if (law.has_friction())
+    for (int body = 0; body < 2; body++) {
+      const Vector couple = law.resists ? lane_of(b.couple, lane) : Vector{};
+      const Vector torque = Number(-1) * c.radius[body] * lane_of(b.moment, lane) +
+          Number(body == 0 ? 1 : -1) * couple;
+      keep(worst.torque, error_of(torque, expected.torque[body], expected.torque_scale[body]));
+    }
+  const Vector history = Number(-1) * lane_of(b.displacement, lane);
+  keep(worst.history, error_of(history, expected.history, expected.history_scale));
+  if ((b.at_limit[lane] > 0.0) != expected.at_limit) worst.history = infinity;
+  if (law.has_onset() && advance) {
+    keep(worst.onset, error_of({b.onset[0][lane], 0, 0}, {expected.impact_speed, 0, 0}, expected.speed_scale));
+    keep(worst.onset, error_of({b.onset[1][lane], 0, 0}, {expected.age, 0, 0}, expected.age));
+    if ((b.onset[2][lane] > 0.0) != expected.begun) worst.onset = infinity;
+  }
+  if (!(worst.largest() > before)) return;
+  std::ostringstream text;
+  text << std::setprecision(17) << title(law) << " overlap " << c.overlap << " masses " << c.mass[0] << " "
+       << c.mass[1] << " radii " << c.radius[0] << " " << c.radius[1] << " normal force "
+       << expected.normal_force << "\n";
+  for (int d = 0; d < 3; d++)
+    text << "force " << b.force[d][lane] << " expected " << expected.force[d] << " moment "
+         << b.moment[d][lane] << " couple " << b.couple[d][lane] << " torques expected "
+         << expected.torque[0][d] << " " << expected.torque[1][d] << "\n";
+  worst.where = text.str();
+}
+
+class AllLaws : public testing::TestWithParam<ContactLaw> {};
+
+TEST_P(AllLaws, AgreeWithTheSlowTwin)
+{
+  const std::vector<ContactLaw> laws = variants(GetParam());
+  RandomSource random(100 + 8 * static_cast<int>(GetParam().normal) +
+                      static_cast<int>(GetParam().tangential));
+  ContactBatch batch;
+  batch.clear();
+  Coverage seen;
+  Worst worst;
+  Table table(random, GetParam().normal);
+  for (bool advance : {false, true})
+    for (int n = 0; n * ContactBatch::width < num_contacts; n++) {
+      if (n % 8 == 0) table = Table(random, GetParam().normal);
+      const int variant = random.below(static_cast<int>(laws.size()));
+      const ContactLaw law = laws[variant];
+      const bool uniform = random.chance(0.5);
+      const double dt = random.decade(-6.0, -3.0);
+      std::vector<Contact> contacts;
+      for (int lane = 0; lane < ContactBatch::width; lane++) {
+        const int row = random.below(num_rows);    // uniform kernels must not look at it
+        contacts.push_back(random_contact(random, law, table.composite[uniform ? 0 : row], dt));
+        put(batch, lane, contacts[lane], row);
+      }
+      contact_kernel(law, uniform, advance)(batch, 0, ContactBatch::width, table.row.data(), dt);
+      seen.kernels.insert(4 * variant + 2 * uniform + advance);
+      for (int lane = 0; lane < ContactBatch::width; lane++) {
+        const Composite &p = table.composite[uniform ? 0 : batch.coefficients[lane]];
+        const Outcome expected = evaluate(contacts[lane], law, p, dt, advance);
+        seen.count(contacts[lane], expected, p, law);
+        if (expected.clear_case)
+          compare_lane(batch, lane, contacts[lane], expected, law, advance, worst);
+      }
+    }
+
+  std::cout << std::left << std::setw(34) << title(GetParam()) << std::setprecision(2) << " force "
+            << worst.force << " torque " << worst.torque << " history " << worst.history << " onset "
+            << worst.onset << " left out " << seen.unclear << "\n";
+  EXPECT_LE(worst.largest(), tolerance) << worst.where;
+  EXPECT_GE(seen.contacts, 2 * num_contacts);
+  EXPECT_EQ(seen.kernels.size(), 24U);
+  EXPECT_LT(seen.unclear, seen.contacts / 100);
+  const int many = seen.contacts / 100;
+  for (int count : {seen.attracts, seen.floored, seen.rolls, seen.spins, seen.delayed, seen.resists_late})
+    EXPECT_GT(count, many);
+  EXPECT_GT(seen.contacts - seen.begun, many);
+  if (GetParam().tangential == TangentialLaw::NONE) return;
+  EXPECT_GT(seen.slides, many);
+  EXPECT_GT(seen.sticks, many);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grammar, AllLaws, testing::ValuesIn(law_pairs()),
+                         [](const auto &info) { return identifier(info.param); });
+
+// All 192 combinations have kernels of both kinds, and queries; where nothing is remembered both kinds are one.
+TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
+{
+  RandomSource random(1);
+  ContactBatch batch;
+  batch.clear();
+  int count = 0;
+  for (ContactLaw pair : law_pairs())
+    for (ContactLaw law : variants(pair)) {
+      count++;
+      const Table table(random, law.normal);
+      EXPECT_EQ(contact_kernel(law, true, true) == contact_kernel(law, true, false), !law.has_history());
+      for (bool uniform : {false, true})
+        for (bool advance : {false, true}) {
+          const ContactKernel kernel = contact_kernel(law, uniform, advance);
+          ASSERT_NE(kernel, nullptr) << title(law);
+          for (int lane = 0; lane < ContactBatch::width; lane++)
+            put(batch, lane, random_contact(random, law, table.composite[0], 1e-5), 0);
+          kernel(batch, 0, ContactBatch::width, table.row.data(), 1e-5);
+          for (int lane = 0; lane < ContactBatch::width; lane++)
+            for (int d = 0; d < 3; d++)
+              ASSERT_TRUE(std::isfinite(batch.force[d][lane]) && std::isfinite(batch.moment[d][lane]) &&
+                          std::isfinite(batch.couple[d][lane]) && std::isfinite(batch.displacement[d][lane]))
+                  << title(law);
+        }
+    }
+  EXPECT_EQ(count, 192);
+}
+
+// The circle of intersection against the textbook's formula, where that one is well conditioned.
+TEST(Resistance, CircleOfIntersection)
+{
+  RandomSource random(2);
+  for (int n = 0; n < 100000; n++) {
+    const double a = random.decade(-1.0, 0.0), b = random.decade(-1.0, 0.0);
+    const double overlap = 2.0 * std::min(a, b) * random.uniform(0.01, 0.99);
+    const Number d = Number(a) + b - overlap, x = (Number(a) * a - Number(b) * b) / (2 * d) + d / 2;
+    const Number expected = std::sqrt((a - x) * (a + x));
+    const double found = circle_of_intersection(a, b, overlap);
+    ASSERT_NEAR(found, static_cast<double>(expected), 1e-13 * std::min(a, b));
+    ASSERT_EQ(found, circle_of_intersection(b, a, overlap));    // whichever comes first
+  }
+  EXPECT_EQ(circle_of_intersection(1.0, 2.0, 0.0), 0.0);
+  EXPECT_EQ(circle_of_intersection(1.0, 2.0, -0.5), 0.0);
+  EXPECT_EQ(circle_of_intersection(1.0, 3.0, 2.5), 0.0);    // one inside the other
+  EXPECT_NEAR(circle_of_intersection(5e-9, 5e-9, 1e-9), std::sqrt(25e-18 - 4.5e-9 * 4.5e-9), 1e-23);
+}
+
+}    // namespace

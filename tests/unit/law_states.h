@@ -1,0 +1,242 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Random materials and contacts for every law, ordinary and degenerate, and the way into and out of a batch.
+
+#ifndef TALUS_TEST_LAW_STATES_H
+#define TALUS_TEST_LAW_STATES_H
+
+#include "contact/contact_kernel.h"
+#include "law_twin.h"
+#include "random_source.h"
+
+#include <string>
+#include <vector>
+
+namespace twin {
+
+using LAMMPS_NS::ContactSpec;
+using Talus::ContactLaw;
+
+inline bool is_material(NormalLaw law) { return law >= NormalLaw::HOOKE_MATERIAL; }
+inline bool is_plaincoulomb(NormalLaw law)
+{
+  return law == NormalLaw::PLAINCOULOMB || law == NormalLaw::PLAINCOULOMB_MATERIAL;
+}
+
+/// Normal and tangential laws that the grammar allows together.
+inline std::vector<ContactLaw> law_pairs()
+{
+  std::vector<ContactLaw> laws;
+  for (int n = 0; n < Talus::num_normal_laws; n++)
+    for (int t = 0; t < Talus::num_tangential_laws; t++) {
+      const ContactLaw law{static_cast<NormalLaw>(n), static_cast<TangentialLaw>(t)};
+      if (is_plaincoulomb(law.normal) == (law.tangential == TangentialLaw::TANH)) laws.push_back(law);
+    }
+  return laws;
+}
+
+/// The same law with and without resistance, at once or delayed, and adhesion.
+inline std::vector<ContactLaw> variants(ContactLaw law)
+{
+  std::vector<ContactLaw> laws;
+  for (int v = 0; v < 6; v++) {
+    law.resists = v % 3 > 0;
+    law.delayed = v % 3 == 2;
+    law.adheres = v >= 3;
+    laws.push_back(law);
+  }
+  return laws;
+}
+
+inline std::string title(ContactLaw law)
+{
+  return std::string(name_of(law.normal)) + " " + name_of(law.tangential) +
+      (law.resists ? law.delayed ? " delayed" : " resists" : "") + (law.adheres ? " adheres" : "");
+}
+
+/// Name of a law as GoogleTest allows it.
+inline std::string identifier(ContactLaw law)
+{
+  std::string name = title(law);
+  for (char &c : name)
+    if (c == ' ' || c == '/') c = '_';
+  return name;
+}
+
+inline ContactSpec random_spec(RandomSource &random, NormalLaw normal, bool limited)
+{
+  ContactSpec s;
+  s.law.normal = normal;
+  s.limit_damping = limited;
+  s.kt_given = random.chance(0.5);
+  s.gt_given = random.chance(0.5);
+  const auto zero_or = [&](double value) { return random.chance(0.1) ? 0.0 : value; };
+  Talus::ContactCoefficients &c = s.given;
+  if (s.is_material()) {
+    s.young = random.decade(4.0, 8.0);
+    s.poisson = random.chance(0.1) ? 0.5 : random.uniform(-0.9, 0.5);
+    const double special[] = {0.0, 1.0, 1e-3, 0.01, 0.999};
+    s.restitution = random.chance(0.3) ? special[random.below(5)] : random.uniform(0.0, 1.0);
+    c.speed = random.decade(-3.0, 1.0);
+    if (normal == NormalLaw::HOOKE_MATERIAL) s.kt_given = false;    // the grammar's rule
+    c.kt = s.young * random.uniform(0.5, 2.0);
+    c.gt = zero_or(random.uniform(0.1, 2.0));
+  } else {
+    c.kn = random.decade(3.0, 7.0);
+    c.kt = c.kn * random.uniform(0.1, 1.0);
+    c.gn = zero_or(random.decade(0.0, 4.0));
+    c.gt = zero_or(random.decade(-0.5, 0.5) * std::max(c.gn, 1.0));
+    if (normal == NormalLaw::FLORES) c.gn *= 1e3;
+  }
+  c.mu = zero_or(random.uniform(0.05, 1.5));
+  c.mu_roll = zero_or(random.uniform(0.01, 0.5));
+  c.mu_spin = zero_or(random.uniform(0.01, 0.5));
+  c.adhesion = zero_or(random.decade(-3.0, 1.0));
+  c.adhesion_dmt = zero_or(random.decade(-3.0, 1.0));
+  c.adhesion_perko = zero_or(random.decade(-3.0, 1.0));
+  c.slip_min = zero_or(random.decade(-6.0, -1.0));
+  c.roll_min = zero_or(random.decade(-6.0, -1.0));
+  c.spin_min = zero_or(random.decade(-6.0, 0.0));
+  return s;
+}
+
+inline Vector widen(const std::array<double, 3> &v) { return {v[0], v[1], v[2]}; }
+
+/// Velocities and history are in proportion to overlap, collision time and damping, so that contacts stick and
+/// slide, approach and separate, in comparable numbers; one in three is degenerate in some way. All numbers
+/// are doubles.
+inline Contact random_contact(RandomSource &random, ContactLaw law, const Composite &p, double dt)
+{
+  double radius[2], mass[2];
+  for (int b = 0; b < 2; b++) {
+    radius[b] = random.decade(-3.0, 0.0);
+    mass[b] = random.decade(-4.0, 1.0);
+  }
+  double overlap = std::min(radius[0], radius[1]) * random.decade(-6.0, -0.5);
+  const Number m = reduced(mass[0], mass[1]);
+  const Stiffness k =
+      stiffness(law.normal, p, overlap, m, reduced(radius[0], radius[1]), std::max(p.speed, Number(1e-3)));
+  double speed = static_cast<double>(overlap * std::sqrt(k.kn / m));
+  if (random.chance(0.5) && k.gn > 0)    // where damping balances the spring
+    speed = std::min(1e6 * speed, static_cast<double>(k.kn * overlap / k.gn));
+  speed *= random.decade(-1.5, 1.5);
+  std::array<double, 3> velocity[2], omega[2];
+  for (int b = 0; b < 2; b++) {
+    velocity[b] = random.in_cube(speed);
+    omega[b] = random.in_cube(speed / radius[b]);
+  }
+  std::array<double, 3> history = random.in_cube(overlap * random.decade(-2.0, 1.0));
+  const double collision_time = static_cast<double>(pi * std::sqrt(m / k.kn));
+
+  Contact c;
+  c.normal = widen(random.unit_vector());
+  c.at_limit = random.chance(0.3);
+  c.begun = random.chance(0.8);
+  c.age = c.begun ? static_cast<double>(collision_time * random.decade(-1.0, 1.0)) : 0.0;
+  double impact_speed = c.begun ? speed * random.decade(-0.5, 1.0) : 0.0;
+  if (random.chance(0.05)) c.age = dt * random.below(3);
+
+  double scale = 1.0;
+  const std::array<double, 3> none{};
+  switch (random.below(42)) {
+    case 0: velocity[0] = velocity[1] = none; break;
+    case 1: omega[0] = omega[1] = none; break;
+    case 2: velocity[0] = velocity[1] = omega[0] = omega[1] = none; break;
+    case 3: history = none; c.at_limit = c.begun = false; break;
+    case 4: history = none; break;
+    case 5: velocity[0] = velocity[1] = omega[0] = omega[1] = history = none; break;
+    case 6: overlap = 0.0; break;
+    case 7: overlap = 0.0; c.normal = {}; break;    // coincident centres
+    case 8: mass[0] = infinity; break;
+    case 9: mass[0] = mass[1] = infinity; break;
+    case 10: scale = 1e40; break;
+    case 11: scale = 1e-40; break;
+    case 12: radius[1] = radius[0]; mass[1] = mass[0]; break;
+    case 13: omega[1] = omega[0]; break;
+    default: break;
+  }
+  if (!c.begun) c.age = impact_speed = 0.0;
+  c.overlap = std::min(radius[0], radius[1]) < overlap ? 0.1 * overlap * scale : overlap * scale;
+  c.impact_speed = impact_speed * scale;
+  for (int b = 0; b < 2; b++) {
+    c.radius[b] = radius[b] * scale;
+    c.mass[b] = mass[b];
+    c.omega[b] = widen(omega[b]);
+    for (int d = 0; d < 3; d++) c.velocity[b][d] = velocity[b][d] * scale;
+  }
+  for (int d = 0; d < 3; d++) c.history[d] = history[d] * scale;
+  return c;
+}
+
+/// What the kernels see: the first body is body 1, their normal points to it.
+inline Talus::ContactState<double> state_of(const Contact &c)
+{
+  double n[3], v[3], w[3], relative[3];
+  const double r[2] = {static_cast<double>(c.radius[0]), static_cast<double>(c.radius[1])};
+  for (int d = 0; d < 3; d++) {
+    const double w0 = static_cast<double>(c.omega[0][d]), w1 = static_cast<double>(c.omega[1][d]);
+    n[d] = static_cast<double>(-c.normal[d]);
+    v[d] = static_cast<double>(c.velocity[0][d]) - static_cast<double>(c.velocity[1][d]);
+    w[d] = r[0] * w0 + r[1] * w1;
+    relative[d] = w0 - w1;
+  }
+  Talus::ContactState<double> s;
+  s.normal = {n[0], n[1], n[2]};
+  s.overlap = static_cast<double>(c.overlap);
+  s.velocity = {v[0], v[1], v[2]};
+  s.spin = {w[0], w[1], w[2]};
+  s.inverse_mass = 1.0 / static_cast<double>(c.mass[0]) + 1.0 / static_cast<double>(c.mass[1]);
+  s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
+  s.relative_spin = {relative[0], relative[1], relative[2]};
+  const bool apart = norm(c.normal) > 0;    // from the sum of radii, as the kernels' callers
+  s.inverse_distance = apart ? 1.0 / (r[0] + r[1] - s.overlap) : 0.0;
+  s.circle = Talus::circle_of_intersection(r[0], r[1], s.overlap);
+  return s;
+}
+
+inline Talus::TangentialHistory<double> history_of(const Contact &c)
+{
+  const auto d = [&](int n) { return static_cast<double>(-c.history[n]); };
+  return {{d(0), d(1), d(2)}, c.at_limit ? 1.0 : 0.0};
+}
+
+inline Talus::ContactOnset<double> onset_of(const Contact &c)
+{
+  return {static_cast<double>(c.impact_speed), static_cast<double>(c.age), c.begun ? 1.0 : 0.0};
+}
+
+using Lanes = double[3][Talus::ContactBatch::width];
+
+inline void put(Lanes &lanes, int lane, const Talus::Vector3<double> &v)
+{
+  lanes[0][lane] = v.x;
+  lanes[1][lane] = v.y;
+  lanes[2][lane] = v.z;
+}
+
+inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
+{
+  const Talus::ContactState<double> s = state_of(c);
+  const Talus::TangentialHistory<double> h = history_of(c);
+  const Talus::ContactOnset<double> o = onset_of(c);
+  put(batch.normal, lane, s.normal);
+  put(batch.velocity, lane, s.velocity);
+  put(batch.spin, lane, s.spin);
+  put(batch.relative_spin, lane, s.relative_spin);
+  put(batch.displacement, lane, h.displacement);
+  put(batch.onset, lane, {o.speed, o.age, o.begun});
+  for (Lanes *result : {&batch.force, &batch.moment, &batch.couple}) put(*result, lane, {0.0, 0.0, 0.0});
+  batch.overlap[lane] = s.overlap;
+  batch.inverse_mass[lane] = s.inverse_mass;
+  batch.inverse_radius[lane] = s.inverse_radius;
+  batch.circle[lane] = s.circle;
+  batch.inverse_distance[lane] = s.inverse_distance;
+  batch.at_limit[lane] = h.at_limit;
+  batch.coefficients[lane] = row;
+}
+
+inline Vector lane_of(const Lanes &v, int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
+
+}    // namespace twin
+
+#endif

@@ -1,0 +1,405 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The slow twin of all contact laws: one contact of two bodies, from what the user types to forces and torques, in
+// plain scalar code and in the long double of the machine. Written from the equations of the reference method, in its
+// conventions (normal from body 1 to body 2, force on body 2, v_r = v_2 - v_1), sharing no line with src.
+// The scales are sums of the magnitudes of all terms of a result, with the factors by which the operations
+// that follow enlarge an error: a small difference of large terms cannot be better than these.
+
+#ifndef TALUS_TEST_LAW_TWIN_H
+#define TALUS_TEST_LAW_TWIN_H
+
+#include "pair/contact_spec.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace twin {
+
+using Number = long double;
+using Vector = std::array<Number, 3>;
+using Talus::NormalLaw;
+using Talus::TangentialLaw;
+
+inline const Number pi = std::acos(Number(-1));
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+inline Vector operator+(const Vector &a, const Vector &b)
+{
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vector operator*(Number s, const Vector &a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline Vector operator-(const Vector &a, const Vector &b) { return a + Number(-1) * b; }
+inline Number inner(const Vector &a, const Vector &b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vector outer(const Vector &a, const Vector &b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Number norm(const Vector &a) { return std::sqrt(inner(a, a)); }
+
+/// Composite material of a contact.
+struct Composite {
+  Number young = 0, shear = 0, restitution = 1;
+  Number kn = 0, gn = 0, kt = 0, gt = 0;
+  bool kt_given = false, gt_given = false;    // of material laws
+  bool limited = false;
+  Number damping = 0, damping_flores = 0;    // damping ratios
+  Number speed = 0, mu = 0, mu_roll = 0, mu_spin = 0;
+  Number adhesion = 0, dmt = 0, perko = 0, slip_min = 0, roll_min = 0, spin_min = 0;
+};
+
+/// ln(1/e) of a linear contact of damping ratio z that ends when its force vanishes (Schwager and Poeschel 2007).
+inline Number limited_decay(Number z)
+{
+  if (z < 1) {
+    const Number s = std::sqrt(1 - z * z);
+    return z / s * std::atan2(2 * z * s, 2 * z * z - 1);
+  }
+  const Number s = std::sqrt(z * z - 1);
+  return s > 0 ? z / s * std::log((z + s) / (z - s)) : Number(2);
+}
+
+/// |beta|: the ratio of damping to critical damping that gives the restitution e.
+inline Number damping_ratio(Number e, bool limited)
+{
+  if (!limited) {
+    const Number l = std::log(std::max(e, Number(epsilon)));
+    return -l / std::sqrt(l * l + pi * pi);
+  }
+  const Number decay = -std::log(std::max(e, Number(0.01)));
+  Number low = 0, high = 6;
+  for (int n = 0; n < 90; n++) {
+    const Number middle = (low + high) / 2;
+    (limited_decay(middle) < decay ? low : high) = middle;
+  }
+  return low;
+}
+
+inline Composite compose(const LAMMPS_NS::ContactSpec &a, const LAMMPS_NS::ContactSpec &b,
+                         LAMMPS_NS::FrictionMix rule)
+{
+  const auto mean = [](Number p, Number q) { return (p + q) / 2; };
+  const auto friction = [=](Number p, Number q) {
+    if (rule == LAMMPS_NS::FrictionMix::ARITHMETIC) return mean(p, q);
+    return rule == LAMMPS_NS::FrictionMix::GEOMETRIC ? std::sqrt(p * q) : std::min(p, q);
+  };
+  const auto &p = a.given, &q = b.given;
+  Composite c;
+  if (a.is_material()) {
+    const Number ya = a.young, yb = b.young, na = a.poisson, nb = b.poisson;
+    c.young = ya * yb / (yb * (1 - na * na) + ya * (1 - nb * nb));
+    c.shear = ya * yb / (2 * yb * (2 - na) * (1 + na) + 2 * ya * (2 - nb) * (1 + nb));
+    const Number e = c.restitution = std::min(a.restitution, b.restitution);
+    const bool limited = a.limit_damping || b.limit_damping;
+    const bool clipped = a.law.normal == NormalLaw::HOOKE_MATERIAL && !limited;
+    c.damping = damping_ratio(clipped ? std::min(e, Number(1.0 - epsilon)) : e, limited);
+    c.damping_flores = damping_ratio(std::clamp(e, Number(0.01), Number(1.0 - epsilon)), false);
+    c.kt_given = a.kt_given && b.kt_given;
+    c.gt_given = a.gt_given && b.gt_given;
+    c.kt = mean(p.kt, q.kt);
+    c.gt = mean(p.gt, q.gt);
+  } else {
+    c.kn = mean(p.kn, q.kn);
+    c.gn = mean(p.gn, q.gn);
+    c.kt = mean(a.kt_given ? p.kt : Number(2) / 7 * p.kn, b.kt_given ? q.kt : Number(2) / 7 * q.kn);
+    c.gt = mean(a.gt_given ? p.gt : Number(p.gn) / 2, b.gt_given ? q.gt : Number(q.gn) / 2);
+  }
+  c.limited = a.limit_damping || b.limit_damping;
+  c.mu = friction(p.mu, q.mu);
+  c.mu_roll = friction(p.mu_roll, q.mu_roll);
+  c.mu_spin = friction(p.mu_spin, q.mu_spin);
+  c.adhesion = std::min(p.adhesion, q.adhesion);
+  c.dmt = std::min(p.adhesion_dmt, q.adhesion_dmt);
+  c.perko = std::min(p.adhesion_perko, q.adhesion_perko);
+  c.speed = std::max(p.speed, q.speed);
+  c.slip_min = std::max(p.slip_min, q.slip_min);
+  c.roll_min = std::max(p.roll_min, q.roll_min);
+  c.spin_min = std::max(p.spin_min, q.spin_min);
+  return c;
+}
+
+struct Stiffness {
+  Number kn, gn, kt, gt;
+};
+
+inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Number mass,
+                           Number radius, Number speed)
+{
+  const Number disc = std::sqrt(radius * overlap), root = std::sqrt(overlap);
+  const Number sn = 2 * c.young * disc, st = c.kt_given ? c.kt * disc : 8 * c.shear * disc;
+  const Number hertz = 2 * std::sqrt(Number(5) / 6) * c.damping;
+  switch (law) {
+    case NormalLaw::HOOKE: return {c.kn, mass * c.gn, c.kt, mass * c.gt};
+    case NormalLaw::HERTZ: return {disc * c.kn, disc * mass * c.gn, disc * c.kt, disc * mass * c.gt};
+    case NormalLaw::FLORES:
+      return {disc * c.kn, disc * mass * c.gn * overlap, disc * c.kt, disc * mass * c.gt};
+    case NormalLaw::PLAINCOULOMB: return {c.kn * root, c.gn * root, 0, 0};
+    case NormalLaw::HOOKE_MATERIAL: {
+      const Number scale = Number(16) / 15 * std::sqrt(radius) * c.young;
+      const Number kn = scale * std::pow(mass * speed * speed / scale, Number(1) / 5);
+      const Number gn = 2 * c.damping * std::sqrt(mass * kn);
+      return {kn, gn, kn, c.gt_given ? c.gt * std::sqrt(mass * kn) : gn};
+    }
+    case NormalLaw::HERTZ_MATERIAL:
+      return {2 * sn / 3, hertz * std::sqrt(sn * mass), st,
+              (c.gt_given ? c.gt : hertz) * std::sqrt(st * mass)};
+    case NormalLaw::FLORES_MATERIAL: {
+      const Number e = std::clamp(c.restitution, Number(0.01), Number(1.0 - epsilon));
+      const Number shear = c.kt_given ? c.kt * disc * 3 / 2 : st;    // the number given is the stiffness
+      const Number h = 2 * std::sqrt(Number(5) / 6) * c.damping_flores;
+      return {2 * sn / 3, 8 * (1 - e) * (2 * sn / 3) * overlap / (5 * e * speed), 2 * shear / 3,
+              (c.gt_given ? c.gt : h) * std::sqrt(shear * mass)};
+    }
+    default: {
+      const Number plain = 2 * c.young * root;
+      return {2 * plain / 3, hertz * std::sqrt(plain * mass), 0, 0};
+    }
+  }
+}
+
+/// Two bodies in contact, [0] is body 1 of the reference. Infinite masses are allowed.
+struct Contact {
+  Vector normal{};    ///< from body 1 to body 2; zero if the centres coincide
+  Number overlap = 0;
+  std::array<Number, 2> radius{1, 1}, mass{1, 1};
+  std::array<Vector, 2> velocity{}, omega{};
+  Vector history{};    ///< displacement of body 2 relative to body 1
+  bool at_limit = false, begun = false;
+  Number impact_speed = 0, age = 0;
+};
+
+struct Outcome {
+  Vector force{};                   ///< on body 1
+  std::array<Vector, 2> torque{};
+  Vector history{};
+  bool at_limit = false, begun = false;
+  Number impact_speed = 0, age = 0;
+
+  Number force_scale = 0, history_scale = 0, speed_scale = 0;
+  std::array<Number, 2> torque_scale{};
+  bool clear_case = true;    ///< false if rounding decides on which side of a threshold the contact is
+  // what happened
+  Number normal_force = 0;
+  bool slides = false, sticks = false, rolls = false, spins = false, delayed = false;
+};
+
+inline Number reduced(Number a, Number b)
+{
+  if (std::isinf(a) && std::isinf(b)) return 0;
+  if (std::isinf(a)) return b;
+  return std::isinf(b) ? a : a * b / (a + b);
+}
+
+/// Radius of the circle of intersection of two spheres: height of the triangle of the radii and the distance, by Heron.
+inline Number circle(Number a, Number b, Number overlap)
+{
+  const Number d = a + b - overlap, s = a + b - overlap / 2;
+  const Number square = s * (overlap / 2) * (b - overlap / 2) * (a - overlap / 2);
+  return square > 0 ? 2 * std::sqrt(square) / d : Number(0);
+}
+
+/// 0 before one collision time of an under-damped contact, else 1.
+inline Number delay(NormalLaw law, const Stiffness &s, Number overlap, Number mass, Number age, bool &clear)
+{
+  Number k = s.kn, g = s.gn;
+  if (law != NormalLaw::HOOKE && law != NormalLaw::HOOKE_MATERIAL) {
+    const bool flores = law == NormalLaw::FLORES || law == NormalLaw::FLORES_MATERIAL;
+    k /= std::sqrt(overlap);
+    g /= std::pow(overlap, flores ? Number(1.5) : Number(0.25));
+  }
+  const Number d = g / (2 * mass * std::sqrt(k / mass));
+  if (std::isnan(d)) return 1;    // no overlap or no mass: no force either
+  if (std::fabs(d - 1) < 1e-13) clear = false;
+  if (d >= 1) return 1;
+  const Number duration = pi * std::sqrt(mass / (k * (1 - d * d)));
+  if (std::fabs(age - duration) < 1e-13 / (1 - d * d) * duration) clear = false;
+  return age <= duration ? 0 : 1;
+}
+
+/// d turned into the plane normal to n, with its length; enlarges its scale if it is almost along n.
+inline Vector turned(const Vector &d, const Vector &n, Number &scale)
+{
+  const Vector flat = d - inner(d, n) * n;
+  if (!(norm(flat) > 0)) return {};
+  scale *= norm(d) / norm(flat);
+  return (norm(d) / norm(flat)) * flat;
+}
+
+/// Displacement of body 2 against body 1 in the step that led here, along the surface half way through it.
+struct Step {
+  Vector displacement;
+  Number scale;
+};
+
+inline Step step_half_way(const Contact &c, Number v_n, Number dt)
+{
+  const Number distance = c.radius[0] + c.radius[1] - c.overlap;
+  const Vector v = c.velocity[1] - c.velocity[0];
+  Vector n = distance * c.normal - (norm(c.normal) > 0 ? dt / 2 : Number(0)) * v;
+  const Number length = norm(n);
+  const Number enlarged = length > 0 ? 1 + (distance + dt * norm(v)) / length : Number(1);
+  n = (length > 0 ? 1 / length : Number(0)) * n;
+  const Vector surface = v - outer(c.omega[1], c.radius[1] * n) - outer(c.omega[0], c.radius[0] * n);
+  // a contact that began on the way lasted overlap/|v_n|
+  const Number lasted = -v_n * dt > c.overlap ? c.overlap / -v_n : dt;
+  const Number centres = norm(c.velocity[0]) + norm(c.velocity[1]);
+  const Number speeds = centres + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
+  const Number uncertain = lasted < dt ? 1 + centres / std::fabs(v_n) : Number(1);
+  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain};
+}
+
+inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
+                        bool advance)
+{
+  Outcome out;
+  const Number mass = reduced(c.mass[0], c.mass[1]), radius = reduced(c.radius[0], c.radius[1]);
+  Vector arm[2], surface[2];
+  Number centres = 0, turning = 0;
+  for (int b = 0; b < 2; b++) {
+    arm[b] = (b == 0 ? c.radius[b] : -c.radius[b]) * c.normal;
+    surface[b] = c.velocity[b] + outer(c.omega[b], arm[b]);
+    centres += norm(c.velocity[b]);
+    turning += c.radius[b] * norm(c.omega[b]);
+  }
+  const Number speeds = centres + turning;
+  const Vector relative = surface[1] - surface[0];
+  const Number v_n = inner(c.velocity[1] - c.velocity[0], c.normal);
+  const Vector v_t = relative - inner(relative, c.normal) * c.normal;
+
+  out.begun = advance || c.begun;
+  out.impact_speed = c.begun ? c.impact_speed : std::fabs(v_n);
+  out.age = c.begun ? c.age + (advance ? dt : Number(0)) : Number(0);
+  out.speed_scale = c.begun ? c.impact_speed : centres;
+  const bool onset = law.has_onset();
+  const Number v_c = onset ? std::max(out.impact_speed, p.speed) : p.speed;
+  const Stiffness k = stiffness(law.normal, p, c.overlap, mass, radius, v_c);
+
+  const Number normal_scale = k.kn * c.overlap + k.gn * centres;
+  Number f_n = k.kn * c.overlap - k.gn * v_n;
+  if (p.limited) f_n = std::max(f_n, Number(0));
+  const Number limit = p.mu * std::fabs(f_n);
+  out.normal_force = f_n;
+  out.history = c.history;
+  out.at_limit = c.at_limit;
+
+  Vector f_t{};
+  Number scale_t = 0;
+  const auto cap = [&](Number scale) {
+    const Number size = norm(f_t);
+    out.slides = size > limit;
+    out.sticks = !out.slides;
+    if (out.slides) f_t = (limit / size) * f_t;
+    scale_t = scale + p.mu * normal_scale;
+  };
+  if (law.tangential == TangentialLaw::DASHPOT) {
+    f_t = k.gt * v_t;
+    cap(k.gt * speeds);
+  } else if (law.tangential == TangentialLaw::ONESTEP) {
+    f_t = (k.kt * dt) * v_t + k.gt * v_t;
+    cap((k.kt * dt + k.gt) * speeds);
+  } else if (law.tangential == TangentialLaw::TANH) {
+    const Number slip = norm(v_t);
+    if (slip > 0 && std::fabs(slip - p.slip_min) < 1e-13 * speeds) out.clear_case = false;
+    out.slides = slip > 0 && slip >= p.slip_min;
+    out.sticks = !out.slides;
+    if (out.slides) f_t = (p.mu * std::tanh(5 * slip) * f_n / slip) * v_t;
+    scale_t = p.mu * normal_scale +
+        limit * (slip > 0 ? std::min(Number(5), 1 / slip) : Number(5)) * speeds;
+  } else if (law.has_history()) {
+    Vector s = c.history;
+    Number reach = norm(c.history);
+    bool moved = norm(s) > 0;
+    if (advance && law.tangential == TangentialLaw::MULTISTEP) {
+      s = s + dt * v_t;
+      moved = norm(s) > 0;
+      s = s - inner(s, c.normal) * c.normal;
+      reach += dt * speeds;
+    } else if (advance) {
+      Step step = step_half_way(c, v_n, dt);
+      s = turned(s, c.normal, reach) + turned(step.displacement, c.normal, step.scale);
+      moved = norm(s) > 0;
+      reach = reach + step.scale;
+    }
+    f_t = k.kt * s + k.gt * v_t;
+    const Number size = norm(f_t);
+    const Number trial_scale = k.kt * reach + k.gt * speeds;
+    if (std::fabs(size - limit) < 1e-13 * (trial_scale + p.mu * normal_scale)) out.clear_case = false;
+    const bool exceeds = size > limit;
+    bool capped = exceeds && moved;
+    out.history_scale = norm(c.history);
+    if (advance) {
+      out.history_scale = reach;
+      if (capped) {
+        s = (1 / k.kt) * ((limit / size) * f_t - k.gt * v_t);
+        out.history_scale += (trial_scale + p.mu * normal_scale) / k.kt;
+      }
+      out.history = s;
+      out.at_limit = capped;
+    }
+    const bool near_limit = size + 1e-12 * (k.kt * norm(s) + k.gt * norm(v_t) + limit) >= limit;
+    capped = capped || (!advance && c.at_limit && near_limit);
+    // a force that was at the limit stays there, along the trial force
+    if (capped)
+      f_t = size > 0 ? (limit / size) * f_t : Vector{};
+    else if (exceeds)
+      f_t = {};
+    scale_t = trial_scale * (capped && size > 0 ? std::max(limit / size, Number(1)) : Number(1)) +
+        p.mu * normal_scale;
+    out.slides = capped;
+    out.sticks = !capped;
+  }
+
+  // force on body 2 is f_n n - f_t
+  const Vector on_two = f_n * c.normal - f_t;
+  out.torque[0] = outer(arm[0], f_t);    // -a_1 x force; the normal force is central
+  out.torque[1] = Number(-1) * outer(arm[1], f_t);
+  for (int b = 0; b < 2; b++) out.torque_scale[b] = c.radius[b] * scale_t;
+
+  if (law.resists) {
+    Number acts = 1;
+    if (law.delayed)
+      acts = delay(law.normal, k, c.overlap, mass, onset ? out.age : Number(0), out.clear_case);
+    out.delayed = acts == 0;
+
+    const Vector v_rot = outer(c.omega[1], arm[1]) - outer(c.omega[0], arm[0]);
+    const Number rolling = norm(v_rot);
+    if (rolling > 0 && std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
+    if (rolling > p.roll_min && acts > 0) {
+      out.rolls = true;
+      for (int b = 0; b < 2; b++) {
+        const Vector moment = (p.mu_roll * f_n / rolling) * outer(arm[b], v_rot);
+        out.torque[b] = b == 0 ? out.torque[b] + moment : out.torque[b] - moment;
+        out.torque_scale[b] +=
+            c.radius[b] * p.mu_roll * (normal_scale + std::fabs(f_n) * turning / rolling);
+      }
+    }
+    const Vector w = c.omega[1] - c.omega[0];
+    const Number spinning = norm(w), w_scale = norm(c.omega[0]) + norm(c.omega[1]);
+    if (spinning > 0 && std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
+    if (spinning > p.spin_min && acts > 0) {
+      out.spins = true;
+      const Number strength = p.mu_spin * circle(c.radius[0], c.radius[1], c.overlap);
+      const Vector couple = (strength * f_n * inner(w, c.normal) / spinning) * c.normal;
+      out.torque[0] = out.torque[0] + couple;
+      out.torque[1] = out.torque[1] - couple;
+      for (Number &scale : out.torque_scale)
+        scale += strength * (normal_scale + std::fabs(f_n) * w_scale / spinning);
+    }
+  }
+
+  Number pull = 0;
+  if (law.adheres) pull = p.adhesion + p.dmt * std::sqrt(radius) + p.perko * radius;
+  out.force = Number(-1) * (on_two - pull * c.normal);
+  out.force_scale = normal_scale + scale_t + pull;
+  return out;
+}
+
+}    // namespace twin
+
+#endif
