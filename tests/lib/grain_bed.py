@@ -39,7 +39,7 @@ MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 
 
 def grains():
-    """Three layers of a frozen base (type 2) and loose grains of one sixth more height (type 1)."""
+    """One layer that may be frozen (type 2) under six layers of loose grains (type 1)."""
     draw = random.Random(3)
     found = []
     for k in range(7):

@@ -21,23 +21,36 @@ RESTITUTION = 0.1, 0.3, 0.5, 0.7, 0.9, 1.0
 SPINS = -50.0, -20.0, -5.0, 0.0, 5.0, 20.0, 50.0
 MATERIALS = list(itertools.product(FRICTION, RESTITUTION))    # one atom type each
 SPEED, DENSITY, RADII = 2.0, 2500.0, (0.10, 0.07)
-SPACING, GAP = 0.5, 1e-9
+SPACING, GAP = 1.0, 1e-9
 LIMIT = 1e-3    # of the kinetic energy before
 
 Case = collections.namedtuple("Case", "angle spin type")
 CASES = [Case(*c) for c in itertools.product(ANGLES, SPINS, range(1, len(MATERIALS) + 1))]
 
-# words of the tangential law; kn, w and dt are replaced: stiffness, frequency, time step
-TANGENTIAL = {
-    "none": "none",
-    "dashpot": "dashpot NULL {mu}",
-    "dashpot, strong": "dashpot {strong!r} {mu}",
-    "onestep": "onestep NULL NULL {mu}",
-    "onestep, stiff": "onestep {stiff!r} NULL {mu}",
-    "multistep": "multistep NULL NULL {mu}",
-    "multistep, kt = 1.2 kn, gt = 0": "multistep {kt!r} 0.0 {mu}",
-    "multistep, kt = 1.2 kn": "multistep {kt!r} NULL {mu}",
+# friction keywords; kt, stiff, strong are replaced by numbers that suit the stiffness and the frequency
+MULTISTEP = "tangential multistep NULL NULL {mu}"
+PLAIN = {
+    "none": "",
+    "dashpot": "tangential dashpot NULL {mu}",
+    "onestep": "tangential onestep NULL NULL {mu}",
+    "multistep": MULTISTEP,
+    "multistep midpoint": MULTISTEP + " midpoint",
+    "multistep, rolling, spinning": MULTISTEP + " rolling 0.2 spinning 0.2",
 }
+NUMBERS = {
+    "dashpot, strong": "tangential dashpot {strong!r} {mu}",
+    "onestep, stiff": "tangential onestep {stiff!r} NULL {mu}",
+    "multistep, kt = 1.2 kn, gt = 0": "tangential multistep {kt!r} 0.0 {mu}",
+    "multistep, kt = 1.2 kn": "tangential multistep {kt!r} NULL {mu}",
+    "multistep midpoint, kt = 1.2 kn": "tangential multistep {kt!r} NULL {mu} midpoint",
+}
+FRICTION_WORDS = {    # of each normal law
+    "hooke": {**PLAIN, **NUMBERS}, "hertz": {**PLAIN, **NUMBERS}, "flores": PLAIN,
+    "hooke/material": PLAIN, "hertz/material": PLAIN, "flores/material": PLAIN,
+    "plaincoulomb": {"own": ""}, "plaincoulomb/material": {"own": ""},
+}
+LIMITED = "none", "multistep", "own"    # run with limit_damping as well
+EXACT = "hooke", "hertz", "hooke/material"    # restitution is that of the words
 
 SCRIPT = """
 units si
@@ -97,28 +110,42 @@ HERTZ_DAMPING = {e: hertz_damping(e) if e < 1 else 0.0 for e in RESTITUTION}
 class Collision:
     """Numbers of one normal law for one effective mass and radius."""
 
+    YOUNG, POISSON = 1.0e8, 0.25
+
     def __init__(self, normal, m, r):
-        self.normal, self.kn = normal, {"hooke": 1.0e6, "hertz": 5.0e7}[normal]
+        self.normal, self.m = normal, m
+        material = 4 / 3 * self.YOUNG / (2 * (1 - self.POISSON ** 2))
+        self.kn = {"hooke": 1.0e6, "hertz": 5.0e7, "flores": 5.0e7, "plaincoulomb": 1.0e7}.get(
+            normal, material)
         if normal == "hooke":
             self.w = math.sqrt(self.kn / m)
-            self.dt, self.steps = math.pi / self.w / 100, 300
-        else:    # y = d/D, time in D/speed: D^(5/2) = m speed^2/(kn sqrt(r))
-            self.depth = (m * SPEED ** 2 / (self.kn * math.sqrt(r))) ** 0.4
+        else:    # y = d/depth, time in depth/speed: depth^(5/2) = m speed^2/(kn sqrt(r))
+            root = 1.0 if "plain" in normal else math.sqrt(r)
+            self.depth = (m * SPEED ** 2 / (self.kn * root)) ** 0.4
             self.w = SPEED / self.depth
             self.scale = self.kn * self.depth / (m * SPEED)
-            self.dt, self.steps = math.pi / self.w / 100, 600
+        self.dt = math.pi / self.w / 100
+        self.steps = {"hooke": 300, "flores": 2500, "flores/material": 2500}.get(normal, 800)
+
+    def words(self, friction, mu, e, limited):
+        unit = 1.0 if self.normal == "hooke" else self.scale / self.w
+        words = FRICTION_WORDS[self.normal][friction].format(
+            mu=mu, kt=1.2 * self.kn, stiff=30 * self.kn, strong=5 * self.w * unit)
+        own = f" {mu}" if "plain" in self.normal else ""
+        return f"{self.normal} {self.normal_words(e)}{own} {words}{' limit_damping' * limited}"
+
+    def normal_words(self, e):
+        if "material" in self.normal:
+            speed = "" if self.normal.startswith(("hertz", "plain")) else f" {SPEED}"
+            return f"{self.YOUNG!r} {e} {self.POISSON}{speed}"
+        return f"{self.kn!r} {self.gn(e)!r}"
 
     def gn(self, e):
-        if self.normal == "hertz":
-            return HERTZ_DAMPING[e] * self.scale
-        return -2 * self.w * math.log(e) / math.hypot(math.pi, math.log(e))
-
-    def words(self, tangential, mu, e, limited):
-        unit = 1.0 if self.normal == "hooke" else self.scale / self.w
-        friction = TANGENTIAL[tangential].format(mu=mu, kt=1.2 * self.kn, stiff=30 * self.kn,
-                                                 strong=5 * self.w * unit)
-        return (f"{self.normal} {self.kn!r} {self.gn(e)!r} tangential {friction}"
-                + (" limit_damping" if limited else ""))
+        if self.normal == "hooke":
+            return -2 * self.w * math.log(e) / math.hypot(math.pi, math.log(e))
+        if self.normal == "flores":
+            return 1.6 * (1 - e) / (e * SPEED) * self.kn / self.m
+        return HERTZ_DAMPING[e] * self.scale * (self.m if "plain" in self.normal else 1.0)
 
 
 # ---- scenes ----------------------------------------------------------------------------------
@@ -167,18 +194,20 @@ SCENES = {"plane": (spheres_on_plane, 1), "pair": (pairs_of_spheres, 2)}
 
 class EnergyAudit(SceneCase):
 
-    def run_law(self, scene, collision, tangential, limited):
-        words = [collision.words(tangential, mu, e, limited) for mu, e in MATERIALS]
+    def run_law(self, scene, collision, friction, limited):
+        words = [collision.words(friction, mu, e, limited) for mu, e in MATERIALS]
         pair = "\n".join(f"pair_coeff {t} {t} {w}" for t, w in enumerate(words, start=1))
         body = " ".join(f"contact types {t} {w}" for t, w in enumerate(words, start=1))
         on_plane = scene == "plane"
         log = self.run_lammps(SCRIPT.format(
             data=scene, out="after", dt=collision.dt, steps=collision.steps,
-            coefficients="pair_coeff * * hooke 0.0 0.0" if on_plane else pair,
+            coefficients=pair,
             plane=f"fix plane all large/body plane 0 0 0 0 0 1 {body}" if on_plane else "",
             contacts="f_plane[20]" if on_plane else "c_pair[1]")).log
         begin, end = (row[key] for row in thermo(log) for key in row if key != "Step")
-        self.assertEqual((begin, end), (0, 0), "contacts at the beginning and at the end")
+        # flores with a low restitution presses the spheres apart slowly, by creep
+        last = 400 if "flores" in collision.normal else 0
+        self.assertTrue(begin == 0 and end <= last, f"contacts at both ends: {begin}, {end}")
         frame, = read_dump(self.path("after"))
         return [frame.atoms[tag][1:] for tag in sorted(frame.atoms)]
 
@@ -193,10 +222,11 @@ class EnergyAudit(SceneCase):
         if scene == "pair":
             m, r = (a * b / (a + b) for a, b in ((m, mass(RADII[1])), RADII))
         print(f"\n{scene}: {len(CASES)} collisions for each law; largest gain of kinetic energy")
-        for normal, tangential, limited in itertools.product(("hooke", "hertz"), TANGENTIAL, (0, 1)):
-            collision = Collision(normal, m, r)
-            after = energies(self.run_law(scene, collision, tangential, limited), per_case)
-            self.judge((normal, tangential, limited), before, after)
+        laws = [(normal, friction, limited) for normal, known in FRICTION_WORDS.items()
+                for friction in known for limited in ((0, 1) if friction in LIMITED else (0,))]
+        for law in laws:
+            after = energies(self.run_law(scene, Collision(law[0], m, r), *law[1:]), per_case)
+            self.judge(law, before, after)
 
     def judge(self, law, before, after):
         gain, case = max((b / a - 1, case) for a, b, case in zip(before, after, CASES))
@@ -208,9 +238,9 @@ class EnergyAudit(SceneCase):
             self.assert_collisions_happened(law, before, after)
 
     def assert_collisions_happened(self, law, before, after):
-        """Head-on without spin, energy falls to e^2 (without limit_damping, which alters e)."""
+        """Head-on without spin, energy falls to e^2, where limit_damping does not alter e."""
         for a, b, case in zip(before, after, CASES):
-            if (case.angle, case.spin) == (0, 0.0) and not law[2]:
+            if (case.angle, case.spin) == (0, 0.0) and law[0] in EXACT and not law[2]:
                 self.assertAlmostEqual(b / a, MATERIALS[case.type - 1][1] ** 2, delta=0.02)
 
     def test_sphere_with_plane(self):

@@ -1,0 +1,107 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""A whole session in one process: run, balance, change_box, write_restart, run, clear, read_restart, run.
+
+The restarted half must repeat the first one, and both the session without an interruption."""
+
+import math
+import os
+import random
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+
+LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
+START = """
+units lj
+boundary f f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+"""
+PHYSICS = f"""
+neighbor 0.1 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.001
+fix step all nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
+fix floor all large/body plane 0 0 0  0 0 1  contact {LAW}
+fix xlo all large/body plane 0 0 0  1 0 0  contact {LAW}
+fix ylo all large/body rectangle 5 0 5  0 1 0  1 0 0  30 30  contact {LAW}
+compute spin all erotate/sphere
+compute pair all pair gran/penalty
+thermo 50
+thermo_style custom step ke c_spin c_pair[1] pxx pxy f_floor[3] f_xlo[1]
+thermo_modify norm no format float %.17g
+"""
+PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
+BEGIN = START + "read_data grains\n" + PAIR + PHYSICS + "run 300\n"
+CHANGES = """
+balance 1.0 shift xz 10 1.0
+change_box all x final -2 40 y final -2 20 z final -2 30
+"""
+AGAIN = "clear\n" + START + "read_restart half\n"
+END = "write_dump all custom {name} id x y z vx vy vz omegax omegay omegaz modify format float %a\n"
+
+
+def grains():
+    draw = random.Random(4)
+    return [Sphere(tuple(1.05 * s + 0.6 + draw.uniform(-0.1, 0.1) for s in (i, j, k)),
+                   diameter=draw.uniform(0.7, 1.2))
+            for i in range(7) for j in range(6) for k in range(8)]
+
+
+class LifeCycle(SceneCase):
+
+    def setUp(self):
+        write_sphere_data(self.path("grains"), ((-1, 12), (-1, 10), (-1, 12)), grains())
+
+    def assert_same_rows(self, rows, reference):
+        self.assertEqual([row["Step"] for row in rows], [row["Step"] for row in reference])
+        for row, expected in zip(rows, reference):
+            size = max(abs(expected[key]) for key in ("Pxx", "f_floor[3]"))
+            for key, value in expected.items():
+                self.assertFalse(math.isnan(value), key)
+                self.assertLess(abs(row[key] - value), 1e-11 * size, f"{key} at {row['Step']}")
+
+    def frame(self, name):
+        return read_dump(self.path(name))[0]
+
+    def test_session(self):
+        session = (BEGIN + CHANGES + "write_restart half\nrun 200\n" + AGAIN + PHYSICS + "run 200\n" +
+                   CHANGES.splitlines()[2] + "\nrun 200\n" + END.format(name="after"))
+        whole = BEGIN + CHANGES + "run 400\n" + END.format(name="whole")
+        for np in 1, 4:
+            with self.subTest(ranks=np):
+                rows = thermo(self.run_lammps(session, np=np).log)
+                first, second = rows[7:12], rows[12:17]    # 300 to 500, twice
+                self.assertEqual([first[0]["Step"], second[0]["Step"]], [300, 300])
+                self.assert_same_rows(second, first)
+                reference = thermo(self.run_lammps(whole, np=np).log)
+                self.assert_same_rows(first, reference[7:12])
+                self.assert_same_rows(rows[17:22], reference[11:16])    # 500 to 700
+                self.assertGreater(reference[-1]["c_pair[1]"], 100)
+                self.assert_same_bits(self.frame("after"), self.frame("whole"))
+
+    def test_plugin_survives_clear(self):
+        """Found through LAMMPS_PLUGIN_PATH, styles are there again after each clear."""
+        scene = BEGIN.replace("run 300", "run 50")
+        for np in 1, 2:
+            with self.subTest(ranks=np):
+                rows = thermo(self.run_lammps("clear\n".join([scene, scene, scene]), np=np).log)
+                self.assertEqual(len(rows), 6)
+                self.assert_same_rows(rows[2:4], rows[:2])
+                self.assert_same_rows(rows[4:6], rows[:2])
+
+    def test_clear_at_any_time(self):
+        """Right after each command; the process must live to the end."""
+        lines = [line for line in (BEGIN + CHANGES).splitlines() if line]
+        box = next(n for n, line in enumerate(lines) if line.startswith("read_data"))
+        script = "".join("\n".join(lines[:n]) + "\nclear\n" for n in range(box + 1, len(lines) + 1))
+        log = self.run_lammps(script.replace("run 300", "run 2") + 'print "END REACHED"\n', np=2).log
+        self.assertIn("END REACHED", log.splitlines())
+
+
+if __name__ == "__main__":
+    unittest.main()
