@@ -320,7 +320,8 @@ void FixContactStore::write_restart(FILE *fp)
 {
   file();    // all ranks come here before the particles are packed
   if (comm->me) return;
-  const double state[2] = {inverse_cell, static_cast<double>(partners.num_values())};
+  const double state[3] = {inverse_cell, static_cast<double>(partners.num_values()),
+                           static_cast<double>(atom->natoms)};
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
   fwrite(state, size, 1, fp);
@@ -328,10 +329,13 @@ void FixContactStore::write_restart(FILE *fp)
 
 void FixContactStore::restart(char *buf)
 {
-  double state[2];
+  double state[3];
   std::memcpy(state, buf, sizeof state);
   inverse_cell = state[0];
   partners.set_values(static_cast<int>(state[1]));
+  if (state[2] != static_cast<double>(atom->natoms))
+    error->all(FLERR, "Pair style gran/penalty: particles were added or deleted between read_restart and the "
+               "first run, so that contact history cannot be assigned: put 'run 0' in between");
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -343,7 +347,8 @@ int FixContactStore::pack_restart(int i, double *buf)
   return 4 + partners.pack(i, buf + 4);
 }
 
-/* The host does not move what it has read for us when particles are deleted before this fix exists. */
+/* The host does not move what it has read for us when particles are deleted before this fix exists: restart() looks
+   at their number, this at their names. */
 
 void FixContactStore::unpack_restart(int i, int nth)
 {

@@ -8,6 +8,7 @@
 #include "pair/pair_gran_penalty.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "modify.h"
@@ -55,6 +56,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   dynamic_group_allow = 1;
   if (!with_history) return;
 
+  restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange = size_packed();
@@ -361,6 +363,26 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
   std::copy(buf, buf + size_record, contacts.history[i].c);
   if (with_onset) std::copy(buf + size_record, buf + 2 * size_record, contacts.onset[i].c);
   return size_packed();
+}
+
+/* The host does not move what it has read for us when particles are deleted before this fix is defined. */
+
+void FixLargeBody::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  const double count = static_cast<double>(atom->natoms);
+  const int size = sizeof count;
+  fwrite(&size, sizeof size, 1, fp);
+  fwrite(&count, size, 1, fp);
+}
+
+void FixLargeBody::restart(char *buf)
+{
+  double count;
+  std::memcpy(&count, buf, sizeof count);
+  if (count != static_cast<double>(atom->natoms))
+    error->all(FLERR, "Fix large/body {}: particles were added or deleted between read_restart and this command, so "
+               "that contact history cannot be assigned: define the fix right after read_restart", id);
 }
 
 int FixLargeBody::pack_restart(int i, double *buf)

@@ -19,9 +19,12 @@ bool LawBook::can_mix(int i, int j) const
 {
   if (!is_set(i, i) || !is_set(j, j)) return false;
   const ContactSpec &a = spec(i, i), &b = spec(j, j);
-  // a number for one material and NULL for the other have no common meaning
+  // a number for one material and NULL for the other, or adhesion by different laws, have no common meaning
   const bool same_words = a.kt_given == b.kt_given && a.gt_given == b.gt_given;
-  return a.law == b.law && (same_words || !a.is_material());
+  const auto kind = [](const ContactCoefficients &c) {
+    return c.adhesion > 0.0 ? 1 : c.adhesion_dmt > 0.0 ? 2 : c.adhesion_perko > 0.0 ? 3 : 0;
+  };
+  return a.law == b.law && (same_words || !a.is_material()) && kind(a.given) == kind(b.given);
 }
 
 ContactLaw LawBook::law(int i, int j) const

@@ -195,8 +195,8 @@ double PairGranPenalty::init_one(int i, int j)
                  "add 'pair_coeff {} {} ...'", i, describe_law(book.law(i, i)), j,
                  describe_law(book.law(j, j)), i, j);
     if (!book.can_mix(i, j))
-      error->all(FLERR, "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt: "
-                 "add 'pair_coeff {} {} ...'", i, j, i, j);
+      error->all(FLERR, "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt, or "
+                 "adhesion of different kinds: add 'pair_coeff {} {} ...'", i, j, i, j);
   }
   return radii.cutoff(i, j);
 }
@@ -381,7 +381,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   const double extra[num_extra] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z,
                                    vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
   std::copy(extra, extra + num_extra, svector);
-  fforce = out.normal / r;
+  fforce = dot(out.force - out.tangential, s.normal) / r;    // with adhesion
   return 0.0;
 }
 

@@ -123,7 +123,7 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
     (f"{PLANE} contact types hooke 1 1", "Invalid range string: hooke", None),
     (f"{PLANE} {LAW} move none", "fix large/body: unknown word 'move', expected contact, two-sided",
      "move"),
-    (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact or "
+    (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact, "
      "two-sided", "onesided"),
 ]
 
