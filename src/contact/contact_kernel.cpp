@@ -42,7 +42,7 @@ namespace {
     return collect(&c, same);
   }
 
-  template <class Model> ContactState<Vec8> load_state(const ContactBatch &b, int k)
+  template <class Model> TALUS_INLINE ContactState<Vec8> load_state(const ContactBatch &b, int k)
   {
     ContactState<Vec8> s{};
     s.normal = load_lanes(b.normal, k);

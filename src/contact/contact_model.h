@@ -99,7 +99,7 @@ inline void follow_onset(ContactOnset<Real> &onset, Real normal_velocity, double
 /// Evaluates a contact. `advance` is false while a run is set up and in queries: forces are then
 /// those of the stored history, which is left as it is.
 template <class Model, bool advance, class Real>
-inline ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s,
+TALUS_INLINE ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s,
                                            double dt, TangentialHistory<Real> &history,
                                            ContactOnset<Real> &onset)
 {

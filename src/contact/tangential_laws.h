@@ -53,7 +53,7 @@ struct TangentialNone {
 struct TangentialDashpot {
   static constexpr bool friction = true, history = false, midpoint = false;
 
-  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  template <class Real> TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in)
   {
     return capped(-in.k.gt * in.velocity, in.limit);
   }
@@ -62,7 +62,7 @@ struct TangentialDashpot {
 struct TangentialOnestep {
   static constexpr bool friction = true, history = false, midpoint = false;
 
-  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  template <class Real> TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in)
   {
     return capped(-(in.k.kt * in.dt + in.k.gt) * in.velocity, in.limit);
   }
@@ -73,7 +73,7 @@ struct TangentialOnestep {
 struct TangentialTanh {
   static constexpr bool friction = true, history = false, midpoint = false;
 
-  template <class Real> static Vector3<Real> force(const TangentialInput<Real> &in)
+  template <class Real> TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in)
   {
     const Real speed = square_root(dot(in.velocity, in.velocity));
     const auto slips = (speed >= in.slip_min) & (speed > splat<Real>(0.0));
@@ -84,7 +84,7 @@ struct TangentialTanh {
 
 /// From the trial displacement to the force: the Coulomb limit, and the displacement that is stored.
 template <bool advance, class Real>
-inline Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d, bool_of<Real> moved,
+TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d, bool_of<Real> moved,
                                    TangentialHistory<Real> &history)
 {
   const Real zero = splat<Real>(0.0);
@@ -122,7 +122,7 @@ struct TangentialMultistep {
   /// Force on the first body. `advance` adds the displacement of this step and turns the stored one
   /// into the tangent plane; without it (set-up of a run, queries) the history is only read.
   template <bool advance, class Real>
-  static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
   {
     Vector3<Real> d = history.displacement;
     if (advance) d = d + in.dt * in.velocity;
@@ -141,7 +141,7 @@ struct TangentialMidpoint {
   static constexpr bool friction = true, history = true, midpoint = true;
 
   template <bool advance, class Real>
-  static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
   {
     const Real zero = splat<Real>(0.0);
     Vector3<Real> d = history.displacement;

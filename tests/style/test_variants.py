@@ -45,6 +45,13 @@ class Variants(BedCase):
                      "pair_style gran/penalty\npair_coeff * 2 hooke 3000.0 20.0\n"
                      "pair_coeff 1 1 hertz 9000.0 20.0 tangential multistep NULL NULL 0.5")
 
+    def test_pressure_units(self):
+        """In units whose pressure is not force/distance^2, hertz converts kn and kt as the stock style."""
+        self.compare("pair_style gran/hertz/history 6.0e8 4.0e8 20.0 10.0 0.5 1\npair_coeff * *",
+                     "pair_style gran/penalty\n"
+                     "pair_coeff * * hertz 6.0e8 20.0 tangential multistep 4.0e8 10.0 0.5",
+                     before="units real")
+
     def test_hybrid_overlay(self):
         soft = "soft 1.2\npair_coeff * * soft 5.0"
         stock = STOCK.replace("gran", "hybrid/overlay gran", 1).replace("* *", "* * gran/hooke/history")
