@@ -13,7 +13,8 @@
 #endif
 
 // Pair::atom2cut() and Pair::radii2cut(), which `neighbor multi` asked for, were removed in summer
-// 2025, possibly within updates of a release that keep its date: so the build looks into the header.
+// 2025, possibly within updates of a release that keep its date: so the build looks into the
+// header.
 #if TALUS_HOST_HAS_ATOM2CUT
 #define TALUS_OVERRIDE_ATOM2CUT override
 #else

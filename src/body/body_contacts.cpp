@@ -8,29 +8,29 @@
 namespace Talus {
 namespace {
 
-  Vector3<double> row(const double *rows, int i)
-  {
-    return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
-  }
+Vector3<double> row(const double *rows, int i)
+{
+  return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
+}
 
-  void add(double *rows, int i, const Vector3<double> &value)
-  {
-    rows[3L * i] += value.x;
-    rows[3L * i + 1] += value.y;
-    rows[3L * i + 2] += value.z;
-  }
+void add(double *rows, int i, const Vector3<double> &value)
+{
+  rows[3L * i] += value.x;
+  rows[3L * i + 1] += value.y;
+  rows[3L * i + 2] += value.z;
+}
 
-  Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
-  {
-    return {v[0][k], v[1][k], v[2][k]};
-  }
+Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
+{
+  return {v[0][k], v[1][k], v[2][k]};
+}
 
-  void set_lane(double (&v)[3][ContactBatch::width], int k, const Vector3<double> &value)
-  {
-    v[0][k] = value.x;
-    v[1][k] = value.y;
-    v[2][k] = value.z;
-  }
+void set_lane(double (&v)[3][ContactBatch::width], int k, const Vector3<double> &value)
+{
+  v[0][k] = value.x;
+  v[1][k] = value.y;
+  v[2][k] = value.z;
+}
 
 }    // namespace
 
@@ -51,8 +51,8 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyPartic
 {
   candidates.clear();
   for (int i = 0; i < view.owned; i++) {
-    const bool near = (mask[i] & group) &&
-        shape.distance_bound(row(view.x, i)) < view.radius[i] + skin;
+    const bool near =
+        (mask[i] & group) && shape.distance_bound(row(view.x, i)) < view.radius[i] + skin;
     if (near) candidates.push_back(i);
     if (!near) forget(i);
   }
@@ -90,8 +90,8 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleVi
   return load;
 }
 
-/* A fixed body is infinitely heavy and its surface does not move: m_eff is the mass of the particle, R_eff its
-   radius. */
+/* A fixed body is infinitely heavy and its surface does not move: m_eff is the mass of the
+   particle, R_eff its radius. */
 
 void BodyContacts::add_lane(int lane, int i, const SurfaceContact &contact,
                             const BodyParticleView &view)
@@ -144,11 +144,11 @@ void BodyContacts::keep_history(int lane)
   if (with_onset) onset[i] = {{o.x, o.y, o.z, 0.0}};
 }
 
-/* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and torques of
-   particle and body balance exactly. */
+/* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and
+   torques of particle and body balance exactly. */
 
-void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
-                         BodyLoad &load)
+void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape,
+                         const BodyParticleView &view, BodyLoad &load)
 {
   const int i = atom_of_lane[lane];
   const double r = view.radius[i];
@@ -176,7 +176,8 @@ void BodyContacts::remember_velocities(const BodyParticleView &view)
   }
 }
 
-void BodyContacts::account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const
+void BodyContacts::account_for_move(const BodyParticleView &view, double dt,
+                                    EnergyAccount &to) const
 {
   for (std::size_t n = 0; n < candidates.size(); n++) {
     const int i = candidates[n];

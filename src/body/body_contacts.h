@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts between the owned particles of a rank and one large body, through the same laws and kernels as
-// contacts between particles. Knows nothing of the host.
+// Contacts between the owned particles of a rank and one large body, through the same laws and
+// kernels as contacts between particles. Knows nothing of the host.
 //
 //   at a rebuild   find_candidates()
 //   every step     compute()
@@ -24,8 +24,9 @@ struct BodyParticleView {
   int owned;
   const double *x, *v, *omega;
   const double *radius, *mass;
-  const double *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
-  const int *type;                ///< counts from 1
+  const double
+      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
+  const int *type;       ///< counts from 1
   double *f, *torque;
 };
 
@@ -42,15 +43,15 @@ class BodyContacts {
   /// Law of each particle type t against the body: row (t, t) of the table.
   void set_laws(const LawTable &table);
 
-  /// Lists the particles (mask & group) that may touch the body while no particle moves further than
-  /// `skin`. Others have no contact: their history is forgotten.
+  /// Lists the particles (mask & group) that may touch the body while no particle moves further
+  /// than `skin`. Others have no contact: their history is forgotten.
   void find_candidates(const LargeBodyShape &shape, const BodyParticleView &view, const int *mask,
                        int group, double skin);
 
-  /// Adds the contact forces to the particles and returns their reaction. `advance` is false while a run
-  /// is set up: histories are then only read. `account`, if given, receives the energies.
-  BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt, bool advance,
-                   EnergyAccount *account = nullptr);
+  /// Adds the contact forces to the particles and returns their reaction. `advance` is false while
+  /// a run is set up: histories are then only read. `account`, if given, receives the energies.
+  BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
+                   bool advance, EnergyAccount *account = nullptr);
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const;
@@ -59,15 +60,15 @@ class BodyContacts {
   bool keeps_onset() const { return with_onset; }
   double memory_usage() const;
 
-  /// One record for each particle (host's index), zero without contact; empty if no law keeps history.
-  /// The owner resizes, moves and saves it with the particles.
+  /// One record for each particle (host's index), zero without contact; empty if no law keeps
+  /// history. The owner resizes, moves and saves it with the particles.
   std::vector<Record> history;
   std::vector<Record> onset;    ///< the same, for laws that need to know how the contact began
 
  private:
   void add_lane(int lane, int atom, const SurfaceContact &contact, const BodyParticleView &view);
-  void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view, double dt,
-             bool advance, BodyLoad &load);
+  void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view,
+             double dt, bool advance, BodyLoad &load);
   void keep_history(int lane);
   void remember_velocities(const BodyParticleView &view);
   void forget(int atom);
@@ -79,7 +80,8 @@ class BodyContacts {
   std::vector<int> candidates;
   ContactBatch batch;
   EnergyAccount *energies = nullptr;
-  std::vector<Vector3<double>> velocity_before, spin_before;    // of candidates, only with an account
+  std::vector<Vector3<double>> velocity_before,
+      spin_before;    // of candidates, only with an account
   int atom_of_lane[ContactBatch::width];
 };
 

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Geometry of a large body: a body that spans sub-domains, is known to every rank and never becomes a
-// ghost. Derive from this class to add a shape of your own. Lengths are in the units of the caller; no
-// function may change the object, all may be called from several threads.
+// Geometry of a large body: a body that spans sub-domains, is known to every rank and never becomes
+// a ghost. Derive from this class to add a shape of your own. Lengths are in the units of the
+// caller; no function may change the object, all may be called from several threads.
 
 #ifndef TALUS_BODY_LARGE_BODY_SHAPE_H
 #define TALUS_BODY_LARGE_BODY_SHAPE_H

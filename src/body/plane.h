@@ -7,15 +7,17 @@
 
 namespace Talus {
 
-/// The infinite plane n . (x - p) = 0; particles are where n points to. One-sided, it pushes along n every
-/// sphere that reaches it, up to a centre one radius behind the plane: a deep impact is not turned into a
-/// push out on the wrong side. Two-sided, it pushes to the side on which the centre is.
+/// The infinite plane n . (x - p) = 0; particles are where n points to. One-sided, it pushes along
+/// n every sphere that reaches it, up to a centre one radius behind the plane: a deep impact is not
+/// turned into a push out on the wrong side. Two-sided, it pushes to the side on which the centre
+/// is.
 class Plane : public LargeBodyShape {
  public:
   /// `normal` must be a unit vector.
   Plane(const Vector3<double> &point, const Vector3<double> &normal, bool two_sided);
 
-  bool touches(const Vector3<double> &centre, double radius, SurfaceContact &contact) const override;
+  bool touches(const Vector3<double> &centre, double radius,
+               SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &centre) const override;
   Vector3<double> reference_point() const override { return point; }
 

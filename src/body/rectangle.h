@@ -7,19 +7,20 @@
 
 namespace Talus {
 
-/// A flat rectangle without thickness; particles are where its normal points to. A sphere beside it touches
-/// the nearest point of its edges and corners, and the normal of the contact turns continuously.
-/// One-sided, only spheres whose centre is on the side of the normal are touched: whatever is behind the
-/// rectangle does not feel it.
+/// A flat rectangle without thickness; particles are where its normal points to. A sphere beside it
+/// touches the nearest point of its edges and corners, and the normal of the contact turns
+/// continuously. One-sided, only spheres whose centre is on the side of the normal are touched:
+/// whatever is behind the rectangle does not feel it.
 class Rectangle : public LargeBodyShape {
  public:
-  /// `normal` and `first_edge` must be perpendicular unit vectors; lengths are those of the edges along
-  /// first_edge and along normal x first_edge.
+  /// `normal` and `first_edge` must be perpendicular unit vectors; lengths are those of the edges
+  /// along first_edge and along normal x first_edge.
   Rectangle(const Vector3<double> &centre, const Vector3<double> &normal,
             const Vector3<double> &first_edge, double first_length, double second_length,
             bool two_sided);
 
-  bool touches(const Vector3<double> &centre, double radius, SurfaceContact &contact) const override;
+  bool touches(const Vector3<double> &centre, double radius,
+               SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &centre) const override;
   Vector3<double> reference_point() const override { return middle; }
 

@@ -16,7 +16,8 @@ namespace {
 enum { CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE, SIZE };
 }
 
-ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
+ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg)
 {
   if (narg > 3) error->all(FLERR, 3, "compute penalty/stats: surplus word '{}'", arg[3]);
   if (igroup)

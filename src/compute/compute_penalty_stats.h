@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// compute ID all penalty/stats: contacts and the energies that they store and dissipate, pairs of particles and
-// large bodies together. doc/compute_penalty_stats.md is the user's page.
+// compute ID all penalty/stats: contacts and the energies that they store and dissipate, pairs of
+// particles and large bodies together. doc/compute_penalty_stats.md is the user's page.
 
 #ifndef LMP_COMPUTE_PENALTY_STATS_H
 #define LMP_COMPUTE_PENALTY_STATS_H
@@ -16,8 +16,8 @@ class ComputePenaltyStats : public Compute {
   ~ComputePenaltyStats() override;
   void init() override;
 
-  /// candidate pairs, contacts, largest overlap/radius, elastic energy, energy dissipated by normal damping, by
-  /// friction, by rolling and spinning resistance.
+  /// candidate pairs, contacts, largest overlap/radius, elastic energy, energy dissipated by normal
+  /// damping, by friction, by rolling and spinning resistance.
   void compute_vector() override;
 
  private:

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// compute ID group timestep/gran: critical time steps (see pair/critical_time_step.h) and the present time step
-// as a fraction of each. doc/compute_timestep_gran.md is the user's page.
+// compute ID group timestep/gran: critical time steps (see pair/critical_time_step.h) and the
+// present time step as a fraction of each. doc/compute_timestep_gran.md is the user's page.
 
 #ifndef LMP_COMPUTE_TIMESTEP_GRAN_H
 #define LMP_COMPUTE_TIMESTEP_GRAN_H

@@ -85,11 +85,10 @@ std::int64_t CandidateList::find(int slot_a, int slot_b) const
 
 double CandidateList::memory_usage() const
 {
-  return static_cast<double>(
-      sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity() + first.capacity() +
-                     second.capacity()) +
-      sizeof(std::int64_t) * (tag.capacity() + row_start.capacity()) +
-      sizeof(double) * weights.capacity() + sizeof(Pair) * added.capacity());
+  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity() +
+                                            first.capacity() + second.capacity()) +
+                             sizeof(std::int64_t) * (tag.capacity() + row_start.capacity()) +
+                             sizeof(double) * weights.capacity() + sizeof(Pair) * added.capacity());
 }
 
 }    // namespace Talus

@@ -1,9 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The canonical order of particles. Floating-point sums depend on their order, so contact forces are
-// always summed in ascending (key, tag) of the partner, an order that no decomposition, sorting or
-// thread count changes. The key is the place on a Morton curve where the particle was when the key was
-// last refreshed: particles that are close in space are close in the order, and so in memory.
+// The canonical order of particles. Floating-point sums depend on their order, so contact forces
+// are always summed in ascending (key, tag) of the partner, an order that no decomposition, sorting
+// or thread count changes. The key is the place on a Morton curve where the particle was when the
+// key was last refreshed: particles that are close in space are close in the order, and so in
+// memory.
 
 #ifndef TALUS_CONTACT_CANONICAL_KEY_H
 #define TALUS_CONTACT_CANONICAL_KEY_H
@@ -26,8 +27,9 @@ inline std::uint64_t spread_bits(std::uint64_t v)
   return v;
 }
 
-/// Key of a position (length units): cells of edge 1/inverse_cell, 2^20 of them on either side of the
-/// origin; whatever lies beyond is counted to the outermost cell. Not-a-number maps to the lowest cell.
+/// Key of a position (length units): cells of edge 1/inverse_cell, 2^20 of them on either side of
+/// the origin; whatever lies beyond is counted to the outermost cell. Not-a-number maps to the
+/// lowest cell.
 inline std::uint64_t canonical_key(const double *x, double inverse_cell)
 {
   constexpr double half = 1 << 20;

@@ -9,7 +9,8 @@ namespace Talus {
 
 void ContactBatch::clear()
 {
-  for (auto *vector : {normal, velocity, spin, relative_spin, displacement, onset, force, moment, couple})
+  for (auto *vector :
+       {normal, velocity, spin, relative_spin, displacement, onset, force, moment, couple})
     for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);

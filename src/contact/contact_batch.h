@@ -1,16 +1,16 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // A batch holds the state and the result of up to `width` contacts as structure of arrays.
-// Whoever knows the geometry fills the input arrays (pairs of spheres, or a sphere and a large body), a
-// kernel turns them into forces, and the owner adds these up in its canonical order.
+// Whoever knows the geometry fills the input arrays (pairs of spheres, or a sphere and a large
+// body), a kernel turns them into forces, and the owner adds these up in its canonical order.
 
 #ifndef TALUS_CONTACT_BATCH_H
 #define TALUS_CONTACT_BATCH_H
 
 namespace Talus {
 
-/// Lanes that hold no contact may contain anything finite: kernels always run over the full width, so
-/// that every contact is computed by the same vector instructions and no scalar tail exists.
+/// Lanes that hold no contact may contain anything finite: kernels always run over the full width,
+/// so that every contact is computed by the same vector instructions and no scalar tail exists.
 struct ContactBatch {
   static constexpr int width = 64;
 

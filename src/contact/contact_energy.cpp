@@ -11,35 +11,35 @@
 namespace Talus {
 namespace {
 
-  bool is_linear(NormalLaw law)
-  {
-    return law == NormalLaw::HOOKE || law == NormalLaw::HOOKE_MATERIAL;
-  }
+bool is_linear(NormalLaw law)
+{
+  return law == NormalLaw::HOOKE || law == NormalLaw::HOOKE_MATERIAL;
+}
 
-  Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
-  {
-    return {v[0][k], v[1][k], v[2][k]};
-  }
+Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
+{
+  return {v[0][k], v[1][k], v[2][k]};
+}
 
-  struct Inputs {
-    double mass, radius, speed;
-  };
+struct Inputs {
+  double mass, radius, speed;
+};
 
-  Inputs inputs_of(const ContactCoefficients &c, const ContactState<double> &s,
-                   const ContactOnset<double> &onset)
-  {
-    return {s.inverse_mass > 0.0 ? 1.0 / s.inverse_mass : 0.0,
-            s.inverse_radius > 0.0 ? 1.0 / s.inverse_radius : 0.0, std::max(onset.speed, c.speed)};
-  }
+Inputs inputs_of(const ContactCoefficients &c, const ContactState<double> &s,
+                 const ContactOnset<double> &onset)
+{
+  return {s.inverse_mass > 0.0 ? 1.0 / s.inverse_mass : 0.0,
+          s.inverse_radius > 0.0 ? 1.0 / s.inverse_radius : 0.0, std::max(onset.speed, c.speed)};
+}
 
-  Stiffness<double> stiffness_of(ContactLaw law, const ContactCoefficients &c, double overlap,
-                                 const Inputs &in)
-  {
-    return dispatch_model(law, [&](auto model) {
-      return decltype(model)::Normal::stiffness(
-          c, NormalInput<double>{overlap, in.mass, in.radius, in.speed});
-    });
-  }
+Stiffness<double> stiffness_of(ContactLaw law, const ContactCoefficients &c, double overlap,
+                               const Inputs &in)
+{
+  return dispatch_model(law, [&](auto model) {
+    return decltype(model)::Normal::stiffness(
+        c, NormalInput<double>{overlap, in.mass, in.radius, in.speed});
+  });
+}
 
 }    // namespace
 
@@ -53,11 +53,13 @@ ContactEnergy contact_energy(ContactLaw law, const ContactCoefficients &c,
   const ContactForce<double> out = single_contact(law, c, s, dt, history, onset);
   const double elastic = k.kn * s.overlap;
   const double adhesion = law.adheres ? c.adhesion + c.adhesion_dmt * std::sqrt(in.radius) +
-          c.adhesion_perko * in.radius : 0.0;
+                                            c.adhesion_perko * in.radius
+                                      : 0.0;
 
   ContactEnergy e;
   // F ~ overlap: F overlap/2; F ~ overlap^(3/2): 2/5 F overlap
-  e.elastic_normal = (is_linear(law.normal) ? 0.5 : 0.4) * elastic * s.overlap - adhesion * s.overlap;
+  e.elastic_normal =
+      (is_linear(law.normal) ? 0.5 : 0.4) * elastic * s.overlap - adhesion * s.overlap;
   e.damping = (out.normal - elastic) * s.normal;
   if (!law.has_friction()) return e;
 
@@ -87,8 +89,8 @@ ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficient
                         {b.onset[0][k], b.onset[1][k], b.onset[2][k]});
 }
 
-double tangent_stiffness(ContactLaw law, const ContactCoefficients &c, double overlap, double mass_eff,
-                         double radius_eff)
+double tangent_stiffness(ContactLaw law, const ContactCoefficients &c, double overlap,
+                         double mass_eff, double radius_eff)
 {
   const Stiffness<double> k = stiffness_of(law, c, overlap, {mass_eff, radius_eff, c.speed});
   return (is_linear(law.normal) ? 1.0 : 1.5) * k.kn;

@@ -51,8 +51,7 @@ void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_fir
 {
   const Record seen = from_first ? records[pair] : mirrored(records[pair]);
   std::copy(std::begin(seen.c), std::end(seen.c), values);
-  if (!onsets.empty())
-    std::copy(std::begin(onsets[pair].c), std::end(onsets[pair].c), values + 4);
+  if (!onsets.empty()) std::copy(std::begin(onsets[pair].c), std::end(onsets[pair].c), values + 4);
 }
 
 void ContactHistory::adopt_first_copies(

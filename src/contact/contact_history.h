@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact history stored by candidate pair during a run: one record for each pair, zero unless the
-// pair touches, seen from the first particle of the pair; and a second one, the onset of the contact,
-// in scenes with a law that needs it.
+// pair touches, seen from the first particle of the pair; and a second one, the onset of the
+// contact, in scenes with a law that needs it.
 
 #ifndef TALUS_CONTACT_CONTACT_HISTORY_H
 #define TALUS_CONTACT_CONTACT_HISTORY_H
@@ -19,10 +19,10 @@ namespace Talus {
 
 class ContactHistory {
  public:
-  /// After a rebuild: takes the history of each pair from the lists of whichever of its particles is
-  /// owned. `filed_tag` is the name of each particle (host's index) in the lists, 0 if it is in none; it differs from
-  /// the tag if IDs were renumbered since. Pairs without history start at zero. Onsets are kept if the lists have
-  /// 8 values.
+  /// After a rebuild: takes the history of each pair from the lists of whichever of its particles
+  /// is owned. `filed_tag` is the name of each particle (host's index) in the lists, 0 if it is in
+  /// none; it differs from the tag if IDs were renumbered since. Pairs without history start at
+  /// zero. Onsets are kept if the lists have 8 values.
   void fetch(const CandidateList &pairs, const PartnerLists &partners,
              const std::vector<std::int64_t> &filed_tag);
 
@@ -30,10 +30,11 @@ class ContactHistory {
   /// owned particles.
   void file(const CandidateList &pairs, PartnerLists &partners) const;
 
-  /// After file(): pairs whose first particle is a ghost take over the history that its owner has filed, which
-  /// ghost_values(host's index of the first, tag of the second) returns or nullptr.
-  void adopt_first_copies(const CandidateList &pairs, PartnerLists &partners,
-                          const std::function<const double *(int, std::int64_t)> &ghost_values) const;
+  /// After file(): pairs whose first particle is a ghost take over the history that its owner has
+  /// filed, which ghost_values(host's index of the first, tag of the second) returns or nullptr.
+  void
+  adopt_first_copies(const CandidateList &pairs, PartnerLists &partners,
+                     const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Gives all memory back: for scenes whose laws keep no history.
   void release();

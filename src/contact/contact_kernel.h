@@ -21,7 +21,8 @@ using ContactKernel = void (*)(ContactBatch &batch, int begin, int end,
 
 /// The kernel of one combination.
 ///   uniform  every contact has the coefficients table[0]
-///   advance  true in a step of a run: the history advances; false while setting up: it is only read
+///   advance  true in a step of a run: the history advances; false while setting up: it is only
+///   read
 ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance);
 
 /// One contact alone, history only read: for queries. Same bits as the kernels.

@@ -36,14 +36,14 @@ inline constexpr int num_tangential_laws = 6;
 struct ContactLaw {
   NormalLaw normal = NormalLaw::HOOKE;
   TangentialLaw tangential = TangentialLaw::NONE;
-  bool resists = false;     ///< rolling or spinning resistance; needs friction
+  bool resists = false;    ///< rolling or spinning resistance; needs friction
   bool adheres = false;
-  bool delayed = false;     ///< resistance acts only after one collision time
+  bool delayed = false;    ///< resistance acts only after one collision time
 
   bool operator==(const ContactLaw &o) const
   {
     return normal == o.normal && tangential == o.tangential && resists == o.resists &&
-        adheres == o.adheres && delayed == o.delayed;
+           adheres == o.adheres && delayed == o.delayed;
   }
   bool operator!=(const ContactLaw &o) const { return !(*this == o); }
 
@@ -66,21 +66,21 @@ struct ContactLaw {
 /// Numbers of one pair of materials. Units: see normal_laws.h for kn, gn, kt, gt and the adhesive
 /// coefficients; mu, mu_roll, mu_spin are dimensionless.
 template <class Real> struct Coefficients {
-  Real kn{};             ///< normal stiffness, or effective Young's modulus
-  Real gn{};             ///< normal damping
-  Real kt{};             ///< tangential stiffness, or effective shear modulus
-  Real gt{};             ///< tangential damping
-  Real mu{};             ///< coefficient of friction
-  Real force_floor{};    ///< least normal force: 0 with limit_damping, else -infinity
-  Real speed{};          ///< characteristic speed of hooke/material and flores/material
-  Real mu_roll{};        ///< rolling resistance: torque / (radius F_n)
-  Real mu_spin{};        ///< spinning resistance: torque / (radius of the overlap circle F_n)
-  Real adhesion{};       ///< constant adhesive force
-  Real adhesion_dmt{};   ///< times sqrt(R_eff)
-  Real adhesion_perko{}; ///< times R_eff
-  Real slip_min{};       ///< plaincoulomb: no friction below this surface velocity
-  Real roll_min{};       ///< no rolling resistance below this velocity
-  Real spin_min{};       ///< no spinning resistance below this angular velocity
+  Real kn{};                ///< normal stiffness, or effective Young's modulus
+  Real gn{};                ///< normal damping
+  Real kt{};                ///< tangential stiffness, or effective shear modulus
+  Real gt{};                ///< tangential damping
+  Real mu{};                ///< coefficient of friction
+  Real force_floor{};       ///< least normal force: 0 with limit_damping, else -infinity
+  Real speed{};             ///< characteristic speed of hooke/material and flores/material
+  Real mu_roll{};           ///< rolling resistance: torque / (radius F_n)
+  Real mu_spin{};           ///< spinning resistance: torque / (radius of the overlap circle F_n)
+  Real adhesion{};          ///< constant adhesive force
+  Real adhesion_dmt{};      ///< times sqrt(R_eff)
+  Real adhesion_perko{};    ///< times R_eff
+  Real slip_min{};          ///< plaincoulomb: no friction below this surface velocity
+  Real roll_min{};          ///< no rolling resistance below this velocity
+  Real spin_min{};          ///< no spinning resistance below this angular velocity
 };
 using ContactCoefficients = Coefficients<double>;
 

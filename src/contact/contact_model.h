@@ -26,23 +26,22 @@ template <class Normal_, class Tangential_, Resistance resistance_, bool adheres
   static constexpr bool history = Tangential::history;
   static constexpr bool midpoint = Tangential::midpoint;
   static constexpr bool needs_speed = std::is_same<Normal, NormalHookeMaterial>::value ||
-      std::is_same<Normal, NormalFloresMaterial>::value;
-  static constexpr bool onset =
-      history && (needs_speed || resistance_ == Resistance::DELAYED);
+                                      std::is_same<Normal, NormalFloresMaterial>::value;
+  static constexpr bool onset = history && (needs_speed || resistance_ == Resistance::DELAYED);
   static constexpr bool needs_radius = Normal::needs_radius || adheres;
 };
 
 /// State of one contact as the laws see it. The first body is the one that receives `force`.
 template <class Real> struct ContactState {
-  Vector3<Real> normal;           ///< unit vector from the second body to the first; 0 if centres coincide
-  Real overlap;                   ///< > 0; 0 if centres coincide, which switches the contact off
-  Vector3<Real> velocity;         ///< v_1 - v_2 of the centres (of the surface point for a large body)
-  Vector3<Real> spin;             ///< r_1 omega_1 + r_2 omega_2; only for models that rotate
-  Real inverse_mass;              ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
-  Real inverse_radius;            ///< 1/r_1 + 1/r_2; only for models that need it
+  Vector3<Real> normal;    ///< unit vector from the second body to the first; 0 if centres coincide
+  Real overlap;            ///< > 0; 0 if centres coincide, which switches the contact off
+  Vector3<Real> velocity;    ///< v_1 - v_2 of the centres (of the surface point for a large body)
+  Vector3<Real> spin;        ///< r_1 omega_1 + r_2 omega_2; only for models that rotate
+  Real inverse_mass;         ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
+  Real inverse_radius;       ///< 1/r_1 + 1/r_2; only for models that need it
   Vector3<Real> relative_spin;    ///< omega_1 - omega_2; only for models with resistance
   Real circle;                    ///< radius of the circle of intersection; only for the same
-  Real inverse_distance;          ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
+  Real inverse_distance;    ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
 };
 
 /// How a contact began; kept only by models that need it.
@@ -52,7 +51,8 @@ template <class Real> struct ContactOnset {
   Real begun{};    ///< 1 after the first step
 };
 
-/// Result of one contact. Torques about the centres: -r_1 moment + couple on body 1, -r_2 moment - couple on 2.
+/// Result of one contact. Torques about the centres: -r_1 moment + couple on body 1, -r_2 moment -
+/// couple on 2.
 template <class Real> struct ContactForce {
   Vector3<Real> force{};         ///< on the first body; the second receives the opposite
   Vector3<Real> tangential{};    ///< the tangential part of it
@@ -69,8 +69,9 @@ inline Vector3<Real> surface_velocity(const ContactState<Real> &s, Real normal_v
   return s.velocity - normal_velocity * s.normal - cross(s.spin, s.normal);
 }
 
-/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres came here along
-/// straight lines, so the normal half way is known; a contact that began on the way lasted overlap/(-v_n).
+/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres
+/// came here along straight lines, so the normal half way is known; a contact that began on the way
+/// lasted overlap/(-v_n).
 template <class Real>
 inline Vector3<Real> step_displacement(const ContactState<Real> &s, Real normal_velocity, double dt)
 {
@@ -99,9 +100,9 @@ inline void follow_onset(ContactOnset<Real> &onset, Real normal_velocity, double
 /// Evaluates a contact. `advance` is false while a run is set up and in queries: forces are then
 /// those of the stored history, which is left as it is.
 template <class Model, bool advance, class Real>
-TALUS_INLINE ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s,
-                                           double dt, TangentialHistory<Real> &history,
-                                           ContactOnset<Real> &onset)
+TALUS_INLINE ContactForce<Real>
+evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, double dt,
+                 TangentialHistory<Real> &history, ContactOnset<Real> &onset)
 {
   using Normal = typename Model::Normal;
   using Tangential = typename Model::Tangential;
@@ -121,10 +122,14 @@ TALUS_INLINE ContactForce<Real> evaluate_contact(const Coefficients<Real> &c, co
   out.force = out.normal * s.normal;
 
   if constexpr (Tangential::friction) {
-    TangentialInput<Real> in{k, surface_velocity(s, normal_velocity), s.normal,
-                                   c.mu * magnitude(out.normal), c.mu * out.normal, splat<Real>(dt),
-                                   c.slip_min,
-                                   Vector3<Real>{}};
+    TangentialInput<Real> in{k,
+                             surface_velocity(s, normal_velocity),
+                             s.normal,
+                             c.mu * magnitude(out.normal),
+                             c.mu * out.normal,
+                             splat<Real>(dt),
+                             c.slip_min,
+                             Vector3<Real>{}};
     if constexpr (Tangential::midpoint && advance)
       in.increment = step_displacement(s, normal_velocity, dt);
     if constexpr (Tangential::history)

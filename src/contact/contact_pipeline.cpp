@@ -100,9 +100,9 @@ void ContactPipeline::place(std::uint32_t contact, int position, int lane)
   lane_of_contact[position] = lane;
 }
 
-/* Gives every contact of a block a lane. Contacts of one law stand together, and the last vector of each
-   law is filled up with copies of its last contact, which are computed but not added. Returns the number of
-   lanes in use, a multiple of `lanes`. */
+/* Gives every contact of a block a lane. Contacts of one law stand together, and the last vector of
+   each law is filled up with copies of its last contact, which are computed but not added. Returns
+   the number of lanes in use, a multiple of `lanes`. */
 
 int ContactPipeline::arrange(const std::uint32_t *contacts, int count)
 {
@@ -135,29 +135,29 @@ int ContactPipeline::arrange(const std::uint32_t *contacts, int count)
 /* Geometry and kinematics of the block. The sums of records give everything but the normal. */
 
 namespace {
-  constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
-  using Lanes = double[3][ContactBatch::width];
+constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
+using Lanes = double[3][ContactBatch::width];
 
-  /// Four records become lanes k ... k+3 of a vector and of a scalar.
-  inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
-  {
-    transpose(rows[0], rows[1], rows[2], rows[3]);
-    for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
-    if (fourth) store(&fourth[k], rows[3]);
-  }
+/// Four records become lanes k ... k+3 of a vector and of a scalar.
+inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
+{
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
+  if (fourth) store(&fourth[k], rows[3]);
+}
 
-  /// Lanes k ... k+3 become four records.
-  inline void collect(const Lanes &vector, const double *fourth, int k, Vec4 *rows)
-  {
-    for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
-    rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
-    transpose(rows[0], rows[1], rows[2], rows[3]);
-  }
+/// Lanes k ... k+3 become four records.
+inline void collect(const Lanes &vector, const double *fourth, int k, Vec4 *rows)
+{
+  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
+  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+}
 
-  void clear_lanes(Lanes &vector, int begin, int end)
-  {
-    for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
-  }
+void clear_lanes(Lanes &vector, int begin, int end)
+{
+  for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
+}
 }    // namespace
 
 template <bool friction, bool history_kept> void ContactPipeline::gather(int end)
@@ -192,8 +192,8 @@ void ContactPipeline::gather_onsets(int end)
   }
 }
 
-/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the inverse
-   radius still hold the product of the radii. */
+/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the
+   inverse radius still hold the product of the radii. */
 
 void ContactPipeline::finish_geometry(int end, bool radii_known)
 {
@@ -216,7 +216,8 @@ void ContactPipeline::finish_geometry(int end, bool radii_known)
   }
 }
 
-/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces intersect. */
+/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces
+ * intersect. */
 
 void ContactPipeline::gather_resistance(int end)
 {
@@ -233,8 +234,9 @@ void ContactPipeline::gather_resistance(int end)
     spread(row, batch.relative_spin, nullptr, k);
   }
   for (int k = 0; k < end; k += lanes)
-    store(&batch.circle[k], circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
-                                                   load8(&batch.overlap[k])));
+    store(&batch.circle[k],
+          circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
+                                 load8(&batch.overlap[k])));
 }
 
 void ContactPipeline::run_kernels(double dt, bool advance)
@@ -377,7 +379,8 @@ ContactOnset<double> ContactPipeline::onset_of(int i, int j) const
 double ContactPipeline::memory_usage() const
 {
   return particles.memory_usage() + history.memory_usage() +
-      static_cast<double>(contact_list.capacity() * sizeof(std::uint32_t)) + pairs.memory_usage();
+         static_cast<double>(contact_list.capacity() * sizeof(std::uint32_t)) +
+         pairs.memory_usage();
 }
 
 }    // namespace Talus

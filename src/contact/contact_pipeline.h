@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical order.
-// Knows nothing of the host: the pair style hands arrays over and adds the result.
+// The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical
+// order. Knows nothing of the host: the pair style hands arrays over and adds the result.
 //
 //   at a rebuild   file_history() (if the old pairs are still current), then
 //                  pairs.order_particles(), pairs.add_pair()..., pairs.finish(), fetch_history()
@@ -36,21 +36,23 @@ class ContactPipeline {
   /// Laws of the scene, from the next rebuild on. `type` arrays count from 1.
   void set_laws(const LawTable &table);
 
-  /// After pairs.finish(): types of all particles (host's numbering, owned and ghosts; not needed if
-  /// the laws are uniform) and the history of the new pairs; for filed_tag see ContactHistory::fetch().
+  /// After pairs.finish(): types of all particles (host's numbering, owned and ghosts; not needed
+  /// if the laws are uniform) and the history of the new pairs; for filed_tag see
+  /// ContactHistory::fetch().
   void start_pairs(const int *type, const PartnerLists &partners,
                    const std::vector<std::int64_t> &filed_tag);
 
   /// Files the current history by particle. Empties the lists in a scene without history.
   void file_history(PartnerLists &partners) const;
   /// See ContactHistory::adopt_first_copies(). Call after file_history().
-  void adopt_first_copies(PartnerLists &partners,
-                          const std::function<const double *(int, std::int64_t)> &ghost_values) const;
+  void
+  adopt_first_copies(PartnerLists &partners,
+                     const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Computes all contacts. `advance` is false while a run is set up: histories are then only read.
   /// `report`, if given, receives every contact; `account`, if given, their energies.
-  void compute(const ParticleView &host, double dt, bool advance, std::vector<ReportedContact> *report,
-               EnergyAccount *account = nullptr);
+  void compute(const ParticleView &host, double dt, bool advance,
+               std::vector<ReportedContact> *report, EnergyAccount *account = nullptr);
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
@@ -58,7 +60,8 @@ class ContactPipeline {
   /// Adds the sums of the last compute() to the host's arrays.
   void add_forces(double *f, double *torque) const { particles.add_to(pairs, f, torque); }
 
-  /// History and onset of the pair (i, j) in the host's numbering as i sees it; zero if the pair is unknown.
+  /// History and onset of the pair (i, j) in the host's numbering as i sees it; zero if the pair is
+  /// unknown.
   TangentialHistory<double> history_of(int i, int j) const;
   ContactOnset<double> onset_of(int i, int j) const;
 
@@ -67,9 +70,11 @@ class ContactPipeline {
   double count_contacts() const;
   double count_candidates() const;
 
-  /// Largest overlap over the smaller radius among the contacts of the last compute(); 0 without contacts.
+  /// Largest overlap over the smaller radius among the contacts of the last compute(); 0 without
+  /// contacts.
   double largest_overlap_ratio() const;
-  /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without contacts.
+  /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without
+  /// contacts.
   double smallest_contact_period() const;
   /// Largest relative speed of the centres of candidate pairs.
   double largest_relative_speed() const;
@@ -110,7 +115,7 @@ class ContactPipeline {
 
   ParticleRecords particles;
   ContactHistory history;
-  std::vector<int> slot_type;                ///< types in canonical order; empty if laws are uniform
+  std::vector<int> slot_type;    ///< types in canonical order; empty if laws are uniform
   std::vector<std::uint32_t> contact_list;
   std::int64_t touching_pairs = 0;
   std::vector<ReportedContact> *report = nullptr;

@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What ContactPipeline answers about the contacts of its last compute(): diagnostics, not part of a step.
+// What ContactPipeline answers about the contacts of its last compute(): diagnostics, not part of a
+// step.
 
 #include "contact/contact_pipeline.h"
 
@@ -12,7 +13,7 @@ namespace Talus {
 double ContactPipeline::share_of_pair(std::int64_t pair) const
 {
   const bool both = pairs.is_owned(pairs.atom_of_slot[pairs.first[pair]]) &&
-      pairs.is_owned(pairs.atom_of_slot[pairs.second[pair]]);
+                    pairs.is_owned(pairs.atom_of_slot[pairs.second[pair]]);
   return both ? 1.0 : 0.5;
 }
 
@@ -43,15 +44,17 @@ void ContactPipeline::account_for_move(const double *v, const double *omega, dou
       spin = {0.5 * (w[0] * w[3] + w_now[0]), 0.5 * (w[1] * w[3] + w_now[1]),
               0.5 * (w[2] * w[3] + w_now[2])};
     }
-    to.move(s, dt, {0.5 * (before[0] + now[0]), 0.5 * (before[1] + now[1]),
-                    0.5 * (before[2] + now[2])}, spin);
+    to.move(s, dt,
+            {0.5 * (before[0] + now[0]), 0.5 * (before[1] + now[1]), 0.5 * (before[2] + now[2])},
+            spin);
   }
   to.end_step();
 }
 
 double ContactPipeline::overlap_of(std::int64_t pair) const
 {
-  const double *a = particles.position[pairs.first[pair]].c, *b = particles.position[pairs.second[pair]].c;
+  const double *a = particles.position[pairs.first[pair]].c,
+               *b = particles.position[pairs.second[pair]].c;
   const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
   return a[3] + b[3] - std::sqrt(dx * dx + dy * dy + dz * dz);
 }
@@ -90,7 +93,8 @@ double ContactPipeline::largest_relative_speed() const
 {
   double largest = 0.0;
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    const double *a = particles.velocity[pairs.first[c]].c, *b = particles.velocity[pairs.second[c]].c;
+    const double *a = particles.velocity[pairs.first[c]].c,
+                 *b = particles.velocity[pairs.second[c]].c;
     const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
     largest = std::max(largest, dx * dx + dy * dy + dz * dz);
   }

@@ -33,7 +33,7 @@ void LawTable::finish()
     index_of_row[r] = static_cast<int>(found - distinct.begin());
     if (found == distinct.end()) distinct.push_back(laws[r]);
     one_row = one_row && laws[r] == laws[0] &&
-        std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
+              std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
   }
 }
 

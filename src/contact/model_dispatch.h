@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// From the run-time description of a law (ContactLaw) to the type that implements it (Model): the one list of
-// all combinations that exist.
+// From the run-time description of a law (ContactLaw) to the type that implements it (Model): the
+// one list of all combinations that exist.
 
 #ifndef TALUS_CONTACT_MODEL_DISPATCH_H
 #define TALUS_CONTACT_MODEL_DISPATCH_H
@@ -29,13 +29,16 @@ auto dispatch_resistance(ContactLaw law, Visitor visitor)
 template <class Normal, class Visitor> auto dispatch_tangential(ContactLaw law, Visitor visitor)
 {
   switch (law.tangential) {
-    case TangentialLaw::DASHPOT: return dispatch_resistance<Normal, TangentialDashpot>(law, visitor);
-    case TangentialLaw::ONESTEP: return dispatch_resistance<Normal, TangentialOnestep>(law, visitor);
-    case TangentialLaw::MULTISTEP:
-      return dispatch_resistance<Normal, TangentialMultistep>(law, visitor);
-    case TangentialLaw::MIDPOINT:
-      return dispatch_resistance<Normal, TangentialMidpoint>(law, visitor);
-    default: return dispatch_resistance<Normal, TangentialNone>(law, visitor);
+  case TangentialLaw::DASHPOT:
+    return dispatch_resistance<Normal, TangentialDashpot>(law, visitor);
+  case TangentialLaw::ONESTEP:
+    return dispatch_resistance<Normal, TangentialOnestep>(law, visitor);
+  case TangentialLaw::MULTISTEP:
+    return dispatch_resistance<Normal, TangentialMultistep>(law, visitor);
+  case TangentialLaw::MIDPOINT:
+    return dispatch_resistance<Normal, TangentialMidpoint>(law, visitor);
+  default:
+    return dispatch_resistance<Normal, TangentialNone>(law, visitor);
   }
 }
 
@@ -43,17 +46,22 @@ template <class Normal, class Visitor> auto dispatch_tangential(ContactLaw law, 
 template <class Visitor> auto dispatch_model(ContactLaw law, Visitor visitor)
 {
   switch (law.normal) {
-    case NormalLaw::HERTZ: return dispatch_tangential<NormalHertz>(law, visitor);
-    case NormalLaw::FLORES: return dispatch_tangential<NormalFlores>(law, visitor);
-    case NormalLaw::HOOKE_MATERIAL: return dispatch_tangential<NormalHookeMaterial>(law, visitor);
-    case NormalLaw::HERTZ_MATERIAL: return dispatch_tangential<NormalHertzMaterial>(law, visitor);
-    case NormalLaw::FLORES_MATERIAL:
-      return dispatch_tangential<NormalFloresMaterial>(law, visitor);
-    case NormalLaw::PLAINCOULOMB:
-      return dispatch_resistance<NormalPlainCoulomb, TangentialTanh>(law, visitor);
-    case NormalLaw::PLAINCOULOMB_MATERIAL:
-      return dispatch_resistance<NormalPlainCoulombMaterial, TangentialTanh>(law, visitor);
-    default: return dispatch_tangential<NormalHooke>(law, visitor);
+  case NormalLaw::HERTZ:
+    return dispatch_tangential<NormalHertz>(law, visitor);
+  case NormalLaw::FLORES:
+    return dispatch_tangential<NormalFlores>(law, visitor);
+  case NormalLaw::HOOKE_MATERIAL:
+    return dispatch_tangential<NormalHookeMaterial>(law, visitor);
+  case NormalLaw::HERTZ_MATERIAL:
+    return dispatch_tangential<NormalHertzMaterial>(law, visitor);
+  case NormalLaw::FLORES_MATERIAL:
+    return dispatch_tangential<NormalFloresMaterial>(law, visitor);
+  case NormalLaw::PLAINCOULOMB:
+    return dispatch_resistance<NormalPlainCoulomb, TangentialTanh>(law, visitor);
+  case NormalLaw::PLAINCOULOMB_MATERIAL:
+    return dispatch_resistance<NormalPlainCoulombMaterial, TangentialTanh>(law, visitor);
+  default:
+    return dispatch_tangential<NormalHooke>(law, visitor);
   }
 }
 

@@ -5,27 +5,27 @@
 namespace Talus {
 namespace {
 
-  /// One bit for each of four pairs, set if the pair touches.
-  inline unsigned touching4(const Record *position, const int *first, const int *second)
-  {
-    constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
-    Vec4 s[4];
-    for (int k = 0; k < 4; k++)
-      s[k] = load4(position[first[k]]) + difference_and_sum * load4(position[second[k]]);
-    transpose(s[0], s[1], s[2], s[3]);
-    return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
-  }
+/// One bit for each of four pairs, set if the pair touches.
+inline unsigned touching4(const Record *position, const int *first, const int *second)
+{
+  constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
+  Vec4 s[4];
+  for (int k = 0; k < 4; k++)
+    s[k] = load4(position[first[k]]) + difference_and_sum * load4(position[second[k]]);
+  transpose(s[0], s[1], s[2], s[3]);
+  return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
+}
 
-  unsigned touching_tail(const Record *position, const int *first, const int *second, int count)
-  {
-    int i[8], j[8];
-    for (int k = 0; k < 8; k++) {
-      i[k] = first[k < count ? k : 0];
-      j[k] = second[k < count ? k : 0];
-    }
-    const unsigned bits = touching4(position, i, j) | touching4(position, i + 4, j + 4) << 4;
-    return bits & ((1U << count) - 1U);
+unsigned touching_tail(const Record *position, const int *first, const int *second, int count)
+{
+  int i[8], j[8];
+  for (int k = 0; k < 8; k++) {
+    i[k] = first[k < count ? k : 0];
+    j[k] = second[k < count ? k : 0];
   }
+  const unsigned bits = touching4(position, i, j) | touching4(position, i + 4, j + 4) << 4;
+  return bits & ((1U << count) - 1U);
+}
 
 }    // namespace
 
@@ -40,7 +40,7 @@ std::int64_t find_contacts(const CandidateList &pairs, const std::vector<Record>
 
   for (std::int64_t c = 0; c < n; c += 8) {
     const unsigned bits = c + 8 <= n ? touching4(p, first + c, second + c) |
-            touching4(p, first + c + 4, second + c + 4) << 4
+                                           touching4(p, first + c + 4, second + c + 4) << 4
                                      : touching_tail(p, first + c, second + c, n - c);
     // store every index, step forward only past the touching ones: no branch to mispredict
     for (unsigned k = 0; k < 8; k++) {

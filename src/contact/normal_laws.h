@@ -4,11 +4,11 @@
 //
 //   F_n = kn overlap - gn v_n ,   F_t = -(kt d_t + gt v_t)
 //
-// with overlap = r_i + r_j - |x_i - x_j|, v_n = (v_i - v_j) . n (negative when approaching; n points from j to i).
-// The laws are those of the penalty solver of Project Chrono (Fleischmann, Serban, Negrut, Jayakumar, J. Comput.
-// Nonlinear Dyn. 11, 044502, 2016), hooke and hertz with coefficients those of the stock gran/* styles.
-// m and R are the effective mass and radius. All functions are pure and free of branches; Real is one
-// contact (double) or eight (Vec8).
+// with overlap = r_i + r_j - |x_i - x_j|, v_n = (v_i - v_j) . n (negative when approaching; n
+// points from j to i). The laws are those of the penalty solver of Project Chrono (Fleischmann,
+// Serban, Negrut, Jayakumar, J. Comput. Nonlinear Dyn. 11, 044502, 2016), hooke and hertz with
+// coefficients those of the stock gran/* styles. m and R are the effective mass and radius. All
+// functions are pure and free of branches; Real is one contact (double) or eight (Vec8).
 
 #ifndef TALUS_CONTACT_NORMAL_LAWS_H
 #define TALUS_CONTACT_NORMAL_LAWS_H
@@ -28,8 +28,8 @@ template <class Real> struct NormalInput {
   Real overlap, mass, radius, speed;
 };
 
-/// k and g without their dependence on the overlap, as Chrono's rule for the collision time of delayed
-/// resistance takes them.
+/// k and g without their dependence on the overlap, as Chrono's rule for the collision time of
+/// delayed resistance takes them.
 template <class Real> struct ReducedStiffness {
   Real k, g;
 };
@@ -95,8 +95,9 @@ struct NormalFlores {
   }
 };
 
-/// Chrono's PlainCoulomb with coefficients: kn sqrt(overlap), gn sqrt(overlap), no tangential spring. Kept
-/// as it is, although its coefficients have no consistent meaning for other radii and masses.
+/// Chrono's PlainCoulomb with coefficients: kn sqrt(overlap), gn sqrt(overlap), no tangential
+/// spring. Kept as it is, although its coefficients have no consistent meaning for other radii and
+/// masses.
 struct NormalPlainCoulomb {
   static constexpr bool needs_radius = false;
 
@@ -114,9 +115,9 @@ struct NormalPlainCoulomb {
   }
 };
 
-/// Linear spring from material and characteristic speed: K = 16/15 sqrt(R) E, kn = K (m v^2/K)^(1/5),
-/// kt = kn, gn = gt = f sqrt(m kn). Coefficients: kn = E (effective Young's modulus, pressure),
-/// gn = gt = f = 2 / sqrt(1 + (pi/ln e)^2), see restitution.h.
+/// Linear spring from material and characteristic speed: K = 16/15 sqrt(R) E, kn = K (m
+/// v^2/K)^(1/5), kt = kn, gn = gt = f sqrt(m kn). Coefficients: kn = E (effective Young's modulus,
+/// pressure), gn = gt = f = 2 / sqrt(1 + (pi/ln e)^2), see restitution.h.
 struct NormalHookeMaterial {
   static constexpr bool needs_radius = true;
 
@@ -136,9 +137,9 @@ struct NormalHookeMaterial {
   }
 };
 
-/// Hertz and Mindlin from material: S_n = 2 E sqrt(R overlap), S_t = 8 G sqrt(R overlap), kn = 2/3 S_n, kt = S_t,
-/// gn = f sqrt(S_n m), gt = f sqrt(S_t m). Coefficients: kn = E, kt = G (effective moduli, pressure),
-/// gn = gt = f, see restitution.h.
+/// Hertz and Mindlin from material: S_n = 2 E sqrt(R overlap), S_t = 8 G sqrt(R overlap), kn = 2/3
+/// S_n, kt = S_t, gn = f sqrt(S_n m), gt = f sqrt(S_t m). Coefficients: kn = E, kt = G (effective
+/// moduli, pressure), gn = gt = f, see restitution.h.
 struct NormalHertzMaterial {
   static constexpr bool needs_radius = true;
 
@@ -181,7 +182,8 @@ struct NormalFloresMaterial {
 };
 
 /// Chrono's PlainCoulomb from material: S_n = 2 E sqrt(overlap), kn = 2/3 S_n, gn = f sqrt(S_n m).
-/// Dimensionally inconsistent (no radius); kept as it is. Coefficients: kn = E, gn = f as hertz/material.
+/// Dimensionally inconsistent (no radius); kept as it is. Coefficients: kn = E, gn = f as
+/// hertz/material.
 struct NormalPlainCoulombMaterial {
   static constexpr bool needs_radius = false;
 

@@ -52,8 +52,8 @@ void ParticleRecords::add_to(const CandidateList &order, double *f, double *torq
 double ParticleRecords::memory_usage() const
 {
   return static_cast<double>(sizeof(Record)) *
-      (position.capacity() + velocity.capacity() + spin.capacity() + force.capacity() +
-       moment.capacity() + couple.capacity());
+         (position.capacity() + velocity.capacity() + spin.capacity() + force.capacity() +
+          moment.capacity() + couple.capacity());
 }
 
 }    // namespace Talus

@@ -15,15 +15,17 @@ namespace Talus {
 
 /// The host's arrays: rows of three doubles, owned particles first, then ghosts.
 struct ParticleView {
-  const double *x, *v, *omega;     ///< omega may be nullptr in a scene without friction
+  const double *x, *v, *omega;    ///< omega may be nullptr in a scene without friction
   const double *radius, *mass;
-  const double *mass_override;     ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
+  const double
+      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
 };
 
 class ParticleRecords {
  public:
-  /// Reads the state of all particles and clears the sums. `spins` is false in scenes without friction:
-  /// spin records and moments are then neither read nor kept. `couples`: laws with resistance occur.
+  /// Reads the state of all particles and clears the sums. `spins` is false in scenes without
+  /// friction: spin records and moments are then neither read nor kept. `couples`: laws with
+  /// resistance occur.
   void read(const CandidateList &order, const ParticleView &host, bool spins, bool couples);
 
   /// Adds the summed forces, and torques if spins are kept, to the host's rows of owned particles:

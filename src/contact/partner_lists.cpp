@@ -8,16 +8,19 @@
 namespace Talus {
 namespace {
 
-  static_assert(sizeof(std::int64_t) == sizeof(double), "tags travel as the bits of a double");
+static_assert(sizeof(std::int64_t) == sizeof(double), "tags travel as the bits of a double");
 
-  void set_tag(double *entry, std::int64_t tag) { std::memcpy(entry, &tag, sizeof tag); }
+void set_tag(double *entry, std::int64_t tag)
+{
+  std::memcpy(entry, &tag, sizeof tag);
+}
 
-  std::int64_t tag_of(const double *entry)
-  {
-    std::int64_t tag;
-    std::memcpy(&tag, entry, sizeof tag);
-    return tag;
-  }
+std::int64_t tag_of(const double *entry)
+{
+  std::int64_t tag;
+  std::memcpy(&tag, entry, sizeof tag);
+  return tag;
+}
 
 }    // namespace
 

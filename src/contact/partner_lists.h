@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contact history filed by particle: for each owned particle the tags of the partners it touches and
-// the history as this particle sees it. Histories live here only while pairs are renumbered: across a
-// rebuild, while particles migrate, between runs and in restart files. In between they are stored by
-// pair (ContactHistory).
+// Contact history filed by particle: for each owned particle the tags of the partners it touches
+// and the history as this particle sees it. Histories live here only while pairs are renumbered:
+// across a rebuild, while particles migrate, between runs and in restart files. In between they are
+// stored by pair (ContactHistory).
 
 #ifndef TALUS_CONTACT_PARTNER_LISTS_H
 #define TALUS_CONTACT_PARTNER_LISTS_H
@@ -15,16 +15,16 @@ namespace Talus {
 
 class PartnerLists {
  public:
-  /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed already is
-  /// converted: new numbers are zero, surplus ones are dropped.
+  /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed
+  /// already is converted: new numbers are zero, surplus ones are dropped.
   void set_values(int n);
   int num_values() const { return values; }
 
   /// Room for particles 0 ... capacity-1; new ones have no partners.
   void resize(int capacity);
 
-  /// Refills all lists: begin(), then count() once for every entry, then layout(), then append() for
-  /// the same entries; append() returns where to write the values of the entry.
+  /// Refills all lists: begin(), then count() once for every entry, then layout(), then append()
+  /// for the same entries; append() returns where to write the values of the entry.
   void begin();
   void count(int atom) { range[atom].size++; }
   void layout();

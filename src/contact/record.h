@@ -10,8 +10,8 @@
 //   onset record     { speed, age, begun, unused }       see ContactOnset
 //   force, moment, couple  { x, y, z, unused }
 //
-// The fourth entries of the first three are chosen such that the sum of two records gives what a pair
-// needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.
+// The fourth entries of the first three are chosen such that the sum of two records gives what a
+// pair needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.
 
 #ifndef TALUS_CONTACT_RECORD_H
 #define TALUS_CONTACT_RECORD_H
@@ -24,8 +24,14 @@ struct alignas(32) Record {
   double c[4];
 };
 
-inline Vec4 load4(const Record &record) { return load4(record.c); }
-inline void store(Record &record, Vec4 value) { store(record.c, value); }
+inline Vec4 load4(const Record &record)
+{
+  return load4(record.c);
+}
+inline void store(Record &record, Vec4 value)
+{
+  store(record.c, value);
+}
 
 /// The history of a contact as its other body sees it.
 inline Record mirrored(const Record &history)

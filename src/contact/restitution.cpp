@@ -9,33 +9,33 @@
 namespace Talus {
 namespace {
 
-  constexpr double pi = 3.14159265358979323846;
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double pi = 3.14159265358979323846;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-  double beta(double e)
-  {
-    const double l = std::log(std::max(e, epsilon));
-    return std::fabs(l) / std::sqrt(l * l + pi * pi);
-  }
+double beta(double e)
+{
+  const double l = std::log(std::max(e, epsilon));
+  return std::fabs(l) / std::sqrt(l * l + pi * pi);
+}
 
-  /// Damping ratio of a linear contact that ends as soon as its force vanishes. With z = cos(p) it ends at the phase
-  /// 2 p, so that e = exp(-2 p cot p); with z = cosh(q), e = exp(-2 q coth q).
-  double damping_ratio_limited(double e)
-  {
-    const double decay = -std::log(std::clamp(e, 0.01, 1.0));
-    const bool oscillates = decay < 2.0;
-    // p = pi/2 - a keeps all digits where e is near 1
-    const auto decay_at = [=](double a) {
-      if (oscillates) return (pi - 2.0 * a) * std::tan(a);
-      return a > 0.0 ? 2.0 * a / std::tanh(a) : 2.0;
-    };
-    double low = 0.0, high = oscillates ? 0.5 * pi : 4.0;
-    for (int n = 0; n < 100; n++) {
-      const double middle = 0.5 * (low + high);
-      (decay_at(middle) < decay ? low : high) = middle;
-    }
-    return oscillates ? std::sin(low) : std::cosh(low);
+/// Damping ratio of a linear contact that ends as soon as its force vanishes. With z = cos(p) it
+/// ends at the phase 2 p, so that e = exp(-2 p cot p); with z = cosh(q), e = exp(-2 q coth q).
+double damping_ratio_limited(double e)
+{
+  const double decay = -std::log(std::clamp(e, 0.01, 1.0));
+  const bool oscillates = decay < 2.0;
+  // p = pi/2 - a keeps all digits where e is near 1
+  const auto decay_at = [=](double a) {
+    if (oscillates) return (pi - 2.0 * a) * std::tan(a);
+    return a > 0.0 ? 2.0 * a / std::tanh(a) : 2.0;
+  };
+  double low = 0.0, high = oscillates ? 0.5 * pi : 4.0;
+  for (int n = 0; n < 100; n++) {
+    const double middle = 0.5 * (low + high);
+    (decay_at(middle) < decay ? low : high) = middle;
   }
+  return oscillates ? std::sin(low) : std::cosh(low);
+}
 
 }    // namespace
 
@@ -78,8 +78,7 @@ double effective_young(double y1, double nu1, double y2, double nu2)
 
 double effective_shear(double y1, double nu1, double y2, double nu2)
 {
-  return 1.0 /
-      (2.0 * (2.0 - nu1) * (1.0 + nu1) / y1 + 2.0 * (2.0 - nu2) * (1.0 + nu2) / y2);
+  return 1.0 / (2.0 * (2.0 - nu1) * (1.0 + nu1) / y1 + 2.0 * (2.0 - nu2) * (1.0 + nu2) / y2);
 }
 
 }    // namespace Talus

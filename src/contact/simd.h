@@ -1,13 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The two vector types of the contact code, written with the vector extension that GCC and Clang share:
-// they lower it to what the machine has, so the same source serves SSE2, AVX2 and AVX-512.
+// The two vector types of the contact code, written with the vector extension that GCC and Clang
+// share: they lower it to what the machine has, so the same source serves SSE2, AVX2 and AVX-512.
 //
 //   Vec4  one Record: the four numbers of one particle
 //   Vec8  one number of eight contacts; laws are templates over Real = double or Vec8
 //
-// Everything here rounds as IEEE 754 prescribes, so results do not depend on the lane or on the width of
-// the machine's registers (build with -ffp-contract=off).
+// Everything here rounds as IEEE 754 prescribes, so results do not depend on the lane or on the
+// width of the machine's registers (build with -ffp-contract=off).
 
 #ifndef TALUS_CONTACT_SIMD_H
 #define TALUS_CONTACT_SIMD_H
@@ -18,8 +18,8 @@
 #include <immintrin.h>
 #endif
 
-/// For what runs inside the kernels: with hundreds of kernels in one file compilers stop to inline on their own,
-/// and passing vectors through memory costs a fifth of the time.
+/// For what runs inside the kernels: with hundreds of kernels in one file compilers stop to inline
+/// on their own, and passing vectors through memory costs a fifth of the time.
 #define TALUS_INLINE [[gnu::always_inline]] inline
 
 namespace Talus {
@@ -49,15 +49,27 @@ inline const char *instruction_set()
 }
 
 /// The same number in every lane.
-template <class Real> inline Real splat(double value) { return Real{} + value; }
+template <class Real> inline Real splat(double value)
+{
+  return Real{} + value;
+}
 
 /// What a comparison of Reals yields.
 template <class Real> using bool_of = decltype(Real{} < Real{});
 
-inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
-inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no) { return mask ? yes : no; }
+inline double select(bool mask, double yes, double no)
+{
+  return mask ? yes : no;
+}
+inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no)
+{
+  return mask ? yes : no;
+}
 
-inline double square_root(double a) { return std::sqrt(a); }
+inline double square_root(double a)
+{
+  return std::sqrt(a);
+}
 inline Vec8 square_root(Vec8 a)
 {
 #if defined(__AVX512F__)
@@ -74,10 +86,14 @@ template <class Real> inline Real magnitude(Real a)
   return select(a < splat<Real>(0.0), -a, a);
 }
 
-inline double hyperbolic_tangent(double a) { return std::tanh(a); }
+inline double hyperbolic_tangent(double a)
+{
+  return std::tanh(a);
+}
 inline Vec8 hyperbolic_tangent(Vec8 a)
 {
-  for (int k = 0; k < lanes; k++) a[k] = std::tanh(a[k]);    // the library's: the same for each lane
+  for (int k = 0; k < lanes; k++)
+    a[k] = std::tanh(a[k]);    // the library's: the same for each lane
   return a;
 }
 

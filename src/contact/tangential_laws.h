@@ -6,11 +6,11 @@
 //
 // The multistep law follows Cundall and Strack as the stock gran/*/history styles do: at the limit
 // the stored displacement is set back such that spring and dashpot together just reach the limit.
-// The force of a contact at its limit is taken along (d_t + gt/kt v_t) of the *stored* displacement,
-// with the length of the limit: so the force is a function of positions, velocities and stored history
-// alone, and a restart or a new run reproduces it bit for bit without advancing the history. (If other
-// velocities have come in between, as with fix nve/sphere, and the force is clearly below the limit with
-// them, then it is not at the limit.)
+// The force of a contact at its limit is taken along (d_t + gt/kt v_t) of the *stored*
+// displacement, with the length of the limit: so the force is a function of positions, velocities
+// and stored history alone, and a restart or a new run reproduces it bit for bit without advancing
+// the history. (If other velocities have come in between, as with fix nve/sphere, and the force is
+// clearly below the limit with them, then it is not at the limit.)
 
 #ifndef TALUS_CONTACT_TANGENTIAL_LAWS_H
 #define TALUS_CONTACT_TANGENTIAL_LAWS_H
@@ -26,8 +26,8 @@ template <class Real> struct TangentialHistory {
   Real at_limit{};                 ///< 1 if the last force was the Coulomb limit, else 0
 };
 
-/// What a tangential law is given: k, v_t, the normal, mu |F_n|, mu F_n, the time step and the speed below which
-/// a law with a threshold does nothing.
+/// What a tangential law is given: k, v_t, the normal, mu |F_n|, mu F_n, the time step and the
+/// speed below which a law with a threshold does nothing.
 template <class Real> struct TangentialInput {
   Stiffness<Real> k;
   Vector3<Real> velocity;
@@ -68,8 +68,8 @@ struct TangentialOnestep {
   }
 };
 
-/// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has the unit
-/// 1/velocity and is not scaled by `units`.
+/// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has
+/// the unit 1/velocity and is not scaled by `units`.
 struct TangentialTanh {
   static constexpr bool friction = true, history = false, midpoint = false;
 
@@ -82,10 +82,11 @@ struct TangentialTanh {
   }
 };
 
-/// From the trial displacement to the force: the Coulomb limit, and the displacement that is stored.
+/// From the trial displacement to the force: the Coulomb limit, and the displacement that is
+/// stored.
 template <bool advance, class Real>
-TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d, bool_of<Real> moved,
-                                   TangentialHistory<Real> &history)
+TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d,
+                                         bool_of<Real> moved, TangentialHistory<Real> &history)
 {
   const Real zero = splat<Real>(0.0);
   // without overlap kt is zero; so is the limit, and any finite number serves
@@ -102,10 +103,10 @@ TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector
     history.displacement = d;
     history.at_limit = select(at_limit, splat<Real>(1.0), zero);
   } else {
-    // the flag counts as long as spring and dashpot reach the limit but for rounding: not with other velocities or
-    // coefficients
+    // the flag counts as long as spring and dashpot reach the limit but for rounding: not with
+    // other velocities or coefficients
     const Real parts = in.k.kt * square_root(dot(d, d)) +
-        in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
+                       in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
     at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts >= in.limit));
   }
 
@@ -122,7 +123,8 @@ struct TangentialMultistep {
   /// Force on the first body. `advance` adds the displacement of this step and turns the stored one
   /// into the tangent plane; without it (set-up of a run, queries) the history is only read.
   template <bool advance, class Real>
-  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in,
+                                          TangentialHistory<Real> &history)
   {
     Vector3<Real> d = history.displacement;
     if (advance) d = d + in.dt * in.velocity;
@@ -141,7 +143,8 @@ struct TangentialMidpoint {
   static constexpr bool friction = true, history = true, midpoint = true;
 
   template <bool advance, class Real>
-  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in, TangentialHistory<Real> &history)
+  TALUS_INLINE static Vector3<Real> force(const TangentialInput<Real> &in,
+                                          TangentialHistory<Real> &history)
   {
     const Real zero = splat<Real>(0.0);
     Vector3<Real> d = history.displacement;

@@ -15,8 +15,7 @@ using MathConst::DEG2RAD;
 
 /* ---------------------------------------------------------------------- */
 
-ConstantGravity::ConstantGravity(LAMMPS *lmp, const char *command) :
-    Pointers(lmp), command(command)
+ConstantGravity::ConstantGravity(LAMMPS *lmp, const char *command) : Pointers(lmp), command(command)
 {
 }
 
@@ -95,8 +94,10 @@ double ConstantGravity::number(char **arg, int iarg, const char *what)
 void ConstantGravity::set(double magnitude, double phi, double theta)
 {
   const double s = sin(DEG2RAD * theta), c = cos(DEG2RAD * theta);
-  if (domain->dimension == 2) set(magnitude, s, c, 0.0);
-  else set(magnitude, s * cos(DEG2RAD * phi), s * sin(DEG2RAD * phi), c);
+  if (domain->dimension == 2)
+    set(magnitude, s, c, 0.0);
+  else
+    set(magnitude, s * cos(DEG2RAD * phi), s * sin(DEG2RAD * phi), c);
 }
 
 void ConstantGravity::set(double magnitude, double x, double y, double z)

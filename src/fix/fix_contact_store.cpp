@@ -73,7 +73,8 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
+         MIN_POST_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -84,8 +85,10 @@ void FixContactStore::init()
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == this) break;
     if (ifix->pre_exchange_migrate)
-      error->all(FLERR, "Pair style gran/penalty must be defined before fix {} {}, "
-                 "which migrates atoms: move the pair_style command up", ifix->id, ifix->style);
+      error->all(FLERR,
+                 "Pair style gran/penalty must be defined before fix {} {}, "
+                 "which migrates atoms: move the pair_style command up",
+                 ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
@@ -97,8 +100,8 @@ bigint FixContactStore::next_refresh(bigint step) const
   return (step / refresh_interval + 1) * refresh_interval;
 }
 
-/* Runs before every migration of particles in a run; the rebuild at a refresh is forced, so that the order
-   of sums changes at the same steps whatever the skin is. */
+/* Runs before every migration of particles in a run; the rebuild at a refresh is forced, so that
+   the order of sums changes at the same steps whatever the skin is. */
 
 void FixContactStore::pre_exchange()
 {
@@ -150,8 +153,8 @@ void FixContactStore::setup_post_neighbor()
   post_neighbor();
 }
 
-/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists travel with
-   them. */
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists
+   travel with them. */
 
 void FixContactStore::post_run()
 {
@@ -169,13 +172,14 @@ void FixContactStore::file()
   }
   current = false;
   maxexchange = 0;
-  for (int i = 0; i < atom->nlocal; i++) maxexchange = std::max(maxexchange, partners.packed_size(i));
+  for (int i = 0; i < atom->nlocal; i++)
+    maxexchange = std::max(maxexchange, partners.packed_size(i));
   maxexchange += 5;
 }
 
-/* Across a periodic border both sides compute a pair, from positions that were shifted and rounded differently, so
-   their histories may differ in the last bits. Which of them would live on depends on the decomposition: let it
-   be that of the first particle, everywhere. */
+/* Across a periodic border both sides compute a pair, from positions that were shifted and rounded
+   differently, so their histories may differ in the last bits. Which of them would live on depends
+   on the decomposition: let it be that of the first particle, everywhere. */
 
 void FixContactStore::agree_on_shared_pairs()
 {
@@ -235,8 +239,7 @@ void FixContactStore::keep_positions()
 {
   if (!guards_positions) return;
   domain->pbc();    // as fix balance will: what it then changes is rounding only
-  for (int i = 0; i < atom->nlocal; i++)
-    std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+  for (int i = 0; i < atom->nlocal; i++) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
 }
 
 /* Undoes rounding, never a move that somebody meant. */
@@ -334,8 +337,10 @@ void FixContactStore::restart(char *buf)
   inverse_cell = state[0];
   partners.set_values(static_cast<int>(state[1]));
   if (state[2] != static_cast<double>(atom->natoms))
-    error->all(FLERR, "Pair style gran/penalty: particles were added or deleted between read_restart and the "
-               "first run, so that contact history cannot be assigned: put 'run 0' in between");
+    error->all(
+        FLERR,
+        "Pair style gran/penalty: particles were added or deleted between read_restart and the "
+        "first run, so that contact history cannot be assigned: put 'run 0' in between");
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -347,8 +352,8 @@ int FixContactStore::pack_restart(int i, double *buf)
   return 4 + partners.pack(i, buf + 4);
 }
 
-/* The host does not move what it has read for us when particles are deleted before this fix exists: restart() looks
-   at their number, this at their names. */
+/* The host does not move what it has read for us when particles are deleted before this fix exists:
+   restart() looks at their number, this at their names. */
 
 void FixContactStore::unpack_restart(int i, int nth)
 {
@@ -358,8 +363,10 @@ void FixContactStore::unpack_restart(int i, int nth)
   keys[i] = from_double<std::uint64_t>(extra[m + 1]);
   filed_tags[i] = from_double<std::int64_t>(extra[m + 2]);
   if (from_double<std::int64_t>(extra[m + 3]) != atom->tag[i])
-    error->one(FLERR, "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
-               "the first run, so that contact history cannot be assigned: put 'run 0' in between");
+    error->one(
+        FLERR,
+        "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
+        "the first run, so that contact history cannot be assigned: put 'run 0' in between");
   partners.unpack(i, extra + m + 4);
 }
 
@@ -379,5 +386,6 @@ int FixContactStore::maxsize_restart()
 double FixContactStore::memory_usage()
 {
   return static_cast<double>((keys.capacity() + filed_tags.capacity()) * sizeof(std::uint64_t) +
-                             positions.capacity() * sizeof(double)) + partners.memory_usage();
+                             positions.capacity() * sizeof(double)) +
+         partners.memory_usage();
 }

@@ -2,15 +2,19 @@
 //
 // Internal fix of pair style gran/penalty: what has to travel with a particle.
 //
-//   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart files;
-//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are renumbered, and the
+//   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart
+//   files;
+//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are
+//   renumbered, and the
 //     tag under which the lists of others know this particle: IDs may be renumbered between runs;
-//   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box and back
+//   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
+//   and back
 //     for that, which moves every particle by a rounding error. The positions are put back, so that
 //     load balancing does not change the trajectory.
 //
-// The pair style creates it (through the placeholder that keeps its place in the list of fixes) and owns
-// no copy of its data. The ID is the same in every process, because restart files find fixes by ID.
+// The pair style creates it (through the placeholder that keeps its place in the list of fixes) and
+// owns no copy of its data. The ID is the same in every process, because restart files find fixes
+// by ID.
 
 #ifndef LMP_FIX_CONTACT_STORE_H
 #define LMP_FIX_CONTACT_STORE_H
@@ -38,14 +42,16 @@ class FixContactStore : public Fix {
     virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
     virtual void renumber_pairs() = 0;
-    /// The integrator has moved the velocities, and particles are still numbered as in the last compute().
+    /// The integrator has moved the velocities, and particles are still numbered as in the last
+    /// compute().
     virtual void velocities_have_moved() = 0;
 
    protected:
     ~Client() = default;    // never deleted through this interface
   };
 
-  /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order (length).
+  /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order
+  /// (length).
   FixContactStore(class LAMMPS *, int, char **);
   ~FixContactStore() override;
 
@@ -53,7 +59,8 @@ class FixContactStore : public Fix {
   void serve(Client *c) { client = c; }
   /// Impact speed and age of contacts are kept as well.
   void keep_onsets(bool yes) { partners.set_values(yes ? 8 : 4); }
-  /// To be called by the pair style whenever it has computed forces: its pairs hold the latest history.
+  /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
+  /// history.
   void pairs_are_current() { current = true; }
 
   /// Key of an owned or ghost particle, and its name in the lists (0: in none).
@@ -110,8 +117,8 @@ class FixContactStore : public Fix {
   std::vector<std::int64_t> filed_tags;
   Talus::PartnerLists partners;
 
-  bool guards_positions = false;      // a fix balance exists
-  std::vector<double> positions;      // of owned particles as they were before fix balance
+  bool guards_positions = false;    // a fix balance exists
+  std::vector<double> positions;    // of owned particles as they were before fix balance
 
   // while lists go to ghosts, one entry of each list at a time
   int sent_entry = 0, most_entries = 0;

@@ -36,7 +36,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
-               "use 'atom_style sphere'");
+                      "use 'atom_style sphere'");
   specs.resize(atom->ntypes + 1);
   spec_is_set.assign(atom->ntypes + 1, false);
 
@@ -129,7 +129,8 @@ void FixLargeBody::make_rectangle(int narg, char **arg)
   const Vector3<double> centre = vector(4, narg, arg, "centre (px py pz)");
   const Vector3<double> normal = direction(7, narg, arg, "normal (nx ny nz)");
   const Vector3<double> edge = direction(10, narg, arg, "first edge (ux uy uz)");
-  const double lu = number(13, narg, arg, "edge length lu"), lv = number(14, narg, arg, "edge length lv");
+  const double lu = number(13, narg, arg, "edge length lu"),
+               lv = number(14, narg, arg, "edge length lv");
   if (!(lu > 0.0) || !(lv > 0.0))
     error->all(FLERR, 13, "fix large/body rectangle: edge lengths must be positive");
 
@@ -150,14 +151,18 @@ void FixLargeBody::parse_keywords(int iarg, int narg, char **arg)
     } else if (strcmp(arg[iarg], "two-sided") == 0) {
       iarg++;
     } else {
-      error->all(FLERR, iarg, "fix large/body: unknown word '{}', expected contact, two-sided, or in a contact {}",
-                 arg[iarg], contact_keywords);
+      error->all(
+          FLERR, iarg,
+          "fix large/body: unknown word '{}', expected contact, two-sided, or in a contact {}",
+          arg[iarg], contact_keywords);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
     if (!spec_is_set[type])
-      error->all(FLERR, "fix large/body: no contact law for particles of type {}: add 'contact "
-                 "NORMAL args ...' or 'contact types {} NORMAL args ...'", type, type);
+      error->all(FLERR,
+                 "fix large/body: no contact law for particles of type {}: add 'contact "
+                 "NORMAL args ...' or 'contact types {} NORMAL args ...'",
+                 type, type);
 }
 
 void FixLargeBody::parse_contact_words(const CommandWords &words, int &iarg)
@@ -185,8 +190,9 @@ void FixLargeBody::set_laws()
   contacts.set_laws(table);
 }
 
-/* A body given by numbers is used as given; a body given by its material is mixed with the material of the
-   particles. Friction and resistance of particles whose own law has none are those of the body. */
+/* A body given by numbers is used as given; a body given by its material is mixed with the material
+   of the particles. Friction and resistance of particles whose own law has none are those of the
+   body. */
 
 ContactCoefficients FixLargeBody::coefficients_of(int type)
 {
@@ -196,9 +202,11 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
   auto *pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
   const ContactSpec *own = pair ? pair->own_spec(type) : nullptr;
   if (!own || !own->is_material())
-    error->all(FLERR, "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
-               "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law", id,
-               name_of(body.law.normal), type, type, type);
+    error->all(
+        FLERR,
+        "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
+        "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
+        id, name_of(body.law.normal), type, type, type);
   ContactSpec particle = body;
   particle.young = own->young;
   particle.poisson = own->poisson;
@@ -235,7 +243,8 @@ double FixLargeBody::contact_period(int type, double mass, double radius)
   return k > 0.0 ? std::sqrt(mass / k) : 0.0;
 }
 
-/* A fix freeze that stands before this fix in the input has done its work when forces are added here. */
+/* A fix freeze that stands before this fix in the input has done its work when forces are added
+ * here. */
 
 void FixLargeBody::find_frozen()
 {
@@ -294,9 +303,16 @@ void FixLargeBody::min_post_force(int vflag)
 BodyParticleView FixLargeBody::view() const
 {
   if (atom->nlocal == 0) return {};
-  return {atom->nlocal, atom->x[0],  atom->v[0],  atom->omega[0],
-          atom->radius, atom->rmass, masses.override_or_null(),
-          atom->type,   atom->f[0],  atom->torque[0]};
+  return {atom->nlocal,
+          atom->x[0],
+          atom->v[0],
+          atom->omega[0],
+          atom->radius,
+          atom->rmass,
+          masses.override_or_null(),
+          atom->type,
+          atom->f[0],
+          atom->torque[0]};
 }
 
 void FixLargeBody::post_force(int /*vflag*/)
@@ -354,7 +370,8 @@ void FixLargeBody::set_arrays(int i)
 int FixLargeBody::pack_exchange(int i, double *buf)
 {
   std::copy(contacts.history[i].c, contacts.history[i].c + size_record, buf);
-  if (with_onset) std::copy(contacts.onset[i].c, contacts.onset[i].c + size_record, buf + size_record);
+  if (with_onset)
+    std::copy(contacts.onset[i].c, contacts.onset[i].c + size_record, buf + size_record);
   return size_packed();
 }
 
@@ -365,7 +382,8 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
   return size_packed();
 }
 
-/* The host does not move what it has read for us when particles are deleted before this fix is defined. */
+/* The host does not move what it has read for us when particles are deleted before this fix is
+ * defined. */
 
 void FixLargeBody::write_restart(FILE *fp)
 {
@@ -381,8 +399,11 @@ void FixLargeBody::restart(char *buf)
   double count;
   std::memcpy(&count, buf, sizeof count);
   if (count != static_cast<double>(atom->natoms))
-    error->all(FLERR, "Fix large/body {}: particles were added or deleted between read_restart and this command, so "
-               "that contact history cannot be assigned: define the fix right after read_restart", id);
+    error->all(FLERR,
+               "Fix large/body {}: particles were added or deleted between read_restart and this "
+               "command, so "
+               "that contact history cannot be assigned: define the fix right after read_restart",
+               id);
 }
 
 int FixLargeBody::pack_restart(int i, double *buf)

@@ -38,13 +38,15 @@ class FixLargeBody : public Fix {
   /// force(3), torque(3), position(3), quaternion(4), velocity(3), angular velocity(3), contacts.
   double compute_vector(int) override;
 
-  /// For computes: from the next step on energies are accounted for; what the last step found on this rank.
+  /// For computes: from the next step on energies are accounted for; what the last step found on
+  /// this rank.
   void keep_account() { keeps_account = true; }
   const Talus::EnergyAccount &energy_account() const { return account; }
   double contacts_here() const { return load[6]; }
 
-  /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective mass, are those of
-  /// a particle of this type, mass and radius against the body. Returns sqrt(m/k), 0 without stiffness.
+  /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
+  /// mass, are those of a particle of this type, mass and radius against the body. Returns
+  /// sqrt(m/k), 0 without stiffness.
   double contact_period(int type, double mass, double radius);
 
   void grow_arrays(int) override;
@@ -89,9 +91,9 @@ class FixLargeBody : public Fix {
   bool keeps_account = false;
   Talus::EnergyAccount account;
 
-  double load[7] = {};         // of this rank: force, torque, contacts
-  double total_load[7] = {};   // of all ranks
-  bigint reduced_at = -1;      // step of total_load
+  double load[7] = {};          // of this rank: force, torque, contacts
+  double total_load[7] = {};    // of all ranks
+  bigint reduced_at = -1;       // step of total_load
 };
 
 }    // namespace LAMMPS_NS

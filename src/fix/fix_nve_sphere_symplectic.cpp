@@ -29,7 +29,8 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
   restart_global = 1;
 
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, 2, "Fix nve/sphere/symplectic requires atom attributes radius, rmass, "
+    error->all(FLERR, 2,
+               "Fix nve/sphere/symplectic requires atom attributes radius, rmass, "
                "omega and torque (atom_style sphere)");
 
   int iarg = 3;
@@ -66,7 +67,8 @@ int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
   if (keyword == "orientation") {
     rotates = choice(narg, arg, iarg, "yes", "no");
     if (rotates && !atom->quat_flag && !atom->mu_flag)
-      error->all(FLERR, iarg + 1, "Fix nve/sphere/symplectic orientation: expected an atom style "
+      error->all(FLERR, iarg + 1,
+                 "Fix nve/sphere/symplectic orientation: expected an atom style "
                  "with a quaternion or a dipole (bpm/sphere or hybrid sphere dipole)");
     return 2;
   }
@@ -78,8 +80,10 @@ int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
     return 1;
   }
 
-  error->all(FLERR, iarg, "Fix nve/sphere/symplectic: expected keyword start, gravity, "
-             "orientation or disc instead of '{}'", keyword);
+  error->all(FLERR, iarg,
+             "Fix nve/sphere/symplectic: expected keyword start, gravity, "
+             "orientation or disc instead of '{}'",
+             keyword);
 }
 
 /* ----------------------------------------------------------------------
@@ -117,8 +121,10 @@ void FixNVESphereSymplectic::init()
 
   const bigint npoints = count_members([this](int i) { return !(atom->radius[i] > 0.0); });
   if (npoints)
-    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic: expected spheres of non-zero "
-               "radius, but {} members of group {} have none", npoints, group->names[igroup]);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix nve/sphere/symplectic: expected spheres of non-zero "
+               "radius, but {} members of group {} have none",
+               npoints, group->names[igroup]);
 
   frozenbits = 0;
   if (gravity.given())
@@ -147,16 +153,18 @@ void FixNVESphereSymplectic::check_fix(Fix *fix)
     reason = "frozen particles get no gravity, but these move";
     disturbed = [this, fix](int i) {
       const double *v = atom->v[i], *w = atom->omega[i];
-      return (atom->mask[i] & fix->groupbit) &&
-          (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 || w[0] != 0.0 || w[1] != 0.0 || w[2] != 0.0);
+      return (atom->mask[i] & fix->groupbit) && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 ||
+                                                 w[0] != 0.0 || w[1] != 0.0 || w[2] != 0.0);
     };
   }
   if (!reason) return;
 
   const bigint n = count_members(disturbed);
   if (n)
-    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic gravity: fix {} ({}) acts on "
-               "{} members of group {}: {}", fix->id, fix->style, n, group->names[igroup], reason);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix nve/sphere/symplectic gravity: fix {} ({}) acts on "
+               "{} members of group {}: {}",
+               fix->id, fix->style, n, group->names[igroup], reason);
 }
 
 /* ----------------------------------------------------------------------
@@ -315,8 +323,10 @@ void FixNVESphereSymplectic::restart(char *buf)
   if (was_half == half_start) {
     lag = state[1];
   } else if (comm->me == 0) {
-    error->warning(FLERR, "Fix nve/sphere/symplectic start {}: the restart file was written with "
-                   "start {}: {}", half_start ? "half" : "plain", was_half ? "half" : "plain",
+    error->warning(FLERR,
+                   "Fix nve/sphere/symplectic start {}: the restart file was written with "
+                   "start {}: {}",
+                   half_start ? "half" : "plain", was_half ? "half" : "plain",
                    was_half ? "velocities stay behind positions by half a time step"
                             : "velocities count as those of the present step");
   }

@@ -59,11 +59,11 @@ class FixNVESphereSymplectic : public Fix {
 
  private:
   bool half_start = false;
-  bool rotates = false;           // quaternion or dipole follows omega
-  double inertia = 0.4;           // c of I = c m r^2
-  double lag = 0.0;               // time by which v is behind x
+  bool rotates = false;    // quaternion or dipole follows omega
+  double inertia = 0.4;    // c of I = c m r^2
+  double lag = 0.0;        // time by which v is behind x
   ConstantGravity gravity;
-  int frozenbits = 0;             // groups of fix freeze, with gravity only
+  int frozenbits = 0;    // groups of fix freeze, with gravity only
 
   int parse_keyword(int, char **, int);
   bool choice(int, char **, int, const char *, const char *);

@@ -30,7 +30,8 @@ class Parser {
     ContactCoefficients &c = spec.given;
     c.slip_min = c.roll_min = c.spin_min = default_threshold;
     normal();
-    while (i < w.narg && keyword(w.arg[i])) {}
+    while (i < w.narg && keyword(w.arg[i])) {
+    }
     if (spec.law.delayed && !spec.law.resists) spec.law.delayed = false;
     return spec;
   }
@@ -99,7 +100,7 @@ class Parser {
   bool is_plaincoulomb() const
   {
     return spec.law.normal == NormalLaw::PLAINCOULOMB ||
-        spec.law.normal == NormalLaw::PLAINCOULOMB_MATERIAL;
+           spec.law.normal == NormalLaw::PLAINCOULOMB_MATERIAL;
   }
 
   /// LAMMPS' unit of pressure in terms of force and distance.
@@ -117,8 +118,8 @@ class Parser {
     spec.young = positive("Young's modulus E") * pressure_unit();
     spec.restitution = number("restitution e", "a number from 0 to 1", 0.0, 1.0);
     spec.poisson = number("Poisson's ratio nu", "a number from -1 to .5", -1.0, 0.5, true);
-    const bool with_speed =
-        spec.law.normal == NormalLaw::HOOKE_MATERIAL || spec.law.normal == NormalLaw::FLORES_MATERIAL;
+    const bool with_speed = spec.law.normal == NormalLaw::HOOKE_MATERIAL ||
+                            spec.law.normal == NormalLaw::FLORES_MATERIAL;
     if (with_speed) spec.given.speed = positive("characteristic speed vchar");
   }
 
@@ -127,9 +128,12 @@ class Parser {
   {
     using Method = void (Parser::*)();
     static const std::vector<std::pair<std::string, Method>> known = {
-        {"tangential", &Parser::tangential}, {"rolling", &Parser::rolling},
-        {"spinning", &Parser::spinning},     {"adhesion", &Parser::adhesion},
-        {"vmin", &Parser::vmin},             {"limit_damping", &Parser::limit_damping}};
+        {"tangential", &Parser::tangential},
+        {"rolling", &Parser::rolling},
+        {"spinning", &Parser::spinning},
+        {"adhesion", &Parser::adhesion},
+        {"vmin", &Parser::vmin},
+        {"limit_damping", &Parser::limit_damping}};
     for (const auto &entry : known) {
       if (entry.first != word) continue;
       if (std::find(seen.begin(), seen.end(), word) != seen.end())
@@ -176,7 +180,7 @@ class Parser {
     const bool no_spring = spec.kt_given ? c.kt == 0.0 : !spec.is_material() && c.kn == 0.0;
     if (spec.law.has_history() && no_spring)
       complain(at_kt, "tangential multistep needs kt > 0; without a tangential spring use "
-               "'tangential dashpot'");
+                      "'tangential dashpot'");
   }
 
   void resistance(double &mu, const char *name)

@@ -1,10 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The words of a contact law, shared by `pair_coeff I J gran/penalty ...` and `fix large/body ... contact`:
+// The words of a contact law, shared by `pair_coeff I J gran/penalty ...` and `fix large/body ...
+// contact`:
 //
 //   NORMAL args
-//   [tangential none | dashpot gt mu | onestep kt gt mu | multistep kt gt mu [midpoint]] [rolling mu_r [delayed]] [spinning mu_s [delayed]]
-//   [adhesion constant F | dmt W | perko S] [vmin slip roll spin] [limit_damping]
+//   [tangential none | dashpot gt mu | onestep kt gt mu | multistep kt gt mu [midpoint]] [rolling
+//   mu_r [delayed]] [spinning mu_s [delayed]] [adhesion constant F | dmt W | perko S] [vmin slip
+//   roll spin] [limit_damping]
 
 #ifndef TALUS_CONTACT_COMMAND_H
 #define TALUS_CONTACT_COMMAND_H
@@ -21,7 +23,7 @@ struct CommandWords {
   const char *command;    ///< as the user knows it, e.g. "pair_coeff gran/penalty"
   int narg;
   char **arg;
-  int shift = 0;          ///< words of the command line that are missing before arg[0]
+  int shift = 0;    ///< words of the command line that are missing before arg[0]
 };
 
 /// Parses from arg[iarg] on, and leaves iarg at the first word that belongs to no contact law.

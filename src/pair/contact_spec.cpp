@@ -25,12 +25,14 @@ double mix_friction(double a, double b, FrictionMix rule)
   return std::min(a, b);
 }
 
-/* Stiffness and damping of hooke, hertz, flores, plaincoulomb. Defaults of kt and gt are those of the stock
-   styles gran/hooke and gran/hertz. */
+/* Stiffness and damping of hooke, hertz, flores, plaincoulomb. Defaults of kt and gt are those of
+   the stock styles gran/hooke and gran/hertz. */
 
 void mix_numbers(const ContactSpec &a, const ContactSpec &b, ContactCoefficients &c)
 {
-  const auto kt = [](const ContactSpec &s) { return s.kt_given ? s.given.kt : 2.0 / 7.0 * s.given.kn; };
+  const auto kt = [](const ContactSpec &s) {
+    return s.kt_given ? s.given.kt : 2.0 / 7.0 * s.given.kn;
+  };
   const auto gt = [](const ContactSpec &s) { return s.gt_given ? s.given.gt : 0.5 * s.given.gn; };
   c.kn = mean(a.given.kn, b.given.kn);
   c.gn = mean(a.given.gn, b.given.gn);
@@ -38,8 +40,9 @@ void mix_numbers(const ContactSpec &a, const ContactSpec &b, ContactCoefficients
   c.gt = mean(gt(a), gt(b));
 }
 
-/* The same from material; see normal_laws.h for the meaning of the four numbers. A tangential stiffness that was
-   given by number stands for 8 G (hertz/material) or 16/3 G (flores/material). */
+/* The same from material; see normal_laws.h for the meaning of the four numbers. A tangential
+   stiffness that was given by number stands for 8 G (hertz/material) or 16/3 G (flores/material).
+ */
 
 void mix_materials(const ContactSpec &a, const ContactSpec &b, bool limited, ContactCoefficients &c)
 {
@@ -47,14 +50,15 @@ void mix_materials(const ContactSpec &a, const ContactSpec &b, bool limited, Con
   c.kn = effective_young(a.young, a.poisson, b.young, b.poisson);
   c.kt = effective_shear(a.young, a.poisson, b.young, b.poisson);
   switch (a.law.normal) {
-    case NormalLaw::HOOKE_MATERIAL:
-      c.gn = c.gt = limited ? linear_damping_factor_limited(e) : linear_damping_factor(e);
-      break;
-    case NormalLaw::FLORES_MATERIAL:
-      c.gn = flores_damping_factor(e);
-      c.gt = hertz_damping_factor(flores_restitution(e));
-      break;
-    default: c.gn = c.gt = limited ? hertz_damping_factor_limited(e) : hertz_damping_factor(e);
+  case NormalLaw::HOOKE_MATERIAL:
+    c.gn = c.gt = limited ? linear_damping_factor_limited(e) : linear_damping_factor(e);
+    break;
+  case NormalLaw::FLORES_MATERIAL:
+    c.gn = flores_damping_factor(e);
+    c.gt = hertz_damping_factor(flores_restitution(e));
+    break;
+  default:
+    c.gn = c.gt = limited ? hertz_damping_factor_limited(e) : hertz_damping_factor(e);
   }
   const double modulus_per_kt = a.law.normal == NormalLaw::FLORES_MATERIAL ? 3.0 / 16.0 : 1.0 / 8.0;
   if (a.kt_given && b.kt_given) c.kt = modulus_per_kt * mean(a.given.kt, b.given.kt);

@@ -23,10 +23,11 @@ struct ContactSpec {
 /// Rule by which the coefficients of friction and of resistance of unlike materials are found.
 enum class FrictionMix : int { MINIMUM, ARITHMETIC, GEOMETRIC };
 
-/// The kernel's coefficients of a contact between bodies of materials a and b, which must have the same normal law;
-/// a and b may be the same object. Stiffness and damping that were given by number: arithmetic mean; moduli by
-/// compliance; restitution and adhesion: minimum; characteristic and threshold speeds: maximum; friction by `rule`;
-/// damping is limited if either material asks for it.
+/// The kernel's coefficients of a contact between bodies of materials a and b, which must have the
+/// same normal law; a and b may be the same object. Stiffness and damping that were given by
+/// number: arithmetic mean; moduli by compliance; restitution and adhesion: minimum; characteristic
+/// and threshold speeds: maximum; friction by `rule`; damping is limited if either material asks
+/// for it.
 Talus::ContactCoefficients contact_coefficients(const ContactSpec &a, const ContactSpec &b,
                                                 FrictionMix rule);
 

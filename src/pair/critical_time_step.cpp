@@ -31,11 +31,14 @@ double smaller_defined(double a, double b)
 double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
 {
   switch (law.normal) {
-    case NormalLaw::HERTZ:
-    case NormalLaw::FLORES: return 0.75 * c.kn;
-    case NormalLaw::HERTZ_MATERIAL:
-    case NormalLaw::FLORES_MATERIAL: return c.kn;
-    default: return 0.0;
+  case NormalLaw::HERTZ:
+  case NormalLaw::FLORES:
+    return 0.75 * c.kn;
+  case NormalLaw::HERTZ_MATERIAL:
+  case NormalLaw::FLORES_MATERIAL:
+    return c.kn;
+  default:
+    return 0.0;
   }
 }
 

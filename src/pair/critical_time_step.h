@@ -1,14 +1,20 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Time steps that a granular scene allows, by the three usual rules (units of time; 0 if not defined):
+// Time steps that a granular scene allows, by the three usual rules (units of time; 0 if not
+// defined):
 //
-//   contact    sqrt(m_eff/k), smallest over the contacts of the moment, k = dF_n/d overlap; without contacts over
-//              the lightest pair of every pair of types at an overlap of 1 % of the smaller radius; and over the
-//              lightest particle of every type against every large body at 1 % of its radius
-//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and Ghadiri 2006);
+//   contact    sqrt(m_eff/k), smallest over the contacts of the moment, k = dF_n/d overlap; without
+//   contacts over
+//              the lightest pair of every pair of types at an overlap of 1 % of the smaller radius;
+//              and over the lightest particle of every type against every large body at 1 % of its
+//              radius
+//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and Ghadiri
+//   2006);
 //              only types with a material law
-//   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the largest
-//              relative speed v of neighboring particles; only laws with Hertzian stiffness, and only if v > 0
+//   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the
+//   largest
+//              relative speed v of neighboring particles; only laws with Hertzian stiffness, and
+//              only if v > 0
 //
 // Collective: all ranks of `world` must call compute().
 
@@ -42,7 +48,8 @@ class CriticalTimeStep : protected Pointers {
   double smallest_body_period(int types) const;
   double rayleigh_of(const ContactSpec &spec, int type) const;
 
-  std::vector<double> radius, mass;    // of the smallest particle of each type; infinite if there is none
+  std::vector<double> radius,
+      mass;    // of the smallest particle of each type; infinite if there is none
   double law_period = 0.0;
 };
 

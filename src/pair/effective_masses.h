@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Masses that contacts feel where they are not the particle's own: members of a `fix freeze` group are
-// infinitely heavy, members of rigid bodies weigh what the body weighs.
+// Masses that contacts feel where they are not the particle's own: members of a `fix freeze` group
+// are infinitely heavy, members of rigid bodies weigh what the body weighs.
 
 #ifndef TALUS_EFFECTIVE_MASSES_H
 #define TALUS_EFFECTIVE_MASSES_H
@@ -27,8 +27,8 @@ class EffectiveMasses : protected Pointers {
   bool needed() const { return freeze_groups || !rigid_fixes.empty(); }
   int frozen_groups() const { return freeze_groups; }
 
-  /// Per particle, nullptr if no mass is replaced: 0 keeps the particle's own mass. update() fills the
-  /// owned part; whoever needs ghosts communicates the rest.
+  /// Per particle, nullptr if no mass is replaced: 0 keeps the particle's own mass. update() fills
+  /// the owned part; whoever needs ghosts communicates the rest.
   double *override_or_null() { return masses.empty() ? nullptr : masses.data(); }
   const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
 

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Largest radius of each particle type, present or yet to be inserted, for cutoffs. Frozen particles are kept
-// apart: two frozen ones need not be neighbors.
+// Largest radius of each particle type, present or yet to be inserted, for cutoffs. Frozen
+// particles are kept apart: two frozen ones need not be neighbors.
 
 #ifndef TALUS_LARGEST_RADII_H
 #define TALUS_LARGEST_RADII_H

@@ -19,7 +19,8 @@ bool LawBook::can_mix(int i, int j) const
 {
   if (!is_set(i, i) || !is_set(j, j)) return false;
   const ContactSpec &a = spec(i, i), &b = spec(j, j);
-  // a number for one material and NULL for the other, or adhesion by different laws, have no common meaning
+  // a number for one material and NULL for the other, or adhesion by different laws, have no common
+  // meaning
   const bool same_words = a.kt_given == b.kt_given && a.gt_given == b.gt_given;
   const auto kind = [](const ContactCoefficients &c) {
     return c.adhesion > 0.0 ? 1 : c.adhesion_dmt > 0.0 ? 2 : c.adhesion_perko > 0.0 ? 3 : 0;
@@ -64,8 +65,8 @@ std::string LawBook::describe_pair(int i, int j) const
   const ContactLaw l = law(i, j);
   const ContactCoefficients c = coefficients(i, j);
   const bool material = l.normal >= NormalLaw::HOOKE_MATERIAL;
-  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " + describe_law(l) +
-      (is_set(i, j) ? ";" : "; mixed;");
+  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
+                     describe_law(l) + (is_set(i, j) ? ";" : "; mixed;");
   const auto add = [&text](const char *name, double value) {
     char word[64];
     snprintf(word, sizeof word, " %s %.6g", name, value);
@@ -87,8 +88,7 @@ std::string LawBook::describe_pair(int i, int j) const
 
 std::string LawBook::describe(const LawTable &table) const
 {
-  std::string text =
-      std::to_string(table.num_laws()) + " kernel(s), " + instruction_set() + "\n";
+  std::string text = std::to_string(table.num_laws()) + " kernel(s), " + instruction_set() + "\n";
   constexpr int most = 10;
   int lines = 0;
   for (int i = 1; i <= types; i++)

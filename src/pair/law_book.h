@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The contact laws of all pairs of particle types, as set by `pair_coeff` and as mixed where they are not set.
+// The contact laws of all pairs of particle types, as set by `pair_coeff` and as mixed where they
+// are not set.
 
 #ifndef TALUS_LAW_BOOK_H
 #define TALUS_LAW_BOOK_H
@@ -26,8 +27,8 @@ class LawBook {
   bool is_set(int i, int j) const { return entry(i, j).set; }
   const ContactSpec &spec(int i, int j) const { return entry(i, j).spec; }
 
-  /// Both types are set and have the same law, so that the pair can be mixed. Material laws must also agree on whether
-  /// kt and gt are numbers or NULL.
+  /// Both types are set and have the same law, so that the pair can be mixed. Material laws must
+  /// also agree on whether kt and gt are numbers or NULL.
   bool can_mix(int i, int j) const;
 
   /// The pair is set or can be mixed; the functions below need that.
@@ -42,8 +43,9 @@ class LawBook {
   /// For the log, several lines: kernels, pairs of types, and what `table` lets a scene do without.
   std::string describe(const Talus::LawTable &table) const;
 
-  /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another sub-style of pair
-  /// hybrid and never come up: they get the row of one that does, so that uniform laws are recognised.
+  /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another
+  /// sub-style of pair hybrid and never come up: they get the row of one that does, so that uniform
+  /// laws are recognised.
   Talus::LawTable table() const;
 
  private:

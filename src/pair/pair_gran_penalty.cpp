@@ -23,7 +23,8 @@ using namespace Talus;
 
 namespace {
 
-constexpr int num_extra = 11;    // svector: ten entries as the stock gran/* styles, then overlap/radius
+constexpr int num_extra =
+    11;    // svector: ten entries as the stock gran/* styles, then overlap/radius
 
 Vector3<double> row(const double *p)
 {
@@ -50,10 +51,12 @@ PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp), radii(lm
   nextra = 2;
   pvector = new double[nextra]();
 
-  // keeps the place of the internal fix in the list of fixes until init_style() creates it: only then
-  // read_restart has brought what it is to continue with. The ID must be the same in every process.
+  // keeps the place of the internal fix in the list of fixes until init_style() creates it: only
+  // then read_restart has brought what it is to continue with. The ID must be the same in every
+  // process.
   store_id = "TALUS_CONTACTS";
-  for (int n = 2; modify->get_fix_by_id(store_id) || modify->get_fix_by_id(store_id + "_LATER"); n++)
+  for (int n = 2; modify->get_fix_by_id(store_id) || modify->get_fix_by_id(store_id + "_LATER");
+       n++)
     store_id = "TALUS_CONTACTS" + std::to_string(n);
   placeholder_id = store_id + "_LATER";
   modify->add_fix(placeholder_id + " all DUMMY");
@@ -92,7 +95,8 @@ void PairGranPenalty::settings(int narg, char **arg)
   if (strcmp(arg[0], "mix") != 0)
     error->all(FLERR, 1, "pair_style gran/penalty: unknown word '{}', expected mix", arg[0]);
   if (narg < 2)
-    error->all(FLERR, 1, "pair_style gran/penalty: missing rule after mix: "
+    error->all(FLERR, 1,
+               "pair_style gran/penalty: missing rule after mix: "
                "min, arithmetic or geometric");
   if (strcmp(arg[1], "min") == 0)
     book.mix = FrictionMix::MINIMUM;
@@ -101,10 +105,11 @@ void PairGranPenalty::settings(int narg, char **arg)
   else if (strcmp(arg[1], "geometric") == 0)
     book.mix = FrictionMix::GEOMETRIC;
   else
-    error->all(FLERR, 2, "pair_style gran/penalty: unknown rule '{}' after mix, "
-               "expected min, arithmetic or geometric", arg[1]);
-  if (narg > 2)
-    error->all(FLERR, 3, "pair_style gran/penalty: surplus word '{}'", arg[2]);
+    error->all(FLERR, 2,
+               "pair_style gran/penalty: unknown rule '{}' after mix, "
+               "expected min, arithmetic or geometric",
+               arg[1]);
+  if (narg > 2) error->all(FLERR, 3, "pair_style gran/penalty: surplus word '{}'", arg[2]);
 }
 
 void PairGranPenalty::coeff(int narg, char **arg)
@@ -115,7 +120,7 @@ void PairGranPenalty::coeff(int narg, char **arg)
   const CommandWords words{lmp, "pair_coeff gran/penalty", narg, arg, shift};
   if (narg < 3)
     error->all(FLERR, "pair_coeff gran/penalty: expected two types and a contact law, e.g. "
-               "'pair_coeff * * hertz kn gn tangential multistep NULL NULL mu'");
+                      "'pair_coeff * * hertz kn gn tangential multistep NULL NULL mu'");
 
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
@@ -135,8 +140,10 @@ void PairGranPenalty::coeff(int narg, char **arg)
       count++;
     }
   if (count == 0)
-    error->all(FLERR, "pair_coeff gran/penalty: no pair of types in '{} {}', write the lower type "
-               "first", arg[0], arg[1]);
+    error->all(FLERR,
+               "pair_coeff gran/penalty: no pair of types in '{} {}', write the lower type "
+               "first",
+               arg[0], arg[1]);
   laws_current = false;
 }
 
@@ -156,26 +163,28 @@ void PairGranPenalty::check_host()
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Pair style gran/penalty requires atom attributes radius, rmass, omega and "
-               "torque: use 'atom_style sphere'");
+                      "torque: use 'atom_style sphere'");
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "Pair style gran/penalty requires ghost atoms to store velocity: "
-               "add 'comm_modify vel yes'");
+                      "add 'comm_modify vel yes'");
   if (force->newton_pair)
     error->all(FLERR, "Pair style gran/penalty requires 'newton off': put it before the simulation "
-               "box is defined");
+                      "box is defined");
   if (!atom->tag_enable)
     error->all(FLERR, "Pair style gran/penalty requires atom IDs: remove 'atom_modify id no'");
   if (lmp->kokkos)
     error->all(FLERR, "Pair style gran/penalty does not run with the KOKKOS package: "
-               "start LAMMPS without '-k on'");
+                      "start LAMMPS without '-k on'");
 }
 
 void PairGranPenalty::create_store()
 {
   const std::string &expected = store ? store_id : placeholder_id;
   if (!modify->get_fix_by_id(expected))
-    error->all(FLERR, "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
-               "command", expected);
+    error->all(FLERR,
+               "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
+               "command",
+               expected);
   if (!store) {
     const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
@@ -191,12 +200,15 @@ double PairGranPenalty::init_one(int i, int j)
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
     if (book.spec(i, i).law != book.spec(j, j).law)
-      error->all(FLERR, "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
-                 "add 'pair_coeff {} {} ...'", i, describe_law(book.law(i, i)), j,
-                 describe_law(book.law(j, j)), i, j);
+      error->all(FLERR,
+                 "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
+                 "add 'pair_coeff {} {} ...'",
+                 i, describe_law(book.law(i, i)), j, describe_law(book.law(j, j)), i, j);
     if (!book.can_mix(i, j))
-      error->all(FLERR, "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt, or "
-                 "adhesion of different kinds: add 'pair_coeff {} {} ...'", i, j, i, j);
+      error->all(FLERR,
+                 "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt, or "
+                 "adhesion of different kinds: add 'pair_coeff {} {} ...'",
+                 i, j, i, j);
   }
   return radii.cutoff(i, j);
 }
@@ -227,9 +239,11 @@ void PairGranPenalty::warn_small_periods()
   const double cut = 2.0 * radii.largest();
   for (int d = 0; d < 3; d++)
     if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
-      error->warning(FLERR, "Pair style gran/penalty: the box is periodic in {} with a period below "
-                     "two diameters: particles that touch from both sides share one contact history",
-                     "xyz"[d]);
+      error->warning(
+          FLERR,
+          "Pair style gran/penalty: the box is periodic in {} with a period below "
+          "two diameters: particles that touch from both sides share one contact history",
+          "xyz"[d]);
 }
 
 /* Once at the start of a run, with the contacts of its first step. */
@@ -240,7 +254,8 @@ void PairGranPenalty::warn_large_time_step()
   critical.compute(book, pipeline, 1);
   const double limit = critical.smallest();
   if (comm->me == 0 && limit > 0.0 && update->dt > advised * limit)
-    error->warning(FLERR, "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
+    error->warning(FLERR,
+                   "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
                    "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
                    update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
                    advised);
@@ -311,9 +326,12 @@ void PairGranPenalty::unpack_forward_comm(int n, int first, double *buf)
 ParticleView PairGranPenalty::view() const
 {
   const bool any = atom->nlocal + atom->nghost > 0;
-  return {any ? atom->x[0] : nullptr,     any ? atom->v[0] : nullptr,
-          any ? atom->omega[0] : nullptr, atom->radius,
-          atom->rmass,                    masses.override_or_null()};
+  return {any ? atom->x[0] : nullptr,
+          any ? atom->v[0] : nullptr,
+          any ? atom->omega[0] : nullptr,
+          atom->radius,
+          atom->rmass,
+          masses.override_or_null()};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -342,7 +360,8 @@ void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
                  c.separation[0], c.separation[1], c.separation[2]);
 }
 
-/* For compute pair: contacts and candidate pairs. One that two ranks compute counts half on each. */
+/* For compute pair: contacts and candidate pairs. One that two ranks compute counts half on each.
+ */
 
 void PairGranPenalty::count_contacts()
 {
@@ -378,7 +397,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;
-  const double extra[num_extra] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z,
+  const double extra[num_extra] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)),      vn.x, vn.y, vn.z,
                                    vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
   std::copy(extra, extra + num_extra, svector);
   fforce = dot(out.force - out.tangential, s.normal) / r;    // with adhesion
@@ -421,8 +440,7 @@ void PairGranPenalty::write_restart_settings(FILE *fp)
 
 void PairGranPenalty::read_restart_settings(FILE *fp)
 {
-  if (comm->me == 0)
-    utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
+  if (comm->me == 0) utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
   MPI_Bcast(&book.mix, sizeof book.mix, MPI_BYTE, 0, world);
 }
 
@@ -431,7 +449,7 @@ void PairGranPenalty::read_restart_settings(FILE *fp)
 double PairGranPenalty::memory_usage()
 {
   return pipeline.memory_usage() +
-      static_cast<double>(reported.capacity() * sizeof(ReportedContact));
+         static_cast<double>(reported.capacity() * sizeof(ReportedContact));
 }
 
 double PairGranPenalty::atom2cut(int i)

@@ -2,8 +2,9 @@
 //
 // pair_style gran/penalty: penalty contact with friction between spheres.
 //
-// A thin style: it parses and checks, hands the host's arrays to Talus::ContactPipeline (src/contact),
-// and answers the host's questions about single pairs. doc/pair_gran_penalty.md is the user's page.
+// A thin style: it parses and checks, hands the host's arrays to Talus::ContactPipeline
+// (src/contact), and answers the host's questions about single pairs. doc/pair_gran_penalty.md is
+// the user's page.
 
 #ifndef LMP_PAIR_GRAN_PENALTY_H
 #define LMP_PAIR_GRAN_PENALTY_H

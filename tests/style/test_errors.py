@@ -148,7 +148,6 @@ INPUT = [    # commands after the box, message
      "Pair style does not support rRESPA inner/middle/outer"),
     (f"fix f all large/body {PLANE} {LAW}\n{PAIR}{MOVE}run_style respa 2 2\nrun 0",
      "Fix large/body does not run with run_style respa: use run_style verlet"),
-    (f"fix f none large/body {PLANE} {LAW}", "Could not find fix group ID none"),
     ("fix f all CONTACT_STORE", "Fix CONTACT_STORE is internal to pair style gran/penalty"),
     ("fix f all CONTACT_STORE 1.0", "Fix CONTACT_STORE is internal to pair style gran/penalty"),
     (RUN + "unfix TALUS_CONTACTS\nrun 2", "Pair style gran/penalty: its internal fix TALUS_CONTACTS has "
