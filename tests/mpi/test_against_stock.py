@@ -13,8 +13,8 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import (SceneCase, Sphere, max_difference, read_dump, read_local,
-                           relative_difference, thermo, write_sphere_data)
+from talus_testing import (SceneCase, Sphere, max_difference, read_dump, read_local, thermo,
+                           write_sphere_data)
 
 RANKS = 1, 2, 4
 STEPS = 1000

@@ -237,7 +237,8 @@ thermo_style custom step f_floor[3] f_floor[20]
 """, GRAVITY, ((-10, 10), (-10, 10), (-1, 5)))
         carried = {row["Step"] * dt: -row["f_floor[3]"] for row in thermo(log)}
         worst = max(abs(force - 392.4) for time, force in carried.items() if time >= 0.5)
-        print(f"\nfloor carries {carried[3.0]:.6f} N of 392.4 N at 3 s, at worst {worst:.1e} N off after 0.5 s")
+        print(f"\nfloor carries {carried[3.0]:.6f} N of 392.4 N at 3 s; "
+              f"at worst {worst:.1e} N off after 0.5 s")
         self.assertLess(worst, 1e-3 * 392.4)
         self.assertLess(abs(carried[3.0] - 392.4), 1e-3)
         self.assertEqual(thermo(log)[-1]["f_floor[20]"], 8)
