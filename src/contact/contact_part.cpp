@@ -360,9 +360,9 @@ void ContactPart::report_block(const Step &step, const std::uint32_t *block, int
 {
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count; n++) {
-    if (!pairs.counts(block[n])) continue;
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
-    ReportedContact out{order.atom_of_slot[i], order.atom_of_slot[j], {}, {}};
+    ReportedContact out{
+        order.atom_of_slot[i], order.atom_of_slot[j], pairs.serves(i), pairs.serves(j), {}, {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
       out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];

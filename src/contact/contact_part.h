@@ -23,9 +23,13 @@
 
 namespace Talus {
 
-/// One contact as reported on request: host's indices, force on i, x_i - x_j.
+/// One contact as reported on request: host's indices, force on i, x_i - x_j. A part reports all
+/// its contacts, in the order in which it adds them up; `for_i` and `for_j` say which of the
+/// particles it serves, so that every owned particle gets each of its contacts once, and in
+/// canonical order.
 struct ReportedContact {
   int i, j;
+  bool for_i, for_j;
   double force[3], separation[3];
 };
 

@@ -353,11 +353,15 @@ void PairGranPenalty::compute(int eflag, int vflag)
   if (eflag_global) count_contacts();
 }
 
+/* To the host, with newton off, an index of a ghost means that nothing is tallied for it. */
+
 void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
 {
+  const int nobody = atom->nlocal;
   for (const ReportedContact &c : contacts)
-    ev_tally_xyz(c.i, c.j, atom->nlocal, 0, 0.0, 0.0, c.force[0], c.force[1], c.force[2],
-                 c.separation[0], c.separation[1], c.separation[2]);
+    ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, atom->nlocal, 0, 0.0, 0.0,
+                 c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
+                 c.separation[2]);
 }
 
 /* For compute pair: contacts and candidate pairs. One that two ranks compute counts half on each.
