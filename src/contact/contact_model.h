@@ -41,7 +41,7 @@ template <class Real> struct ContactState {
   Real inverse_radius;       ///< 1/r_1 + 1/r_2; only for models that need it
   Vector3<Real> relative_spin;    ///< omega_1 - omega_2; only for models with resistance
   Real circle;                    ///< radius of the circle of intersection; only for the same
-  Real inverse_distance;    ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
+  Real inverse_distance;    ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint laws
 };
 
 /// How a contact began; kept only by models that need it.
@@ -69,20 +69,26 @@ inline Vector3<Real> surface_velocity(const ContactState<Real> &s, Real normal_v
   return s.velocity - normal_velocity * s.normal - cross(s.spin, s.normal);
 }
 
-/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres
-/// came here along straight lines, so the normal half way is known; a contact that began on the way
-/// lasted overlap/(-v_n).
+/// How long a contact has lasted of the step that led here, for the midpoint laws: one that began
+/// on the way overlap/(-v_n).
 template <class Real>
-inline Vector3<Real> step_displacement(const ContactState<Real> &s, Real normal_velocity, double dt)
+inline Real lasted(const ContactState<Real> &s, Real normal_velocity, double dt)
+{
+  const Real approach = -normal_velocity * dt;
+  return dt * select(approach > s.overlap, s.overlap / approach, splat<Real>(1.0));
+}
+
+/// Displacement of the surfaces during the step that led here, for the midpoint laws. The centres
+/// came here along straight lines, so the normal half way is known.
+template <class Real>
+inline Vector3<Real> step_displacement(const ContactState<Real> &s, double dt, Real time)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
   const Real length = square_root(dot(half_way, half_way));
   const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
   const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.spin, n);
-  const Real approach = -normal_velocity * dt;
-  const auto began = approach > s.overlap;
-  return dt * select(began, s.overlap / approach, one) * slip;
+  return time * slip;
 }
 
 /// Impact speed and age at this step; `advance` counts the step.
@@ -130,8 +136,10 @@ evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, doubl
                              splat<Real>(dt),
                              c.slip_min,
                              Vector3<Real>{}};
-    if constexpr (Tangential::midpoint && advance)
-      in.increment = step_displacement(s, normal_velocity, dt);
+    if constexpr (Tangential::midpoint && advance) {
+      in.dt = lasted(s, normal_velocity, dt);
+      in.increment = step_displacement(s, dt, in.dt);
+    }
     if constexpr (Tangential::history)
       out.tangential = Tangential::template force<advance>(in, history);
     else

@@ -234,7 +234,7 @@ inline Vector turned(const Vector &d, const Vector &n, Number &scale)
 /// Displacement of body 2 against body 1 in the step that led here, along the surface half way through it.
 struct Step {
   Vector displacement;
-  Number scale;
+  Number scale, lasted;
 };
 
 inline Step step_half_way(const Contact &c, Number v_n, Number dt)
@@ -251,7 +251,7 @@ inline Step step_half_way(const Contact &c, Number v_n, Number dt)
   const Number centres = norm(c.velocity[0]) + norm(c.velocity[1]);
   const Number speeds = centres + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
   const Number uncertain = lasted < dt ? 1 + centres / std::fabs(v_n) : Number(1);
-  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain};
+  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain, lasted};
 }
 
 inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
@@ -315,7 +315,12 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     Vector s = c.history;
     Number reach = norm(c.history);
     bool moved = norm(s) > 0;
-    if (advance && law.tangential == TangentialLaw::MULTISTEP) {
+    const bool slider =
+        law.tangential == TangentialLaw::SLIDER || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+    const bool midpoint =
+        law.tangential == TangentialLaw::MIDPOINT || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+    Number lasted = dt;
+    if (advance && !midpoint) {
       s = s + dt * v_t;
       moved = norm(s) > 0;
       s = s - inner(s, c.normal) * c.normal;
@@ -325,6 +330,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
       s = turned(s, c.normal, reach) + turned(step.displacement, c.normal, step.scale);
       moved = norm(s) > 0;
       reach = reach + step.scale;
+      lasted = step.lasted;
     }
     f_t = k.kt * s + k.gt * v_t;
     const Number size = norm(f_t);
@@ -335,7 +341,13 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     out.history_scale = norm(c.history);
     if (advance) {
       out.history_scale = reach;
-      if (capped) {
+      if (capped && slider && k.gt > 0) {
+        // gt (s - s_0)/dt + kt s = F, with s_0 from before the step
+        const Vector before = s - lasted * v_t;
+        const Number sum = lasted * k.kt + k.gt;
+        s = (1 / sum) * ((lasted * limit / size) * f_t + k.gt * before);
+        out.history_scale += lasted * (trial_scale + p.mu * normal_scale) / sum + lasted * speeds;
+      } else if (capped) {
         s = (1 / k.kt) * ((limit / size) * f_t - k.gt * v_t);
         out.history_scale += (trial_scale + p.mu * normal_scale) / k.kt;
       }
