@@ -28,7 +28,8 @@ template <class Normal_, class Tangential_, Resistance resistance_, bool adheres
   static constexpr bool needs_speed = std::is_same<Normal, NormalHookeMaterial>::value ||
                                       std::is_same<Normal, NormalFloresMaterial>::value;
   static constexpr bool onset = history && (needs_speed || resistance_ == Resistance::DELAYED);
-  static constexpr bool needs_radius = Normal::needs_radius || adheres;
+  static constexpr bool holds = resistance_ == Resistance::AT_ONCE;
+  static constexpr bool needs_radius = Normal::needs_radius || adheres || holds;
 };
 
 /// State of one contact as the laws see it. The first body is the one that receives `force`.
@@ -147,10 +148,15 @@ evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, doubl
     out.force = out.force + out.tangential;
     out.moment = cross(s.normal, out.tangential);
   }
-  if constexpr (Model::resists) {
-    Real acts = out.normal;
-    if constexpr (Model::resistance == Resistance::DELAYED)
-      acts = acts * resistance_gate<Normal>(k, s.overlap, mass_eff, onset.age);
+  if constexpr (Model::holds) {
+    const Real presses = select(out.normal > zero, out.normal, zero);
+    const Real turns = response(s.inverse_mass, dt);
+    out.moment = out.moment + holding_moment(c.mu_roll * presses, c.roll_min, s.spin, s.normal,
+                                             turns, out.moment);
+    out.couple = stopping_couple(c.mu_spin * s.circle * presses, c.spin_min, s.relative_spin,
+                                 s.normal, turns, s.inverse_radius);
+  } else if constexpr (Model::resists) {    // Chrono's rule, an attractive F_n with its sign
+    const Real acts = out.normal * resistance_gate<Normal>(k, s.overlap, mass_eff, onset.age);
     out.moment = out.moment + rolling_moment(c.mu_roll * acts, c.roll_min, s.spin, s.normal);
     out.couple =
         spinning_couple(c.mu_spin * s.circle * acts, c.spin_min, s.relative_spin, s.normal);

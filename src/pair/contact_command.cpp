@@ -19,7 +19,8 @@ using namespace Talus;
 
 namespace {
 
-constexpr double default_threshold = 1.0e-4;    // Chrono's, for speeds of slip, roll and spin
+constexpr double default_threshold =
+    1.0e-4;    // Chrono's, for speeds of slip, delayed roll and spin
 
 class Parser {
  public:
@@ -28,11 +29,13 @@ class Parser {
   ContactSpec parse()
   {
     ContactCoefficients &c = spec.given;
-    c.slip_min = c.roll_min = c.spin_min = default_threshold;
+    c.slip_min = default_threshold;
     normal();
     while (i < w.narg && keyword(w.arg[i])) {
     }
-    if (spec.law.delayed && !spec.law.resists) spec.law.delayed = false;
+    // resistance that holds a body needs no threshold
+    const bool given = std::find(seen.begin(), seen.end(), "vmin") != seen.end();
+    if (spec.law.delayed && !given) c.roll_min = c.spin_min = default_threshold;
     return spec;
   }
 

@@ -172,16 +172,19 @@ class OnPlane(Scene):
         self.assertLess(worst, 1e-3)
 
     def test_thresholds(self):
-        """Just below its threshold each resistance is off, just above it is on."""
-        words = HOOKE + " rolling 0.02 spinning 0.3 vmin 1e-4 {0} {1}"
+        """Just below its threshold each resistance is off, just above it is on.  Only `delayed` resistance has a
+        threshold by default (here of over-damped contacts, which do not wait)."""
+        words, over_damped = HOOKE + " rolling 0.02 spinning 0.3 vmin 1e-4 {0} {1}", f"hooke {KN} 250.0"
         cases = [(words.format(1e-3, 9.0), (0, 0.999e-3 / R, 0), False),
                  (words.format(1e-3, 9.0), (0, 1.001e-3 / R, 0), True),
                  (words.format(9.0, 0.02), (0, 0, 0.01999), False),
                  (words.format(9.0, 0.02), (0, 0, 0.02001), True),
-                 (HOOKE + " rolling 0.02", (0, 0.999e-4 / R, 0), False),
-                 (HOOKE + " rolling 0.02", (0, 1.001e-4 / R, 0), True),
-                 (HOOKE + " spinning 0.3", (0, 0, 0.999e-4), False),
-                 (HOOKE + " spinning 0.3", (0, 0, 1.001e-4), True)]
+                 (HOOKE + " rolling 0.02", (0, 1e-9 / R, 0), True),
+                 (HOOKE + " spinning 0.3", (0, 0, 1e-9), True),
+                 (over_damped + " rolling 0.02 delayed", (0, 0.999e-4 / R, 0), False),
+                 (over_damped + " rolling 0.02 delayed", (0, 1.001e-4 / R, 0), True),
+                 (over_damped + " spinning 0.3 delayed", (0, 0, 0.999e-4), False),
+                 (over_damped + " spinning 0.3 delayed", (0, 0, 1.001e-4), True)]
         first, last = self.decay([(law, REST, w, (0, 0, 0)) for law, w, _ in cases], steps=2, every=2)
         for tag, (law, _, acts) in enumerate(cases, 1):
             changed = any(first.column(c)[tag] != last.column(c)[tag] for c in ("omegay", "omegaz"))
