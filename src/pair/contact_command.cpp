@@ -199,8 +199,12 @@ class Parser {
     ContactCoefficients &c = spec.given;
     const int at_kt = i;
     if (spec.law.tangential != TangentialLaw::DASHPOT) spec.kt_given = number_or_null("kt", c.kt);
+    const int at_gt = i;
     spec.gt_given = number_or_null("gt", c.gt);
     c.mu = not_negative("mu");
+    if (!spec.gt_given && spec.law.normal == NormalLaw::FLORES)
+      complain(at_gt, "expected a number for gt instead of NULL: gn of flores has another unit, "
+                      "1/(time distance^2), than gt, 1/(time distance)");
     if (spec.kt_given && spec.law.normal == NormalLaw::HOOKE_MATERIAL)
       complain(at_kt, "expected NULL for kt: hooke/material takes kt = kn from the material");
     if (spec.law.normal != NormalLaw::HOOKE) c.kt *= pressure_unit();

@@ -27,12 +27,13 @@ LIMIT = 1e-3    # of the kinetic energy before
 Case = collections.namedtuple("Case", "angle spin type")
 CASES = [Case(*c) for c in itertools.product(ANGLES, SPINS, range(1, len(MATERIALS) + 1))]
 
-# friction keywords; kt, stiff, strong are replaced by numbers that suit the stiffness and the frequency
-MULTISTEP = "tangential multistep NULL NULL {mu}"
+# friction keywords; kt, stiff, strong are replaced by numbers that suit the stiffness and the frequency,
+# gt by NULL where a law has a default
+MULTISTEP = "tangential multistep NULL {gt} {mu}"
 PLAIN = {
     "none": "",
-    "dashpot": "tangential dashpot NULL {mu}",
-    "onestep": "tangential onestep NULL NULL {mu}",
+    "dashpot": "tangential dashpot {gt} {mu}",
+    "onestep": "tangential onestep NULL {gt} {mu}",
     "multistep": MULTISTEP,
     "multistep, gt = 0": "tangential multistep NULL 0.0 {mu}",
     "multistep midpoint": MULTISTEP + " midpoint",
@@ -134,7 +135,7 @@ class Collision:
     def words(self, friction, mu, e, limited):
         unit = 1.0 if self.normal == "hooke" else self.scale / self.w
         words = FRICTION_WORDS[self.normal][friction].format(
-            mu=mu, kt=1.2 * self.kn, stiff=30 * self.kn, strong=5 * self.w * unit)
+            mu=mu, gt=repr(0.5 * HERTZ_DAMPING[e] * self.scale) if self.normal == "flores" else "NULL", kt=1.2 * self.kn, stiff=30 * self.kn, strong=5 * self.w * unit)
         own = f" {mu}" if "plain" in self.normal else ""
         return f"{self.normal} {self.normal_words(e)}{own} {words}{' limit_damping' * limited}"
 
