@@ -17,9 +17,9 @@ const char *name_of(TangentialLaw law)
   static const char *const names[num_tangential_laws] = {"none",
                                                          "dashpot",
                                                          "onestep",
-                                                         "multistep stock",
+                                                         "multistep",
                                                          "tanh",
-                                                         "multistep stock midpoint",
+                                                         "multistep midpoint",
                                                          "multistep slider",
                                                          "multistep slider midpoint"};
   return names[static_cast<int>(law)];

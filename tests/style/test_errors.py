@@ -137,7 +137,7 @@ INPUT = [    # commands after the box, message
     (STYLE + MOVE + "run 0", "All pair coeffs are not set"),
     (STYLE + MOVE + "pair_coeff 1 1 hooke 1 1\nrun 0", "All pair coeffs are not set"),
     (STYLE + MOVE + "pair_coeff 1 1 hooke 1 1\npair_coeff 2 2 hertz 1 1 tangential multistep 1 1 1\n"
-     "run 0", "Pair style gran/penalty: types 1 (hooke + none) and 2 (hertz + multistep stock) have different "
+     "run 0", "Pair style gran/penalty: types 1 (hooke + none) and 2 (hertz + multistep) have different "
      "laws: add 'pair_coeff 1 2 ...'"),
     ("pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty hooke 1 x",
      "pair_coeff gran/penalty: expected gn (a number >= 0) instead of 'x'"),
