@@ -10,7 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
 
 R, RHO, G = 0.5, 2000.0, 9.81
 MASS = RHO * 4 / 3 * math.pi * R**3
@@ -390,6 +390,22 @@ class Adhesion(Scene):
                 self.assertGreater(z, -R, laws[n])
             else:
                 self.assertLess(z, -R - 1e-4, laws[n])
+
+    def test_pair_local(self):
+        """Pair::single(): force along the line of centres with adhesion, as in f."""
+        spheres = [Sphere((s * (R - 1e-4), 0, 0), (-0.1 * s, 0, 0), diameter=2 * R, density=RHO) for s in (-1, 1)]
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
+        for words in f"constant {F_A}", f"dmt {F_A}", f"perko {F_A}":
+            self.run_lammps(SCRIPT.format(
+                pairs=f"pair_coeff * * {HOOKE} adhesion {words}", more="compute c all pair/local dist fx force\n"
+                "dump c all local 1 local index c_c[*]\ndump_modify c format float %.17g", dt=DT, steps=0, every=1))
+            (_, distance, fx, force), = read_local(self.path("local"))[0].rows
+            frame, = read_dump(self.path("out"))
+            push = KN * (2 * R - distance) + MASS / 2 * GN * 0.2
+            pull = F_A * {"constant": 1, "dmt": math.sqrt(R_EFF), "perko": R_EFF}[words.split()[0]]
+            self.assert_close(abs(fx), abs(push - pull), 1e-12, words)
+            self.assert_close(abs(fx), abs(frame.column("fx")[1]), 1e-12, words)
+            self.assert_close(abs(force), abs(fx), 1e-12, words)
 
     def test_sticking_speed(self):
         """hooke with adhesion F: m x'' = -kn x - m gn x' + F from x = 0 on.  Slower than a critical speed the
