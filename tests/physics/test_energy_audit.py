@@ -13,6 +13,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
 ANGLES = (*range(0, 90, 5), 89)
@@ -57,14 +58,7 @@ LIMITED = "none", "multistep", "own"    # run with limit_damping as well
 
 EXACT = "hooke", "hertz", "hooke/material"    # restitution is that of the words
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-newton off
-comm_modify vel yes
-read_data {data}
-pair_style gran/penalty
+SCRIPT = begin(data="{data}") + """
 {coefficients}
 neighbor 0.02 bin
 neigh_modify every 1 delay 0 check yes
@@ -134,8 +128,9 @@ class Collision:
 
     def words(self, friction, mu, e, limited):
         unit = 1.0 if self.normal == "hooke" else self.scale / self.w
+        gt = repr(0.5 * HERTZ_DAMPING[e] * self.scale) if self.normal == "flores" else "NULL"
         words = FRICTION_WORDS[self.normal][friction].format(
-            mu=mu, gt=repr(0.5 * HERTZ_DAMPING[e] * self.scale) if self.normal == "flores" else "NULL", kt=1.2 * self.kn, stiff=30 * self.kn, strong=5 * self.w * unit)
+            mu=mu, gt=gt, kt=1.2 * self.kn, stiff=30 * self.kn, strong=5 * self.w * unit)
         own = f" {mu}" if "plain" in self.normal else ""
         return f"{self.normal} {self.normal_words(e)}{own} {words}{' limit_damping' * limited}"
 

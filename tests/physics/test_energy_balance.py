@@ -10,21 +10,14 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, relative_difference, thermo, write_sphere_data
 
 CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE = (f"c_s[{n}]" for n in range(1, 8))
 ENERGIES = (ELASTIC, NORMAL, TANGENTIAL, RESISTANCE)
 G = 9.81
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin(units="{units}") + """
 pair_coeff * * {pair}
 {more}
 neighbor {skin} bin
@@ -51,7 +44,7 @@ class Case(SceneCase):
     def simulate(self, pair, spheres, steps, dt, more="", skin=0.1, every=None, np=1, gravity="", run=None,
                  box=5):
         write_sphere_data(self.path("data"), ((-box, box),) * 3, spheres)
-        script = SCRIPT.format(pair=pair, more=more or "fix step all nve/sphere/symplectic", skin=skin,
+        script = SCRIPT.format(units="si", pair=pair, more=more or "fix step all nve/sphere/symplectic", skin=skin,
                                dt=repr(dt), every=every or max(steps, 1), gravity=gravity,
                                run=run or f"run {steps}")
         self.log = self.run_lammps(script, np=np, timeout=250).log
@@ -72,9 +65,9 @@ class Units(SceneCase):
                 write_sphere_data(self.path("data"), ((-300, 300),) * 3, spheres)
                 dt = "$(c_t[1]/100)" if law.startswith("hooke") else "$(0.01*c_t[3])"
                 more = "fix step all nve/sphere/symplectic"
-                script = SCRIPT.format(pair=law, more=more, skin=1.0, dt="1e-9", every=100000, gravity="",
+                script = SCRIPT.format(pair=law, more=more, units=units, skin=1.0, dt="1e-9", every=100000, gravity="",
                                        run=f"run 0\ntimestep {dt}\nrun 4000")
-                last = thermo(self.run_lammps(script.replace("units si", f"units {units}")).log)
+                last = thermo(self.run_lammps(script).log)
                 first, last = last[0], last[-1]
                 self.assertEqual(last[CONTACTS], 0.0)
                 e = math.sqrt(last["c_k"] / first["c_k"])

@@ -14,6 +14,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 STEPS_PER_CONTACT = 2000    # Hertzian contact time over time step
@@ -47,15 +48,7 @@ RECOIL_6 = [
     (2.75, 1.27), (3.73, 3.24), (5.68, 7.13), (6.11, 7.98)]
 SPINS_6 = [.175, .2, .3, .5, .7, .9, 1.3, 2, 3, 4, 5, 7, 9, 12, 22]
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 {body}
 neighbor {skin} bin

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
 
 R, RHO, G = 0.5, 2000.0, 9.81
@@ -19,15 +20,7 @@ GN = 100.0                  # 1/s
 DT = 1e-4
 HOOKE = f"hooke {KN} {GN}"
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 {more}
 neighbor 0.1 bin

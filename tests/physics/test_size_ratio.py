@@ -13,6 +13,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 BIG, SMALL, DENSITY = 0.01, 0.0005, 2500.0    # diameters
@@ -22,16 +23,9 @@ GN = -2 * math.sqrt(KN / MASS) * math.log(E) / math.hypot(math.pi, math.log(E))
 STEPS = 300000
 PUBLISHED = {90000: 8.3124767e-12, 144000: 2.799638e-10, 204000: 3.2458236e-08, STEPS: 4.5214992e-10}
 
-SCRIPT = """
-units si
-boundary p p f
-atom_style sphere
-newton off
-comm_modify vel yes
-read_data data
+SCRIPT = begin(boundary="p p f") + """
 group big type 1
 group small type 2
-pair_style gran/penalty
 pair_coeff * * {law}
 fix floor all large/body plane 0 0 -0.02 0 0 1 contact {law}
 fix hold big freeze

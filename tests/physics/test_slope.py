@@ -18,6 +18,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 R, RHO, G, MU = 0.5, 2000.0, 9.81, 0.5
@@ -26,15 +27,7 @@ KN, KT, GN, GT = 1e7, 4e6, 100.0, 200.0    # GT: overdamped, so that friction do
 DT = 2e-4
 STEPS = 100000
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 fix floor all large/body plane 0 0 0 0 0 1 {contacts}
 neighbor 0.1 bin

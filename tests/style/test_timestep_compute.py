@@ -9,17 +9,10 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
-SCRIPT = """
-units {units}
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin(units="{units}") + """
 {pairs}
 {more}
 neighbor 0.2 bin
