@@ -49,5 +49,5 @@ double EffectiveMasses::unit() const
 
 double EffectiveMasses::mass(int i) const
 {
-  return !masses.empty() && masses[i] > 0.0 ? masses[i] : atom->rmass[i];
+  return !masses.empty() && masses[i] > 0.0 ? masses[i] : unit() * atom->rmass[i];
 }

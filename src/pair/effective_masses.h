@@ -34,6 +34,7 @@ class EffectiveMasses : protected Pointers {
   double *override_or_null() { return masses.empty() ? nullptr : masses.data(); }
   const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
 
+  /// Of an owned or ghost particle, converted.
   double mass(int i) const;
 
   /// Force/acceleration for each unit of mass.

@@ -37,6 +37,7 @@ LAWS = [
     f"{HERTZ_M} {MULTISTEP} {DELAYED} {CONSTANT}",
     f"{FLORES_M} {ONESTEP} {RESIST}", f"{FLORES_M} {MULTISTEP}", f"{FLORES_M} {MULTISTEP} {DELAYED} {DMT}",
     COULOMB_M, f"{COULOMB_M} {RESIST} {CONSTANT}",
+    f"{HOOKE} {MULTISTEP} slider", f"{HERTZ_M} {MULTISTEP} stock", f"{HERTZ_M} {MULTISTEP} midpoint {RESIST}",
     # other laws between unlike types: law 1 1, law 1 2, law 2 2
     (f"{HERTZ_M} {MULTISTEP} {RESIST}", f"{HOOKE} {CONSTANT}", f"{HOOKE_M} {MULTISTEP} {DELAYED}"),
     (COULOMB, f"{FLORES_M} {MULTISTEP}", FLORES),
