@@ -15,7 +15,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -23,13 +22,7 @@ using namespace Talus;
 
 namespace {
 
-constexpr int num_extra =
-    11;    // svector: ten entries as the stock gran/* styles, then overlap/radius
-
-Vector3<double> row(const double *p)
-{
-  return {p[0], p[1], p[2]};
-}
+constexpr int num_extra = 11;    // svector, see single()
 
 }    // namespace
 
@@ -371,81 +364,6 @@ void PairGranPenalty::count_contacts()
 {
   pvector[0] = pipeline.count_contacts();
   pvector[1] = pipeline.count_candidates();
-}
-
-double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
-                               double &fforce)
-{
-  fforce = 0.0;
-  if (!laws_current) prepare_laws();
-  std::fill(svector, svector + single_extra, 0.0);
-  const double ri = atom->radius[i], rj = atom->radius[j];
-  if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
-
-  const double r = std::sqrt(rsq);
-  ContactState<double> s;
-  s.normal = (1.0 / r) * (row(atom->x[i]) - row(atom->x[j]));
-  s.overlap = ri + rj - r;
-  s.velocity = row(atom->v[i]) - row(atom->v[j]);
-  s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
-  s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
-  s.inverse_radius = 1.0 / ri + 1.0 / rj;
-  s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
-  s.circle = circle_of_intersection(ri, rj, s.overlap);
-  s.inverse_distance = 1.0 / r;
-
-  const int row_of_types = pipeline.law_table().row(itype, jtype);
-  const ContactForce<double> out = single_contact(
-      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
-      update->dt, pipeline.history_of(i, j), pipeline.onset_of(i, j));
-
-  const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
-  const Vector3<double> ft = out.tangential;
-  const double extra[num_extra] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)),      vn.x, vn.y, vn.z,
-                                   vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
-  std::copy(extra, extra + num_extra, svector);
-  fforce = dot(out.force - out.tangential, s.normal) / r;    // with adhesion
-  return 0.0;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void PairGranPenalty::write_restart(FILE *fp)
-{
-  write_restart_settings(fp);
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      fwrite(&book.spec(i, j), sizeof(ContactSpec), 1, fp);
-    }
-}
-
-void PairGranPenalty::read_restart(FILE *fp)
-{
-  read_restart_settings(fp);
-  if (!allocated) allocate();
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      ContactSpec spec;
-      if (comm->me == 0) {
-        utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-        utils::sfread(FLERR, &spec, sizeof spec, 1, fp, nullptr, error);
-      }
-      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      MPI_Bcast(&spec, sizeof spec, MPI_BYTE, 0, world);
-      if (setflag[i][j]) book.set(i, j, spec);
-    }
-}
-
-void PairGranPenalty::write_restart_settings(FILE *fp)
-{
-  fwrite(&book.mix, sizeof book.mix, 1, fp);
-}
-
-void PairGranPenalty::read_restart_settings(FILE *fp)
-{
-  if (comm->me == 0) utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
-  MPI_Bcast(&book.mix, sizeof book.mix, MPI_BYTE, 0, world);
 }
 
 /* ---------------------------------------------------------------------- */
