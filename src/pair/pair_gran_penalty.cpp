@@ -2,6 +2,8 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "comm/pending_exchange.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -12,6 +14,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "timer.h"
 #include "update.h"
 
 #include <algorithm>
@@ -339,6 +342,7 @@ ParticleView PairGranPenalty::view() const
 void PairGranPenalty::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  finish_exchange();    // pairs without proxies could be computed before
   if (pipeline.pairs.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
 
   reported.clear();
@@ -351,6 +355,23 @@ void PairGranPenalty::compute(int eflag, int vflag)
   if (update->setupflag) warn_large_time_step();
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
+}
+
+/* Under run style verlet/proxy: from here on proxies are valid. What was done before counts as
+   pair time, the rest as communication. */
+
+void PairGranPenalty::finish_exchange()
+{
+  auto *exchange = dynamic_cast<PendingExchange *>(comm);
+  if (!exchange || !exchange->pending()) return;
+  timer->stamp(Timer::PAIR);
+  exchange->finish();
+  timer->stamp(Timer::COMM);
+}
+
+bool PairGranPenalty::reads_proxy_spins() const
+{
+  return !laws_current || pipeline.keeps_spins() || pipeline.law_table().has_resistance();
 }
 
 void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
