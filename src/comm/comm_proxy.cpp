@@ -31,7 +31,7 @@ CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
 
 void CommProxy::init()
 {
-  finish();
+  transfer.abandon();    // left by an error; particles may have changed since
   CommBrick::init();
   refuse_unsupported();
   own_packing = sphere_packer.applies(ghost_velocity);
