@@ -8,7 +8,7 @@
 
 namespace Talus {
 
-/// Sums since the last reset. Only messages to other ranks count: images of a rank's own
+/// Sums since the exchange exists. Only messages to other ranks count: images of a rank's own
 /// particles are copied.
 struct ExchangeCounters {
   double exchanges = 0.0;     ///< updates of all proxies
@@ -17,6 +17,15 @@ struct ExchangeCounters {
   double bytes = 0.0;         ///< sent
   double proxies = 0.0;       ///< sent
   double pack_seconds = 0.0, wait_seconds = 0.0, unpack_seconds = 0.0;
+
+  /// What has been added since `then`.
+  ExchangeCounters since(const ExchangeCounters &then) const
+  {
+    return {exchanges - then.exchanges,       overlapped - then.overlapped,
+            messages - then.messages,         bytes - then.bytes,
+            proxies - then.proxies,           pack_seconds - then.pack_seconds,
+            wait_seconds - then.wait_seconds, unpack_seconds - then.unpack_seconds};
+  }
 };
 
 }    // namespace Talus

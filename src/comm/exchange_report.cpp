@@ -64,9 +64,8 @@ std::string Talus::describe_exchange(CommProxy &comm, MPI_Comm world)
   return text;
 }
 
-std::string Talus::summarize_exchange(CommProxy &comm, MPI_Comm world)
+std::string Talus::summarize_exchange(const ExchangeCounters &c, MPI_Comm world)
 {
-  const ExchangeCounters &c = comm.counters();
   const Spread messages = spread_over_ranks(per_exchange(c.messages, c), world);
   const Spread bytes = spread_over_ranks(per_exchange(c.bytes, c), world);
   const Spread waited = spread_over_ranks(c.wait_seconds, world);

@@ -5,6 +5,8 @@
 #ifndef TALUS_COMM_EXCHANGE_REPORT_H
 #define TALUS_COMM_EXCHANGE_REPORT_H
 
+#include "comm/exchange_counters.h"
+
 #include <mpi.h>
 
 #include <string>
@@ -25,8 +27,8 @@ Spread spread_over_ranks(double value, MPI_Comm world);
 /// Several lines: plan, message, counters. Collective; the text is complete on all ranks.
 std::string describe_exchange(LAMMPS_NS::CommProxy &comm, MPI_Comm world);
 
-/// One line for the end of a run of verlet/proxy. Collective.
-std::string summarize_exchange(LAMMPS_NS::CommProxy &comm, MPI_Comm world);
+/// One line for the end of a run of verlet/proxy, which has added `c`. Collective.
+std::string summarize_exchange(const ExchangeCounters &c, MPI_Comm world);
 
 }    // namespace Talus
 

@@ -74,7 +74,7 @@ void VerletProxy::setup_minimal(int flag)
 
 void VerletProxy::run(int n)
 {
-  if (CommProxy *proxy = current()) proxy->counters() = ExchangeCounters();
+  if (CommProxy *proxy = current()) at_start = proxy->counters();
   lists.start_count();
   lists.ask();
   for (int i = 0; i < n; i++) {
@@ -212,7 +212,7 @@ void VerletProxy::cleanup()
                    "moved by something else than its velocity: increase the skin",
                    lists.num_late());
   if (CommProxy *proxy = current()) {
-    const std::string text = summarize_exchange(*proxy, world);
+    const std::string text = summarize_exchange(proxy->counters().since(at_start), world);
     if (comm->me == 0) utils::logmesg(lmp, text);
   }
 }

@@ -10,6 +10,7 @@
 #ifndef LMP_VERLET_PROXY_H
 #define LMP_VERLET_PROXY_H
 
+#include "comm/exchange_counters.h"
 #include "comm/rebuild_check.h"
 
 #include "verlet.h"
@@ -35,9 +36,10 @@ class VerletProxy : public Verlet {
   class CommProxy *current() const;
 
   Talus::RebuildCheck lists;
-  bool wanted = true;       ///< overlap yes
-  bool overlaps = false;    ///< in this run
-  std::string announced;    ///< last reason given for not overlapping
+  bool wanted = true;                  ///< overlap yes
+  bool overlaps = false;               ///< in this run
+  Talus::ExchangeCounters at_start;    ///< of the run
+  std::string announced;               ///< last reason given for not overlapping
 };
 
 }    // namespace LAMMPS_NS

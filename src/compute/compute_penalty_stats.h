@@ -17,7 +17,9 @@ class ComputePenaltyStats : public Compute {
   void init() override;
 
   /// candidate pairs, contacts, largest overlap/radius, elastic energy, energy dissipated by normal
-  /// damping, by friction, by rolling and spinning resistance.
+  /// damping, by friction, by rolling and spinning resistance; messages and bytes of one exchange
+  /// of proxies (all ranks), seconds packing and unpacking them, seconds waiting for them (mean of
+  /// ranks): zeros without comm_proxy.
   void compute_vector() override;
 
  private:

@@ -14,7 +14,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 BOX = (12.0, 10.0, 8.0)
 CUT = 1.4    # cutoff for ghosts
@@ -39,7 +39,10 @@ fix step all nve/sphere/symplectic
 comm_proxy {proxies}
 run_style {style}
 thermo 1000
+compute cost all penalty/stats
 run {steps}
+thermo_style custom step c_cost[8] c_cost[9] c_cost[10] c_cost[11]
+run 0
 comm_proxy info
 """ % CUT
 
@@ -146,7 +149,10 @@ class Counts(SceneCase):
         self.assert_own_counters(log, "bytes per exchange", sent)
         self.assert_own_counters(log, "messages sent", [LONG * n for n in messages])
         self.assert_own_counters(log, "bytes sent", [LONG * n for n in sent])
-        return sum(messages), sum(sent)
+        stats = thermo(log)[-1]
+        self.assertEqual((stats["c_cost[8]"], stats["c_cost[9]"]), (sum(messages), sum(sent)))
+        self.assertGreaterEqual(stats["c_cost[11]"], 0.0)
+        self.assertGreater(stats["c_cost[10]"], 0.0)
 
     def assert_own_counters(self, log, name, values):
         numbers = re.search(rf"{name} +(\S+) +(\S+) +(\S+)$", log, re.MULTILINE).groups()

@@ -119,7 +119,7 @@ class Overlap(SceneCase):
 
     def test_walls(self):
         for ranks in 1, 2, 4:
-            for law in LAWS:
+            for law in LAWS if ranks == 2 else ["friction"]:
                 with self.subTest(ranks=ranks, law=law):
                     found = self.run_all(list(EXCHANGES), ranks, law=law)
                     self.assert_same(found, list(EXCHANGES))
