@@ -64,7 +64,11 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   /// finish(). Collective among neighbours, like forward_comm().
   void begin();
 
+  /// For the run style, at the start of a run: whether it will call begin().
+  void set_overlap(bool yes) { overlapped_run = yes; }
+
   // PendingExchange
+  bool overlaps() const override { return overlapped_run; }
   bool pending() const override { return transfer.pending(); }
   void progress() override { transfer.progress(); }
   void finish() override;
@@ -100,6 +104,7 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   bool own_packing = false;    ///< atom style sphere
   std::string spin_reader;     ///< see Talus::reader_of_proxy_spins()
   bool checks = false;
+  bool overlapped_run = false;
 };
 
 }    // namespace LAMMPS_NS

@@ -15,6 +15,9 @@ namespace Talus {
 
 class PendingExchange {
  public:
+  /// In this run, exchanges will be pending when forces are computed. The same on all ranks.
+  virtual bool overlaps() const = 0;
+
   /// Proxies must not be read now. The same on all ranks.
   virtual bool pending() const = 0;
 

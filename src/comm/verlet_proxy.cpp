@@ -56,6 +56,7 @@ void VerletProxy::init()
   if (comm->me == 0 && !overlaps && hazard != announced)
     error->warning(FLERR, "Run style verlet/proxy: overlap is off: {}", hazard);
   announced = hazard;
+  if (CommProxy *proxy = current()) proxy->set_overlap(overlaps);
 }
 
 void VerletProxy::setup(int flag)
@@ -74,7 +75,10 @@ void VerletProxy::setup_minimal(int flag)
 
 void VerletProxy::run(int n)
 {
-  if (CommProxy *proxy = current()) at_start = proxy->counters();
+  if (CommProxy *proxy = current()) {
+    at_start = proxy->counters();
+    proxy->set_overlap(overlaps);
+  }
   lists.start_count();
   lists.ask();
   for (int i = 0; i < n; i++) {
@@ -212,6 +216,7 @@ void VerletProxy::cleanup()
                    "moved by something else than its velocity: increase the skin",
                    lists.num_late());
   if (CommProxy *proxy = current()) {
+    proxy->set_overlap(false);
     const std::string text = summarize_exchange(proxy->counters().since(at_start), world);
     if (comm->me == 0) utils::logmesg(lmp, text);
   }

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -189,7 +190,8 @@ void PairGranPenalty::create_store()
                "command",
                expected);
   if (!store) {
-    const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
+    // well below the smallest particle of usual scenes: tags decide only where keys are equal
+    const double cell = radii.largest() > 0.0 ? 0.125 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
     store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
     if (!store) error->all(FLERR, "Pair style gran/penalty: cannot create fix {}", store_id);
@@ -294,25 +296,24 @@ void PairGranPenalty::renumber_pairs()
     tags[i] = atom->tag[i];
     filed_tags[i] = store->filed_tag(i);
   }
-  pipeline.pairs.order_particles(atom->nlocal, keys, std::move(tags));
-  add_candidate_pairs();
-  pipeline.pairs.finish();
-  pipeline.start_pairs(atom->type, store->partner_lists(), filed_tags);
+  const auto *exchange = dynamic_cast<PendingExchange *>(comm);
+  pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
+  pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
+                     neighbours());
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }
 
-void PairGranPenalty::add_candidate_pairs()
+NeighbourView PairGranPenalty::neighbours() const
 {
-  const double *special = force->special_lj;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int *neighbors = list->firstneigh[i];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const double weight = special[sbmask(neighbors[jj])];
-      if (weight != 0.0) pipeline.pairs.add_pair(i, neighbors[jj] & NEIGHMASK, weight);
-    }
-  }
+  const double *scale = force->special_lj;
+  return {list->inum,
+          list->ilist,
+          list->numneigh,
+          list->firstneigh,
+          NEIGHMASK,
+          SBBITS,
+          {scale[0], scale[1], scale[2], scale[3]}};
 }
 
 int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *)
@@ -334,7 +335,9 @@ ParticleView PairGranPenalty::view() const
           any ? atom->omega[0] : nullptr,
           atom->radius,
           atom->rmass,
-          masses.override_or_null()};
+          masses.override_or_null(),
+          any ? atom->f[0] : nullptr,
+          any ? atom->torque[0] : nullptr};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -342,15 +345,25 @@ ParticleView PairGranPenalty::view() const
 void PairGranPenalty::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  finish_exchange();    // pairs without proxies could be computed before
-  if (pipeline.pairs.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
+  if (pipeline.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
 
   reported.clear();
   const bool advance = update->setupflag == 0;
-  pipeline.compute(view(), update->dt, advance, vflag_either ? &reported : nullptr,
-                   keeps_account ? &account : nullptr);
+  ContactStep step{update->dt, advance, vflag_either ? &reported : nullptr,
+                   keeps_account ? &account : nullptr};
+  if (pipeline.in_two_phases()) {
+    auto *exchange = dynamic_cast<PendingExchange *>(comm);
+    const std::function<void()> progress = [exchange] { exchange->progress(); };
+    if (exchange && exchange->pending()) step.meanwhile = &progress;
+    pipeline.compute_early(view(), step);
+    step.meanwhile = nullptr;
+    finish_exchange();
+    pipeline.compute_late(view(), step);
+  } else {
+    finish_exchange();
+    pipeline.compute(view(), step);
+  }
   store->pairs_are_current();
-  if (atom->nlocal) pipeline.add_forces(atom->f[0], atom->torque[0]);
 
   if (update->setupflag) warn_large_time_step();
   if (vflag_either) tally(reported);

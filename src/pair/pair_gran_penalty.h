@@ -77,7 +77,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void warn_large_time_step();
 
   void finish_exchange();
-  void add_candidate_pairs();
+  Talus::NeighbourView neighbours() const;
   Talus::ParticleView view() const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);
   void count_contacts();
