@@ -203,6 +203,12 @@ double CommProxy::bytes_per_exchange() const
   return transfer.bytes_per_exchange(width);
 }
 
+double CommProxy::share_overlapped() const
+{
+  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
+  return reader ? reader->share_without_proxies() : 0.0;
+}
+
 std::string CommProxy::describe_message() const
 {
   if (!own_packing) {

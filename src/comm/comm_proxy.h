@@ -83,6 +83,8 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   /// Of this rank, for one exchange with the present plan.
   double messages_per_exchange() const;
   double bytes_per_exchange() const;
+  /// Share of the owned particles whose forces were computed while an exchange was pending.
+  double share_overlapped() const;
   /// What a proxy's message holds, and why; for people.
   std::string describe_message() const;
 

@@ -53,6 +53,7 @@ std::string Talus::describe_exchange(CommProxy &comm, MPI_Comm world)
   text += line("bytes per exchange", comm.bytes_per_exchange(), world);
   text += line("share of owned that are no proxies",
                owned > 0.0 ? plan.num_interior() / owned : 1.0, world);
+  text += line("share computed without proxies", comm.share_overlapped(), world);
   text += line("exchanges so far", c.exchanges, world);
   text += line("  of them overlapped", c.overlapped, world);
   text += line("messages sent", c.messages, world);

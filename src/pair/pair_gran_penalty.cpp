@@ -387,6 +387,11 @@ bool PairGranPenalty::reads_proxy_spins() const
   return !laws_current || pipeline.keeps_spins() || pipeline.law_table().has_resistance();
 }
 
+double PairGranPenalty::share_without_proxies() const
+{
+  return pipeline.in_two_phases() ? pipeline.early_share() : 0.0;
+}
+
 void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
 {
   for (const ReportedContact &c : contacts)

@@ -67,6 +67,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   // ProxyReader
   bool reads_proxy_spins() const override;
+  double share_without_proxies() const override;
 
  private:
   void allocate();
