@@ -26,6 +26,7 @@ import sys
 import tempfile
 
 LAW = {"friction": "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5", "frictionless": "hertz 4000.0 40.0"}
+SEGMENTS = 30    # short runs of each measurement
 METHODS = {
     "stock": "comm_proxy no\nrun_style verlet",
     "direct": "comm_proxy yes\nrun_style verlet/proxy overlap no",
@@ -102,12 +103,14 @@ class Runner:
 def scene(method, steps, law="friction", grid="2 1 1", more="thermo 100000\n"):
     """Continues the bed: a short run to warm up, then the one that counts."""
     return (START.format(grid=grid, boundary="p p f") + "read_restart bed\n" + PHYSICS.format(law=LAW[law]) +
-            more + METHODS[method] + f"\nrun {max(10, steps // 10)}\nrun {steps}\n")
+            more + METHODS[method] + f"\nrun {max(10, steps // 10)}\n" +
+            SEGMENTS * f"run {max(10, steps // SEGMENTS)} pre no post no\n")
 
 
 def microseconds_per_step(log):
-    seconds, steps = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)[-1]
-    return 1e6 * float(seconds) / int(steps)
+    """Of each of the short runs after the first run."""
+    loops = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)[1:]
+    return [1e6 * float(seconds) / int(steps) for seconds, steps in loops]
 
 
 def write(directory, name, columns, rows):
@@ -188,7 +191,7 @@ def model(runner, directory, full):
     rows = []
     for size in sizes:
         runner.bed(2 * size)
-        steps = max(40, (2000000 if full else 400000) // size)
+        steps = max(300, (12000000 if full else 3000000) // size)
         base = {method: timed(runner, method, steps, 0.0, 1e6) for method in METHODS}
         for latency, bandwidth in itertools.product(latencies, bandwidths):
             times = {method: timed(runner, method, steps, latency, bandwidth) for method in METHODS}
@@ -201,12 +204,11 @@ def model(runner, directory, full):
     plot_model(directory, rows, sizes, bandwidths)
 
 
-def timed(runner, method, steps, latency, bandwidth, rounds=3):
-    """Best of a few: the model adds a fixed time, everything else only noise."""
+def timed(runner, method, steps, latency, bandwidth):
+    """Best of many short runs: the model adds a fixed time, everything else that varies is noise."""
     library = os.path.join(os.environ["TALUS_BINARY_DIR"], "bench", "libnetwork_model.so")
     return min(microseconds_per_step(
-        runner.run(scene(method, steps), 2, library, TALUS_LATENCY=1e-6 * latency, TALUS_BANDWIDTH=1e9 * bandwidth))
-        for _ in range(rounds))
+        runner.run(scene(method, steps), 2, library, TALUS_LATENCY=1e-6 * latency, TALUS_BANDWIDTH=1e9 * bandwidth)))
 
 
 def hidden(base, times):
@@ -252,12 +254,13 @@ def real(runner, directory, full):
     rows = []
     for size in sizes:
         runner.bed(2 * size)
-        steps = max(50, (4000000 if full else 1000000) // size)
+        steps = max(300, (12000000 if full else 3000000) // size)
         for law in LAW:
             times = {method: [] for method in METHODS}
             for _ in range(rounds):
                 for method in METHODS:
-                    times[method].append(microseconds_per_step(runner.run(scene(method, steps, law), 2)))
+                    times[method].append(statistics.mean(microseconds_per_step(
+                        runner.run(scene(method, steps, law), 2))))
             ratios = {m: statistics.median(t / s for t, s in zip(times[m], times["stock"])) for m in METHODS}
             rows.append([size, law, *(statistics.median(times[m]) for m in METHODS), ratios["direct"],
                          ratios["overlapped"]])
