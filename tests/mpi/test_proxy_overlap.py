@@ -86,10 +86,12 @@ class Overlap(SceneCase):
     def setUp(self):
         write_sphere_data(self.path("grains"), ((-0.1, 9.6), (-0.1, 7.3), (-0.1, 20)), grains())
 
-    def run_all(self, exchanges, ranks, **options):
+    def run_all(self, exchanges, ranks, threads=1, **options):
         """{exchange: (frames, rows, builds, log)} of runs in one process."""
         script = "".join(scene(exchange, **options) for exchange in exchanges)
-        self.run_lammps(script, np=ranks)
+        arguments = ("-pk", "omp", threads) if threads > 1 else ()
+        self.run_lammps(script, np=ranks, arguments=arguments,
+                        env={"OMP_WAIT_POLICY": "passive"} if threads > 1 else None)
         found = {}
         for exchange in exchanges:
             name = exchange.replace(" ", "-")
@@ -149,6 +151,13 @@ class Overlap(SceneCase):
         self.assert_same(found, [1, 2, 4], with_sums=False)
         self.assertEqual(found[1][2], found[2][2])
         self.assertEqual(found[1][2], found[4][2])
+
+    def test_threads(self):
+        found = self.run_all(["stock", "overlapped"], 2)
+        threaded = self.run_all(["overlapped"], 2, threads=2)
+        self.assert_same({**found, "threads": threaded["overlapped"]},
+                         ["stock", "overlapped", "threads"], with_sums=False)
+        self.assert_overlapped(threaded["overlapped"][3], 2)
 
     def test_rebuild_settings(self):
         chosen = ["overlapped", "blocking"]
