@@ -166,6 +166,11 @@ set(TALUS_HOST_HAS_ATOM2CUT 0)
 if(talus_atom2cut)
   set(TALUS_HOST_HAS_ATOM2CUT 1)
 endif()
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/PLUGIN/plugin.cpp" talus_run_plugins REGEX "== \"run\"")
+set(TALUS_HOST_HAS_RUN_PLUGINS 0)
+if(talus_run_plugins)
+  set(TALUS_HOST_HAS_RUN_PLUGINS 1)
+endif()
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.
@@ -176,6 +181,7 @@ target_include_directories(lammps_host SYSTEM INTERFACE
 target_compile_definitions(lammps_host INTERFACE
   TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
   TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}
+  TALUS_HOST_HAS_RUN_PLUGINS=${TALUS_HOST_HAS_RUN_PLUGINS}
   LAMMPS_${talus_sizes_upper}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
   ${MPI_CXX_COMPILE_DEFINITIONS})

@@ -21,4 +21,10 @@
 #define TALUS_OVERRIDE_ATOM2CUT
 #endif
 
+// TALUS_HOST_HAS_RUN_PLUGINS, set by the build: plugins may bring run styles, which came in summer
+// 2025. Before, they enter them in the host's table of run styles, a public member of Update.
+#if !defined(TALUS_HOST_HAS_RUN_PLUGINS)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
+#endif
+
 #endif

@@ -3,18 +3,24 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "comm/proxy_command.h"
+#include "comm/verlet_proxy.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
 #include "fix/fix_contact_store.h"
 #include "fix/fix_large_body.h"
 #include "fix/fix_nve_sphere_symplectic.h"
+#include "lammps_compat.h"
 #include "pair/pair_gran_penalty.h"
 #include "talus_abi.h"
 
+#include "command.h"
 #include "fix.h"
+#include "integrate.h"
 #include "lammps.h"
 #include "lammpsplugin.h"
 #include "pair.h"
+#include "update.h"
 #include "version.h"
 
 using namespace LAMMPS_NS;
@@ -54,6 +60,26 @@ class Registry {
     add("compute", name, info);
   }
 
+  template <typename Style> void command(const char *name, const char *info)
+  {
+    entry.creator.v1 = &create<Command, Style>;
+    add("command", name, info);
+  }
+
+  template <typename Style> void run_style(const char *name, const char *info)
+  {
+#if TALUS_HOST_HAS_RUN_PLUGINS
+    entry.creator.v2 = &create<Integrate, Style>;
+    add("run", name, info);
+#else
+    (void) info;
+    (*static_cast<LAMMPS *>(lmp)->update->integrate_map)[name] = [](LAMMPS *host, int narg,
+                                                                    char **arg) -> Integrate * {
+      return new Style(host, narg, arg);
+    };
+#endif
+  }
+
   template <typename Style> void fix(const char *name, const char *info)
   {
     entry.creator.v2 = &create<Fix, Style>;
@@ -81,6 +107,8 @@ extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp,
 {
   Registry registry(lmp, handle, registerfunc);
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
+  registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
+  registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");

@@ -2,6 +2,7 @@
 
 #include "compute/compute_penalty_stats.h"
 
+#include "comm/comm_proxy.h"
 #include "fix/fix_large_body.h"
 #include "pair/pair_gran_penalty.h"
 
@@ -15,7 +16,20 @@
 using namespace LAMMPS_NS;
 
 namespace {
-enum { CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE, SIZE };
+enum {
+  CANDIDATES,
+  CONTACTS,
+  OVERLAP,
+  ELASTIC,
+  NORMAL,
+  TANGENTIAL,
+  RESISTANCE,
+  MESSAGES,
+  BYTES,
+  EXCHANGE_TIME,
+  WAITING_TIME,
+  SIZE
+};
 }
 
 ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) :
@@ -86,6 +100,13 @@ void ComputePenaltyStats::compute_vector()
   for (const FixLargeBody *body : bodies()) {
     mine[CONTACTS] += body->contacts_here();
     largest = std::max(largest, body->largest_overlap_ratio());
+  }
+  if (auto *proxy = dynamic_cast<CommProxy *>(comm)) {
+    const Talus::ExchangeCounters &c = proxy->counters();
+    mine[MESSAGES] = proxy->messages_per_exchange();
+    mine[BYTES] = proxy->bytes_per_exchange();
+    mine[EXCHANGE_TIME] = (c.pack_seconds + c.unpack_seconds) / comm->nprocs;
+    mine[WAITING_TIME] = c.wait_seconds / comm->nprocs;
   }
   MPI_Allreduce(mine, vector, SIZE, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(&largest, &vector[OVERLAP], 1, MPI_DOUBLE, MPI_MAX, world);

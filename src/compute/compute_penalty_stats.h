@@ -20,7 +20,8 @@ class ComputePenaltyStats : public Compute {
 
   /// candidate pairs, contacts, largest overlap/radius, elastic energy; energy dissipated since the
   /// first run with this compute by normal damping, by friction, by rolling and spinning
-  /// resistance.
+  /// resistance; messages and bytes of one exchange of proxies (all ranks), seconds packing and
+  /// unpacking them, seconds waiting for them (mean of ranks): zeros without comm_proxy.
   void compute_vector() override;
 
  private:

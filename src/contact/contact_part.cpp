@@ -53,13 +53,14 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
 template <bool friction, bool history_kept, bool shared>
 void ContactPart::compute_all(const Step &step)
 {
-  constexpr std::int64_t stretch = 8 * ContactBatch::width;
+  constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
   std::int64_t done = 0;
   touching = 0;
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
+    if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= 2 * block_size; done += block_size) {

@@ -19,6 +19,7 @@
 #include "contact/particle_records.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -47,12 +48,15 @@ struct ContactScene {
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
 /// `report`, if given, receives every contact that counts here; `account`, if given, their
-/// energies; both are not for use by several threads.
+/// energies; both are not for use by several threads. `meanwhile`, if given, is called now and
+/// then, by the first part and so by the first thread: for messages that need someone to look after
+/// them.
 struct ContactStep {
   double dt;
   bool advance;
   std::vector<ReportedContact> *report = nullptr;
   EnergyAccount *account = nullptr;
+  const std::function<void()> *meanwhile = nullptr;
 };
 
 class ContactPart {

@@ -123,7 +123,11 @@ void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &ste
   const int count = std::min(parts_per_phase, static_cast<int>(parts.size()) - first_part);
   const bool alone = threads == 1 || step.report || step.account;
 #pragma omp parallel for schedule(static) num_threads(threads) if (!alone)
-  for (int p = 0; p < count; p++) parts[first_part + p].compute(scene, particles, step);
+  for (int p = 0; p < count; p++) {
+    ContactStep of_part = step;
+    if (p) of_part.meanwhile = nullptr;
+    parts[first_part + p].compute(scene, particles, of_part);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -203,7 +203,9 @@ void FixContactStore::setup_post_neighbor()
 void FixContactStore::post_run()
 {
   file();
-  if (host_sorts_every) atom->sortfreq = host_sorts_every;
+  if (!host_sorts_every) return;
+  atom->sortfreq = host_sorts_every;
+  atom->nextsort = MAXBIGINT;    // not before the next setup, which makes the bins for it
   host_sorts_every = 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "comm/pending_exchange.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -12,10 +14,12 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "timer.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -285,7 +289,8 @@ void PairGranPenalty::renumber_pairs()
     tags[i] = atom->tag[i];
     filed_tags[i] = store->filed_tag(i);
   }
-  pipeline.set_work(comm->nthreads, false);
+  const auto *exchange = dynamic_cast<PendingExchange *>(comm);
+  pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
   pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
                      neighbours());
   masses.update();
@@ -337,13 +342,47 @@ void PairGranPenalty::compute(int eflag, int vflag)
 
   reported.clear();
   const bool advance = update->setupflag == 0;
-  pipeline.compute(view(), {update->dt, advance, vflag_either ? &reported : nullptr,
-                            keeps_account ? &account : nullptr});
+  ContactStep step{update->dt, advance, vflag_either ? &reported : nullptr,
+                   keeps_account ? &account : nullptr};
+  if (pipeline.in_two_phases()) {
+    auto *exchange = dynamic_cast<PendingExchange *>(comm);
+    const std::function<void()> progress = [exchange] { exchange->progress(); };
+    if (exchange && exchange->pending()) step.meanwhile = &progress;
+    pipeline.compute_early(view(), step);
+    step.meanwhile = nullptr;
+    finish_exchange();
+    pipeline.compute_late(view(), step);
+  } else {
+    finish_exchange();
+    pipeline.compute(view(), step);
+  }
   store->pairs_are_current();
 
   if (update->setupflag) warn_large_time_step();
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
+}
+
+/* Under run style verlet/proxy: from here on proxies are valid. What was done before counts as
+   pair time, the rest as communication. */
+
+void PairGranPenalty::finish_exchange()
+{
+  auto *exchange = dynamic_cast<PendingExchange *>(comm);
+  if (!exchange || !exchange->pending()) return;
+  timer->stamp(Timer::PAIR);
+  exchange->finish();
+  timer->stamp(Timer::COMM);
+}
+
+bool PairGranPenalty::reads_proxy_spins() const
+{
+  return !laws_current || pipeline.keeps_spins() || pipeline.law_table().has_resistance();
+}
+
+double PairGranPenalty::share_without_proxies() const
+{
+  return pipeline.in_two_phases() ? pipeline.early_share() : 0.0;
 }
 
 /* To the host, with newton off, an index of a ghost means that nothing is tallied for it. */

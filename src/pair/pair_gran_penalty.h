@@ -9,6 +9,7 @@
 #ifndef LMP_PAIR_GRAN_PENALTY_H
 #define LMP_PAIR_GRAN_PENALTY_H
 
+#include "comm/proxy_reader.h"
 #include "contact/contact_pipeline.h"
 #include "fix/fix_contact_store.h"
 #include "lammps_compat.h"
@@ -24,7 +25,7 @@
 
 namespace LAMMPS_NS {
 
-class PairGranPenalty : public Pair, public FixContactStore::Client {
+class PairGranPenalty : public Pair, public FixContactStore::Client, public Talus::ProxyReader {
  public:
   PairGranPenalty(class LAMMPS *);
   ~PairGranPenalty() override;
@@ -64,6 +65,10 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void renumber_pairs() override;
   void velocities_have_moved() override;
 
+  // ProxyReader
+  bool reads_proxy_spins() const override;
+  double share_without_proxies() const override;
+
  private:
   void allocate();
   void check_host();
@@ -72,6 +77,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void warn_small_periods();
   void warn_large_time_step();
 
+  void finish_exchange();
   Talus::NeighbourView neighbours() const;
   Talus::ParticleView view() const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);

@@ -22,7 +22,8 @@ import tempfile
 import unittest
 
 __all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
-           "read_dump", "read_local", "relative_difference", "run_lammps", "thermo", "write_sphere_data"]
+           "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
+           "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
 SLOWER = 4 if os.environ.get("TALUS_SANITIZE") else 1    # what sanitizers cost
@@ -145,6 +146,16 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     if not expect_error and returncode != 0:
         raise problem(f"return code {returncode}")
     return result
+
+
+def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TIMEOUT):
+    """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
+    command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
+    command += [path] + [str(word) for word in arguments]
+    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
+    if returncode != 0:
+        raise AssertionError(f"return code {returncode}: {' '.join(command)}\n{output[-3000:]}")
+    return Result("", output, returncode, cwd)
 
 
 class SceneCase(unittest.TestCase):

@@ -1,0 +1,308 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "comm/comm_proxy.h"
+
+#include "comm/exchange_tags.h"
+#include "comm/proxy_reader.h"
+#include "comm/spin_readers.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "pair.h"
+
+#include <set>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+/* The host's constructor leaves localsendlist as it is, and its destructor frees it. */
+
+CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
+    CommBrick(lmp, old), transfer(world), host_packer(lmp), sphere_packer(lmp)
+{
+  localsendlist = nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CommProxy::init()
+{
+  transfer.abandon();    // left by an error; particles may have changed since
+  CommBrick::init();
+  refuse_unsupported();
+  own_packing = sphere_packer.applies(ghost_velocity);
+  host_packer.set(size_forward, ghost_velocity);
+  spin_reader = own_packing ? reader_of_proxy_spins(lmp) : "";
+}
+
+/* Not in the command alone: comm_modify and fix deform may come later. */
+
+void CommProxy::refuse_unsupported()
+{
+  if (mode != Comm::SINGLE)
+    error->all(FLERR, "comm_proxy: 'comm_modify mode multi' is not supported: use 'comm_modify "
+                      "mode single' or 'comm_proxy no'");
+  if (domain->deform_vremap && ghost_velocity)
+    error->all(FLERR,
+               "comm_proxy: fix deform with 'remap v' is not supported: what LAMMPS adds to the "
+               "velocities of ghosts depends on their order in its messages: use 'remap x', "
+               "'comm_modify vel no' or 'comm_proxy no'");
+}
+
+void CommProxy::setup()
+{
+  finish();
+  CommBrick::setup();
+}
+
+void CommProxy::set_proc_grid(int outflag)
+{
+  transfer.abandon();
+  have_plan = false;
+  CommBrick::set_proc_grid(outflag);
+}
+
+void CommProxy::exchange()
+{
+  transfer.abandon();    // the particles are about to be numbered anew
+  have_plan = false;
+  CommBrick::exchange();
+}
+
+void CommProxy::borders()
+{
+  transfer.abandon();
+  have_plan = false;
+  CommBrick::borders();
+  derive_plan();
+  have_plan = true;
+  if (checks) check_owners();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CommProxy::forward_comm(int dummy)
+{
+  finish();
+  if (!have_plan) return CommBrick::forward_comm(dummy);
+  begin();
+  finish();
+}
+
+void CommProxy::begin()
+{
+  if (!have_plan) error->all(FLERR, "comm_proxy: no plan yet for an exchange (internal error)");
+  finish();
+  transfer.begin(choose_packer());
+  if (checks) poison_proxies();
+}
+
+void CommProxy::finish()
+{
+  if (!transfer.pending()) return;
+  transfer.finish();
+  if (checks) check_states();
+}
+
+/* The spins may stay behind if only the pair style can read them, and says that it does not. */
+
+bool CommProxy::sends_spins() const
+{
+  if (!spin_reader.empty()) return true;
+  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
+  return reader && reader->reads_proxy_spins();
+}
+
+ProxyPacker &CommProxy::choose_packer()
+{
+  if (!own_packing) return host_packer;
+  sphere_packer.send_spins(sends_spins());
+  return sphere_packer;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CommProxy::derive_plan()
+{
+  try {
+    transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors());
+  } catch (const std::invalid_argument &problem) {
+    error->one(FLERR, "comm_proxy: {} (internal error)", problem.what());
+  }
+}
+
+/* Runs once through the host's swaps, with the identity of particles instead of their state: what
+   a rank passes on is known to belong to someone else. */
+
+std::vector<ProxyOrigin> CommProxy::trace_origins()
+{
+  std::vector<ProxyOrigin> all(atom->nlocal + atom->nghost), buffer;
+  for (int i = 0; i < atom->nlocal; i++) all[i] = {me, i, {0, 0, 0}};
+
+  constexpr int words = sizeof(ProxyOrigin) / sizeof(int);
+  for (int swap = 0; swap < nswap; swap++) {
+    buffer.resize(sendnum[swap]);
+    for (int k = 0; k < sendnum[swap]; k++) {
+      buffer[k] = all[sendlist[swap][k]];
+      if (pbc_flag[swap])
+        for (int d = 0; d < 3; d++) buffer[k].shift[d] += pbc[swap][d];
+    }
+    ProxyOrigin *to = all.data() + firstrecv[swap];
+    if (sendproc[swap] == me)
+      std::copy(buffer.begin(), buffer.end(), to);
+    else
+      MPI_Sendrecv(buffer.data(), words * sendnum[swap], MPI_INT, sendproc[swap], TAG_ORIGIN, to,
+                   words * recvnum[swap], MPI_INT, recvproc[swap], TAG_ORIGIN,
+                   transfer.communicator(), MPI_STATUS_IGNORE);
+  }
+  all.erase(all.begin(), all.begin() + atom->nlocal);
+  return all;
+}
+
+/* All ranks within the reach of the swaps. The reach is the same for all ranks, so this is
+   symmetric. */
+
+std::vector<int> CommProxy::possible_neighbors() const
+{
+  std::vector<int> along[3];
+  for (int d = 0; d < 3; d++) {
+    std::set<int> places;
+    for (int step = -maxneed[d]; step <= maxneed[d]; step++) {
+      const int n = procgrid[d], place = myloc[d] + step;
+      if (domain->periodicity[d])
+        places.insert((place % n + n) % n);
+      else if (place >= 0 && place < n)
+        places.insert(place);
+    }
+    along[d].assign(places.begin(), places.end());
+  }
+  std::set<int> ranks;
+  for (const int i : along[0])
+    for (const int j : along[1])
+      for (const int k : along[2]) ranks.insert(grid2proc[i][j][k]);
+  ranks.erase(me);
+  return {ranks.begin(), ranks.end()};
+}
+
+/* ---------------------------------------------------------------------- */
+
+double CommProxy::messages_per_exchange() const
+{
+  double count = 0.0;
+  for (const ExchangeNeighbor &n : plan().neighbors()) count += n.send_count() > 0;
+  return count;
+}
+
+double CommProxy::bytes_per_exchange() const
+{
+  const int width = own_packing ? (sends_spins() ? 9 : 6) : host_packer.stride();
+  return transfer.bytes_per_exchange(width);
+}
+
+double CommProxy::share_overlapped() const
+{
+  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
+  return reader ? reader->share_without_proxies() : 0.0;
+}
+
+std::string CommProxy::describe_message() const
+{
+  if (!own_packing) {
+    const auto bytes = sizeof(double) * host_packer.stride();
+    return fmt::format("{} bytes per proxy, packed by LAMMPS (atom style {})", bytes,
+                       atom->atom_style);
+  }
+  if (!sends_spins()) return "48 bytes per proxy: x, v";
+  const std::string why = spin_reader.empty() ? "for friction" : "for " + spin_reader;
+  return "72 bytes per proxy: x, v, omega (" + why + ")";
+}
+
+double CommProxy::memory_usage()
+{
+  return CommBrick::memory_usage() +
+         2.0 * transfer.bytes_per_exchange(own_packing ? 9 : host_packer.stride());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CommProxy::reverse_comm()
+{
+  finish();
+  CommBrick::reverse_comm();
+}
+
+void CommProxy::forward_comm(Pair *pair, int size)
+{
+  finish();
+  CommBrick::forward_comm(pair, size);
+}
+
+void CommProxy::reverse_comm(Pair *pair, int size)
+{
+  finish();
+  CommBrick::reverse_comm(pair, size);
+}
+
+void CommProxy::forward_comm(Bond *bond, int size)
+{
+  finish();
+  CommBrick::forward_comm(bond, size);
+}
+
+void CommProxy::reverse_comm(Bond *bond, int size)
+{
+  finish();
+  CommBrick::reverse_comm(bond, size);
+}
+
+void CommProxy::forward_comm(Fix *fix, int size)
+{
+  finish();
+  CommBrick::forward_comm(fix, size);
+}
+
+void CommProxy::reverse_comm(Fix *fix, int size)
+{
+  finish();
+  CommBrick::reverse_comm(fix, size);
+}
+
+void CommProxy::reverse_comm_variable(Fix *fix)
+{
+  finish();
+  CommBrick::reverse_comm_variable(fix);
+}
+
+void CommProxy::forward_comm(Compute *compute, int size)
+{
+  finish();
+  CommBrick::forward_comm(compute, size);
+}
+
+void CommProxy::reverse_comm(Compute *compute, int size)
+{
+  finish();
+  CommBrick::reverse_comm(compute, size);
+}
+
+void CommProxy::forward_comm(Dump *dump, int size)
+{
+  finish();
+  CommBrick::forward_comm(dump, size);
+}
+
+void CommProxy::reverse_comm(Dump *dump, int size)
+{
+  finish();
+  CommBrick::reverse_comm(dump, size);
+}
+
+void CommProxy::forward_comm_array(int columns, double **array)
+{
+  finish();
+  CommBrick::forward_comm_array(columns, array);
+}

@@ -1,0 +1,114 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The host's communication object with a direct exchange: `comm_proxy yes` puts it in the place of
+// the stock CommBrick. doc/comm_proxy.md is the user's page.
+//
+// Migration, borders and all exchanges of single styles stay the host's staged ones, so that the
+// order of ghost particles, and with it every neighbour list, is the stock one. At the end of
+// borders() a plan is derived that goes from owner to proxy without stages; forward_comm(), which
+// runs in every other step, uses it.
+//
+// forward_comm() is blocking, for every caller. Only the run style verlet/proxy calls begin().
+// Every method finishes a pending exchange first.
+
+#ifndef LMP_COMM_PROXY_H
+#define LMP_COMM_PROXY_H
+
+#include "comm/atom_packers.h"
+#include "comm/pending_exchange.h"
+#include "comm/proxy_exchange.h"
+
+#include "comm_brick.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class CommProxy : public CommBrick, public Talus::PendingExchange {
+ public:
+  /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
+  CommProxy(class LAMMPS *, class Comm *old);
+
+  // ---- the host's interface
+
+  void init() override;
+  void setup() override;
+  void set_proc_grid(int outflag = 1) override;
+  void exchange() override;
+  void borders() override;
+  void forward_comm(int dummy = 0) override;
+
+  void reverse_comm() override;
+  void forward_comm(class Pair *, int size = 0) override;
+  void reverse_comm(class Pair *, int size = 0) override;
+  void forward_comm(class Bond *, int size = 0) override;
+  void reverse_comm(class Bond *, int size = 0) override;
+  void forward_comm(class Fix *, int size = 0) override;
+  void reverse_comm(class Fix *, int size = 0) override;
+  void reverse_comm_variable(class Fix *) override;
+  void forward_comm(class Compute *, int size = 0) override;
+  void reverse_comm(class Compute *, int size = 0) override;
+  void forward_comm(class Dump *, int size = 0) override;
+  void reverse_comm(class Dump *, int size = 0) override;
+  void forward_comm_array(int, double **) override;
+  double memory_usage() override;
+
+  // ---- ours
+
+  /// Whether begin() can be called: after borders() until the next exchange(). The same on all
+  /// ranks.
+  bool has_plan() const { return have_plan; }
+
+  /// Starts the update of all proxies; the caller sees to it that nobody reads them before
+  /// finish(). Collective among neighbours, like forward_comm().
+  void begin();
+
+  /// For the run style, at the start of a run: whether it will call begin().
+  void set_overlap(bool yes) { overlapped_run = yes; }
+
+  // PendingExchange
+  bool overlaps() const override { return overlapped_run; }
+  bool pending() const override { return transfer.pending(); }
+  void progress() override { transfer.progress(); }
+  void finish() override;
+
+  /// Invariant checks: proxies are poisoned with NaN until they are valid, and every state is
+  /// compared with the one that the staged exchange brings. The same on all ranks.
+  void check(bool yes) { checks = yes; }
+  bool is_checking() const { return checks; }
+
+  const Talus::ExchangePlan &plan() const { return transfer.plan(); }
+  Talus::ExchangeCounters &counters() { return transfer.counters; }
+  /// Of this rank, for one exchange with the present plan.
+  double messages_per_exchange() const;
+  double bytes_per_exchange() const;
+  /// Share of the owned particles whose forces were computed while an exchange was pending.
+  double share_overlapped() const;
+  /// What a proxy's message holds, and why; for people.
+  std::string describe_message() const;
+
+ private:
+  Talus::ProxyPacker &choose_packer();
+  bool sends_spins() const;
+  void refuse_unsupported();
+  void derive_plan();
+  std::vector<Talus::ProxyOrigin> trace_origins();
+  std::vector<int> possible_neighbors() const;
+  void poison_proxies();
+  void check_owners();
+  void check_states();
+
+  Talus::ProxyExchange transfer;
+  Talus::HostPacker host_packer;
+  Talus::SpherePacker sphere_packer;
+  bool have_plan = false;      ///< the same on all ranks
+  bool own_packing = false;    ///< atom style sphere
+  std::string spin_reader;     ///< see Talus::reader_of_proxy_spins()
+  bool checks = false;
+  bool overlapped_run = false;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

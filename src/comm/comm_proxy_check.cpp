@@ -1,0 +1,130 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The invariant checks of CommProxy, switched on by `comm_proxy check yes`.
+
+#include "comm/comm_proxy.h"
+
+#include "atom.h"
+#include "error.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+/* Brings tag and type of the owner to the proxy, and counts where they are not the proxy's own. */
+
+class IdentityPacker : public ProxyPacker {
+ public:
+  explicit IdentityPacker(const Atom *of) : atom(of), seen(of->nlocal + of->nghost, 0) {}
+
+  int stride() const override { return 2; }
+
+  void pack(const int *particles, int count, const PeriodicShift &, double *out) override
+  {
+    for (int k = 0; k < count; k++) {
+      out[2 * k] = static_cast<double>(tag_of(particles[k]));
+      out[2 * k + 1] = atom->type[particles[k]];
+    }
+  }
+
+  void unpack(int first, int count, const double *in) override
+  {
+    for (int k = 0; k < count; k++) {
+      const int i = first + k;
+      seen[i]++;
+      if (in[2 * k] != static_cast<double>(tag_of(i)) || in[2 * k + 1] != atom->type[i]) wrong++;
+    }
+  }
+
+  /// Proxies with another owner than they should, and proxies without or with several owners.
+  int num_wrong() const { return wrong; }
+  int num_not_once() const
+  {
+    int count = 0;
+    for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+      count += seen[i] != (i < atom->nlocal ? 0 : 1);
+    return count;
+  }
+
+ private:
+  tagint tag_of(int i) const { return atom->tag_enable ? atom->tag[i] : 0; }
+
+  const Atom *atom;
+  std::vector<int> seen;
+  int wrong = 0;
+};
+
+bool same(double a, double b)
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+}    // namespace
+
+void CommProxy::check_owners()
+{
+  const ExchangeCounters before = transfer.counters;
+  IdentityPacker packer(atom);
+  transfer.begin(packer);
+  transfer.finish();
+  transfer.counters = before;
+  if (packer.num_not_once() || packer.num_wrong())
+    error->one(FLERR,
+               "comm_proxy check: of {} proxies {} do not have exactly one owner, and {} have "
+               "another one than they should (internal error)",
+               atom->nghost, packer.num_not_once(), packer.num_wrong());
+}
+
+/* Whoever reads a proxy too early gets NaN. */
+
+void CommProxy::poison_proxies()
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const bool spins = own_packing && sends_spins();
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++)
+    for (int d = 0; d < 3; d++) {
+      atom->x[i][d] = nan;
+      if (ghost_velocity) atom->v[i][d] = nan;
+      if (spins) atom->omega[i][d] = nan;
+    }
+}
+
+/* The host's staged exchange goes another way and must bring the same. What ours has brought is
+   put back, so that checks change nothing. */
+
+void CommProxy::check_states()
+{
+  const int first = atom->nlocal, count = atom->nghost;
+  const bool spins = atom->omega_flag && ghost_velocity;
+  const auto snapshot = [first, count](double **of) {
+    std::vector<double> kept(3 * static_cast<std::size_t>(count));
+    if (count) std::memcpy(kept.data(), of[first], sizeof(double) * kept.size());
+    return kept;
+  };
+  const auto differs_then_restore = [&](double **array, const std::vector<double> &kept) {
+    bool differs = false;
+    const double *now = count ? array[first] : nullptr;
+    for (std::size_t k = 0; k < kept.size(); k++) differs |= !same(now[k], kept[k]);
+    if (count) std::memcpy(array[first], kept.data(), sizeof(double) * kept.size());
+    return differs;
+  };
+
+  const std::vector<double> x = snapshot(atom->x);
+  const std::vector<double> v = ghost_velocity ? snapshot(atom->v) : std::vector<double>();
+  const std::vector<double> omega = spins ? snapshot(atom->omega) : std::vector<double>();
+  CommBrick::forward_comm();
+  bool wrong = differs_then_restore(atom->x, x);
+  if (ghost_velocity) wrong |= differs_then_restore(atom->v, v);
+  if (spins) {
+    const bool differs = differs_then_restore(atom->omega, omega);
+    wrong |= differs && (!own_packing || sends_spins());
+  }
+  if (wrong)
+    error->one(FLERR, "comm_proxy check: the state of a proxy is not that of its owner "
+                      "(internal error)");
+}
