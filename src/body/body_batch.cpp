@@ -126,8 +126,9 @@ void BodyBatch::keep_history(int lane, bool with_onset)
   if (with_onset) remembered[slot].onset = onset;
 }
 
-/* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and
-   torques of particle and body balance exactly. */
+/* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
+   spinning resistance act as couples of opposite sign: so forces and torques of particle and body
+   balance exactly. */
 
 void BodyBatch::apply(const BodyTask &task, int lane, ContactLaw law)
 {
@@ -137,15 +138,21 @@ void BodyBatch::apply(const BodyTask &task, int lane, ContactLaw law)
   const double r = view.radius[i];
   const Vector3<double> force = frame.to_space(lane_of(batch.force, lane));
   add_to(view.f, i, force);
-  const Vector3<double> couple = law.resists ? frame.to_space(lane_of(batch.couple, lane))
-                                             : Vector3<double>{0.0, 0.0, 0.0};
-  if (law.has_friction())
-    add_to(view.torque, i, couple - r * frame.to_space(lane_of(batch.moment, lane)));
+  Vector3<double> resistance{0.0, 0.0, 0.0};    // couple on the particle
+  if (law.resists) {
+    const Vector3<double> couple = frame.to_space(lane_of(batch.couple, lane));
+    const Vector3<double> moment = frame.to_space(lane_of(batch.moment, lane));
+    add_to(view.torque, i, couple - r * moment);
+    const Vector3<double> normal = frame.to_space(lane_of(batch.normal, lane));
+    resistance = couple - r * (moment - cross(normal, force));
+  } else if (law.has_friction()) {
+    add_to(view.torque, i, -r * frame.to_space(lane_of(batch.moment, lane)));
+  }
 
   const Vector3<double> branch = r * frame.to_space(lane_of(batch.normal, lane));
   const Vector3<double> about = frame.moves ? frame.state.position : frame.origin;
   const Vector3<double> arm = row(view.x, i) - branch - about;
-  const Vector3<double> torque = -cross(arm, force) - couple;
+  const Vector3<double> torque = -cross(arm, force) - resistance;
   load.force = load.force - force;
   load.torque = load.torque + torque;
   load.contacts += 1.0;
