@@ -181,7 +181,7 @@ class Balance(MotionCase):
 
     def test_third_law(self):
         body_meshes.write_stl(self.path("vessel.stl"), body_meshes.box((-3, -3, -3), (3, 3, 4), 8, inward=True))
-        body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((0.2, 0.1, 3.0), 0.8, 8))
+        body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((1.3, 1.1, 2.3), 0.8, 8))
         friction = "contact hooke 1e4 20 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"
         bodies = ["vessel", "ball", "blade"]
         sums = []
@@ -200,8 +200,8 @@ variable torque{axis} equal c_sum{axis}[2]+{moment}""")
         rows = self.simulate(pile((5, 5, 4), (-2.2, -2.2, -2.4), 1.02), f"""
 fix step all nve/sphere/symplectic gravity 5.0 vector 0.3 0 -1
 fix vessel all large/body mesh vessel.stl {friction} move wiggle 0.2 0 0.1 0.8
-fix ball all large/body mesh ball.stl {friction} move free mass 2 inertia 0.5 0.6 0.7 spin 3 1 2 velocity 0 0 -2
-fix blade all large/body cylinder 0 0 -1 0 1 0 0.7 3 outside {friction} move rotate 0 0 -1 0 1 0 1.1
+fix ball all large/body mesh ball.stl {friction} move free mass 2 inertia 0.5 0.6 0.7 spin 3 1 2 velocity 0 0 -4
+fix blade all large/body cylinder -0.8 0 1.4 0 1 0 0.5 3 outside {friction} move rotate -0.8 0 1.2 0 1 0 1.1
 variable scale atom abs(fx)+abs(fy)+abs(fz)
 compute scale all reduce sum v_scale
 """ + "".join(sums), 300, columns="f_ball[20] f_blade[20] c_scale " +
