@@ -150,10 +150,11 @@ void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task,
 NearParts BodyContacts::parts_near(std::size_t c, const Vector3<double> &x, double radius) const
 {
   const NearPart *const begin = parts.data() + parts_begin[c];
-  const NearPart *end = parts.data() + parts_begin[c + 1];
+  const NearPart *const last = parts.data() + parts_begin[c + 1];
   // a little more than the way that it went: rounding must not hide a part
   const double reach = radius + (1.0 + 1.0e-9) * length(x - listed_at[c]) + 1.0e-9 * radius;
-  while (end != begin && (end - 1)->distance >= reach) end--;
+  const NearPart *end = begin;    // nearest first
+  while (end != last && end->distance < reach) end++;
   return {begin, end};
 }
 

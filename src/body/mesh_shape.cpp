@@ -16,7 +16,7 @@ std::vector<Bounds> boxes_of(const TriangleMesh &mesh)
 {
   std::vector<Bounds> boxes;
   for (int t = 0; t < mesh.size(); t++) {
-    const Triangle tri = mesh.triangle(t);
+    const Triangle &tri = mesh.triangle(t);
     Bounds box{tri.corner[0], tri.corner[0]};
     for (const Vector3<double> &p : tri.corner) {
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};

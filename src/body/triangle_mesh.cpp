@@ -52,6 +52,7 @@ TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
   find_edges();
   find_patches();
   find_rings();
+  prepare_faces();
   find_volume();
 }
 
@@ -85,7 +86,7 @@ void TriangleMesh::join_corners(const std::vector<Triangle> &soup)
     }
     triangles.push_back(corners);
     file_numbers.push_back(number);
-    normals.push_back(1.0 / length(twice) * twice);
+    faces.push_back({soup[n], 1.0 / length(twice) * twice, {0.0F, 0.0F, 0.0F}, 0, 0});
     areas.push_back(0.5 * length(twice));
   }
 }
@@ -144,7 +145,7 @@ void TriangleMesh::find_patches()
   for (const Edge &e : edges)
     for (int k = 1; k < e.num_users; k++) {
       const int a = edge_users[e.first_user], b = edge_users[e.first_user + k];
-      if (std::fabs(dot(normals[a], normals[b])) < smooth_cosine) continue;
+      if (std::fabs(dot(faces[a].normal, faces[b].normal)) < smooth_cosine) continue;
       const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
       patches[high] = low;
     }
@@ -173,8 +174,29 @@ void TriangleMesh::find_rings()
       const Vector3<double> a = vertices[v[(k + 1) % 3]] - vertices[v[k]],
                             b = vertices[v[(k + 2) % 3]] - vertices[v[k]];
       const double angle = std::atan2(length(cross(a, b)), dot(a, b));
-      vertex_normals[v[k]] = vertex_normals[v[k]] + angle * normals[t];
+      vertex_normals[v[k]] = vertex_normals[v[k]] + angle * faces[t].normal;
       if (first_user[v[k]] < 0) first_user[v[k]] = t;
+    }
+}
+
+/* Over an edge of two triangles the direction to a point that is nearest to the edge lies between
+   both normals (or their opposites). */
+
+void TriangleMesh::prepare_faces()
+{
+  for (int t = 0; t < size(); t++)
+    for (int k = 0; k < 3; k++) {
+      Face &face = faces[t];
+      const Edge &edge = edges[edges_of[t].vertex[k]];
+      const int *user = &edge_users[edge.first_user];
+      if (user[0] == t) face.reports_edge |= static_cast<unsigned char>(1U << k);
+      if (first_user[triangles[t].vertex[k]] == t)
+        face.reports_corner |= static_cast<unsigned char>(1U << k);
+      if (edge.num_users != 2) continue;
+      const double cosine = dot(faces[user[0]].normal, faces[user[1]].normal);
+      // less by far more than rounding
+      if (cosine > 0.0)
+        face.least_square_cosine[k] = static_cast<float>(std::max(cosine * cosine - 1.0e-5, 0.0));
     }
 }
 
@@ -184,7 +206,7 @@ void TriangleMesh::find_volume()
   Vector3<double> by_volume{0.0, 0.0, 0.0}, by_area{0.0, 0.0, 0.0};
   double area = 0.0, volume = 0.0;
   for (int t = 0; t < size(); t++) {
-    const Triangle tri = triangle(t);
+    const Triangle &tri = triangle(t);
     const Vector3<double> a = tri.corner[0] - origin, b = tri.corner[1] - origin,
                           c = tri.corner[2] - origin;
     const double v = dot(a, cross(b, c)) / 6.0;
@@ -198,20 +220,14 @@ void TriangleMesh::find_volume()
   middle = origin + (has_volume ? 1.0 / volume * by_volume : 1.0 / area * by_area);
 }
 
-Triangle TriangleMesh::triangle(int t) const
-{
-  const int *v = triangles[t].vertex;
-  return {{vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
-}
-
 /* Corners first, then edges, then the face: regions of the plane around a triangle in which the
    nearest point is of that kind, by the signs of projections (Ericson, Real-Time Collision
    Detection, 2005, section 5.1.5). */
 
 NearestPoint TriangleMesh::nearest(int t, const Vector3<double> &p) const
 {
-  const int *v = triangles[t].vertex;
-  const Vector3<double> corner[3] = {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
+  const Vector3<double> *const corner = faces[t].corners.corner;
+  const Vector3<double> &n = faces[t].normal;
   const Vector3<double> from[3] = {p - corner[0], p - corner[1], p - corner[2]};
   const auto result = [](const Vector3<double> &away, NearestPoint::Feature feature, int index) {
     return NearestPoint{away, dot(away, away), feature, index};
@@ -229,17 +245,17 @@ NearestPoint TriangleMesh::nearest(int t, const Vector3<double> &p) const
   for (int k = 0; k < 3; k++) {
     if (ahead[k] <= 0.0 || behind[k] <= 0.0) continue;
     const Vector3<double> edge = corner[(k + 1) % 3] - corner[k];
-    if (dot(cross(edge, from[k]), normals[t]) > 0.0) continue;    // inside of it
+    if (dot(cross(edge, from[k]), n) > 0.0) continue;    // inside of it
     return result(from[k] - ahead[k] / (ahead[k] + behind[k]) * edge, NearestPoint::EDGE, k);
   }
-  return result(dot(from[0], normals[t]) * normals[t], NearestPoint::FACE, 0);
+  return result(dot(from[0], n) * n, NearestPoint::FACE, 0);
 }
 
 bool TriangleMesh::is_local_minimum(int t, const NearestPoint &nearest, double &height) const
 {
   if (nearest.feature == NearestPoint::EDGE) return edge_is_minimum(t, nearest, height);
   if (nearest.feature == NearestPoint::CORNER) return corner_is_minimum(t, nearest, height);
-  height = dot(nearest.away, normals[t]);
+  height = dot(nearest.away, faces[t].normal);
   return true;
 }
 
@@ -252,14 +268,17 @@ int TriangleMesh::opposite(int t, const Edge &edge) const
 
 bool TriangleMesh::edge_is_minimum(int t, const NearestPoint &nearest, double &height) const
 {
+  const Face &face = faces[t];
+  if (!(face.reports_edge >> nearest.index & 1)) return false;
+  const double above = dot(nearest.away, face.normal);
+  if (above * above < face.least_square_cosine[nearest.index] * nearest.square) return false;
   const Edge &edge = edges[edges_of[t].vertex[nearest.index]];
   const int *user = &edge_users[edge.first_user];
-  if (user[0] != t) return false;
   Vector3<double> outward{0.0, 0.0, 0.0};
   for (int k = 0; k < edge.num_users; k++) {
     const int other = opposite(user[k], edge);
     if (comes_nearer(nearest.away, vertices[other] - vertices[edge.vertex[0]])) return false;
-    outward = outward + normals[user[k]];
+    outward = outward + faces[user[k]].normal;
   }
   height = dot(nearest.away, outward);
   return true;
@@ -267,8 +286,8 @@ bool TriangleMesh::edge_is_minimum(int t, const NearestPoint &nearest, double &h
 
 bool TriangleMesh::corner_is_minimum(int t, const NearestPoint &nearest, double &height) const
 {
+  if (!(faces[t].reports_corner >> nearest.index & 1)) return false;
   const int v = triangles[t].vertex[nearest.index];
-  if (first_user[v] != t) return false;
   for (int k = ring_begin[v]; k < ring_begin[v + 1]; k++)
     if (comes_nearer(nearest.away, vertices[ring[k]] - vertices[v])) return false;
   height = dot(nearest.away, vertex_normals[v]);
@@ -278,7 +297,7 @@ bool TriangleMesh::corner_is_minimum(int t, const NearestPoint &nearest, double 
 double TriangleMesh::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(vertices) + bytes(normals) + bytes(triangles) + bytes(edges_of) + bytes(areas) +
+  return bytes(vertices) + bytes(faces) + bytes(triangles) + bytes(edges_of) + bytes(areas) +
          bytes(patches) + bytes(file_numbers) + bytes(edges) + bytes(edge_users) +
          bytes(ring_begin) + bytes(ring) + bytes(first_user) + bytes(vertex_normals);
 }

@@ -44,8 +44,8 @@ class TriangleMesh {
 
   int size() const { return static_cast<int>(triangles.size()); }
   const MeshReport &report() const { return findings; }
-  Triangle triangle(int t) const;
-  const Vector3<double> &normal(int t) const { return normals[t]; }
+  const Triangle &triangle(int t) const { return faces[t].corners; }
+  const Vector3<double> &normal(int t) const { return faces[t].normal; }
   double area(int t) const { return areas[t]; }
   /// Number of the triangle in the file, from 0.
   int number_in_file(int t) const { return file_numbers[t]; }
@@ -70,6 +70,14 @@ class TriangleMesh {
   struct Corners {
     int vertex[3];
   };
+  struct Face {    // what every step looks at, in one place
+    Triangle corners;
+    Vector3<double> normal;
+    // of each edge: an edge is no minimum if the square of the cosine between the normal and the way
+    // to the point is less than this
+    float least_square_cosine[3];
+    unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
+  };
   struct Edge {
     int vertex[2];
     int first_user, num_users;    // range of edge_users
@@ -79,12 +87,14 @@ class TriangleMesh {
   void find_patches();
   void find_rings();
   void find_volume();
+  void prepare_faces();
   bool edge_is_minimum(int t, const NearestPoint &nearest, double &height) const;
   bool corner_is_minimum(int t, const NearestPoint &nearest, double &height) const;
   int opposite(int t, const Edge &edge) const;
   bool runs_along(int t, int from, int to) const;
 
-  std::vector<Vector3<double>> vertices, normals;
+  std::vector<Vector3<double>> vertices;
+  std::vector<Face> faces;
   std::vector<Corners> triangles, edges_of;    // by triangle: corners, edges
   std::vector<double> areas;
   std::vector<int> patches, file_numbers;
