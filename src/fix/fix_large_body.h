@@ -87,6 +87,7 @@ class FixLargeBody : public Fix {
   void clear_frozen();
   void compute_contacts(const Talus::BodyParticleView &to, bool advance);
   void tally_virial();
+  void collect_digits();
   void begin_reduction();
   void finish_reduction();
   void reduce_load();

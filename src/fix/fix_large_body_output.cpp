@@ -5,6 +5,7 @@
 #include "fix/fix_large_body.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "force.h"
 #include "update.h"
 
@@ -13,16 +14,24 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-/* Bodies that move by their load need it in the next step: the sum over ranks goes on meanwhile. It
-   is one of integers, exact in any order. */
+/* The digits of this rank, where the sum over ranks takes them. */
 
-void FixLargeBody::begin_reduction()
+void FixLargeBody::collect_digits()
 {
   for (int k = 0; k < 6; k++) {
     exact.component[k].normalise();
     const std::int64_t *digits = exact.component[k].data();
     std::copy(digits, digits + ExactSum::size, digits_here + k * ExactSum::size);
   }
+}
+
+/* Bodies that move by their load need it in the next step: the sum over ranks goes on meanwhile. It
+   is one of integers, exact in any order. */
+
+void FixLargeBody::begin_reduction()
+{
+  if (comm->nprocs == 1) return;
+  collect_digits();
   MPI_Iallreduce(digits_here, digits_of_all, size_digits, MPI_INT64_T, MPI_SUM, world, &reduction);
 }
 
@@ -34,7 +43,10 @@ void FixLargeBody::finish_reduction()
 void FixLargeBody::reduce_exactly()
 {
   if (reduced) return;
-  if (reduction == MPI_REQUEST_NULL) begin_reduction();
+  if (reduction == MPI_REQUEST_NULL) {
+    collect_digits();
+    MPI_Allreduce(digits_here, digits_of_all, size_digits, MPI_INT64_T, MPI_SUM, world);
+  }
   finish_reduction();
   double sum[6];
   for (int k = 0; k < 6; k++) {
