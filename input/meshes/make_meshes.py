@@ -58,9 +58,9 @@ for k in range(4):
     drum += lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
 write_stl("drum.stl", drum)
 
-# axis z: outlet of radius 0.2 at height 0, cone of 60 degrees up to radius 1, then straight; open
-height = 0.8 * math.tan(math.radians(60))
-write_stl("hopper.stl", turned([(0.2, 0.0), (1.0, height), (1.0, height + 2.5)], 64))
+# axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
+height = 0.7 * math.tan(math.radians(60))
+write_stl("hopper.stl", turned([(0.3, 0.0), (1.0, height), (1.0, height + 2.5)], 64))
 
 # axis y, radius 0.9, width 0.8, sixteen grousers up to radius 1; closed
 wheel = turned([(0.0, -0.4), (0.9, -0.4), (0.9, 0.4), (0.0, 0.4)], 64, "y", inward=False)

@@ -66,7 +66,7 @@ class Scenes(SceneCase):
         self.assertGreater(max(slosh) - min(slosh), 0.01)
 
     def test_hopper(self):
-        found = self.simulate("hopper", radius=7, settle=0.05, time=0.1)
+        found = self.simulate("hopper", np=1, radius=7, settle=0.05, time=0.1)
         self.assertGreater(found["mass discharged / mass"], 0.03)
         mass = [row[1] for row in self.table("discharge.txt")]
         self.assertEqual(mass, sorted(mass))
