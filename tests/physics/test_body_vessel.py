@@ -40,7 +40,7 @@ thermo 1000
 thermo_style custom step atoms ke f_vessel[20]
 thermo_modify lost error norm no
 run {shaken}
-fix drag all viscous 0.5
+fix drag all viscous 2.0
 run {rest}
 unfix drag
 fix mean all ave/time 1 500 500 f_vessel[3]
