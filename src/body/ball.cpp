@@ -40,7 +40,8 @@ void Ball::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangl
   for (int i = 0; i < rings; i++)
     for (int j = 0; j < sectors; j++) {
       if (i > 0) triangles.push_back({{point(i, j), point(i + 1, j), point(i, j + 1)}});
-      if (i < rings - 1) triangles.push_back({{point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)}});
+      if (i < rings - 1)
+        triangles.push_back({{point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)}});
     }
 }
 

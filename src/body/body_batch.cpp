@@ -50,8 +50,8 @@ void BodyBatch::start(bool with_exact)
 
 /* Seen from the body, the particle moves with its velocity less that which the body would have at
    its centre, and spins less the body's spin: so sliding, rolling and spinning are those of the two
-   surfaces. A body that is not free is infinitely heavy: m_eff is the mass of the particle. R_eff is
-   its radius. */
+   surfaces. A body that is not free is infinitely heavy: m_eff is the mass of the particle. R_eff
+   is its radius. */
 
 void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &contact,
                     const Record &history, const Record &onset, int slot)
@@ -178,10 +178,10 @@ void BodyBatch::record(const BodyTask &task, int lane)
   const double pressed = dot(f, n);
   const Vector3<double> v = lane_of(batch.velocity, lane);
   const Vector3<double> slip = v - dot(v, n) * n - cross(lane_of(batch.spin, lane), n);
-  const Vector3<double> shear = task.laws.distinct_law(task.laws.law_index(
-                                    batch.coefficients[lane])).has_friction()
-                                    ? -(f - pressed * n)
-                                    : Vector3<double>{0.0, 0.0, 0.0};
+  const Vector3<double> shear =
+      task.laws.distinct_law(task.laws.law_index(batch.coefficients[lane])).has_friction()
+          ? -(f - pressed * n)
+          : Vector3<double>{0.0, 0.0, 0.0};
   touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});
 }
 

@@ -35,9 +35,9 @@ struct BodyParticleView {
 /// What a part of the body felt in one step.
 struct TouchedPart {
   int part;
-  double normal_force;         ///< > 0: pressed
-  Vector3<double> shear;       ///< tangential force on the body, its frame
-  double shear_power;          ///< that force times the velocity of the surfaces past each other
+  double normal_force;      ///< > 0: pressed
+  Vector3<double> shear;    ///< tangential force on the body, its frame
+  double shear_power;       ///< that force times the velocity of the surfaces past each other
 };
 
 /// One evaluation of all contacts of a body.
@@ -46,8 +46,8 @@ struct BodyTask {
   const BodyFrame &frame;
   const BodyParticleView &view;
   double dt;
-  bool advance;             ///< false: histories are only read
-  bool exact;               ///< sum the load without rounding as well
+  bool advance;    ///< false: histories are only read
+  bool exact;      ///< sum the load without rounding as well
   bool record_parts;
   EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
 };

@@ -87,8 +87,14 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   while (static_cast<int>(batches.size()) < threads)
     batches.push_back(std::make_unique<BodyBatch>());
   if (step.account) remember_velocities(frame, view, *step.account);
-  const BodyTask task{laws,           frame, view, step.dt, step.advance, step.exact != nullptr,
-                      step.touched != nullptr, step.account};
+  const BodyTask task{laws,
+                      frame,
+                      view,
+                      step.dt,
+                      step.advance,
+                      step.exact != nullptr,
+                      step.touched != nullptr,
+                      step.account};
   new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
 
   const std::size_t n = candidates.size();
@@ -107,8 +113,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
     const BodyBatch &b = *batches[t];
     load.add(b.load);
     if (step.exact) step.exact->add(b.exact);
-    if (step.touched)
-      step.touched->insert(step.touched->end(), b.touched.begin(), b.touched.end());
+    if (step.touched) step.touched->insert(step.touched->end(), b.touched.begin(), b.touched.end());
   }
   if (keeps_lists() && step.advance) renew_memory(threads);
   return load;
@@ -223,8 +228,8 @@ void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleVi
     Vector3<double> velocity = row(view.v, i), spin = row(view.omega, i);
     if (frame_before.moves) {
       const Vector3<double> arm = before[n].place - frame_before.state.position;
-      velocity = frame_before.to_body(velocity - frame.state.velocity -
-                                      cross(frame.state.spin, arm));
+      velocity =
+          frame_before.to_body(velocity - frame.state.velocity - cross(frame.state.spin, arm));
       spin = frame_before.to_body(spin - frame.state.spin);
     }
     to.move(i, dt, 0.5 * (before[n].velocity + velocity), 0.5 * (before[n].spin + spin));

@@ -22,8 +22,8 @@ struct BodyStep {
   double dt = 0.0;
   bool advance = true;    ///< false while a run is set up: histories are then only read
   int threads = 1;
-  EnergyAccount *account = nullptr;    ///< receives the energies; takes one thread
-  ExactLoad *exact = nullptr;          ///< receives the load without rounding
+  EnergyAccount *account = nullptr;               ///< receives the energies; takes one thread
+  ExactLoad *exact = nullptr;                     ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
 };
 
@@ -83,13 +83,13 @@ class BodyContacts {
   LawTable laws;
   bool with_history = false, with_onset = false, single = true;
   std::vector<int> candidates;
-  std::vector<Vector3<double>> listed_at;      // by candidate, frame of the body
-  std::vector<std::size_t> parts_begin;        // by candidate and one more
+  std::vector<Vector3<double>> listed_at;    // by candidate, frame of the body
+  std::vector<std::size_t> parts_begin;      // by candidate and one more
   std::vector<NearPart> parts;
   struct NewList {
     int first, count, batch;
   };
-  std::vector<NewList> new_lists;              // by candidate
+  std::vector<NewList> new_lists;                     // by candidate
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
   BodyFrame listed_frame;
   double listed_reach = 0.0;    // largest distance of a particle from the reference point

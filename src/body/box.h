@@ -10,9 +10,9 @@ namespace Talus {
 /// A box with edges along the axes of its frame.
 ///
 /// Outside: a sphere touches the nearest point of the box; the normal turns continuously around
-/// edges and corners. A centre inside is pushed out through the nearest face, up to one radius deep.
-/// Inside: a sphere touches every face that it reaches, so up to three in a corner, up to a centre
-/// one radius behind a face.
+/// edges and corners. A centre inside is pushed out through the nearest face, up to one radius
+/// deep. Inside: a sphere touches every face that it reaches, so up to three in a corner, up to a
+/// centre one radius behind a face.
 class Box : public LargeBodyShape {
  public:
   /// `edges`: the three lengths, > 0.

@@ -14,9 +14,9 @@ double coordinate(const Vector3<double> &v, int axis)
 
 Bounds joined(const Bounds &a, const Bounds &b)
 {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y),
-           std::max(a.high.z, b.high.z)}};
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
 }
 
 }    // namespace

@@ -57,7 +57,7 @@ class ContactMemory {
   struct List {
     int first, count;
   };
-  std::vector<List> lists;                        // by particle
+  std::vector<List> lists;    // by particle
   std::vector<RememberedContact> contacts, next;
 };
 

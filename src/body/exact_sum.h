@@ -11,9 +11,9 @@
 namespace Talus {
 
 /// A fixed-point number that covers the whole range of doubles, as digits of 32 bits held in 64, so
-/// that additions need no carry for a long time (Kulisch's long accumulator). Plain data: the digits
-/// of several ranks may be added one by one (MPI_SUM of int64) after normalise(), for up to 2^30
-/// ranks.
+/// that additions need no carry for a long time (Kulisch's long accumulator). Plain data: the
+/// digits of several ranks may be added one by one (MPI_SUM of int64) after normalise(), for up to
+/// 2^30 ranks.
 class ExactSum {
  public:
   /// 2^-1074 ... 2^1024, and room for the sum of 2^60 of the largest.
@@ -26,8 +26,8 @@ class ExactSum {
   /// Carries; at least once before digits are added elsewhere.
   void normalise();
 
-  /// The sum, rounded once, towards nearest but for ties and doubly rounded rests: a function of the
-  /// exact sum alone. NaN if anything added was not finite.
+  /// The sum, rounded once, towards nearest but for ties and doubly rounded rests: a function of
+  /// the exact sum alone. NaN if anything added was not finite.
   double value() const;
 
   /// The digits and, last, the count of numbers that were not finite.

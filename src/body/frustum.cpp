@@ -13,8 +13,8 @@ enum Face { MANTLE, LOW_CAP, HIGH_CAP };
 
 Vector3<double> any_normal_to(const Vector3<double> &axis)
 {
-  const Vector3<double> other = std::fabs(axis.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0}
-                                                        : Vector3<double>{0.0, 1.0, 0.0};
+  const Vector3<double> other =
+      std::fabs(axis.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0} : Vector3<double>{0.0, 1.0, 0.0};
   const Vector3<double> n = cross(axis, other);
   return 1.0 / std::sqrt(dot(n, n)) * n;
 }
@@ -117,8 +117,8 @@ bool Frustum::touches_from_outside(const Vector3<double> &centre, double radius,
   const double distance = std::sqrt(rho * rho + s * s);
   if (distance >= radius) return false;
   // so near the rim that rounding hides the direction
-  contact.normal = distance > 0.0 ? (rho / distance) * m.away + (s / distance) * axis
-                                  : -inward(m, nearest);
+  contact.normal =
+      distance > 0.0 ? (rho / distance) * m.away + (s / distance) * axis : -inward(m, nearest);
   contact.overlap = radius - distance;
   return true;
 }

@@ -12,10 +12,10 @@ namespace Talus {
 ///
 /// Outside: a sphere touches the nearest point; the normal turns continuously around the rims. A
 /// centre inside is pushed out through the nearest face, up to one radius deep. Inside: a sphere
-/// touches the mantle (part 0) and each cap (1 and 2) that it reaches, taken as continued beyond the
-/// rims, up to a centre one radius behind; it touches the mantle at one point only, so that a sphere
-/// wider than the cone is not held. A cap of radius 0 is not there. Where the nearest point of the
-/// mantle is undefined, on the axis, a fixed direction is taken.
+/// touches the mantle (part 0) and each cap (1 and 2) that it reaches, taken as continued beyond
+/// the rims, up to a centre one radius behind; it touches the mantle at one point only, so that a
+/// sphere wider than the cone is not held. A cap of radius 0 is not there. Where the nearest point
+/// of the mantle is undefined, on the axis, a fixed direction is taken.
 class Frustum : public LargeBodyShape {
  public:
   /// `axis`: unit vector; `low`: radius at -length/2 along it, `high` at +length/2. Radii >= 0, one

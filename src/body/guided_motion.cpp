@@ -40,9 +40,9 @@ void GuidedMotion::advance(BodyState &state, double dt)
   }
   const double way = static_cast<double>(steps - left) / steps;
   state.position = start.position + way * (target.position - start.position);
-  state.orientation =
-      (Quaternion::turn(turn_between(start.orientation, target.orientation), way) *
-       start.orientation).normalised();
+  state.orientation = (Quaternion::turn(turn_between(start.orientation, target.orientation), way) *
+                       start.orientation)
+                          .normalised();
   state.velocity = start.velocity + way * (target.velocity - start.velocity);
   state.spin = start.spin + way * (target.spin - start.spin);
 }

@@ -9,8 +9,9 @@
 // may be called from several threads.
 //
 // A shape that touches a sphere at one point at most (one_contact()) implements touches() and
-// distance_bound(). One that may touch it at several points, such as the inside of a box, implements
-// find_contacts() as well, and is_near() if it wants to remember which parts of it are near.
+// distance_bound(). One that may touch it at several points, such as the inside of a box,
+// implements find_contacts() as well, and is_near() if it wants to remember which parts of it are
+// near.
 
 #ifndef TALUS_BODY_LARGE_BODY_SHAPE_H
 #define TALUS_BODY_LARGE_BODY_SHAPE_H
@@ -56,8 +57,8 @@ class LargeBodyShape {
 
   virtual ~LargeBodyShape() = default;
 
-  /// Does the sphere touch the body? Fills `contact` (the deepest) only if it does. Called for every
-  /// candidate particle in every step if one_contact().
+  /// Does the sphere touch the body? Fills `contact` (the deepest) only if it does. Called for
+  /// every candidate particle in every step if one_contact().
   virtual bool touches(const Vector3<double> &centre, double radius,
                        SurfaceContact &contact) const = 0;
 

@@ -34,9 +34,10 @@ void keep(SurfaceContact *raw, int &count, const SurfaceContact &contact)
     raw[count++] = contact;
     return;
   }
-  SurfaceContact *flattest = std::min_element(
-      raw, raw + count,
-      [](const SurfaceContact &a, const SurfaceContact &b) { return a.overlap < b.overlap; });
+  SurfaceContact *flattest =
+      std::min_element(raw, raw + count, [](const SurfaceContact &a, const SurfaceContact &b) {
+        return a.overlap < b.overlap;
+      });
   if (contact.overlap > flattest->overlap) *flattest = contact;
 }
 
@@ -132,9 +133,8 @@ double MeshShape::distance_bound(const Vector3<double> &centre) const
   double reach = 0.01 * std::sqrt(dot(span, span));
   double least = std::numeric_limits<double>::infinity();
   while (std::isinf(least)) {
-    tree.visit_near(centre, reach, [&](int t) {
-      least = std::min(least, mesh.nearest(t, centre).square);
-    });
+    tree.visit_near(centre, reach,
+                    [&](int t) { least = std::min(least, mesh.nearest(t, centre).square); });
     if (least >= reach * reach) least = std::numeric_limits<double>::infinity();
     reach *= 2.0;
   }

@@ -51,8 +51,8 @@ void Plane::tessellate(const Bounds &visible, std::vector<Triangle> &triangles) 
   const Vector3<double> span = visible.high - visible.low;
   const Vector3<double> centre = visible.low + 0.5 * span;
   const Vector3<double> foot = centre - dot(centre - point, normal) * normal;
-  const Vector3<double> axis = std::fabs(normal.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0}
-                                                         : Vector3<double>{0.0, 1.0, 0.0};
+  const Vector3<double> axis =
+      std::fabs(normal.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0} : Vector3<double>{0.0, 1.0, 0.0};
   const double reach = 2.0 * std::sqrt(dot(span, span));
   Vector3<double> u = cross(normal, axis);
   u = reach / std::sqrt(dot(u, u)) * u;

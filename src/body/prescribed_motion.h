@@ -37,9 +37,9 @@ class PrescribedMotion {
 /// Time since the beginning of a motion. A product of steps and time step, so that it does not
 /// depend on where a run was interrupted; when the time step changes a new product begins.
 struct MotionClock {
-  double time = 0.0;         ///< at step `step`
+  double time = 0.0;    ///< at step `step`
   std::int64_t step = 0;
-  double dt = 0.0;           ///< of the steps after it
+  double dt = 0.0;    ///< of the steps after it
 
   /// The time at step `now`, which dt led to.
   double read(std::int64_t now, double dt_now);

@@ -16,8 +16,7 @@ Eigen::Matrix3d inertia_in_space(const double (&moments)[3], const Quaternion &o
   Eigen::Matrix3d axes;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) axes(i, j) = turn.c[i][j];
-  return axes * Eigen::Vector3d(moments[0], moments[1], moments[2]).asDiagonal() *
-         axes.transpose();
+  return axes * Eigen::Vector3d(moments[0], moments[1], moments[2]).asDiagonal() * axes.transpose();
 }
 
 }    // namespace

@@ -40,8 +40,8 @@ class RigidBody {
 /// vmax gain (target - pressed)/|target|, at most vmax either way, where `pressed` is what the
 /// body exerts on the particles along the axis.
 struct Servo {
-  bool turns = false;                       ///< holds a torque
-  Vector3<double> axis{0.0, 0.0, 1.0};      ///< unit vector
+  bool turns = false;                     ///< holds a torque
+  Vector3<double> axis{0.0, 0.0, 1.0};    ///< unit vector
   double target = 0.0, vmax = 0.0, gain = 1.0;
 
   /// `force` and `torque`: of the particles on the body.

@@ -72,8 +72,7 @@ class Words {
   {
     std::string word;
     if (!next(word)) fail("the file ends where '" + std::string(wanted) + "' is expected");
-    if (word != wanted)
-      fail(place() + ": expected '" + wanted + "' instead of '" + word + "'");
+    if (word != wanted) fail(place() + ": expected '" + wanted + "' instead of '" + word + "'");
   }
 
   double coordinate()

@@ -127,7 +127,8 @@ void TriangleMesh::find_edges()
   for (const Edge &e : edges) {
     const int *user = &edge_users[e.first_user];
     if (e.num_users == 1) findings.open_edges++;
-    if (e.num_users > 2) note(findings.crowded_edges, findings.first_crowded, file_numbers[user[2]]);
+    if (e.num_users > 2)
+      note(findings.crowded_edges, findings.first_crowded, file_numbers[user[2]]);
     if (e.num_users == 2 && runs_along(user[0], e.vertex[0], e.vertex[1]) ==
                                 runs_along(user[1], e.vertex[0], e.vertex[1]))
       note(findings.turned_edges, findings.first_turned, file_numbers[user[1]]);

@@ -15,11 +15,11 @@ namespace Talus {
 /// What was found wrong with the triangles of a mesh, and what was done about it. Numbers of
 /// triangles count from 1 in the order of the file.
 struct MeshReport {
-  int degenerate = 0, first_degenerate = 0;      ///< without area: left out
-  int duplicate = 0, first_duplicate = 0;        ///< with the corners of an earlier one: left out
-  int open_edges = 0;                            ///< edges of one triangle only: used
-  int crowded_edges = 0, first_crowded = 0;      ///< edges of three or more triangles: used
-  int turned_edges = 0, first_turned = 0;        ///< whose two triangles face opposite sides
+  int degenerate = 0, first_degenerate = 0;    ///< without area: left out
+  int duplicate = 0, first_duplicate = 0;      ///< with the corners of an earlier one: left out
+  int open_edges = 0;                          ///< edges of one triangle only: used
+  int crowded_edges = 0, first_crowded = 0;    ///< edges of three or more triangles: used
+  int turned_edges = 0, first_turned = 0;      ///< whose two triangles face opposite sides
   bool closed() const { return open_edges + crowded_edges + turned_edges == 0; }
 };
 
@@ -29,14 +29,14 @@ struct NearestPoint {
   Vector3<double> away;    ///< from the nearest point to the point
   double square;           ///< its length squared
   Feature feature;
-  int index;               ///< which edge (from corner i to i + 1) or corner of the triangle
+  int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
 };
 
 class TriangleMesh {
  public:
-  /// Joins corners that have equal coordinates. The angle between the normals of two triangles below
-  /// which their common edge counts as part of one smooth patch is smooth_angle.
-  /// Throws std::runtime_error if no triangle is left.
+  /// Joins corners that have equal coordinates. The angle between the normals of two triangles
+  /// below which their common edge counts as part of one smooth patch is smooth_angle. Throws
+  /// std::runtime_error if no triangle is left.
   explicit TriangleMesh(const std::vector<Triangle> &soup);
 
   static constexpr double smooth_angle = 30.0;          // degrees
@@ -73,8 +73,8 @@ class TriangleMesh {
   struct Face {    // what every step looks at, in one place
     Triangle corners;
     Vector3<double> normal;
-    // of each edge: an edge is no minimum if the square of the cosine between the normal and the way
-    // to the point is less than this
+    // of each edge: an edge is no minimum if the square of the cosine between the normal and the
+    // way to the point is less than this
     float least_square_cosine[3];
     unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
   };

@@ -2,9 +2,9 @@
 //
 // fix large/body: a body that spans sub-domains, in contact with the particles of the group.
 //
-// A thin style: parses, checks, and hands the host's arrays to Talus::BodyContacts (src/body). Parts:
-// large_body_shapes.h (shapes), large_body_motion.h (motions), large_body_surface.h (pictures, loads
-// of triangles), fix_large_body_store.cpp (migration and restart).
+// A thin style: parses, checks, and hands the host's arrays to Talus::BodyContacts (src/body).
+// Parts: large_body_shapes.h (shapes), large_body_motion.h (motions), large_body_surface.h
+// (pictures, loads of triangles), fix_large_body_store.cpp (migration and restart).
 // doc/fix_large_body.md is the user's page.
 
 #ifndef LMP_FIX_LARGE_BODY_H
@@ -110,9 +110,9 @@ class FixLargeBody : public Fix {
   Talus::EnergyAccount account;
   std::vector<double> virials;    // by particle
 
-  Talus::BodyLoad mine, total;      // of this rank, and of all
-  bool reduced = false;             // forces and torques of total are those of the last step
-  bool total_is_known = false;      // all of it is
+  Talus::BodyLoad mine, total;    // of this rank, and of all
+  bool reduced = false;           // forces and torques of total are those of the last step
+  bool total_is_known = false;    // all of it is
   Talus::ExactLoad exact;
   static constexpr int size_digits = 6 * Talus::ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};

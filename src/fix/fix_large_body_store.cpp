@@ -119,8 +119,10 @@ void FixLargeBody::restart(char *buf)
                "that contact history cannot be assigned: define the fix right after read_restart",
                id);
   if (!motion.from_array(&values[1]) && comm->me == 0)
-    error->warning(FLERR, "Fix large/body {}: the restart file has another kind of motion: the body "
-                          "begins where this command puts it", id);
+    error->warning(FLERR,
+                   "Fix large/body {}: the restart file has another kind of motion: the body "
+                   "begins where this command puts it",
+                   id);
   surface->read_work(values, 1 + LargeBodyMotion::size_restart);
 }
 

@@ -259,8 +259,10 @@ BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
 {
   constexpr int size = BodyState::size;
   if (narg < 1 + size)
-    error->all(FLERR, "fix_modify state: expected 13 numbers (position, quaternion, velocity, "
-                      "angular velocity) instead of {}", narg - 1);
+    error->all(FLERR,
+               "fix_modify state: expected 13 numbers (position, quaternion, velocity, "
+               "angular velocity) instead of {}",
+               narg - 1);
   double value[size];
   for (int k = 0; k < size; k++) {
     value[k] = utils::is_double(arg[1 + k]) ? std::strtod(arg[1 + k], nullptr) : NAN;
@@ -284,15 +286,18 @@ BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
 int LargeBodyMotion::set_state(int narg, char **arg, double way, double reach)
 {
   if (kind != Kind::EXTERNAL)
-    error->all(FLERR, "fix_modify state: the body is not steered from outside: use 'move external'");
+    error->all(FLERR,
+               "fix_modify state: the body is not steered from outside: use 'move external'");
   int steps;
   const BodyState target = state_from(narg, arg, steps);
   BodyFrame there = now;
   there.set(target);
   const double jump = largest_displacement(now, there, reach) / std::max(steps, 1);
   if (jump > way)
-    error->all(FLERR, "fix_modify state: the body would go {:.4g} in one step, which is more than "
-                      "the skin {:.4g}: give states more often, or with 'after N'", jump, way);
+    error->all(FLERR,
+               "fix_modify state: the body would go {:.4g} in one step, which is more than "
+               "the skin {:.4g}: give states more often, or with 'after N'",
+               jump, way);
   BodyState state = now.state;
   guided.guide(state, target, steps);
   now.set(state);

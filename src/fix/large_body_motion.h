@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How a large body moves: the words `move`, `servo`, `gravity` and `load` of fix large/body, and the
-// state of the body from step to step. Everything that a restart needs is in to_array().
+// How a large body moves: the words `move`, `servo`, `gravity` and `load` of fix large/body, and
+// the state of the body from step to step. Everything that a restart needs is in to_array().
 
 #ifndef TALUS_LARGE_BODY_MOTION_H
 #define TALUS_LARGE_BODY_MOTION_H

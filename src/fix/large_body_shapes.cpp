@@ -31,8 +31,7 @@ using namespace Talus;
 
 std::unique_ptr<LargeBodyShape> LargeBodyShapes::parse(bool two_sided)
 {
-  if (words.at_end())
-    error->all(FLERR, "fix large/body: missing shape: {}", known);
+  if (words.at_end()) error->all(FLERR, "fix large/body: missing shape: {}", known);
   const std::string shape = words.text("shape");
   words.about(shape);
   if (shape == "plane") return plane(two_sided);
@@ -100,8 +99,8 @@ LargeBodyShapes::Shape LargeBodyShapes::cylinder()
   const Vector3<double> centre = words.vector("centre (cx cy cz)");
   const Vector3<double> axis = words.direction("axis (ax ay az)");
   const double radius = words.positive("radius r");
-  const double length = words.take("INF") ? std::numeric_limits<double>::infinity()
-                                          : words.positive("length l");
+  const double length =
+      words.take("INF") ? std::numeric_limits<double>::infinity() : words.positive("length l");
   return std::make_unique<Frustum>(centre, axis, radius, radius, length, parse_inside());
 }
 
@@ -180,20 +179,21 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   const MeshReport &r = surface.report();
   const auto warn = [&](int count, int first, const char *what) {
     if (count && comm->me == 0)
-      error->warning(FLERR, "fix large/body mesh '{}': {} {}; the first is triangle {}", file, count,
-                     what, first);
+      error->warning(FLERR, "fix large/body mesh '{}': {} {}; the first is triangle {}", file,
+                     count, what, first);
   };
   if (r.turned_edges && !two_sided)
-    words.fail(words.next - file_word + 1,
-               fmt::format("'{}': {} edges lie between triangles that face opposite sides, the first "
-                           "at triangle {}: repair the file, or use two-sided",
-                           file, r.turned_edges, r.first_turned));
+    words.fail(
+        words.next - file_word + 1,
+        fmt::format("'{}': {} edges lie between triangles that face opposite sides, the first "
+                    "at triangle {}: repair the file, or use two-sided",
+                    file, r.turned_edges, r.first_turned));
   warn(r.degenerate, r.first_degenerate, "triangles without area are left out");
   warn(r.duplicate, r.first_duplicate, "triangles that are there already are left out");
   warn(r.crowded_edges, r.first_crowded, "edges belong to more than two triangles");
   if (comm->me == 0)
-    utils::logmesg(lmp, "fix large/body mesh '{}': {} triangles, {}, {:.3g} MB on each rank\n", file,
-                   surface.size(),
+    utils::logmesg(lmp, "fix large/body mesh '{}': {} triangles, {}, {:.3g} MB on each rank\n",
+                   file, surface.size(),
                    r.closed() ? fmt::format("closed, volume {:.6g}", surface.volume())
                               : fmt::format("{} open edges", r.open_edges),
                    shape->memory_usage() / 1048576.0);
@@ -223,10 +223,8 @@ LargeBodyShapes::Shape LargeBodyShapes::custom()
   }
   // stays open: shapes made by it may outlive this command
   void *library = platform::dlopen(file);
-  if (!library)
-    words.fail(count + 2, "cannot open '" + file + "': " + platform::dlerror());
-  auto make =
-      reinterpret_cast<MakeShapeFunction>(platform::dlsym(library, TALUS_MAKE_SHAPE_NAME));
+  if (!library) words.fail(count + 2, "cannot open '" + file + "': " + platform::dlerror());
+  auto make = reinterpret_cast<MakeShapeFunction>(platform::dlsym(library, TALUS_MAKE_SHAPE_NAME));
   if (!make)
     words.fail(count + 2,
                "'" + file + "' has no function " + TALUS_MAKE_SHAPE_NAME + ": see custom_shape.h");

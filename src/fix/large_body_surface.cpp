@@ -101,8 +101,9 @@ void LargeBodySurface::read_work(const std::vector<double> &values, int first)
 {
   if (!with_loads || comm->me) return;    // the sum over ranks is kept by one
   if (static_cast<int>(values.size()) != first + size()) {
-    error->warning(FLERR, "Fix large/body: the restart file has no shear work of these triangles: it "
-                          "begins at zero");
+    error->warning(FLERR,
+                   "Fix large/body: the restart file has no shear work of these triangles: it "
+                   "begins at zero");
     return;
   }
   for (int t = 0; t < size(); t++) loads[fields * t + WORK] = values[first + t];
@@ -166,9 +167,11 @@ void LargeBodySurface::write_picture(const BodyFrame &frame)
                static_cast<double>(update->ntimestep));
   std::fprintf(fp, "POINTS %zu double\n", 3 * n);
   for (const Triangle &t : triangles)
-    for (const Vector3<double> &p : t.corner) std::fprintf(fp, "%.10g %.10g %.10g\n", p.x, p.y, p.z);
+    for (const Vector3<double> &p : t.corner)
+      std::fprintf(fp, "%.10g %.10g %.10g\n", p.x, p.y, p.z);
   std::fprintf(fp, "POLYGONS %zu %zu\n", n, 4 * n);
-  for (std::size_t t = 0; t < n; t++) std::fprintf(fp, "3 %zu %zu %zu\n", 3 * t, 3 * t + 1, 3 * t + 2);
+  for (std::size_t t = 0; t < n; t++)
+    std::fprintf(fp, "3 %zu %zu %zu\n", 3 * t, 3 * t + 1, 3 * t + 2);
   if (with_loads) {
     static const char *const names[columns] = {"pressure", "shear_stress", "shear_work"};
     std::fprintf(fp, "CELL_DATA %zu\n", n);

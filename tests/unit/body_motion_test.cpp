@@ -47,10 +47,12 @@ TEST(BodyMotion, PrescribedStatesAndTheirVelocities)
   for (const PrescribedMotion &m :
        {PrescribedMotion::linear({1.0, -2.0, 0.5}), PrescribedMotion::wiggle({0.3, 0.0, 1.0}, 2.5),
         PrescribedMotion::rotate(point, axis, 3.0)}) {
-    const BodyState before = m.at(0.7 - h, start), now = m.at(0.7, start), after = m.at(0.7 + h, start);
+    const BodyState before = m.at(0.7 - h, start), now = m.at(0.7, start),
+                    after = m.at(0.7 + h, start);
     EXPECT_NEAR(length(0.5 / h * (after.position - before.position) - now.velocity), 0.0, 1e-8);
     EXPECT_EQ(length(m.at(0.0, start).position - start), 0.0);
-    EXPECT_NEAR(after.orientation.angle_from(before.orientation), 2.0 * h * length(now.spin), 1e-12);
+    EXPECT_NEAR(after.orientation.angle_from(before.orientation), 2.0 * h * length(now.spin),
+                1e-12);
   }
   const BodyState quarter = PrescribedMotion::rotate({0, 0, 0}, {0, 0, 1}, 4.0).at(1.0, {1, 0, 5});
   EXPECT_NEAR(length(quarter.position - V{0, 1, 5}), 0.0, 1e-15);
@@ -115,7 +117,8 @@ TEST(BodyMotion, LargestDisplacementBounds)
   EXPECT_GT(most, 0.9 * largest_displacement(a, b, 3.0));
 }
 
-/// Largest relative drift of energy and angular momentum of a free asymmetric top over a time of 20.
+/// Largest relative drift of energy and angular momentum of a free asymmetric top over a time
+/// of 20.
 struct Drift {
   double energy, momentum;
 };
@@ -135,7 +138,8 @@ Drift drift(double dt)
   for (int n = 0; n < static_cast<int>(20.0 / dt + 0.5); n++) {
     body.advance(state, {0, 0, 0}, {0, 0, 0}, dt);
     worst.energy = std::max(worst.energy, std::fabs(body.kinetic_energy(state) / e0 - 1.0));
-    worst.momentum = std::max(worst.momentum, length(body.angular_momentum(state) - l0) / length(l0));
+    worst.momentum =
+        std::max(worst.momentum, length(body.angular_momentum(state) - l0) / length(l0));
   }
   return worst;
 }

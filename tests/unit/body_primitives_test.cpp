@@ -148,7 +148,8 @@ TEST(Primitives, BallFromBothSides)
 TEST(Primitives, CylinderMantleCapsAndRim)
 {
   const V z{0, 0, 1};
-  const Frustum outside({0, 0, 0}, z, 1.0, 1.0, 4.0, false), inside({0, 0, 0}, z, 1.0, 1.0, 4.0, true);
+  const Frustum outside({0, 0, 0}, z, 1.0, 1.0, 4.0, false),
+      inside({0, 0, 0}, z, 1.0, 1.0, 4.0, true);
   Found f = contacts_of(outside, {0.0, 1.2, 0.5}, 0.3);
   ASSERT_EQ(f.count, 1);
   expect_contact(f.contact[0], {0, 1, 0}, 0.1);
@@ -217,8 +218,9 @@ TEST(Primitives, BoxOfTrianglesAgrees)
         ASSERT_NEAR(length(a.contact[k].normal - b.contact[k].normal), 0.0, 1e-12);
       }
       compared += a.count > 0;
-      corners += a.count > 1 || (a.count == 1 && length(cross(a.contact[0].normal, {1, 0, 0})) < 0.9 &&
-                                 std::fabs(a.contact[0].normal.x) < 0.9);
+      corners +=
+          a.count > 1 || (a.count == 1 && length(cross(a.contact[0].normal, {1, 0, 0})) < 0.9 &&
+                          std::fabs(a.contact[0].normal.x) < 0.9);
     }
     EXPECT_GT(compared, 500);
     EXPECT_GT(corners, 50);

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Meshes are seamless: a sphere that drops, slides and rolls over a plane cut into triangles follows
-// the same path as over a plane; convex and concave edges against closed forms.
+// Meshes are seamless: a sphere that drops, slides and rolls over a plane cut into triangles
+// follows the same path as over a plane; convex and concave edges against closed forms.
 
 #include "body/body_contacts.h"
 #include "body/mesh_shape.h"
@@ -59,9 +59,8 @@ std::vector<Triangle> cut_plane(const Axes &axes, double half, int n, double sha
     for (int i = 0; i <= n; i++) {
       const bool inner = i > 0 && i < n && j > 0 && j < n;
       const double s = inner ? shake * cell : 0.0;
-      corner[j * (n + 1) + i] =
-          axes.at(-half + i * cell + s * random.uniform(-1.0, 1.0),
-                  -half + j * cell + s * random.uniform(-1.0, 1.0), 0.0);
+      corner[j * (n + 1) + i] = axes.at(-half + i * cell + s * random.uniform(-1.0, 1.0),
+                                        -half + j * cell + s * random.uniform(-1.0, 1.0), 0.0);
     }
   std::vector<Triangle> soup;
   for (int j = 0; j < n; j++)
@@ -187,15 +186,16 @@ TEST_P(SeamlessPlane, SamePathAsOnAPlane)
 // 2, 800 and, on the finest, 10 082 triangles
 INSTANTIATE_TEST_SUITE_P(Cuts, SeamlessPlane, testing::Values(1, 20, 71));
 
-/// Two half planes that meet along the y axis with a dihedral angle, each 4 x 4; `bend` > 0: a ridge.
+/// Two half planes that meet along the y axis with a dihedral angle, each 4 x 4; `bend` > 0: a
+/// ridge.
 MeshShape roof(double bend)
 {
   const double c = 4.0 * std::cos(0.5 * bend), s = -4.0 * std::sin(0.5 * bend);
   const V a{0, -2, 0}, b{0, 2, 0}, left0{-c, -2, s}, left1{-c, 2, s}, right0{c, -2, s},
       right1{c, 2, s};
-  return MeshShape(TriangleMesh({{{a, b, left0}}, {{left0, b, left1}},
-                                 {{b, a, right0}}, {{b, right0, right1}}}),
-                   false);
+  return MeshShape(
+      TriangleMesh({{{a, b, left0}}, {{left0, b, left1}}, {{b, a, right0}}, {{b, right0, right1}}}),
+      false);
 }
 
 TEST(MeshEdges, RidgeTouchesOnceWithTheNormalFromTheEdge)
@@ -236,7 +236,8 @@ TEST(MeshEdges, ValleyTouchesBothSides)
 TEST(MeshEdges, CornerAndRimOfASheet)
 {
   const MeshShape sheet(TriangleMesh({{{V{0, 0, 0}, V{1, 0, 0}, V{1, 1, 0}}},
-                                      {{V{0, 0, 0}, V{1, 1, 0}, V{0, 1, 0}}}}), false);
+                                      {{V{0, 0, 0}, V{1, 1, 0}, V{0, 1, 0}}}}),
+                        false);
   SurfaceContact contact;
   const V at_corner{-0.1, -0.2, 0.2};
   ASSERT_TRUE(sheet.touches(at_corner, 0.4, contact));

@@ -50,9 +50,8 @@ std::string binary(std::uint32_t announced, int n, const std::string &text, floa
 
 TEST(Stl, Ascii)
 {
-  const auto triangles =
-      parse_stl("solid a name with facet in it\n" + facet + facet + "endsolid\nsolid b\n" + facet +
-                "endsolid b\n");
+  const auto triangles = parse_stl("solid a name with facet in it\n" + facet + facet +
+                                   "endsolid\nsolid b\n" + facet + "endsolid b\n");
   ASSERT_EQ(triangles.size(), 3U);
   EXPECT_EQ(triangles[1].corner[1].x, 1.0);
   EXPECT_EQ(triangles[2].corner[2].y, 0.25);
@@ -71,7 +70,8 @@ TEST(Stl, BinaryEvenIfItBeginsWithSolid)
 TEST(Stl, ReasonsOfRefusal)
 {
   EXPECT_EQ(reason(""), "the file is empty");
-  EXPECT_EQ(reason("PK"), "it is no STL file: it neither begins with 'solid' nor has a binary header");
+  EXPECT_EQ(reason("PK"),
+            "it is no STL file: it neither begins with 'solid' nor has a binary header");
   EXPECT_EQ(reason("solid nothing\nendsolid\n"), "it has no triangles");
   EXPECT_EQ(reason(binary(0, 0, "")), "it has no triangles");
   EXPECT_EQ(reason(binary(3, 2, "")),
@@ -87,7 +87,8 @@ TEST(Stl, ReasonsOfRefusal)
             "line 4: expected a finite number instead of 'nan'");
   EXPECT_EQ(reason("solid x\nfacet normal 0 0 1\ninner loop\n"),
             "line 3: expected 'outer' instead of 'inner'");
-  EXPECT_EQ(reason("solid x\nvertex\n"), "line 2: expected 'facet' or 'endsolid' instead of 'vertex'");
+  EXPECT_EQ(reason("solid x\nvertex\n"),
+            "line 2: expected 'facet' or 'endsolid' instead of 'vertex'");
 }
 
 }    // namespace
