@@ -27,4 +27,13 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
 #endif
 
+// Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
+// dump_image.cpp alone.
+#if TALUS_LAMMPS_VERSION >= 20260000
+#include "graphics.h"
+#define TALUS_IMAGE_TRIANGLE LAMMPS_NS::Graphics::TRI
+#else
+#define TALUS_IMAGE_TRIANGLE 2
+#endif
+
 #endif

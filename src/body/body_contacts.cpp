@@ -8,188 +8,233 @@
 namespace Talus {
 namespace {
 
+// A body may go half a skin before its list is made anew; particles may each go half a skin in one
+// direction before the rebuild that the list is made after, and half a skin in the other.
+constexpr double free_way = 0.5;
+
 Vector3<double> row(const double *rows, int i)
 {
   return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
 }
 
-void add(double *rows, int i, const Vector3<double> &value)
+double length(const Vector3<double> &v)
 {
-  rows[3L * i] += value.x;
-  rows[3L * i + 1] += value.y;
-  rows[3L * i + 2] += value.z;
-}
-
-Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
-{
-  return {v[0][k], v[1][k], v[2][k]};
-}
-
-void set_lane(double (&v)[3][ContactBatch::width], int k, const Vector3<double> &value)
-{
-  v[0][k] = value.x;
-  v[1][k] = value.y;
-  v[2][k] = value.z;
+  return std::sqrt(dot(v, v));
 }
 
 }    // namespace
 
-BodyContacts::BodyContacts()
-{
-  batch.clear();
-}
-
-void BodyContacts::set_laws(const LawTable &table)
+void BodyContacts::set_laws(const LawTable &table, bool one_contact)
 {
   laws = table;
+  single = one_contact;
   with_history = laws.has_history();
   with_onset = laws.has_onset();
 }
 
-void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyParticleView &view,
-                                   const int *mask, int group, double skin)
+void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
+                                   const BodyParticleView &view, const int *mask, int group,
+                                   double skin)
 {
   candidates.clear();
+  listed_at.clear();
+  parts.clear();
+  parts_begin.assign(1, 0);
+  listed_frame = frame;
+  listed_reach = 0.0;
+  const double margin = frame.moves ? (1.0 + free_way) * skin : skin;
   for (int i = 0; i < view.owned; i++) {
-    const bool near =
-        (mask[i] & group) && shape.distance_bound(row(view.x, i)) < view.radius[i] + skin;
+    bool near = false;
+    if (mask[i] & group) {
+      const Vector3<double> x = frame.point_to_body(row(view.x, i));
+      const double reach = view.radius[i] + margin;
+      if (frame.moves) listed_reach = std::max(listed_reach, length(x - frame.origin) + reach);
+      near = single ? shape.distance_bound(x) < reach : shape.is_near(x, reach, parts);
+      if (near && !single) {
+        listed_at.push_back(x);
+        parts_begin.push_back(parts.size());
+      }
+    }
     if (near) candidates.push_back(i);
     if (!near) forget(i);
   }
 }
 
+void BodyContacts::follow(const LargeBodyShape &shape, const BodyFrame &frame,
+                          const BodyParticleView &view, const int *mask, int group, double skin)
+{
+  if (!frame.moves) return;
+  if (largest_displacement(listed_frame, frame, listed_reach) <= free_way * skin) return;
+  find_candidates(shape, frame, view, mask, group, skin);
+}
+
 void BodyContacts::forget(int i)
 {
-  if (with_history) history[i] = Record{};
+  if (!with_history) return;
+  if (!single) {
+    memory.forget(i);
+    return;
+  }
+  history[i] = Record{};
   if (with_onset) onset[i] = Record{};
 }
 
-BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
-                               bool advance, EnergyAccount *account)
+BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &frame,
+                               const BodyParticleView &view, const BodyStep &step)
 {
-  energies = account;
-  if (energies) remember_velocities(view);
-  BodyLoad load;
-  for (int law = 0; law < laws.num_laws(); law++) {
-    int filled = 0;
-    for (const int i : candidates) {
-      if (laws.law_index(laws.row(view.type[i], view.type[i])) != law) continue;
-      SurfaceContact contact;
-      if (!shape.touches(row(view.x, i), view.radius[i], contact)) {
-        forget(i);
-        continue;
-      }
-      add_lane(filled++, i, contact, view);
-      if (filled == ContactBatch::width) {
-        flush(law, filled, shape, view, dt, advance, load);
-        filled = 0;
-      }
-    }
-    if (filled) flush(law, filled, shape, view, dt, advance, load);
+  const bool many = step.threads > 1 && !step.account && shape.thread_safe();
+  const int threads = many ? step.threads : 1;
+  while (static_cast<int>(batches.size()) < threads)
+    batches.push_back(std::make_unique<BodyBatch>());
+  if (step.account) remember_velocities(frame, view, *step.account);
+  const BodyTask task{laws,
+                      frame,
+                      view,
+                      step.dt,
+                      step.advance,
+                      step.exact != nullptr,
+                      step.touched != nullptr,
+                      step.account};
+  new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
+
+  const std::size_t n = candidates.size();
+#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
+  for (int t = 0; t < threads; t++) {
+    batches[t]->start(task.exact);
+    for (std::size_t c = n * t / threads; c < n * (t + 1) / threads && !single; c++)
+      new_lists[c].batch = t;
+    compute_range(shape, task, *batches[t], n * t / threads, n * (t + 1) / threads);
   }
+
+  BodyLoad load;
+  largest_overlap = 0.0;
+  if (step.exact) step.exact->clear();
+  if (step.touched) step.touched->clear();
+  for (int t = 0; t < threads; t++) {
+    const BodyBatch &b = *batches[t];
+    load.add(b.load);
+    largest_overlap = std::max(largest_overlap, b.largest_overlap);
+    if (step.exact) step.exact->add(b.exact);
+    if (step.touched) step.touched->insert(step.touched->end(), b.touched.begin(), b.touched.end());
+  }
+  if (keeps_lists() && step.advance) renew_memory(threads);
   return load;
 }
 
-/* A fixed body is infinitely heavy and its surface does not move: m_eff is the mass of the
-   particle, R_eff its radius. */
-
-void BodyContacts::add_lane(int lane, int i, const SurfaceContact &contact,
-                            const BodyParticleView &view)
+void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &task,
+                                 BodyBatch &batch, std::size_t begin, std::size_t end)
 {
-  const bool replaced = view.mass_override && view.mass_override[i] > 0.0;
-  atom_of_lane[lane] = i;
-  set_lane(batch.normal, lane, contact.normal);
-  batch.overlap[lane] = contact.overlap;
-  set_lane(batch.velocity, lane, row(view.v, i));
-  set_lane(batch.spin, lane, view.radius[i] * row(view.omega, i));
-  batch.inverse_mass[lane] = 1.0 / (replaced ? view.mass_override[i] : view.mass[i]);
-  batch.inverse_radius[lane] = 1.0 / view.radius[i];
-  batch.coefficients[lane] = laws.row(view.type[i], view.type[i]);
-  if (laws.has_resistance()) {
-    // the body is flat on the scale of the contact: the circle in which it cuts the sphere
-    const double r = view.radius[i], d = contact.overlap;
-    set_lane(batch.relative_spin, lane, row(view.omega, i));
-    batch.circle[lane] = std::sqrt(std::max(2.0 * r * d - d * d, 0.0));
-  }
-  if (!with_history) return;
-  const Record &h = history[i];
-  set_lane(batch.displacement, lane, {h.c[0], h.c[1], h.c[2]});
-  batch.at_limit[lane] = h.c[3];
-  if (!with_onset) return;
-  const Record &o = onset[i];
-  set_lane(batch.onset, lane, {o.c[0], o.c[1], o.c[2]});
-}
-
-void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
-                         const BodyParticleView &view, double dt, bool advance, BodyLoad &load)
-{
-  // lanes behind the last contact hold older, finite contacts: computed, but not used
-  const int end = (count + lanes - 1) / lanes * lanes;
-  laws.kernel(law, advance)(batch, 0, end, laws.coefficients(), dt);
-  for (int lane = 0; lane < count; lane++) {
-    apply(lane, laws.distinct_law(law), shape, view, load);
-    if (with_history && advance) keep_history(lane);
-    if (energies) account_for_lane(lane, laws.distinct_law(law), view, dt);
+  batch.flat_history = single ? &history : nullptr;
+  batch.flat_onset = single ? &onset : nullptr;
+  for (int law = 0; law < laws.num_laws(); law++) {
+    for (std::size_t c = begin; c < end; c++) {
+      const int type = task.view.type[candidates[c]];
+      if (laws.law_index(laws.row(type, type)) != law) continue;
+      if (single)
+        touch_once(shape, task, batch, law, c);
+      else
+        touch_often(shape, task, batch, law, c);
+    }
+    batch.flush(task, law);
   }
 }
 
-void BodyContacts::account_for_lane(int lane, ContactLaw law, const BodyParticleView &view,
-                                    double dt)
+void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
+                              int law, std::size_t c)
 {
-  const int i = atom_of_lane[lane];
-  largest_overlap = std::max(largest_overlap, batch.overlap[lane] / view.radius[i]);
-  energies->add(lane_energy(law, laws.coefficients(batch.coefficients[lane]), batch, lane, dt), 1.0,
-                i, view.radius[i], -1, 0.0);
+  static const Record none{};
+  const int i = candidates[c];
+  SurfaceContact contact;
+  if (shape.touches(task.frame.point_to_body(row(task.view.x, i)), task.view.radius[i], contact))
+    batch.add(task, law, i, contact, with_history ? history[i] : none, with_onset ? onset[i] : none,
+              i);
+  else
+    forget(i);
 }
 
-void BodyContacts::keep_history(int lane)
+/* Only parts that the particle can have reached since they were listed. */
+
+NearParts BodyContacts::parts_near(std::size_t c, const Vector3<double> &x, double radius) const
 {
-  const int i = atom_of_lane[lane];
-  const Vector3<double> d = lane_of(batch.displacement, lane), o = lane_of(batch.onset, lane);
-  history[i] = {{d.x, d.y, d.z, batch.at_limit[lane]}};
-  if (with_onset) onset[i] = {{o.x, o.y, o.z, 0.0}};
+  const NearPart *const begin = parts.data() + parts_begin[c];
+  const NearPart *const last = parts.data() + parts_begin[c + 1];
+  // a little more than the way that it went: rounding must not hide a part
+  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed_at[c]) + 1.0e-9 * radius;
+  const NearPart *end = begin;    // nearest first
+  while (end != last && end->distance < reach) end++;
+  return {begin, end};
 }
 
-/* The reaction acts where the lever arm of the particle ends, r along the normal: so forces and
-   torques of particle and body balance exactly. */
-
-void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape,
-                         const BodyParticleView &view, BodyLoad &load)
+void BodyContacts::touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
+                               int law, std::size_t c)
 {
-  const int i = atom_of_lane[lane];
-  const double r = view.radius[i];
-  const Vector3<double> force = lane_of(batch.force, lane);
-  add(view.f, i, force);
-  const Vector3<double> couple =
-      law.resists ? lane_of(batch.couple, lane) : Vector3<double>{0.0, 0.0, 0.0};
-  if (law.has_friction()) add(view.torque, i, couple - r * lane_of(batch.moment, lane));
-
-  const Vector3<double> arm =
-      row(view.x, i) - r * lane_of(batch.normal, lane) - shape.reference_point();
-  load.force = load.force - force;
-  load.torque = load.torque - cross(arm, force) - couple;
-  load.contacts += 1.0;
+  const int i = candidates[c];
+  const Vector3<double> x = task.frame.point_to_body(row(task.view.x, i));
+  SurfaceContact found[LargeBodyShape::max_contacts];
+  const int count =
+      shape.find_contacts(x, task.view.radius[i], parts_near(c, x, task.view.radius[i]), found);
+  NewList &list = new_lists[c];
+  list.first = static_cast<int>(batch.remembered.size());
+  list.count = count;
+  unsigned taken = 0;
+  // all of a particle's contacts first: a full batch writes back histories
+  RememberedContact old[LargeBodyShape::max_contacts];
+  for (int k = 0; k < count; k++) {
+    old[k] = RememberedContact{found[k].normal, Record{}, Record{}};
+    const int known = with_history ? memory.find(i, found[k].normal, taken) : -1;
+    if (known >= 0) {
+      old[k].history = memory.begin(i)[known].history;
+      old[k].onset = memory.begin(i)[known].onset;
+    }
+    batch.remembered.push_back(old[k]);
+  }
+  for (int k = 0; k < count; k++)
+    batch.add(task, law, i, found[k], old[k].history, old[k].onset, list.first + k);
 }
 
-void BodyContacts::remember_velocities(const BodyParticleView &view)
+void BodyContacts::renew_memory(int threads)
 {
-  energies->begin_step(view.owned);
-  largest_overlap = 0.0;
-  velocity_before.clear();
-  spin_before.clear();
+  memory.start_step();
+  std::vector<int> first;
+  for (int t = 0; t < threads; t++) first.push_back(memory.append(batches[t]->remembered));
+  for (std::size_t c = 0; c < candidates.size(); c++)
+    memory.set_list(candidates[c], first[new_lists[c].batch] + new_lists[c].first,
+                    new_lists[c].count);
+  memory.end_step();
+}
+
+void BodyContacts::remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
+                                       EnergyAccount &account)
+{
+  account.begin_step(view.owned);
+  before.clear();
+  frame_before = frame;
   for (const int i : candidates) {
-    velocity_before.push_back(row(view.v, i));
-    spin_before.push_back(row(view.omega, i));
+    Motion m{row(view.v, i), row(view.omega, i), row(view.x, i)};
+    if (frame.moves) {
+      m.velocity = frame.to_body(m.velocity - frame.velocity_at(m.place));
+      m.spin = frame.to_body(m.spin - frame.state.spin);
+    }
+    before.push_back(m);
   }
 }
 
-void BodyContacts::account_for_move(const BodyParticleView &view, double dt,
+/* Work is that of the velocities past each other, each the mean of before and after the kick: then
+   it is what particles and body lose. */
+
+void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleView &view, double dt,
                                     EnergyAccount &to) const
 {
   for (std::size_t n = 0; n < candidates.size(); n++) {
     const int i = candidates[n];
-    to.move(i, dt, 0.5 * (velocity_before[n] + row(view.v, i)),
-            0.5 * (spin_before[n] + row(view.omega, i)));
+    Vector3<double> velocity = row(view.v, i), spin = row(view.omega, i);
+    if (frame_before.moves) {
+      const Vector3<double> arm = before[n].place - frame_before.state.position;
+      velocity =
+          frame_before.to_body(velocity - frame.state.velocity - cross(frame.state.spin, arm));
+      spin = frame_before.to_body(spin - frame.state.spin);
+    }
+    to.move(i, dt, 0.5 * (before[n].velocity + velocity), 0.5 * (before[n].spin + spin));
   }
   to.end_step();
 }
@@ -197,7 +242,10 @@ void BodyContacts::account_for_move(const BodyParticleView &view, double dt,
 double BodyContacts::memory_usage() const
 {
   return static_cast<double>((history.capacity() + onset.capacity()) * sizeof(Record) +
-                             candidates.capacity() * sizeof(int));
+                             candidates.capacity() * sizeof(int) +
+                             listed_at.capacity() * sizeof(Vector3<double>) +
+                             parts.capacity() * sizeof(NearPart)) +
+         memory.memory_usage();
 }
 
 }    // namespace Talus

@@ -4,90 +4,105 @@
 // kernels as contacts between particles. Knows nothing of the host.
 //
 //   at a rebuild   find_candidates()
-//   every step     compute()
+//   every step     follow(), compute()
 
 #ifndef TALUS_BODY_BODY_CONTACTS_H
 #define TALUS_BODY_BODY_CONTACTS_H
 
-#include "body/large_body_shape.h"
-#include "contact/contact_batch.h"
-#include "contact/contact_energy.h"
-#include "contact/law_table.h"
-#include "contact/record.h"
+#include "body/body_batch.h"
+#include "body/contact_memory.h"
 
+#include <memory>
 #include <vector>
 
 namespace Talus {
 
-/// The host's arrays, rows of three doubles. Forces and torques are added to.
-struct BodyParticleView {
-  int owned;
-  const double *x, *v, *omega;
-  const double *radius, *mass;
-  const double
-      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
-  const int *type;       ///< counts from 1
-  double *f, *torque;
-};
-
-/// What the particles of one rank do to the body: force, and torque about its reference point.
-struct BodyLoad {
-  Vector3<double> force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
-  double contacts = 0.0;
+/// How a step is computed.
+struct BodyStep {
+  double dt = 0.0;
+  bool advance = true;    ///< false while a run is set up: histories are then only read
+  int threads = 1;
+  EnergyAccount *account = nullptr;               ///< receives the energies; takes one thread
+  ExactLoad *exact = nullptr;                     ///< receives the load without rounding
+  std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
 };
 
 class BodyContacts {
  public:
-  BodyContacts();
-
-  /// Law of each particle type t against the body: row (t, t) of the table.
-  void set_laws(const LawTable &table);
+  /// Law of each particle type t against the body: row (t, t) of the table; and whether the shape
+  /// touches a particle at one point at most.
+  void set_laws(const LawTable &table, bool one_contact);
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
-  /// than `skin`. Others have no contact: their history is forgotten.
-  void find_candidates(const LargeBodyShape &shape, const BodyParticleView &view, const int *mask,
-                       int group, double skin);
+  /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
+  void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
+                       const BodyParticleView &view, const int *mask, int group, double skin);
 
-  /// Adds the contact forces to the particles and returns their reaction. `advance` is false while
-  /// a run is set up: histories are then only read. `account`, if given, receives the energies.
-  BodyLoad compute(const LargeBodyShape &shape, const BodyParticleView &view, double dt,
-                   bool advance, EnergyAccount *account = nullptr);
+  /// In steps without a rebuild: lists anew if the body has moved too far since.
+  void follow(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
+              const int *mask, int group, double skin);
+
+  /// Adds the contact forces to the particles and returns their reaction.
+  BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
+                   const BodyParticleView &view, const BodyStep &step);
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
-  void account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const;
+  /// `frame`: with the velocity that the body has now.
+  void account_for_move(const BodyFrame &frame, const BodyParticleView &view, double dt,
+                        EnergyAccount &to) const;
+
+  /// Distance from the reference point within which all particles were when they were last listed;
+  /// only of bodies that move.
+  double reach() const { return listed_reach; }
 
   /// Largest overlap/radius of the last compute() with an account; 0 without contacts.
   double largest_overlap_ratio() const { return largest_overlap; }
 
   bool keeps_history() const { return with_history; }
   bool keeps_onset() const { return with_onset; }
+  bool keeps_lists() const { return with_history && !single; }
   double memory_usage() const;
 
   /// One record for each particle (host's index), zero without contact; empty if no law keeps
-  /// history. The owner resizes, moves and saves it with the particles.
+  /// history or if there may be more than one contact. The owner resizes, moves and saves them with
+  /// the particles.
   std::vector<Record> history;
   std::vector<Record> onset;    ///< the same, for laws that need to know how the contact began
+  ContactMemory memory;         ///< the same, if there may be more than one contact
 
  private:
-  void add_lane(int lane, int atom, const SurfaceContact &contact, const BodyParticleView &view);
-  void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view,
-             double dt, bool advance, BodyLoad &load);
-  void keep_history(int lane);
-  void account_for_lane(int lane, ContactLaw law, const BodyParticleView &view, double dt);
-  void remember_velocities(const BodyParticleView &view);
   void forget(int atom);
-  void apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
-             BodyLoad &load);
+  void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
+                     std::size_t begin, std::size_t end);
+  void touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
+                  std::size_t candidate);
+  void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
+                   std::size_t candidate);
+  NearParts parts_near(std::size_t candidate, const Vector3<double> &x, double radius) const;
+  void renew_memory(int threads);
+  void remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
+                           EnergyAccount &account);
 
   LawTable laws;
-  bool with_history = false, with_onset = false;
+  bool with_history = false, with_onset = false, single = true;
   std::vector<int> candidates;
-  ContactBatch batch;
-  EnergyAccount *energies = nullptr;
+  std::vector<Vector3<double>> listed_at;    // by candidate, frame of the body
+  std::vector<std::size_t> parts_begin;      // by candidate and one more
+  std::vector<NearPart> parts;
+  struct NewList {
+    int first, count, batch;
+  };
+  std::vector<NewList> new_lists;                     // by candidate
+  std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
+  BodyFrame listed_frame;
   double largest_overlap = 0.0;    // over radius
-  std::vector<Vector3<double>> velocity_before,
-      spin_before;    // of candidates, only with an account
-  int atom_of_lane[ContactBatch::width];
+  double listed_reach = 0.0;    // largest distance of a particle from the reference point
+
+  struct Motion {
+    Vector3<double> velocity, spin, place;    // frame of the body; place: in space
+  };
+  std::vector<Motion> before;    // of candidates, only with an account
+  BodyFrame frame_before;
 };
 
 }    // namespace Talus

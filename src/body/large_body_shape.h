@@ -1,13 +1,25 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Geometry of a large body: a body that spans sub-domains, is known to every rank and never becomes
-// a ghost. Derive from this class to add a shape of your own. Lengths are in the units of the
-// caller; no function may change the object, all may be called from several threads.
+// a ghost. Derive from this class to add a shape of your own; examples/custom_shape does.
+//
+// All points are given in the frame of the body, which is that of the input script at the beginning
+// of the run: a body that moves is asked with coordinates turned and shifted back. Lengths are in
+// the units of the caller. No function may change the object, and unless thread_safe() says no, all
+// may be called from several threads.
+//
+// A shape that touches a sphere at one point at most (one_contact()) implements touches() and
+// distance_bound(). One that may touch it at several points, such as the inside of a box,
+// implements find_contacts() as well, and is_near() if it wants to remember which parts of it are
+// near.
 
 #ifndef TALUS_BODY_LARGE_BODY_SHAPE_H
 #define TALUS_BODY_LARGE_BODY_SHAPE_H
 
 #include "contact/vector3.h"
+
+#include <algorithm>
+#include <vector>
 
 namespace Talus {
 
@@ -15,14 +27,38 @@ namespace Talus {
 struct SurfaceContact {
   Vector3<double> normal;    ///< unit vector from the body to the centre of the sphere
   double overlap;            ///< radius minus distance of the centre from the surface, > 0
+  int part = 0;              ///< the part that is touched; of a mesh, a triangle
+};
+
+/// A part of a body near some particle, and its distance at the time when it was listed.
+struct NearPart {
+  int part;
+  double distance;
+};
+
+/// The parts that may touch a sphere, as listed by is_near() and thinned out since.
+struct NearParts {
+  const NearPart *begin, *end;
+};
+
+struct Triangle {
+  Vector3<double> corner[3];
+};
+
+/// A box parallel to the axes.
+struct Bounds {
+  Vector3<double> low, high;
 };
 
 class LargeBodyShape {
  public:
+  /// No sphere touches a body at more points than this.
+  static constexpr int max_contacts = 8;
+
   virtual ~LargeBodyShape() = default;
 
-  /// Does the sphere touch the body? Fills `contact` only if it does. Called for every candidate
-  /// particle in every step.
+  /// Does the sphere touch the body? Fills `contact` (the deepest) only if it does. Called for
+  /// every candidate particle in every step if one_contact().
   virtual bool touches(const Vector3<double> &centre, double radius,
                        SurfaceContact &contact) const = 0;
 
@@ -30,9 +66,47 @@ class LargeBodyShape {
   /// sphere further away than its radius plus the skin is not looked at until the next rebuild.
   virtual double distance_bound(const Vector3<double> &centre) const = 0;
 
-  /// Point about which torques on the body are taken.
+  /// Point about which torques on the body are taken, in the frame of the body.
   virtual Vector3<double> reference_point() const = 0;
+
+  /// No sphere touches the body at more than one point.
+  virtual bool one_contact() const { return true; }
+
+  /// Fills found[0 ...] with at most max_contacts contacts, in an order that depends on nothing but
+  /// the sphere, and returns their number.
+  virtual int find_contacts(const Vector3<double> &centre, double radius, NearParts parts,
+                            SurfaceContact *found) const
+  {
+    (void) parts;
+    return touches(centre, radius, *found) ? 1 : 0;
+  }
+
+  /// Is the surface nearer than `reach`? Appends the parts which are, nearest first, if the shape
+  /// has any.
+  virtual bool is_near(const Vector3<double> &centre, double reach,
+                       std::vector<NearPart> &parts) const
+  {
+    (void) parts;
+    return distance_bound(centre) < reach;
+  }
+
+  virtual bool thread_safe() const { return true; }
+
+  /// For pictures: the surface as triangles; what is infinite ends at `visible`.
+  virtual void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+  {
+    (void) visible;
+    (void) triangles;
+  }
 };
+
+/// Puts contacts in the order that find_contacts() may return: deepest first, then by part.
+inline void sort_contacts(SurfaceContact *found, int count)
+{
+  std::sort(found, found + count, [](const SurfaceContact &a, const SurfaceContact &b) {
+    return a.overlap != b.overlap ? a.overlap > b.overlap : a.part < b.part;
+  });
+}
 
 }    // namespace Talus
 

@@ -5,6 +5,24 @@
 #include <cmath>
 
 namespace Talus {
+namespace {
+
+/// The part of a convex polygon where inward . x >= least.
+std::vector<Vector3<double>> clipped(const std::vector<Vector3<double>> &polygon,
+                                     const Vector3<double> &inward, double least)
+{
+  std::vector<Vector3<double>> kept;
+  for (std::size_t k = 0; k < polygon.size(); k++) {
+    const Vector3<double> &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double ha = dot(a, inward) - least, hb = dot(b, inward) - least;
+    if (ha >= 0.0) kept.push_back(a);
+    if ((ha > 0.0 && hb < 0.0) || (ha < 0.0 && hb > 0.0))
+      kept.push_back(a + ha / (ha - hb) * (b - a));
+  }
+  return kept;
+}
+
+}    // namespace
 
 Plane::Plane(const Vector3<double> &p, const Vector3<double> &n, bool both) :
     point(p), normal(n), two_sided(both)
@@ -24,6 +42,29 @@ bool Plane::touches(const Vector3<double> &centre, double radius, SurfaceContact
 double Plane::distance_bound(const Vector3<double> &centre) const
 {
   return std::fabs(dot(centre - point, normal));
+}
+
+/* A square larger than what is visible, cut off at its sides. */
+
+void Plane::tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+{
+  const Vector3<double> span = visible.high - visible.low;
+  const Vector3<double> centre = visible.low + 0.5 * span;
+  const Vector3<double> foot = centre - dot(centre - point, normal) * normal;
+  const Vector3<double> axis =
+      std::fabs(normal.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0} : Vector3<double>{0.0, 1.0, 0.0};
+  const double reach = 2.0 * std::sqrt(dot(span, span));
+  Vector3<double> u = cross(normal, axis);
+  u = reach / std::sqrt(dot(u, u)) * u;
+  const Vector3<double> v = cross(normal, u);
+  std::vector<Vector3<double>> polygon{foot - u - v, foot + u - v, foot + u + v, foot - u + v};
+  const Vector3<double> axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  for (const Vector3<double> &e : axes) {
+    polygon = clipped(polygon, e, dot(visible.low, e));
+    polygon = clipped(polygon, -e, -dot(visible.high, e));
+  }
+  for (std::size_t k = 1; k + 1 < polygon.size(); k++)
+    triangles.push_back({{polygon[0], polygon[k], polygon[k + 1]}});
 }
 
 }    // namespace Talus

@@ -20,6 +20,7 @@ class Plane : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &centre) const override;
   Vector3<double> reference_point() const override { return point; }
+  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
 
  private:
   Vector3<double> point, normal;

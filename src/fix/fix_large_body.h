@@ -3,6 +3,8 @@
 // fix large/body: a body that spans sub-domains, in contact with the particles of the group.
 //
 // A thin style: parses, checks, and hands the host's arrays to Talus::BodyContacts (src/body).
+// Parts: large_body_shapes.h (shapes), large_body_motion.h (motions), large_body_surface.h
+// (pictures, loads of triangles), fix_large_body_store.cpp (migration and restart).
 // doc/fix_large_body.md is the user's page.
 
 #ifndef LMP_FIX_LARGE_BODY_H
@@ -11,6 +13,9 @@
 #include "body/body_contacts.h"
 #include "body/large_body_shape.h"
 #include "fix.h"
+#include "fix/large_body_motion.h"
+#include "fix/large_body_surface.h"
+#include "fix/large_body_words.h"
 #include "pair/contact_command.h"
 #include "pair/effective_masses.h"
 
@@ -34,15 +39,22 @@ class FixLargeBody : public Fix {
   void min_setup(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
+  void end_of_step() override;
+  int modify_param(int, char **) override;
 
+  /// Energy stored in and dissipated by the contacts, and that of a free body.
+  double compute_scalar() override;
   /// force(3), torque(3), position(3), quaternion(4), velocity(3), angular velocity(3), contacts.
   double compute_vector(int) override;
+  /// By triangle of a mesh: pressure, shear stress, shear work per area.
+  double compute_array(int, int) override;
+  int image(int *&, double **&) override;
 
   /// For computes: from the next step on energies are accounted for; what the last step found on
   /// this rank.
   void keep_account() { keeps_account = true; }
   const Talus::EnergyAccount &energy_account() const { return account; }
-  double contacts_here() const { return load[6]; }
+  double contacts_here() const { return mine.contacts; }
   double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
 
   /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
@@ -64,37 +76,48 @@ class FixLargeBody : public Fix {
   double memory_usage() override;
 
  private:
-  int parse_shape(int narg, char **arg);
-  void parse_keywords(int iarg, int narg, char **arg);
-  void parse_contact_words(const CommandWords &words, int &iarg);
-  double number(int iarg, int narg, char **arg, const char *name);
-  Talus::Vector3<double> vector(int iarg, int narg, char **arg, const char *name);
-  Talus::Vector3<double> direction(int iarg, int narg, char **arg, const char *name);
-  void make_plane(int narg, char **arg);
-  void make_rectangle(int narg, char **arg);
+  void parse_keywords(LargeBodyWords &words);
+  void parse_contact_words(LargeBodyWords &words);
+  void offer_output();
+  void keep_history();
   void set_laws();
   Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
-  void reduce_load();
+  void find_region();
   void find_frozen();
   void clear_frozen();
+  void compute_contacts(const Talus::BodyParticleView &to, bool advance);
+  void tally_virial();
+  void collect_digits();
+  void begin_reduction();
+  void finish_reduction();
+  void reduce_load();
+  void reduce_exactly();
   int size_packed() const;
+  int max_packed() const;
 
   bool two_sided = false;
   bool with_history = false, with_onset = false;
   std::unique_ptr<Talus::LargeBodyShape> shape;
+  LargeBodyMotion motion;
+  std::unique_ptr<LargeBodySurface> surface;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;
   int already_frozen = 0;    // groups whose forces a fix freeze has set to zero before this fix
 
-  bool keeps_account = false;
+  bool keeps_account = false, has_forces = false;
   Talus::EnergyAccount account;
+  std::vector<double> virials;    // by particle
 
-  double load[7] = {};          // of this rank: force, torque, contacts
-  double total_load[7] = {};    // of all ranks
-  bigint reduced_at = -1;       // step of total_load
+  Talus::BodyLoad mine, total;    // of this rank, and of all
+  bool reduced = false;           // forces and torques of total are those of the last step
+  bool total_is_known = false;    // all of it is
+  Talus::ExactLoad exact;
+  static constexpr int size_digits = 6 * Talus::ExactSum::size;
+  std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
+  MPI_Request reduction = MPI_REQUEST_NULL;
 };
 
 }    // namespace LAMMPS_NS

@@ -91,8 +91,8 @@ SURPLUS = [    # words behind a complete law
 
 PLANE, RECTANGLE = "plane 0 0 0 0 0 1", "rectangle 0 0 0 0 0 1 1 0 0 2 3"
 LARGE_BODY = [    # words after fix f all large/body, message, marked word
-    ("", "fix large/body: missing shape: plane or rectangle", None),
-    ("flat 0 0 0 0 0 1 " + LAW, "fix large/body: unknown shape 'flat', expected plane or rectangle",
+    ("", "fix large/body: missing shape: plane, rectangle, box, sphere", None),
+    ("flat 0 0 0 0 0 1 " + LAW, "fix large/body: unknown shape 'flat', expected plane, rectangle, box",
      "flat"),
     ("plane", "fix large/body plane: missing point (px py pz)", "plane"),
     ("plane 0 0 77", "fix large/body plane: missing normal (nx ny nz)", "77"),
@@ -121,8 +121,8 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
     (f"{PLANE} contact types", "fix large/body contact: missing types, e.g. 1 or 1*3", "types"),
     (f"{PLANE} contact types 3 hooke 1 1", "Numeric index 3 is out of bounds (1-2)", None),
     (f"{PLANE} contact types hooke 1 1", "Invalid range string: hooke", None),
-    (f"{PLANE} {LAW} move none", "fix large/body: unknown word 'move', expected contact, two-sided",
-     "move"),
+    (f"{PLANE} {LAW} turn none", "fix large/body: unknown word 'turn', expected contact, two-sided",
+     "turn"),
     (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact, "
      "two-sided", "onesided"),
 ]

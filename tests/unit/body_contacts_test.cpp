@@ -33,7 +33,8 @@ class BodyContactsTest : public testing::TestWithParam<int> {
     laws = GetParam() < 2
                ? mixed_laws()
                : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
-    contacts.set_laws(laws);
+    contacts.set_laws(laws, true);
+    frame.origin = shape->reference_point();
     if (contacts.keeps_history()) contacts.history.resize(p.size());
     mask.assign(p.size(), 1);
   }
@@ -42,10 +43,19 @@ class BodyContactsTest : public testing::TestWithParam<int> {
   {
     force.assign(p.size(), Vector{});
     torque.assign(p.size(), Vector{});
-    return contacts.compute(*shape, view(), dt, advance);
+    return contacts.compute(*shape, frame, view(), step_of(advance));
   }
 
-  void find() { contacts.find_candidates(*shape, view(), mask.data(), 1, skin); }
+  static BodyStep step_of(bool advance)
+  {
+    BodyStep step;
+    step.dt = dt;
+    step.advance = advance;
+    step.threads = GetParam() == 2 ? 3 : 1;
+    return step;
+  }
+
+  void find() { contacts.find_candidates(*shape, frame, view(), mask.data(), 1, skin); }
 
   BodyParticleView view()
   {
@@ -84,6 +94,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
   Packing p;
   std::unique_ptr<LargeBodyShape> shape;
   LawTable laws;
+  BodyFrame frame;
   BodyContacts contacts;
   std::vector<int> mask;
   std::vector<Vector> force, torque;
@@ -148,7 +159,7 @@ TEST_P(BodyContactsTest, ForcesAreAdded)
   find();
   compute(false);
   const std::vector<Vector> once = force;
-  contacts.compute(*shape, view(), dt, false);
+  contacts.compute(*shape, frame, view(), step_of(false));
   for (int i = 0; i < p.size(); i++)
     for (int d = 0; d < 3; d++) EXPECT_EQ(force[i][d], 2.0 * once[i][d]);
 }
@@ -219,8 +230,8 @@ TEST_P(BodyContactsTest, NoParticlesNoLoad)
   p = random_packing(0, random);
   const BodyParticleView nothing{0,       nullptr, nullptr, nullptr, nullptr,
                                  nullptr, nullptr, nullptr, nullptr, nullptr};
-  contacts.find_candidates(*shape, nothing, nullptr, 1, skin);
-  const BodyLoad load = contacts.compute(*shape, nothing, dt, true);
+  contacts.find_candidates(*shape, frame, nothing, nullptr, 1, skin);
+  const BodyLoad load = contacts.compute(*shape, frame, nothing, step_of(true));
   EXPECT_EQ(load.contacts, 0.0);
   EXPECT_EQ(dot(load.force, load.force) + dot(load.torque, load.torque), 0.0);
 }

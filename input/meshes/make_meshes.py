@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Makes the STL files of the scenes, in units of their radius: drum, hopper, wheel.  Run in this folder."""
+
+import math
+import struct
+
+
+def write_stl(path, triangles):
+    with open(path, "wb") as file:
+        file.write(b"made by make_meshes.py".ljust(80) + struct.pack("<I", len(triangles)))
+        for corners in triangles:
+            file.write(struct.pack("<12f", 0, 0, 0, *(c for corner in corners for c in corner)))
+            file.write(b"\0\0")
+
+
+def turned(profile, sectors, axis="z", inward=True):
+    """Surface of revolution of a list of (radius, height): normals to the left of its way, if inward."""
+    def at(k, j):
+        r, h = profile[k]
+        a = 2 * math.pi * (j % sectors) / sectors
+        p = (r * math.cos(a), r * math.sin(a), h)
+        return p if axis == "z" else (p[1], p[2], p[0])
+
+    found = []
+    for k in range(len(profile) - 1):
+        for j in range(sectors):
+            a, b, c, d = at(k, j), at(k, j + 1), at(k + 1, j + 1), at(k + 1, j)
+            found += [(a, c, b), (a, d, c)] if inward else [(a, b, c), (a, c, d)]
+    return [t for t in found if len(set(t)) == 3]
+
+
+def lifter(angle, low, high, width, half):
+    """A bar along the y axis on a cylinder, from radius low to high: closed, normals outward."""
+    c, s = math.cos(angle), math.sin(angle)
+
+    def at(r, t, y):
+        return (r * s + t * c, y, r * c - t * s)
+
+    corners = [at(r, t, y) for r in (low, high) for t in (-width, width) for y in (-half, half)]
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    found = []
+    for a, b, c2, d in quads:
+        found += [(corners[a], corners[b], corners[c2]), (corners[a], corners[c2], corners[d])]
+    middle = tuple(sum(p[k] for p in corners) / 8 for k in range(3))
+
+    def outward(t):
+        u, v = ([t[n][k] - t[0][k] for k in range(3)] for n in (1, 2))
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        return t if sum(normal[k] * (t[0][k] - middle[k]) for k in range(3)) > 0 else t[::-1]
+
+    return [outward(t) for t in found]
+
+
+# axis y, radius 1, length 0.6, four lifters; closed
+drum = turned([(0.0, -0.3), (1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")
+for k in range(4):
+    drum += lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
+write_stl("drum.stl", drum)
+
+# axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
+height = 0.7 * math.tan(math.radians(60))
+write_stl("hopper.stl", turned([(0.3, 0.0), (1.0, height), (1.0, height + 2.5)], 64))
+
+# axis y, radius 0.9, width 0.8, sixteen grousers up to radius 1; closed
+wheel = turned([(0.0, -0.4), (0.9, -0.4), (0.9, 0.4), (0.0, 0.4)], 64, "y", inward=False)
+for k in range(16):
+    wheel += lifter(2 * math.pi * k / 16, 0.85, 1.0, 0.02, 0.4)
+write_stl("wheel.stl", wheel)

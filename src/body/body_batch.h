@@ -1,0 +1,92 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contacts of particles with a large body on their way through the kernel: one batch for each
+// thread. Everything is computed in the frame of the body, where the body is at rest and the
+// histories turn with it; forces are turned back.
+
+#ifndef TALUS_BODY_BODY_BATCH_H
+#define TALUS_BODY_BODY_BATCH_H
+
+#include "body/body_load.h"
+#include "body/body_state.h"
+#include "body/contact_memory.h"
+#include "body/large_body_shape.h"
+#include "contact/contact_batch.h"
+#include "contact/contact_energy.h"
+#include "contact/law_table.h"
+#include "contact/record.h"
+
+#include <vector>
+
+namespace Talus {
+
+/// The host's arrays, rows of three doubles. Forces, torques and virials are added to.
+struct BodyParticleView {
+  int owned;
+  const double *x, *v, *omega;
+  const double *radius, *mass;
+  const double
+      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
+  const int *type;       ///< counts from 1
+  double *f, *torque;
+  double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
+};
+
+/// What a part of the body felt in one step.
+struct TouchedPart {
+  int part;
+  double normal_force;      ///< > 0: pressed
+  Vector3<double> shear;    ///< tangential force on the body, its frame
+  double shear_power;       ///< that force times the velocity of the surfaces past each other
+};
+
+/// One evaluation of all contacts of a body.
+struct BodyTask {
+  const LawTable &laws;
+  const BodyFrame &frame;
+  const BodyParticleView &view;
+  double dt;
+  bool advance;    ///< false: histories are only read
+  bool exact;      ///< sum the load without rounding as well
+  bool record_parts;
+  EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
+};
+
+class BodyBatch {
+ public:
+  BodyBatch();
+
+  void start(bool exact);
+
+  /// Adds a contact of a particle, with the history and onset that it continues. `slot`: index in
+  /// kept() where the new ones go. The batch is computed when it is full.
+  void add(const BodyTask &task, int law, int atom, const SurfaceContact &contact,
+           const Record &history, const Record &onset, int slot);
+  /// Computes what is left of this law. Call before contacts of another one are added.
+  void flush(const BodyTask &task, int law);
+
+  /// Where histories go: a flat array by particle, or lists of this batch.
+  std::vector<Record> *flat_history = nullptr, *flat_onset = nullptr;
+  std::vector<RememberedContact> remembered;
+
+  BodyLoad load;
+  ExactLoad exact;
+  std::vector<TouchedPart> touched;
+  double largest_overlap = 0.0;    ///< over radius; only with energies
+
+ private:
+  void keep_history(int lane, bool with_onset);
+  void apply(const BodyTask &task, int lane, ContactLaw law);
+  void add_virial(const BodyParticleView &view, int atom, const Vector3<double> &branch,
+                  const Vector3<double> &force);
+  void record(const BodyTask &task, int lane);
+
+  ContactBatch batch;
+  int filled = 0;
+  int atom_of_lane[ContactBatch::width], slot_of_lane[ContactBatch::width],
+      part_of_lane[ContactBatch::width];
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,332 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/large_body_motion.h"
+
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "utils.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+LargeBodyMotion::LargeBodyMotion(LAMMPS *lmp) : Pointers(lmp), gravity(lmp, "Fix large/body")
+{
+  clock.step = update->ntimestep;
+}
+
+/* ---- words ---------------------------------------------------------------------------------- */
+
+bool LargeBodyMotion::parse(LargeBodyWords &words)
+{
+  if (words.is_next("move") || words.is_next("servo")) {
+    words.about(words.text("keyword"));
+    if (kind != Kind::NONE) words.fail(1, "the body has a motion already");
+    if (strcmp(words.arg[words.next - 1], "move") == 0)
+      parse_move(words);
+    else
+      parse_servo(words);
+    return true;
+  }
+  if (words.is_next("gravity")) {
+    if (gravity.given()) words.fail(0, "keyword 'gravity' given twice");
+    words.next += gravity.parse(words.narg, words.arg, words.next);
+    return true;
+  }
+  if (words.take("load")) {
+    words.about("load");
+    for (Quantity &q : given_load) q = quantity(words, "force and torque (fx fy fz tx ty tz)");
+    has_load = true;
+    return true;
+  }
+  return false;
+}
+
+void LargeBodyMotion::parse_move(LargeBodyWords &words)
+{
+  const std::string style = words.text("style of motion");
+  words.about("move " + style);
+  kind = Kind::PRESCRIBED;
+  if (style == "none") {
+    kind = Kind::NONE;
+  } else if (style == "linear") {
+    const double x = words.number_or_null("velocity (vx vy vz)"),
+                 y = words.number_or_null("velocity (vx vy vz)"),
+                 z = words.number_or_null("velocity (vx vy vz)");
+    prescribed = std::make_unique<PrescribedMotion>(PrescribedMotion::linear({x, y, z}));
+  } else if (style == "wiggle") {
+    const double x = words.number_or_null("amplitude (ax ay az)"),
+                 y = words.number_or_null("amplitude (ax ay az)"),
+                 z = words.number_or_null("amplitude (ax ay az)");
+    prescribed = std::make_unique<PrescribedMotion>(
+        PrescribedMotion::wiggle({x, y, z}, words.positive("period")));
+  } else if (style == "rotate") {
+    const Vector3<double> point = words.vector("point (px py pz)");
+    const Vector3<double> axis = words.direction("axis (ax ay az)");
+    prescribed = std::make_unique<PrescribedMotion>(
+        PrescribedMotion::rotate(point, axis, words.positive("period")));
+  } else if (style == "variable") {
+    kind = Kind::VARIABLE;
+    parse_variable(words);
+  } else if (style == "external") {
+    kind = Kind::EXTERNAL;
+  } else if (style == "free") {
+    kind = Kind::FREE;
+    parse_free(words);
+  } else {
+    words.about("move");
+    words.fail(1, "expected none, linear, wiggle, rotate, variable, external or free instead of '" +
+                      style + "'");
+  }
+}
+
+/* The words of fix move variable, and an angle about an axis through the reference point. */
+
+void LargeBodyMotion::parse_variable(LargeBodyWords &words)
+{
+  for (int k = 0; k < 6; k++) path[k] = quantity(words, "displacement and velocity");
+  if (!words.take("angle")) return;
+  for (int k = 6; k < 8; k++) path[k] = quantity(words, "angle and angular velocity");
+  angle_axis = words.direction("axis (ax ay az)");
+}
+
+void LargeBodyMotion::parse_free(LargeBodyWords &words)
+{
+  static const char *const freedoms[] = {"x", "y", "z", "rx", "ry", "rz"};
+  for (bool more = true; more;) {
+    if (words.take("mass")) {
+      rigid.mass = words.positive("mass M");
+    } else if (words.take("inertia")) {
+      for (double &moment : rigid.inertia) moment = words.positive("inertia (Ixx Iyy Izz)");
+    } else if (words.take("com")) {
+      centre_of_mass = std::make_unique<Vector3<double>>(words.vector("com (x y z)"));
+    } else if (words.take("velocity")) {
+      initial.velocity = words.vector("velocity (vx vy vz)");
+    } else if (words.take("spin")) {
+      initial.spin = words.vector("spin (wx wy wz)");
+    } else if (words.take("lock")) {
+      const int first = words.next;
+      for (bool known = true; known;) {
+        known = false;
+        for (int k = 0; k < 6; k++)
+          if (words.take(freedoms[k])) known = rigid.locked[k] = true;
+      }
+      if (words.next == first) words.fail(0, "expected one or more of x y z rx ry rz after lock");
+    } else {
+      more = false;
+    }
+  }
+  if (rigid.mass == 0.0) words.fail(1, "missing mass M");
+  if (rigid.inertia[0] == 0.0) words.fail(1, "missing inertia Ixx Iyy Izz");
+  const double *i = rigid.inertia;
+  for (int k = 0; k < 3; k++)
+    if (i[k] > (i[(k + 1) % 3] + i[(k + 2) % 3]) * (1.0 + 1.0e-12))
+      words.fail(1, "no body has these moments of inertia: each is at most the sum of the others");
+}
+
+void LargeBodyMotion::parse_servo(LargeBodyWords &words)
+{
+  kind = Kind::SERVO;
+  const std::string what = words.text("force or torque");
+  if (what != "force" && what != "torque")
+    words.fail(1, "expected force or torque instead of '" + what + "'");
+  servo.turns = what == "torque";
+  servo.axis = words.direction("axis (x y z)");
+  servo.target = words.number("target");
+  if (servo.target == 0.0) words.fail(1, "target must not be zero");
+  servo.vmax = words.positive("vmax");
+  if (words.take("gain")) servo.gain = words.positive("gain");
+}
+
+LargeBodyMotion::Quantity LargeBodyMotion::quantity(LargeBodyWords &words, const char *name)
+{
+  Quantity q;
+  const bool is_variable = !words.at_end() && utils::strmatch(words.arg[words.next], "^v_");
+  if (is_variable)
+    q.name = words.arg[words.next++] + 2;
+  else
+    q.value = words.number_or_null(name);
+  return q;
+}
+
+void LargeBodyMotion::finish(LargeBodyWords &words, const Vector3<double> &reference)
+{
+  words.about("");
+  if (gravity.given() && kind != Kind::FREE)
+    error->all(FLERR, "fix large/body: gravity acts on bodies with 'move free' only");
+  if (has_load && kind != Kind::FREE)
+    error->all(FLERR, "fix large/body: load acts on bodies with 'move free' only");
+  if (domain->dimension == 2) rigid.locked[2] = rigid.locked[3] = rigid.locked[4] = true;
+  now.moves = moves();
+  now.origin = centre_of_mass ? *centre_of_mass : reference;
+  now.inverse_mass = kind == Kind::FREE && rigid.translates() ? 1.0 / rigid.mass : 0.0;
+  initial.position = now.origin;
+  now.set(initial);
+}
+
+/* ---- motion --------------------------------------------------------------------------------- */
+
+void LargeBodyMotion::find(Quantity &q)
+{
+  if (q.name.empty()) return;
+  q.index = input->variable->find(q.name.c_str());
+  if (q.index < 0) error->all(FLERR, "Fix large/body: variable '{}' does not exist", q.name);
+  if (!input->variable->equalstyle(q.index))
+    error->all(FLERR, "Fix large/body: variable '{}' is not an equal-style variable", q.name);
+}
+
+void LargeBodyMotion::init()
+{
+  for (Quantity &q : path) find(q);
+  for (Quantity &q : given_load) find(q);
+}
+
+double LargeBodyMotion::evaluate(const Quantity &q)
+{
+  return q.name.empty() ? q.value : input->variable->compute_equal(q.index);
+}
+
+void LargeBodyMotion::evaluate_state()
+{
+  modify->clearstep_compute();
+  double value[8];
+  for (int k = 0; k < 8; k++) value[k] = evaluate(path[k]);
+  modify->addstep_compute(update->ntimestep + 1);
+  for (const double v : value)
+    if (!std::isfinite(v)) error->all(FLERR, "Fix large/body move variable: a value is not finite");
+  BodyState state;
+  state.position = now.origin + Vector3<double>{value[0], value[1], value[2]};
+  state.velocity = {value[3], value[4], value[5]};
+  if (value[6] != 0.0) state.orientation = Quaternion::turn(value[6], angle_axis);
+  state.spin = value[7] * angle_axis;
+  now.set(state);
+}
+
+void LargeBodyMotion::place()
+{
+  if (kind == Kind::VARIABLE) evaluate_state();
+  if (kind == Kind::PRESCRIBED)
+    now.set(prescribed->at(clock.read(update->ntimestep, update->dt), now.origin));
+}
+
+void LargeBodyMotion::advance(const BodyLoad &load)
+{
+  if (kind == Kind::NONE) return;
+  if (depends_on_time()) {
+    place();
+    return;
+  }
+  const double dt = update->dt, unit = force->ftm2v;
+  BodyState state = now.state;
+  if (kind == Kind::EXTERNAL) guided.advance(state, dt);
+  if (kind == Kind::SERVO) servo.advance(state, load.force, load.torque, dt);
+  if (kind == Kind::FREE) {
+    double given[6] = {};
+    if (has_load) {
+      modify->clearstep_compute();
+      for (int k = 0; k < 6; k++) given[k] = evaluate(given_load[k]);
+      modify->addstep_compute(update->ntimestep + 1);
+    }
+    const Vector3<double> f = load.force + Vector3<double>{given[0], given[1], given[2]};
+    const Vector3<double> t = load.torque + Vector3<double>{given[3], given[4], given[5]};
+    const double *g = gravity.acceleration();
+    rigid.advance(state, unit / rigid.mass * f + unit * Vector3<double>{g[0], g[1], g[2]}, unit * t,
+                  dt);
+  }
+  now.set(state);
+}
+
+double LargeBodyMotion::energy() const
+{
+  if (kind != Kind::FREE) return 0.0;
+  const double *g = gravity.acceleration();
+  return force->mvv2e * rigid.kinetic_energy(now.state) -
+         rigid.mass * dot({g[0], g[1], g[2]}, now.state.position);
+}
+
+/* ---- states from outside -------------------------------------------------------------------- */
+
+BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
+{
+  constexpr int size = BodyState::size;
+  if (narg < 1 + size)
+    error->all(FLERR,
+               "fix_modify state: expected 13 numbers (position, quaternion, velocity, "
+               "angular velocity) instead of {}",
+               narg - 1);
+  double value[size];
+  for (int k = 0; k < size; k++) {
+    value[k] = utils::is_double(arg[1 + k]) ? std::strtod(arg[1 + k], nullptr) : NAN;
+    if (!std::isfinite(value[k]))
+      error->all(FLERR, "fix_modify state: expected a finite number instead of '{}'", arg[1 + k]);
+  }
+  double norm = 0.0;
+  for (int k = 3; k < 7; k++) norm += value[k] * value[k];
+  if (std::fabs(norm - 1.0) > 1.0e-6)
+    error->all(FLERR, "fix_modify state: the quaternion {} {} {} {} is not of length 1", value[3],
+               value[4], value[5], value[6]);
+  steps = 0;
+  if (narg > 1 + size && strcmp(arg[1 + size], "after") == 0) {
+    if (narg < 3 + size || !utils::is_integer(arg[2 + size]) || std::atoi(arg[2 + size]) < 0)
+      error->all(FLERR, "fix_modify state after: expected a number of steps, 0 or more");
+    steps = std::atoi(arg[2 + size]);
+  }
+  return BodyState::from_array(value);
+}
+
+int LargeBodyMotion::set_state(int narg, char **arg, double way, double reach)
+{
+  if (kind != Kind::EXTERNAL)
+    error->all(FLERR,
+               "fix_modify state: the body is not steered from outside: use 'move external'");
+  int steps;
+  const BodyState target = state_from(narg, arg, steps);
+  BodyFrame there = now;
+  there.set(target);
+  const double jump = largest_displacement(now, there, reach) / std::max(steps, 1);
+  if (jump > way)
+    error->all(FLERR,
+               "fix_modify state: the body would go {:.4g} in one step, which is more than "
+               "the skin {:.4g}: give states more often, or with 'after N'",
+               jump, way);
+  BodyState state = now.state;
+  guided.guide(state, target, steps);
+  now.set(state);
+  const bool has_after =
+      narg > 1 + BodyState::size && strcmp(arg[1 + BodyState::size], "after") == 0;
+  return 1 + BodyState::size + (has_after ? 2 : 0);
+}
+
+/* ---- restart -------------------------------------------------------------------------------- */
+
+void LargeBodyMotion::to_array(double *a) const
+{
+  *a++ = static_cast<double>(kind);
+  now.state.to_array(a);
+  a += BodyState::size;
+  *a++ = clock.time;
+  *a++ = static_cast<double>(clock.step);
+  *a++ = clock.dt;
+  guided.to_array(a);
+}
+
+bool LargeBodyMotion::from_array(const double *a)
+{
+  if (*a++ != static_cast<double>(kind)) return false;
+  now.set(BodyState::from_array(a));
+  a += BodyState::size;
+  clock.time = *a++;
+  clock.step = static_cast<std::int64_t>(*a++);
+  clock.dt = *a++;
+  guided.from_array(a);
+  return true;
+}

@@ -1,0 +1,97 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// How a large body moves: the words `move`, `servo`, `gravity` and `load` of fix large/body, and
+// the state of the body from step to step. Everything that a restart needs is in to_array().
+
+#ifndef TALUS_LARGE_BODY_MOTION_H
+#define TALUS_LARGE_BODY_MOTION_H
+
+#include "body/body_load.h"
+#include "body/body_state.h"
+#include "body/guided_motion.h"
+#include "body/prescribed_motion.h"
+#include "body/rigid_body.h"
+#include "fix/constant_gravity.h"
+#include "fix/large_body_words.h"
+#include "lmptype.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LargeBodyMotion : protected Pointers {
+ public:
+  explicit LargeBodyMotion(LAMMPS *lmp);
+
+  /// One of move, servo, gravity, load with its arguments, if that is the next word.
+  bool parse(LargeBodyWords &words);
+  /// After all words: checks that they go together. `reference`: of the shape.
+  void finish(LargeBodyWords &words, const Talus::Vector3<double> &reference);
+
+  /// The body as contacts see it; changes with place() and advance().
+  const Talus::BodyFrame &frame() const { return now; }
+  bool moves() const { return kind != Kind::NONE; }
+  /// A function of time, so that steps must be counted without a gap.
+  bool depends_on_time() const { return kind == Kind::PRESCRIBED || kind == Kind::VARIABLE; }
+  /// The load of a step is needed for the next one.
+  bool driven_by_load() const { return kind == Kind::FREE || kind == Kind::SERVO; }
+
+  /// At the start of a run: finds variables.
+  void init();
+  /// Before the first forces of a run: the state at this step.
+  void place();
+  /// To this step from the one before. `load`: of all ranks, at the step before, if driven by it.
+  void advance(const Talus::BodyLoad &load);
+
+  /// Kinetic energy and that in the field of gravity of a free body, otherwise 0.
+  double energy() const;
+
+  /// `fix_modify ID state ...`: returns the number of words. `way`: how far at most the body may go
+  /// in a step; `reach`: how far from the reference point its particles are.
+  int set_state(int narg, char **arg, double way, double reach);
+
+  /// kind, state, clock, guide
+  static constexpr int size_restart = 1 + Talus::BodyState::size + 3 + Talus::GuidedMotion::size;
+  void to_array(double *a) const;
+  /// False if the motion was of another kind: the body then begins where its words put it.
+  bool from_array(const double *a);
+
+ private:
+  enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO };
+  /// A number or an equal-style variable.
+  struct Quantity {
+    double value = 0.0;
+    std::string name;
+    int index = -1;
+  };
+  void parse_move(LargeBodyWords &words);
+  void parse_variable(LargeBodyWords &words);
+  void parse_free(LargeBodyWords &words);
+  void parse_servo(LargeBodyWords &words);
+  Quantity quantity(LargeBodyWords &words, const char *name);
+  void find(Quantity &q);
+  double evaluate(const Quantity &q);
+  void evaluate_state();
+  Talus::BodyState state_from(int narg, char **arg, int &steps) const;
+
+  Kind kind = Kind::NONE;
+  Talus::BodyFrame now;
+  Talus::MotionClock clock;
+  std::unique_ptr<Talus::PrescribedMotion> prescribed;
+  Quantity path[8];    // displacement, velocity, angle, angular velocity
+  Talus::Vector3<double> angle_axis{0.0, 0.0, 1.0};
+  Talus::GuidedMotion guided;
+  Talus::RigidBody rigid;
+  Talus::Servo servo;
+  Talus::BodyState initial;    // velocity and spin of a free body
+  std::unique_ptr<Talus::Vector3<double>> centre_of_mass;
+  ConstantGravity gravity;
+  bool has_load = false;
+  Quantity given_load[6];
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,45 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The word SHAPE of fix large/body and its arguments.
+
+#ifndef TALUS_LARGE_BODY_SHAPES_H
+#define TALUS_LARGE_BODY_SHAPES_H
+
+#include "body/large_body_shape.h"
+#include "fix/large_body_words.h"
+
+#include <memory>
+#include <string>
+
+namespace LAMMPS_NS {
+
+class LargeBodyShapes : protected Pointers {
+ public:
+  LargeBodyShapes(LAMMPS *lmp, LargeBodyWords &words) : Pointers(lmp), words(words) {}
+
+  /// Reads the shape and its arguments. Call on all ranks.
+  std::unique_ptr<Talus::LargeBodyShape> parse(bool two_sided);
+
+  static constexpr const char *known =
+      "plane, rectangle, box, sphere, cylinder, cone, mesh, region or custom";
+
+ private:
+  using Shape = std::unique_ptr<Talus::LargeBodyShape>;
+  Shape plane(bool two_sided);
+  Shape rectangle(bool two_sided);
+  Shape box();
+  Shape ball();
+  Shape cylinder();
+  Shape cone();
+  Shape mesh(bool two_sided);
+  Shape region();
+  Shape custom();
+  bool parse_inside();
+  std::string read_everywhere(const std::string &file);
+
+  LargeBodyWords &words;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,192 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/large_body_surface.h"
+
+#include "lammps_compat.h"
+
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+enum Field { NORMAL, SHEAR, WORK = 4 };
+constexpr int size_image = 10;    // type and three corners
+
+}    // namespace
+
+LargeBodySurface::LargeBodySurface(LAMMPS *lmp, const LargeBodyShape &its_shape) :
+    Pointers(lmp), shape(its_shape), mesh(dynamic_cast<const MeshShape *>(&its_shape))
+{
+}
+
+bool LargeBodySurface::parse(LargeBodyWords &words)
+{
+  if (words.take("pressure")) {
+    words.about("pressure");
+    const std::string choice = words.text("yes or no");
+    if (choice != "yes" && choice != "no")
+      words.fail(1, "expected yes or no instead of '" + choice + "'");
+    if (!mesh) words.fail(2, "only the triangles of a mesh are looked at one by one");
+    with_loads = choice == "yes";
+    loads.assign(with_loads ? fields * size() : 0, 0.0);
+    loads_of_all = loads;
+    return true;
+  }
+  if (words.take("vtk")) {
+    words.about("vtk");
+    interval = words.integer("interval N", 1);
+    file = words.text("file");
+    if (file.find('*') == std::string::npos)
+      words.fail(1, "the name of the file needs a * for the time step");
+    return true;
+  }
+  return false;
+}
+
+/* ---- loads ---------------------------------------------------------------------------------- */
+
+void LargeBodySurface::add_step(double dt)
+{
+  if (!with_loads) return;
+  for (int t = 0; t < size(); t++) std::fill_n(&loads[fields * t], WORK, 0.0);
+  for (const TouchedPart &p : parts) {
+    double *load = &loads[fields * p.part];
+    load[NORMAL] += p.normal_force;
+    load[SHEAR] += p.shear.x;
+    load[SHEAR + 1] += p.shear.y;
+    load[SHEAR + 2] += p.shear.z;
+    load[WORK] += dt * p.shear_power;
+  }
+  reduced = false;
+}
+
+void LargeBodySurface::reduce()
+{
+  if (reduced) return;
+  MPI_Allreduce(loads.data(), loads_of_all.data(), static_cast<int>(loads.size()), MPI_DOUBLE,
+                MPI_SUM, world);
+  reduced = true;
+}
+
+double LargeBodySurface::value(int t, int column)
+{
+  reduce();
+  const double *load = &loads_of_all[fields * t];
+  const double area = mesh->surface().area(t);
+  if (column == 0) return load[NORMAL] / area;
+  if (column == 2) return load[WORK] / area;
+  const double *s = load + SHEAR;
+  return std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / area;
+}
+
+void LargeBodySurface::append_work(std::vector<double> &values)
+{
+  if (!with_loads) return;
+  reduce();
+  for (int t = 0; t < size(); t++) values.push_back(loads_of_all[fields * t + WORK]);
+}
+
+void LargeBodySurface::read_work(const std::vector<double> &values, int first)
+{
+  if (!with_loads || comm->me) return;    // the sum over ranks is kept by one
+  if (static_cast<int>(values.size()) != first + size()) {
+    error->warning(FLERR,
+                   "Fix large/body: the restart file has no shear work of these triangles: it "
+                   "begins at zero");
+    return;
+  }
+  for (int t = 0; t < size(); t++) loads[fields * t + WORK] = values[first + t];
+}
+
+/* ---- pictures ------------------------------------------------------------------------------- */
+
+std::vector<Triangle> LargeBodySurface::triangles_in_space(const BodyFrame &frame) const
+{
+  // the simulation box as the body sees it
+  Bounds visible{{1.0e300, 1.0e300, 1.0e300}, {-1.0e300, -1.0e300, -1.0e300}};
+  for (int corner = 0; corner < 8; corner++) {
+    const Vector3<double> x{corner & 1 ? domain->boxhi[0] : domain->boxlo[0],
+                            corner & 2 ? domain->boxhi[1] : domain->boxlo[1],
+                            corner & 4 ? domain->boxhi[2] : domain->boxlo[2]};
+    const Vector3<double> p = frame.point_to_body(x);
+    visible.low = {std::min(visible.low.x, p.x), std::min(visible.low.y, p.y),
+                   std::min(visible.low.z, p.z)};
+    visible.high = {std::max(visible.high.x, p.x), std::max(visible.high.y, p.y),
+                    std::max(visible.high.z, p.z)};
+  }
+  std::vector<Triangle> triangles;
+  shape.tessellate(visible, triangles);
+  for (Triangle &t : triangles)
+    for (Vector3<double> &p : t.corner) p = frame.point_to_space(p);
+  return triangles;
+}
+
+int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&values)
+{
+  const std::vector<Triangle> all = triangles_in_space(frame);
+  image_values.clear();
+  for (std::size_t t = comm->me; t < all.size(); t += comm->nprocs) {
+    image_values.push_back(1.0);    // the color of particles of type 1, if it is by type
+    for (const Vector3<double> &p : all[t].corner) {
+      image_values.push_back(p.x);
+      image_values.push_back(p.y);
+      image_values.push_back(p.z);
+    }
+  }
+  const int count = static_cast<int>(image_values.size()) / size_image;
+  image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
+  image_rows.clear();
+  for (int k = 0; k < count; k++) image_rows.push_back(&image_values[size_image * k]);
+  kinds = image_kinds.data();
+  values = image_rows.data();
+  return count;
+}
+
+void LargeBodySurface::write_picture(const BodyFrame &frame)
+{
+  if (with_loads) reduce();
+  if (comm->me) return;
+  const std::string name = utils::star_subst(file, update->ntimestep, 0);
+  FILE *fp = std::fopen(name.c_str(), "w");
+  if (!fp) error->one(FLERR, "Fix large/body vtk: cannot write '{}'", name);
+  const std::vector<Triangle> triangles = triangles_in_space(frame);
+  const std::size_t n = triangles.size();
+  std::fprintf(fp, "# vtk DataFile Version 3.0\nTalus large body\nASCII\nDATASET POLYDATA\n");
+  std::fprintf(fp, "FIELD FieldData 1\nstep 1 1 double\n%.0f\n",
+               static_cast<double>(update->ntimestep));
+  std::fprintf(fp, "POINTS %zu double\n", 3 * n);
+  for (const Triangle &t : triangles)
+    for (const Vector3<double> &p : t.corner)
+      std::fprintf(fp, "%.10g %.10g %.10g\n", p.x, p.y, p.z);
+  std::fprintf(fp, "POLYGONS %zu %zu\n", n, 4 * n);
+  for (std::size_t t = 0; t < n; t++)
+    std::fprintf(fp, "3 %zu %zu %zu\n", 3 * t, 3 * t + 1, 3 * t + 2);
+  if (with_loads) {
+    static const char *const names[columns] = {"pressure", "shear_stress", "shear_work"};
+    std::fprintf(fp, "CELL_DATA %zu\n", n);
+    for (int c = 0; c < columns; c++) {
+      std::fprintf(fp, "SCALARS %s double 1\nLOOKUP_TABLE default\n", names[c]);
+      for (int t = 0; t < size(); t++) std::fprintf(fp, "%.10g\n", value(t, c));
+    }
+  }
+  const bool failed = std::ferror(fp) != 0;
+  if (std::fclose(fp) || failed) error->one(FLERR, "Fix large/body vtk: cannot write '{}'", name);
+}
+
+double LargeBodySurface::memory_usage() const
+{
+  return static_cast<double>((loads.capacity() + loads_of_all.capacity()) * sizeof(double) +
+                             parts.capacity() * sizeof(TouchedPart)) +
+         (mesh ? mesh->memory_usage() : 0.0);
+}

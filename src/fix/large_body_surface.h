@@ -1,0 +1,74 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The surface of a large body as triangles: pictures, files for ParaView, and what each triangle of
+// a mesh bears. Words `pressure` and `vtk` of fix large/body.
+
+#ifndef TALUS_LARGE_BODY_SURFACE_H
+#define TALUS_LARGE_BODY_SURFACE_H
+
+#include "body/body_batch.h"
+#include "body/body_state.h"
+#include "body/mesh_shape.h"
+#include "fix/large_body_words.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LargeBodySurface : protected Pointers {
+ public:
+  LargeBodySurface(LAMMPS *lmp, const Talus::LargeBodyShape &shape);
+
+  /// `pressure yes|no` or `vtk N file`, if that is the next word.
+  bool parse(LargeBodyWords &words);
+
+  /// Loads of triangles are asked for; how many there are.
+  bool records() const { return with_loads; }
+  int size() const { return mesh ? mesh->surface().size() : 0; }
+  /// 0: no pictures.
+  int picture_interval() const { return interval; }
+
+  /// Filled by the contacts of a step, then taken up by add_step(); dt 0 while a run is set up.
+  std::vector<Talus::TouchedPart> *touched() { return &parts; }
+  void add_step(double dt);
+
+  /// Pressure and shear stress in the last step, shear work per area since the start. All ranks.
+  static constexpr int columns = 3;
+  double value(int triangle, int column);
+
+  /// For dump image. Every rank gives its share of the triangles.
+  int image(const Talus::BodyFrame &frame, int *&kinds, double **&values);
+  /// For ParaView. All ranks.
+  void write_picture(const Talus::BodyFrame &frame);
+
+  /// Shear work of all ranks, for restart files; read_work() begins at values[first].
+  void append_work(std::vector<double> &values);
+  void read_work(const std::vector<double> &values, int first);
+
+  double memory_usage() const;
+
+ private:
+  std::vector<Talus::Triangle> triangles_in_space(const Talus::BodyFrame &frame) const;
+  void reduce();
+
+  const Talus::LargeBodyShape &shape;
+  const Talus::MeshShape *mesh;    // nullptr: another shape
+  bool with_loads = false;
+  int interval = 0;
+  std::string file;
+
+  std::vector<Talus::TouchedPart> parts;
+  // by triangle, of this rank: normal force, shear force (3), shear work; and of all ranks
+  static constexpr int fields = 5;
+  std::vector<double> loads, loads_of_all;
+  bool reduced = false;
+
+  std::vector<int> image_kinds;
+  std::vector<double> image_values;
+  std::vector<double *> image_rows;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/region_shape.h"
+
+#include "region.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using Talus::NearPart;
+using Talus::NearParts;
+using Talus::SurfaceContact;
+using Talus::Vector3;
+
+RegionShape::RegionShape(Region *r, const char *its_id) : region(r), id(its_id)
+{
+  if (region->bboxflag)
+    middle = {0.5 * (region->extent_xlo + region->extent_xhi),
+              0.5 * (region->extent_ylo + region->extent_yhi),
+              0.5 * (region->extent_zlo + region->extent_zhi)};
+}
+
+int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearParts /*parts*/,
+                               SurfaceContact *found) const
+{
+  const int touched = region->surface(x.x, x.y, x.z, radius);
+  std::vector<SurfaceContact> all;
+  for (int k = 0; k < touched; k++) {
+    const Region::Contact &c = region->contact[k];
+    if (!(c.r > 0.0) || c.r >= radius) continue;
+    const Vector3<double> away{c.delx, c.dely, c.delz};
+    all.push_back({1.0 / c.r * away, radius - c.r, c.iwall});
+  }
+  Talus::sort_contacts(all.data(), static_cast<int>(all.size()));
+  const int count = std::min(static_cast<int>(all.size()), max_contacts);
+  std::copy(all.begin(), all.begin() + count, found);
+  return count;
+}
+
+bool RegionShape::touches(const Vector3<double> &centre, double radius,
+                          SurfaceContact &contact) const
+{
+  SurfaceContact found[max_contacts];
+  const int count = find_contacts(centre, radius, {nullptr, nullptr}, found);
+  if (count) contact = found[0];
+  return count > 0;
+}
+
+bool RegionShape::is_near(const Vector3<double> &x, double reach,
+                          std::vector<NearPart> & /*parts*/) const
+{
+  return region->surface(x.x, x.y, x.z, reach) > 0;
+}
+
+/* Only is_near() is asked where there may be several contacts; a region does not know more. */
+
+double RegionShape::distance_bound(const Vector3<double> & /*centre*/) const
+{
+  return 0.0;
+}

@@ -1,0 +1,43 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_REGION_SHAPE_H
+#define TALUS_REGION_SHAPE_H
+
+#include "body/large_body_shape.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+class Region;
+
+/// The surface of a region of the host, seen from where its particles are, as fix wall/gran/region
+/// sees it. The region keeps its contacts in its own arrays, so one thread asks it.
+class RegionShape : public Talus::LargeBodyShape {
+ public:
+  RegionShape(Region *region, const char *id);
+
+  /// Regions may be deleted and defined anew between runs: tell the shape at the start of each.
+  const std::string &region_id() const { return id; }
+  void replace(Region *now) { region = now; }
+
+  bool touches(const Talus::Vector3<double> &centre, double radius,
+               Talus::SurfaceContact &contact) const override;
+  double distance_bound(const Talus::Vector3<double> &centre) const override;
+  Talus::Vector3<double> reference_point() const override { return middle; }
+  bool one_contact() const override { return false; }
+  bool thread_safe() const override { return false; }
+  int find_contacts(const Talus::Vector3<double> &centre, double radius, Talus::NearParts parts,
+                    Talus::SurfaceContact *found) const override;
+  bool is_near(const Talus::Vector3<double> &centre, double reach,
+               std::vector<Talus::NearPart> &parts) const override;
+
+ private:
+  Region *region;
+  std::string id;
+  Talus::Vector3<double> middle{0.0, 0.0, 0.0};
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

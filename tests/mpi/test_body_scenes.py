@@ -1,0 +1,100 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300
+"""The scenes with large bodies, small: rotating drum, plate penetration, wave tank, hopper, and the wheel that a Python
+program drives."""
+
+import glob
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import MPIEXEC, SceneCase
+
+SOURCE = os.environ["TALUS_SOURCE_DIR"]
+HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
+if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
+    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+
+
+class Scenes(SceneCase):
+
+    def setUp(self):
+        shutil.copytree(os.path.join(SOURCE, "input"), self.path("input"))
+
+    def simulate(self, name, np=2, **variables):
+        """{words: number} of the lines behind the title of the summary."""
+        with open(self.path(f"input/in.{name}")) as file:
+            script = file.read()
+        log = self.run_lammps(script, np=np, cwd=self.path("input"), variables={"out": self.dir, **variables}).log
+        lines = re.findall(r"^([a-zA-Z /-]+?) {2,}(-?[\d.]\S*)", log.rsplit("\n--- ", 1)[1], re.MULTILINE)
+        found = {words: float(number) for words, number in lines}
+        print(name, found)
+        for picture in glob.glob(self.path(f"{name}.*.png")):
+            with open(picture, "rb") as file:
+                self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+        return found
+
+    def table(self, name):
+        with open(self.path(name)) as file:
+            return [list(map(float, line.split())) for line in file if line[0] != "#"]
+
+    def test_drum(self):
+        found = self.simulate("drum", np=1, radius=9, period=0.6, time=0.4)
+        self.assertGreater(found["lean of the bed"], 8.0)
+        self.assertLess(found["lean of the bed"], 45.0)
+        self.assertAlmostEqual(found["torque on the drum / lever of the bed"], 1.0, delta=0.2)
+
+    def test_penetration(self):
+        self.simulate("penetration", np=1, width=8, settle=0.15, speed=0.4)
+        force = self.table("force.txt")
+        quarter = len(force) // 4
+        means = [sum(row[1] for row in force[k * quarter:(k + 1) * quarter]) / quarter for k in range(4)]
+        print("force in the quarters of the way:", means)
+        self.assertLess(abs(means[0]), means[2])
+        self.assertLess(means[1], means[3])
+        self.assertGreater(means[3], 0.02)
+
+    def test_wavetank(self):
+        found = self.simulate("wavetank", np=1, x=10, z=8, end=1.0, settle=0.2)
+        self.assertAlmostEqual(found["force on the tank / weight"], 1.0, delta=0.3)
+        slosh = [row[1] for row in self.table("slosh.txt")]
+        self.assertGreater(max(slosh) - min(slosh), 0.01)
+
+    def test_hopper(self):
+        found = self.simulate("hopper", np=1, radius=7, settle=0.05, time=0.1)
+        self.assertGreater(found["mass discharged / mass"], 0.03)
+        mass = [row[1] for row in self.table("discharge.txt")]
+        self.assertEqual(mass, sorted(mass))
+        self.assertEqual(mass[0], 0.0)
+
+    def test_wheel(self):
+        env = {**os.environ, "PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
+               "LD_LIBRARY_PATH": HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")}
+        rows = []
+        for np in (1, 2):
+            prefix = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
+            done = subprocess.run([*prefix, sys.executable, os.path.join(SOURCE, "examples/cosim/wheel.py"), "--quick",
+                                   "--out", self.dir], env=env, timeout=120, text=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT)
+            self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+            with open(self.path("wheel.csv")) as file:
+                rows.append(file.read())
+        print(done.stdout.strip())
+        self.assertEqual(rows[0], rows[1], "the same bits on 1 and 2 ranks")
+        numbers = [list(map(float, line.split(","))) for line in rows[0].splitlines()[1:]]
+        last = numbers[len(numbers) // 2:]
+        sinkage, lift = (sum(row[k] for row in last) / len(last) for k in (2, 4))
+        self.assertGreater(sinkage, 0.0)
+        self.assertLess(sinkage, 0.015)
+        self.assertAlmostEqual(lift, 1.0, delta=0.35)    # carries its load
+        with open(self.path("wheel.svg")) as file:
+            self.assertIn("drawbar pull", file.read())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,230 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// How bodies move: rotations, prescribed motions and their clock, guided motion, free rigid bodies,
+// and bodies that hold a force.
+
+#include "body/body_state.h"
+#include "body/guided_motion.h"
+#include "body/prescribed_motion.h"
+#include "body/rigid_body.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace Talus;
+
+namespace {
+
+using V = Vector3<double>;
+const double pi = std::acos(-1.0);
+
+double length(const V &v)
+{
+  return std::sqrt(dot(v, v));
+}
+
+TEST(BodyRotation, TurnsAndTurnsBack)
+{
+  const V axis{0.6, 0.0, 0.8}, v{0.3, -1.0, 2.0};
+  const Quaternion q = Quaternion::turn(1.1, axis);
+  const Rotation r(q);
+  // Rodrigues
+  const V expected = std::cos(1.1) * v + std::sin(1.1) * cross(axis, v) +
+                     (dot(axis, v) * (1.0 - std::cos(1.1))) * axis;
+  EXPECT_NEAR(length(r.to_space(v) - expected), 0.0, 1e-15);
+  EXPECT_NEAR(length(r.to_body(r.to_space(v)) - v), 0.0, 1e-15);
+  EXPECT_NEAR(q.angle_from(Quaternion{}), 1.1, 1e-15);
+  EXPECT_NEAR((Quaternion::turn(0.4, axis) * q).angle_from(q), 0.4, 1e-15);
+}
+
+TEST(BodyMotion, PrescribedStatesAndTheirVelocities)
+{
+  const V start{1.0, 2.0, 3.0}, point{0.5, 0.0, 1.0}, axis{0.0, 0.6, 0.8};
+  const double h = 1e-5;
+  for (const PrescribedMotion &m :
+       {PrescribedMotion::linear({1.0, -2.0, 0.5}), PrescribedMotion::wiggle({0.3, 0.0, 1.0}, 2.5),
+        PrescribedMotion::rotate(point, axis, 3.0)}) {
+    const BodyState before = m.at(0.7 - h, start), now = m.at(0.7, start),
+                    after = m.at(0.7 + h, start);
+    EXPECT_NEAR(length(0.5 / h * (after.position - before.position) - now.velocity), 0.0, 1e-8);
+    EXPECT_EQ(length(m.at(0.0, start).position - start), 0.0);
+    EXPECT_NEAR(after.orientation.angle_from(before.orientation), 2.0 * h * length(now.spin),
+                1e-12);
+  }
+  const BodyState quarter = PrescribedMotion::rotate({0, 0, 0}, {0, 0, 1}, 4.0).at(1.0, {1, 0, 5});
+  EXPECT_NEAR(length(quarter.position - V{0, 1, 5}), 0.0, 1e-15);
+  EXPECT_NEAR(length(quarter.velocity - V{-0.5 * pi, 0, 0}), 0.0, 1e-15);
+}
+
+TEST(BodyMotion, ClockDoesNotDependOnInterruptions)
+{
+  MotionClock a, b;
+  for (int step = 1; step <= 1000; step++) a.read(step, 1e-3);
+  const MotionClock restarted = a;
+  MotionClock c = restarted;
+  EXPECT_EQ(c.read(1500, 1e-3), b.read(1500, 1e-3));
+  // another time step from step 1500 on
+  for (int step = 1501; step <= 1600; step++) a.read(step, 2e-3);
+  EXPECT_NEAR(a.read(1600, 2e-3), 1.5 + 0.2, 1e-12);
+}
+
+TEST(BodyMotion, GuidedBodyReachesTheGivenBits)
+{
+  BodyState state, target;
+  target.position = {1.0 / 3.0, 0.1, -0.7};
+  target.orientation = Quaternion::turn(0.9, {0.0, 0.0, 1.0});
+  target.velocity = {1.0, 2.0, 3.0};
+  target.spin = {0.0, 0.0, 0.5};
+  GuidedMotion guide;
+  guide.guide(state, target, 4);
+  const double way[] = {0.25, 0.5, 0.75};
+  for (const double w : way) {
+    guide.advance(state, 0.1);
+    EXPECT_NEAR(length(state.position - w * target.position), 0.0, 1e-15);
+    EXPECT_NEAR(state.orientation.angle_from(Quaternion{}), 0.9 * w, 1e-14);
+    EXPECT_NEAR(length(state.velocity - w * target.velocity), 0.0, 1e-15);
+  }
+  double saved[GuidedMotion::size];
+  guide.to_array(saved);
+  GuidedMotion restarted;
+  restarted.from_array(saved);
+  restarted.advance(state, 0.1);
+  double found[BodyState::size], expected[BodyState::size];
+  state.to_array(found);
+  target.to_array(expected);
+  EXPECT_TRUE(std::equal(found, found + BodyState::size, expected));
+  restarted.advance(state, 0.1);    // on its own from here
+  EXPECT_NEAR(length(state.position - target.position - 0.1 * target.velocity), 0.0, 1e-15);
+}
+
+TEST(BodyMotion, LargestDisplacementBounds)
+{
+  BodyFrame a, b;
+  a.moves = b.moves = true;
+  BodyState s;
+  s.position = {0.1, 0.0, 0.0};
+  s.orientation = Quaternion::turn(0.05, {0, 1, 0});
+  b.set(s);
+  double most = 0.0;
+  for (int k = 0; k < 64; k++) {
+    const V p{3.0 * std::cos(0.1 * k), 0.0, 3.0 * std::sin(0.1 * k)};
+    most = std::max(most, length(b.point_to_space(p) - a.point_to_space(p)));
+  }
+  EXPECT_LE(most, largest_displacement(a, b, 3.0));
+  EXPECT_GT(most, 0.9 * largest_displacement(a, b, 3.0));
+}
+
+/// Largest relative drift of energy and angular momentum of a free asymmetric top over a time
+/// of 20.
+struct Drift {
+  double energy, momentum;
+};
+
+Drift drift(double dt)
+{
+  RigidBody body;
+  body.mass = 2.0;
+  body.inertia[0] = 1.0;
+  body.inertia[1] = 2.0;
+  body.inertia[2] = 2.5;
+  BodyState state;
+  state.spin = {0.2, 1.5, 0.3};    // near the unstable axis: it tumbles
+  const double e0 = body.kinetic_energy(state);
+  const V l0 = body.angular_momentum(state);
+  Drift worst{0.0, 0.0};
+  for (int n = 0; n < static_cast<int>(20.0 / dt + 0.5); n++) {
+    body.advance(state, {0, 0, 0}, {0, 0, 0}, dt);
+    worst.energy = std::max(worst.energy, std::fabs(body.kinetic_energy(state) / e0 - 1.0));
+    worst.momentum =
+        std::max(worst.momentum, length(body.angular_momentum(state) - l0) / length(l0));
+  }
+  return worst;
+}
+
+TEST(RigidBodyTest, FreeTopKeepsEnergyAndAngularMomentum)
+{
+  double last = 0.0;
+  for (const double dt : {4e-2, 2e-2, 1e-2, 5e-3}) {
+    const Drift d = drift(dt);
+    std::printf("dt %.4f: energy drifts by %.2e, angular momentum by %.1e\n", dt, d.energy,
+                d.momentum);
+    EXPECT_LT(d.momentum, 1e-12);
+    if (last > 0.0) {
+      EXPECT_GT(last / d.energy, 3.3);    // second order
+    }
+    last = d.energy;
+  }
+  EXPECT_LT(last, 1e-5);
+}
+
+TEST(RigidBodyTest, BallTurnsAsAParticleDoes)
+{
+  RigidBody body;
+  body.mass = 3.0;
+  body.inertia[0] = body.inertia[1] = body.inertia[2] = 0.4;
+  BodyState state;
+  state.velocity = {1, 0, 0};
+  state.spin = {0, 0.5, 0};
+  V v = state.velocity, w = state.spin, x = state.position;
+  for (int n = 0; n < 500; n++) {
+    const V a{0.1, std::sin(0.01 * n), -1.0}, torque{0.3, -0.2, std::cos(0.02 * n)};
+    body.advance(state, a, torque, 1e-3);
+    v = v + 1e-3 * a;
+    x = x + 1e-3 * v;
+    w = w + (1e-3 / 0.4) * torque;
+  }
+  EXPECT_NEAR(length(state.position - x), 0.0, 1e-14);
+  EXPECT_NEAR(length(state.spin - w), 0.0, 1e-13);
+}
+
+TEST(RigidBodyTest, LockedFreedomsStay)
+{
+  RigidBody body;
+  body.mass = 1.0;
+  body.inertia[0] = 1.0;
+  body.inertia[1] = 2.0;
+  body.inertia[2] = 2.5;
+  body.locked[0] = body.locked[2] = body.locked[3] = body.locked[5] = true;
+  BodyState state;
+  state.orientation = Quaternion::turn(0.3, {1, 0, 0});
+  const RigidBody free_body = body;
+  for (int n = 0; n < 100; n++) body.advance(state, {1, 1, 1}, {1, 1, 1}, 1e-2);
+  EXPECT_EQ(state.position.x, 0.0);
+  EXPECT_NEAR(state.position.y, 0.5 * (1.0 + 0.01), 1e-12);
+  EXPECT_EQ(state.spin.x, 0.0);
+  EXPECT_EQ(state.spin.z, 0.0);
+  EXPECT_TRUE(free_body.translates());
+  // about the fixed y axis: its moment in space stays that of the turned body
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  EXPECT_NEAR(state.spin.y, 1.0 / (2.0 * c * c + 2.5 * s * s), 1e-12);
+}
+
+TEST(ServoTest, HoldsAForceAgainstASpring)
+{
+  Servo servo;
+  servo.axis = {0, 0, -1};
+  servo.target = 50.0;
+  servo.vmax = 0.2;
+  BodyState state;
+  double fastest = 0.0;
+  const double stiffness = 1000.0;
+  for (int n = 0; n < 4000; n++) {
+    const double pressed = std::max(0.0, -0.1 - state.position.z) * stiffness;
+    servo.advance(state, {0, 0, pressed}, {0, 0, 0}, 1e-3);
+    fastest = std::max(fastest, std::fabs(state.velocity.z));
+  }
+  EXPECT_NEAR(state.position.z, -0.15, 1e-6);
+  EXPECT_EQ(fastest, 0.2);
+  EXPECT_NEAR(state.velocity.z, 0.0, 1e-5);
+
+  servo.turns = true;
+  state = BodyState{};
+  servo.advance(state, {9, 9, 9}, {0, 0, 0}, 1e-3);
+  EXPECT_NEAR(length(state.spin - V{0, 0, -0.2}), 0.0, 1e-15);
+  EXPECT_EQ(length(state.position), 0.0);
+}
+
+}    // namespace

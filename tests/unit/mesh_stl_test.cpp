@@ -1,0 +1,94 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// STL files: what is read, and the reason given for what is not.
+
+#include "body/stl_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+using namespace Talus;
+
+namespace {
+
+const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                          "vertex 0 2.5e-1 0\nendloop\nendfacet\n";
+
+std::string reason(const std::string &content)
+{
+  try {
+    parse_stl(content);
+  } catch (const std::runtime_error &problem) {
+    return problem.what();
+  }
+  return "none";
+}
+
+void append(std::string &content, float value)
+{
+  char bytes[4];
+  std::memcpy(bytes, &value, 4);
+  content.append(bytes, 4);
+}
+
+/// n copies of one triangle; the header begins with any text.
+std::string binary(std::uint32_t announced, int n, const std::string &text, float odd = 0.5F)
+{
+  std::string content = text;
+  content.resize(80, ' ');
+  for (int k = 0; k < 4; k++) content.push_back(static_cast<char>(announced >> 8 * k & 255));
+  for (int t = 0; t < n; t++) {
+    for (const float v : {0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, odd, 0.0F})
+      append(content, v);
+    content.append(2, '\0');
+  }
+  return content;
+}
+
+TEST(Stl, Ascii)
+{
+  const auto triangles = parse_stl("solid a name with facet in it\n" + facet + facet +
+                                   "endsolid\nsolid b\n" + facet + "endsolid b\n");
+  ASSERT_EQ(triangles.size(), 3U);
+  EXPECT_EQ(triangles[1].corner[1].x, 1.0);
+  EXPECT_EQ(triangles[2].corner[2].y, 0.25);
+}
+
+TEST(Stl, BinaryEvenIfItBeginsWithSolid)
+{
+  for (const char *text : {"", "solid of a program that does not care"}) {
+    const auto triangles = parse_stl(binary(2, 2, text));
+    ASSERT_EQ(triangles.size(), 2U);
+    EXPECT_EQ(triangles[1].corner[2].y, 0.5);
+    EXPECT_EQ(triangles[1].corner[1].x, 1.0);
+  }
+}
+
+TEST(Stl, ReasonsOfRefusal)
+{
+  EXPECT_EQ(reason(""), "the file is empty");
+  EXPECT_EQ(reason("PK"),
+            "it is no STL file: it neither begins with 'solid' nor has a binary header");
+  EXPECT_EQ(reason("solid nothing\nendsolid\n"), "it has no triangles");
+  EXPECT_EQ(reason(binary(0, 0, "")), "it has no triangles");
+  EXPECT_EQ(reason(binary(3, 2, "")),
+            "it announces 3 triangles, which are 234 bytes, but has 184 bytes");
+  EXPECT_EQ(reason(binary(2, 2, "", std::numeric_limits<float>::infinity())),
+            "triangle 1 has a coordinate that is not finite");
+  EXPECT_EQ(reason("solid x\n" + facet), "the file ends without 'endsolid'");
+  EXPECT_EQ(reason("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0"),
+            "the file ends within a triangle");
+  EXPECT_EQ(reason("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"),
+            "line 4: expected a finite number instead of 'zero'");
+  EXPECT_EQ(reason("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n"),
+            "line 4: expected a finite number instead of 'nan'");
+  EXPECT_EQ(reason("solid x\nfacet normal 0 0 1\ninner loop\n"),
+            "line 3: expected 'outer' instead of 'inner'");
+  EXPECT_EQ(reason("solid x\nvertex\n"),
+            "line 2: expected 'facet' or 'endsolid' instead of 'vertex'");
+}
+
+}    // namespace
