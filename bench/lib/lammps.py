@@ -4,8 +4,10 @@
 import dataclasses
 import os
 import re
+import shutil
 import signal
 import subprocess
+import tempfile
 import threading
 import time
 
@@ -13,6 +15,7 @@ import machine
 
 TALUS, STOCK, LIGGGHTS = "talus", "stock", "liggghts"
 TIMEOUT = 1800.0
+START_LIMIT, STARTS = 30.0, 3      # seconds until LAMMPS must have opened its log; attempts
 
 
 @dataclasses.dataclass
@@ -49,7 +52,9 @@ class Result:
 
     def error(self):
         match = re.search(r"^ERROR.*$", self.log + "\n" + self.output, re.MULTILINE)
-        return match.group(0) if match else ""
+        if match:
+            return match.group(0)
+        return f"ended by signal {-self.returncode} after {self.seconds:.0f} s" if self.returncode < 0 else ""
 
 
 class Failed(Exception):
@@ -72,8 +77,11 @@ def _command(code, name, cores, ranks, threads, arguments):
     return command
 
 
-def _environment(threads):
+def _environment(threads, ranks, session):
     env = dict(os.environ, OMP_NUM_THREADS=str(threads))
+    if ranks == 1:
+        env["OMPI_MCA_btl"] = "self"                # no shared memory, whose names could collide
+    env["OMPI_MCA_orte_tmpdir_base"] = session      # processes that share one remove it from under each other
     env.setdefault("OMPI_MCA_pml", "ob1")                 # others take longer to start
     env.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
     env["OMPI_MCA_odls_base_sigkill_timeout"] = "0"
@@ -82,19 +90,44 @@ def _environment(threads):
     return env
 
 
-def _wait(process, timeout):
-    """wait4 with a time limit; the resources are those of this child alone."""
-    timer = threading.Timer(timeout, lambda: os.killpg(process.pid, signal.SIGKILL))
-    timer.start()
+def _end(process):
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+def _wait(process, timeout, log):
+    """wait4 with a time limit; the resources are those of this child alone. MPI hangs now and then when it
+    starts: without a log after START_LIMIT the run is ended."""
+    timers = [threading.Timer(timeout, _end, [process]),
+              threading.Timer(START_LIMIT, lambda: os.path.exists(log) or _end(process))]
+    for timer in timers:
+        timer.start()
     try:
         _, status, usage = os.wait4(process.pid, 0)
     except BaseException:
-        os.killpg(process.pid, signal.SIGKILL)
+        _end(process)
         raise
     finally:
-        timer.cancel()
+        for timer in timers:
+            timer.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
     return usage.ru_maxrss * 1024
+
+
+def _launch(command, workdir, screen, log, threads, ranks, timeout):
+    """(return code, peak of resident bytes)."""
+    session = tempfile.mkdtemp(prefix="mpi-")       # not below workdir: paths of sockets must be short
+    try:
+        with open(screen, "w") as file:
+            process = subprocess.Popen(command, cwd=workdir, stdout=file, stderr=subprocess.STDOUT,
+                                       stdin=subprocess.DEVNULL, env=_environment(threads, ranks, session),
+                                       start_new_session=True)
+            peak = _wait(process, timeout, log)
+        return process.returncode, peak
+    finally:
+        shutil.rmtree(session, ignore_errors=True)
 
 
 def run(workdir, name, script, code=TALUS, cores=None, ranks=1, threads=1, arguments=(), check=True,
@@ -106,13 +139,13 @@ def run(workdir, name, script, code=TALUS, cores=None, ranks=1, threads=1, argum
     if os.path.exists(log):
         os.remove(log)
     screen = os.path.join(workdir, f"out.{name}")
-    start = time.perf_counter()
-    with open(screen, "w") as file:
-        process = subprocess.Popen(_command(code, name, cores, ranks, threads, arguments), cwd=workdir,
-                                   stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                   env=_environment(threads), start_new_session=True)
-        peak = _wait(process, timeout)
-    result = Result(_read(log), _read(screen), process.returncode, time.perf_counter() - start, peak)
+    command = _command(code, name, cores, ranks, threads, arguments)
+    for _ in range(STARTS):
+        start = time.perf_counter()
+        returncode, peak = _launch(command, workdir, screen, log, threads, ranks, timeout)
+        if os.path.exists(log):
+            break
+    result = Result(_read(log), _read(screen), returncode, time.perf_counter() - start, peak)
     if check and result.returncode:
         raise Failed(f"{code}, in.{name}: {result.error() or f'return code {result.returncode}'}\n"
                      + result.log[-1500:] + result.output[-1500:])
