@@ -4,6 +4,7 @@
 import concurrent.futures
 import os
 import random
+import tempfile
 
 import extreme
 import limits
@@ -93,8 +94,7 @@ tangential springs are not counted. Stock: pair granular with the same law.""")
 
 def both(bench, scene):
     """{code: Outcome} with one time step for both codes."""
-    folder = bench.path("scene-" + "".join(c if c.isalnum() else "_" for c in scene.name))
-    os.makedirs(folder, exist_ok=True)
+    folder = tempfile.mkdtemp(prefix="scene-", dir=bench.workdir)
     extreme.write(scene, f"{folder}/data")
     dt = scene.dt or scene.fraction * extreme.critical_step(bench, scene, folder)
     found = {}
