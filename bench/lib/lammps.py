@@ -131,15 +131,16 @@ def _launch(command, workdir, screen, log, threads, ranks, timeout):
 
 
 def run(workdir, name, script, code=TALUS, cores=None, ranks=1, threads=1, arguments=(), check=True,
-        timeout=TIMEOUT):
-    """Run an input script in workdir and return a Result.  cores: pinned to these, or None."""
+        timeout=TIMEOUT, prefix=()):
+    """Run an input script in workdir and return a Result.  cores: pinned to these, or None; prefix: words of
+    a command that runs the command."""
     with open(os.path.join(workdir, f"in.{name}"), "w") as file:
         file.write(script)
     log = os.path.join(workdir, f"log.{name}")
     if os.path.exists(log):
         os.remove(log)
     screen = os.path.join(workdir, f"out.{name}")
-    command = _command(code, name, cores, ranks, threads, arguments)
+    command = [*prefix, *_command(code, name, cores, ranks, threads, arguments)]
     for _ in range(STARTS):
         start = time.perf_counter()
         returncode, peak = _launch(command, workdir, screen, log, threads, ranks, timeout)
