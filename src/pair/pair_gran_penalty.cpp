@@ -35,7 +35,8 @@ Vector3<double> row(const double *p)
 
 /* ---------------------------------------------------------------------- */
 
-PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp), radii(lmp), critical(lmp)
+PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
+    Pair(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -156,6 +157,7 @@ void PairGranPenalty::init_style()
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
+  watch.start();
   laws_current = false;    // init_one() will mix what is not set
 }
 
@@ -265,6 +267,8 @@ void PairGranPenalty::warn_large_time_step()
 
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
+  watch.look(pipeline);    // here, because all ranks come here and the pairs are still those of the
+                           // last step
   pipeline.file_history(partners);
 }
 
