@@ -26,7 +26,7 @@ def save(path, draw):
     matplotlib.use("svg")
     from matplotlib import pyplot
     # the same figures give the same file
-    matplotlib.rcParams.update({"svg.hashsalt": "talus", "font.size": 9, "axes.grid": True, "grid.color": "0.85",
+    matplotlib.rcParams.update({"svg.hashsalt": "talus", "axes.axisbelow": True, "font.size": 9, "axes.grid": True, "grid.color": "0.85",
                                 "legend.fontsize": 7, "svg.fonttype": "none", "figure.constrained_layout.use": True})
     draw(pyplot)
     pyplot.savefig(path, metadata={"Date": None})
