@@ -129,11 +129,17 @@ void BodyContacts::flush(int law, int count, const LargeBodyShape &shape,
   for (int lane = 0; lane < count; lane++) {
     apply(lane, laws.distinct_law(law), shape, view, load);
     if (with_history && advance) keep_history(lane);
-    if (energies)
-      energies->add(lane_energy(laws.distinct_law(law), laws.coefficients(batch.coefficients[lane]),
-                                batch, lane, dt),
-                    1.0, atom_of_lane[lane], view.radius[atom_of_lane[lane]], -1, 0.0);
+    if (energies) account_for_lane(lane, laws.distinct_law(law), view, dt);
   }
+}
+
+void BodyContacts::account_for_lane(int lane, ContactLaw law, const BodyParticleView &view,
+                                    double dt)
+{
+  const int i = atom_of_lane[lane];
+  largest_overlap = std::max(largest_overlap, batch.overlap[lane] / view.radius[i]);
+  energies->add(lane_energy(law, laws.coefficients(batch.coefficients[lane]), batch, lane, dt), 1.0,
+                i, view.radius[i], -1, 0.0);
 }
 
 void BodyContacts::keep_history(int lane)
@@ -168,6 +174,7 @@ void BodyContacts::apply(int lane, ContactLaw law, const LargeBodyShape &shape,
 void BodyContacts::remember_velocities(const BodyParticleView &view)
 {
   energies->begin_step(view.owned);
+  largest_overlap = 0.0;
   velocity_before.clear();
   spin_before.clear();
   for (const int i : candidates) {

@@ -56,6 +56,9 @@ class BodyContacts {
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const BodyParticleView &view, double dt, EnergyAccount &to) const;
 
+  /// Largest overlap/radius of the last compute() with an account; 0 without contacts.
+  double largest_overlap_ratio() const { return largest_overlap; }
+
   bool keeps_history() const { return with_history; }
   bool keeps_onset() const { return with_onset; }
   double memory_usage() const;
@@ -70,6 +73,7 @@ class BodyContacts {
   void flush(int law, int count, const LargeBodyShape &shape, const BodyParticleView &view,
              double dt, bool advance, BodyLoad &load);
   void keep_history(int lane);
+  void account_for_lane(int lane, ContactLaw law, const BodyParticleView &view, double dt);
   void remember_velocities(const BodyParticleView &view);
   void forget(int atom);
   void apply(int lane, ContactLaw law, const LargeBodyShape &shape, const BodyParticleView &view,
@@ -80,6 +84,7 @@ class BodyContacts {
   std::vector<int> candidates;
   ContactBatch batch;
   EnergyAccount *energies = nullptr;
+  double largest_overlap = 0.0;    // over radius
   std::vector<Vector3<double>> velocity_before,
       spin_before;    // of candidates, only with an account
   int atom_of_lane[ContactBatch::width];

@@ -10,6 +10,8 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 namespace {
@@ -33,38 +35,58 @@ ComputePenaltyStats::~ComputePenaltyStats()
   delete[] vector;
 }
 
-/* Energies cost time: pair style and bodies account for them only once this compute exists. */
+/* Energies cost time: pair style and bodies account for them only once this compute exists. What
+   they have dissipated before is not of this compute. */
 
 void ComputePenaltyStats::init()
 {
   pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
   if (!pair) error->all(FLERR, "Compute penalty/stats requires one pair style gran/penalty");
   pair->keep_account();
+  for (FixLargeBody *body : bodies()) body->keep_account();
+  if (started) return;
+  started = true;
+  before = energies_here();
+}
+
+std::vector<FixLargeBody *> ComputePenaltyStats::bodies() const
+{
+  std::vector<FixLargeBody *> found;
   for (const auto &ifix : modify->get_fix_by_style("^large/body$"))
-    if (auto *body = dynamic_cast<FixLargeBody *>(ifix)) body->keep_account();
+    if (auto *body = dynamic_cast<FixLargeBody *>(ifix)) found.push_back(body);
+  return found;
+}
+
+ComputePenaltyStats::Energies ComputePenaltyStats::energies_here() const
+{
+  Energies sum;
+  const auto add = [&sum](const Talus::EnergyAccount &account) {
+    sum.elastic += account.elastic();
+    sum.normal += account.dissipated_normal();
+    sum.tangential += account.dissipated_tangential();
+    sum.resistance += account.dissipated_resistance();
+  };
+  add(pair->energy_account());
+  for (const FixLargeBody *body : bodies()) add(body->energy_account());
+  return sum;
 }
 
 void ComputePenaltyStats::compute_vector()
 {
   invoked_vector = update->ntimestep;
+  const Energies now = energies_here();
   double mine[SIZE] = {};
-  const auto add = [&mine](const Talus::EnergyAccount &account) {
-    mine[ELASTIC] += account.elastic();
-    mine[NORMAL] += account.dissipated_normal();
-    mine[TANGENTIAL] += account.dissipated_tangential();
-    mine[RESISTANCE] += account.dissipated_resistance();
-  };
-
+  mine[ELASTIC] = now.elastic;
+  mine[NORMAL] = now.normal - before.normal;
+  mine[TANGENTIAL] = now.tangential - before.tangential;
+  mine[RESISTANCE] = now.resistance - before.resistance;
   mine[CANDIDATES] = pair->contacts().count_candidates();
   mine[CONTACTS] = pair->contacts().count_contacts();
-  add(pair->energy_account());
-  for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
-    const auto *body = dynamic_cast<FixLargeBody *>(ifix);
-    if (!body) continue;
+  double largest = pair->contacts().largest_overlap_ratio();
+  for (const FixLargeBody *body : bodies()) {
     mine[CONTACTS] += body->contacts_here();
-    add(body->energy_account());
+    largest = std::max(largest, body->largest_overlap_ratio());
   }
   MPI_Allreduce(mine, vector, SIZE, MPI_DOUBLE, MPI_SUM, world);
-  const double largest = pair->contacts().largest_overlap_ratio();
   MPI_Allreduce(&largest, &vector[OVERLAP], 1, MPI_DOUBLE, MPI_MAX, world);
 }

@@ -8,6 +8,8 @@
 
 #include "compute.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 class ComputePenaltyStats : public Compute {
@@ -16,12 +18,22 @@ class ComputePenaltyStats : public Compute {
   ~ComputePenaltyStats() override;
   void init() override;
 
-  /// candidate pairs, contacts, largest overlap/radius, elastic energy, energy dissipated by normal
-  /// damping, by friction, by rolling and spinning resistance.
+  /// candidate pairs, contacts, largest overlap/radius, elastic energy; energy dissipated since the
+  /// first run with this compute by normal damping, by friction, by rolling and spinning
+  /// resistance.
   void compute_vector() override;
 
  private:
+  /// Sums of this rank over the pair style and all bodies.
+  struct Energies {
+    double elastic = 0.0, normal = 0.0, tangential = 0.0, resistance = 0.0;
+  };
+  Energies energies_here() const;
+  std::vector<class FixLargeBody *> bodies() const;
+
   class PairGranPenalty *pair = nullptr;
+  bool started = false;
+  Energies before;    ///< when this compute was defined
 };
 
 }    // namespace LAMMPS_NS

@@ -5,73 +5,68 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace Talus {
 
-void CandidateList::order_particles(int num_owned, const std::vector<std::uint64_t> &key,
-                                    std::vector<std::int64_t> tag_of_atom)
+void CandidateList::collect(const ParticleOrder &order, const NeighbourView &neighbours,
+                            int which_part)
 {
-  owned = num_owned;
-  tag = std::move(tag_of_atom);
-  const int total = static_cast<int>(tag.size());
-
-  struct Entry {
-    std::uint64_t key;
-    std::int64_t tag;
-    int atom;
-    bool operator<(const Entry &o) const
-    {
-      return std::tie(key, tag, atom) < std::tie(o.key, o.tag, o.atom);
-    }
+  particles = &order;
+  part = which_part;
+  const auto for_each_of_part = [&](auto visit) {
+    neighbours.for_each_pair([&](int i, int j, double weight) {
+      const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
+      if (serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
+    });
   };
-  std::vector<Entry> order(total);
-  for (int a = 0; a < total; a++) order[a] = {key[a], tag[a], a};
-  std::sort(order.begin(), order.end());
 
-  atom_of_slot.resize(total);
-  slot_of_atom.resize(total);
-  for (int s = 0; s < total; s++) {
-    atom_of_slot[s] = order[s].atom;
-    slot_of_atom[order[s].atom] = s;
-  }
-  added.clear();
-}
-
-void CandidateList::add_pair(int i, int j, double weight)
-{
-  const int a = slot_of_atom[i], b = slot_of_atom[j];
-  added.push_back({std::min(a, b), std::max(a, b), weight});
-}
-
-void CandidateList::finish()
-{
+  bool all_unit = true;
+  row_start.assign(order.size() + 2, 0);
+  for_each_of_part([&](int a, int, double weight) {
+    row_start[a + 2]++;
+    all_unit = all_unit && weight == 1.0;
+  });
+  for (std::size_t s = 2; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
+  const std::int64_t count = row_start.back();
   // contacts are numbered with 32 bits to halve the traffic of the contact list
-  if (added.size() > std::numeric_limits<std::uint32_t>::max())
+  if (count > std::numeric_limits<std::uint32_t>::max() - 8)
     throw std::length_error("more than 2^32 candidate pairs on one rank");
 
-  const auto unit = [](const Pair &p) { return p.weight == 1.0; };
-  const bool all_unit = std::all_of(added.begin(), added.end(), unit);
+  first.resize(count);
+  second.resize(count);
+  weights.resize(all_unit ? 0 : count);
+  for_each_of_part([&](int a, int b, double weight) {
+    const std::int64_t c = row_start[a + 1]++;    // which ends as the end of the row
+    first[c] = a;
+    second[c] = b;
+    if (!all_unit) weights[c] = weight;
+  });
+  row_start.pop_back();
+  for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
+}
 
-  row_start.assign(atom_of_slot.size() + 1, 0);
-  for (const Pair &p : added) row_start[p.first + 1]++;
-  for (std::size_t s = 1; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
+/* Rows hold a few pairs, often in order already; those of a sphere much larger than the others may
+   be long. */
 
-  std::vector<std::pair<int, double>> sorted(added.size());
-  std::vector<std::int64_t> next(row_start.begin(), row_start.end() - 1);
-  for (const Pair &p : added) sorted[next[p.first]++] = {p.second, p.weight};
-  for (std::size_t s = 0; s + 1 < row_start.size(); s++)
-    std::sort(sorted.begin() + row_start[s], sorted.begin() + row_start[s + 1]);
-
-  first.resize(added.size());
-  second.resize(added.size());
-  weights.resize(all_unit ? 0 : added.size());
-  for (std::size_t s = 0; s + 1 < row_start.size(); s++)
-    for (std::int64_t c = row_start[s]; c < row_start[s + 1]; c++) {
-      first[c] = static_cast<int>(s);
-      second[c] = sorted[c].first;
-      if (!all_unit) weights[c] = sorted[c].second;
+void CandidateList::sort_row(std::int64_t begin, std::int64_t end)
+{
+  constexpr std::int64_t few = 32;
+  if (end - begin > few) {
+    std::vector<std::pair<int, double>> row;
+    for (std::int64_t c = begin; c < end; c++)
+      row.emplace_back(second[c], weighted() ? weights[c] : 1.0);
+    std::sort(row.begin(), row.end());
+    for (std::int64_t c = begin; c < end; c++) {
+      second[c] = row[c - begin].first;
+      if (weighted()) weights[c] = row[c - begin].second;
+    }
+    return;
+  }
+  for (std::int64_t c = begin + 1; c < end; c++)
+    for (std::int64_t k = c; k > begin && second[k] < second[k - 1]; k--) {
+      std::swap(second[k], second[k - 1]);
+      if (weighted()) std::swap(weights[k], weights[k - 1]);
     }
 }
 
@@ -85,10 +80,9 @@ std::int64_t CandidateList::find(int slot_a, int slot_b) const
 
 double CandidateList::memory_usage() const
 {
-  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity() +
-                                            first.capacity() + second.capacity()) +
-                             sizeof(std::int64_t) * (tag.capacity() + row_start.capacity()) +
-                             sizeof(double) * weights.capacity() + sizeof(Pair) * added.capacity());
+  return static_cast<double>(sizeof(int) * (first.capacity() + second.capacity()) +
+                             sizeof(std::int64_t) * row_start.capacity() +
+                             sizeof(double) * weights.capacity());
 }
 
 }    // namespace Talus

@@ -9,14 +9,15 @@ namespace Talus {
 void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners,
                            const std::vector<std::int64_t> &filed_tag)
 {
+  const ParticleOrder &order = pairs.order();
   const bool with_onsets = partners.num_values() == 8;
   records.assign(pairs.num_pairs(), Record{});
   onsets.assign(with_onsets ? pairs.num_pairs() : 0, Record{});
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    const int a = pairs.atom_of_slot[pairs.first[c]], b = pairs.atom_of_slot[pairs.second[c]];
-    const bool from_first = pairs.is_owned(a);
+    const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
+    const bool from_first = order.is_owned(a);
     const int owner = from_first ? a : b, partner = from_first ? b : a;
     const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
     if (!v) continue;
@@ -27,23 +28,32 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   }
 }
 
+/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, where owned
+   and served. */
+
+template <class Visit>
+void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
+{
+  const ParticleOrder &order = pairs.order();
+  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
+    if (!touches(c)) continue;
+    const int first = pairs.first[c], second = pairs.second[c];
+    const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
+    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
+    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
+  }
+}
+
+void ContactHistory::announce(const CandidateList &pairs, PartnerLists &partners) const
+{
+  for_each_end(pairs, [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
+}
+
 void ContactHistory::file(const CandidateList &pairs, PartnerLists &partners) const
 {
-  const auto for_each_touching = [&](auto visit) {
-    for (std::int64_t c = 0; c < pairs.num_pairs(); c++)
-      if (touches(c))
-        visit(c, pairs.atom_of_slot[pairs.first[c]], pairs.atom_of_slot[pairs.second[c]]);
-  };
-
-  partners.begin();
-  for_each_touching([&](std::int64_t, int a, int b) {
-    if (pairs.is_owned(a)) partners.count(a);
-    if (pairs.is_owned(b)) partners.count(b);
-  });
-  partners.layout();
-  for_each_touching([&](std::int64_t c, int a, int b) {
-    if (pairs.is_owned(a)) file_entry(partners.append(a, pairs.tag[b]), c, true);
-    if (pairs.is_owned(b)) file_entry(partners.append(b, pairs.tag[a]), c, false);
+  const std::vector<std::int64_t> &tag = pairs.order().tag;
+  for_each_end(pairs, [&](std::int64_t c, int atom, int partner, bool is_first) {
+    file_entry(partners.append(atom, tag[partner]), c, is_first);
   });
 }
 
@@ -58,11 +68,12 @@ void ContactHistory::adopt_first_copies(
     const CandidateList &pairs, PartnerLists &partners,
     const std::function<const double *(int, std::int64_t)> &ghost_values) const
 {
+  const ParticleOrder &order = pairs.order();
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    const int a = pairs.atom_of_slot[pairs.first[c]], b = pairs.atom_of_slot[pairs.second[c]];
-    if (!touches(c) || pairs.is_owned(a)) continue;
-    const double *theirs = ghost_values(a, pairs.tag[b]);
-    double *mine = partners.find(b, pairs.tag[a]);
+    const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
+    if (!touches(c) || order.is_owned(a)) continue;
+    const double *theirs = ghost_values(a, order.tag[b]);
+    double *mine = partners.find(b, order.tag[a]);
     if (!theirs || !mine) continue;
     const Record seen = mirrored({{theirs[0], theirs[1], theirs[2], theirs[3]}});
     std::copy(std::begin(seen.c), std::end(seen.c), mine);
@@ -72,8 +83,8 @@ void ContactHistory::adopt_first_copies(
 
 void ContactHistory::release()
 {
-  std::vector<Record>().swap(records);
-  std::vector<Record>().swap(onsets);
+  BigVector<Record>().swap(records);
+  BigVector<Record>().swap(onsets);
   std::vector<std::uint8_t>().swap(touching);
 }
 

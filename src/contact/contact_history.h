@@ -26,8 +26,10 @@ class ContactHistory {
   void fetch(const CandidateList &pairs, const PartnerLists &partners,
              const std::vector<std::int64_t> &filed_tag);
 
-  /// Before particles are renumbered: files the history of every touching pair under each of its
-  /// owned particles.
+  /// Before particles are renumbered: the history of every touching pair is filed under each of its
+  /// owned particles that the list serves. First announce(), then PartnerLists::layout(), then
+  /// file(); each may run for different parts of a rank at the same time.
+  void announce(const CandidateList &pairs, PartnerLists &partners) const;
   void file(const CandidateList &pairs, PartnerLists &partners) const;
 
   /// After file(): pairs whose first particle is a ghost take over the history that its owner has
@@ -45,11 +47,12 @@ class ContactHistory {
   bool touches(std::int64_t pair) const { return touching[pair / 8] >> (pair % 8) & 1U; }
   double memory_usage() const;
 
-  std::vector<Record> records;           ///< indexed like the candidate pairs
-  std::vector<Record> onsets;            ///< the same, or empty
+  BigVector<Record> records;             ///< indexed like the candidate pairs
+  BigVector<Record> onsets;              ///< the same, or empty
   std::vector<std::uint8_t> touching;    ///< one bit for each pair: it touched when last computed
 
  private:
+  template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
   void file_entry(double *values, std::int64_t pair, bool from_first) const;
 };
 

@@ -14,8 +14,14 @@ const char *name_of(NormalLaw law)
 
 const char *name_of(TangentialLaw law)
 {
-  static const char *const names[num_tangential_laws] = {
-      "none", "dashpot", "onestep", "multistep", "tanh", "multistep midpoint"};
+  static const char *const names[num_tangential_laws] = {"none",
+                                                         "dashpot",
+                                                         "onestep",
+                                                         "multistep",
+                                                         "tanh",
+                                                         "multistep midpoint",
+                                                         "multistep slider",
+                                                         "multistep slider midpoint"};
   return names[static_cast<int>(law)];
 }
 

@@ -27,10 +27,20 @@ enum class NormalLaw : int {
 ///   MULTISTEP  displacement accumulated over the life of the contact
 ///   TANH       PlainCoulomb's: mu tanh(5 v_t) F_n
 ///   MIDPOINT   MULTISTEP with an update of the displacement that is consistent to second order
-enum class TangentialLaw : int { NONE, DASHPOT, ONESTEP, MULTISTEP, TANH, MIDPOINT };
+///   SLIDER, SLIDER_MIDPOINT   the same two with the dashpot in series with the slip
+enum class TangentialLaw : int {
+  NONE,
+  DASHPOT,
+  ONESTEP,
+  MULTISTEP,
+  TANH,
+  MIDPOINT,
+  SLIDER,
+  SLIDER_MIDPOINT
+};
 
 inline constexpr int num_normal_laws = 8;
-inline constexpr int num_tangential_laws = 6;
+inline constexpr int num_tangential_laws = 8;
 
 /// Which formulas a pair uses; pairs with equal laws share a kernel.
 struct ContactLaw {
@@ -52,7 +62,7 @@ struct ContactLaw {
   /// The tangential displacement is kept.
   bool has_history() const
   {
-    return tangential == TangentialLaw::MULTISTEP || tangential == TangentialLaw::MIDPOINT;
+    return tangential == TangentialLaw::MULTISTEP || tangential >= TangentialLaw::MIDPOINT;
   }
   /// Impact speed and age are kept as well.
   bool has_onset() const

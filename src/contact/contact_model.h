@@ -28,7 +28,8 @@ template <class Normal_, class Tangential_, Resistance resistance_, bool adheres
   static constexpr bool needs_speed = std::is_same<Normal, NormalHookeMaterial>::value ||
                                       std::is_same<Normal, NormalFloresMaterial>::value;
   static constexpr bool onset = history && (needs_speed || resistance_ == Resistance::DELAYED);
-  static constexpr bool needs_radius = Normal::needs_radius || adheres;
+  static constexpr bool holds = resistance_ == Resistance::AT_ONCE;
+  static constexpr bool needs_radius = Normal::needs_radius || adheres || holds;
 };
 
 /// State of one contact as the laws see it. The first body is the one that receives `force`.
@@ -41,7 +42,7 @@ template <class Real> struct ContactState {
   Real inverse_radius;       ///< 1/r_1 + 1/r_2; only for models that need it
   Vector3<Real> relative_spin;    ///< omega_1 - omega_2; only for models with resistance
   Real circle;                    ///< radius of the circle of intersection; only for the same
-  Real inverse_distance;    ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint law
+  Real inverse_distance;    ///< 1/|x_1 - x_2|, 0 against a flat body; only for the midpoint laws
 };
 
 /// How a contact began; kept only by models that need it.
@@ -69,20 +70,26 @@ inline Vector3<Real> surface_velocity(const ContactState<Real> &s, Real normal_v
   return s.velocity - normal_velocity * s.normal - cross(s.spin, s.normal);
 }
 
-/// Displacement of the surfaces during the step that led here, for the midpoint law. The centres
-/// came here along straight lines, so the normal half way is known; a contact that began on the way
-/// lasted overlap/(-v_n).
+/// How long a contact has lasted of the step that led here, for the midpoint laws: one that began
+/// on the way overlap/(-v_n).
 template <class Real>
-inline Vector3<Real> step_displacement(const ContactState<Real> &s, Real normal_velocity, double dt)
+inline Real lasted(const ContactState<Real> &s, Real normal_velocity, double dt)
+{
+  const Real approach = -normal_velocity * dt;
+  return dt * select(approach > s.overlap, s.overlap / approach, splat<Real>(1.0));
+}
+
+/// Displacement of the surfaces during the step that led here, for the midpoint laws. The centres
+/// came here along straight lines, so the normal half way is known.
+template <class Real>
+inline Vector3<Real> step_displacement(const ContactState<Real> &s, double dt, Real time)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
   const Real length = square_root(dot(half_way, half_way));
   const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
   const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.spin, n);
-  const Real approach = -normal_velocity * dt;
-  const auto began = approach > s.overlap;
-  return dt * select(began, s.overlap / approach, one) * slip;
+  return time * slip;
 }
 
 /// Impact speed and age at this step; `advance` counts the step.
@@ -130,8 +137,10 @@ evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, doubl
                              splat<Real>(dt),
                              c.slip_min,
                              Vector3<Real>{}};
-    if constexpr (Tangential::midpoint && advance)
-      in.increment = step_displacement(s, normal_velocity, dt);
+    if constexpr (Tangential::midpoint && advance) {
+      in.dt = lasted(s, normal_velocity, dt);
+      in.increment = step_displacement(s, dt, in.dt);
+    }
     if constexpr (Tangential::history)
       out.tangential = Tangential::template force<advance>(in, history);
     else
@@ -139,10 +148,15 @@ evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, doubl
     out.force = out.force + out.tangential;
     out.moment = cross(s.normal, out.tangential);
   }
-  if constexpr (Model::resists) {
-    Real acts = out.normal;
-    if constexpr (Model::resistance == Resistance::DELAYED)
-      acts = acts * resistance_gate<Normal>(k, s.overlap, mass_eff, onset.age);
+  if constexpr (Model::holds) {
+    const Real presses = select(out.normal > zero, out.normal, zero);
+    const Real turns = response(s.inverse_mass, dt);
+    out.moment = out.moment + holding_moment(c.mu_roll * presses, c.roll_min, s.spin, s.normal,
+                                             turns, out.moment);
+    out.couple = stopping_couple(c.mu_spin * s.circle * presses, c.spin_min, s.relative_spin,
+                                 s.normal, turns, s.inverse_radius);
+  } else if constexpr (Model::resists) {    // Chrono's rule, an attractive F_n with its sign
+    const Real acts = out.normal * resistance_gate<Normal>(k, s.overlap, mass_eff, onset.age);
     out.moment = out.moment + rolling_moment(c.mu_roll * acts, c.roll_min, s.spin, s.normal);
     out.couple =
         spinning_couple(c.mu_spin * s.circle * acts, c.spin_min, s.relative_spin, s.normal);

@@ -34,9 +34,13 @@ template <class Normal, class Visitor> auto dispatch_tangential(ContactLaw law, 
   case TangentialLaw::ONESTEP:
     return dispatch_resistance<Normal, TangentialOnestep>(law, visitor);
   case TangentialLaw::MULTISTEP:
-    return dispatch_resistance<Normal, TangentialMultistep>(law, visitor);
+    return dispatch_resistance<Normal, TangentialMultistep<false, false>>(law, visitor);
   case TangentialLaw::MIDPOINT:
-    return dispatch_resistance<Normal, TangentialMidpoint>(law, visitor);
+    return dispatch_resistance<Normal, TangentialMultistep<true, false>>(law, visitor);
+  case TangentialLaw::SLIDER:
+    return dispatch_resistance<Normal, TangentialMultistep<false, true>>(law, visitor);
+  case TangentialLaw::SLIDER_MIDPOINT:
+    return dispatch_resistance<Normal, TangentialMultistep<true, true>>(law, visitor);
   default:
     return dispatch_resistance<Normal, TangentialNone>(law, visitor);
   }

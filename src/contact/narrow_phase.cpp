@@ -29,19 +29,20 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
 
 }    // namespace
 
-std::int64_t find_contacts(const CandidateList &pairs, const std::vector<Record> &position,
-                           ContactHistory *history, std::vector<std::uint32_t> &contacts)
+std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
+                           const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
-  const std::int64_t n = pairs.num_pairs();
-  contacts.resize(n + 8);    // a store may run up to seven entries ahead
-  const Record *p = position.data();
+  constexpr std::int64_t ahead = 64;    // pairs whose second position is called into the cache
   const int *first = pairs.first.data(), *second = pairs.second.data();
-  std::uint32_t *out = contacts.data();
+  const std::int64_t last = pairs.num_pairs() - 8;
+  std::uint32_t *out = contacts;
 
-  for (std::int64_t c = 0; c < n; c += 8) {
-    const unsigned bits = c + 8 <= n ? touching4(p, first + c, second + c) |
-                                           touching4(p, first + c + 4, second + c + 4) << 4
-                                     : touching_tail(p, first + c, second + c, n - c);
+  for (std::int64_t c = begin; c < end; c += 8) {
+    if (c + ahead <= last)
+      for (int k = 0; k < 8; k++) __builtin_prefetch(&position[second[c + ahead + k]]);
+    const unsigned bits = c + 8 <= end ? touching4(position, first + c, second + c) |
+                                             touching4(position, first + c + 4, second + c + 4) << 4
+                                       : touching_tail(position, first + c, second + c, end - c);
     // store every index, step forward only past the touching ones: no branch to mispredict
     for (unsigned k = 0; k < 8; k++) {
       *out = static_cast<std::uint32_t>(c + k);
@@ -52,7 +53,7 @@ std::int64_t find_contacts(const CandidateList &pairs, const std::vector<Record>
     if (separated) history->forget(c / 8, separated);
     history->touching[c / 8] = static_cast<std::uint8_t>(bits);
   }
-  return out - contacts.data();
+  return out - contacts;
 }
 
 }    // namespace Talus

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Candidate pairs -> touching pairs. Two spheres touch if |x_i - x_j|^2 < (r_i + r_j)^2.
+// From candidate pairs to touching pairs.
 
 #ifndef TALUS_CONTACT_NARROW_PHASE_H
 #define TALUS_CONTACT_NARROW_PHASE_H
@@ -10,14 +10,16 @@
 #include "contact/record.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace Talus {
 
-/// Fills `contacts` with the indices of the pairs that touch, ascending, and returns their number;
-/// `contacts` keeps room for more. With a history, pairs that have separated lose theirs.
-std::int64_t find_contacts(const CandidateList &pairs, const std::vector<Record> &position,
-                           ContactHistory *history, std::vector<std::uint32_t> &contacts);
+/// Writes the indices of the pairs among begin ... end-1 whose spheres overlap (|x_i - x_j| < r_i +
+/// r_j), in ascending order, and returns their number; `begin` must be a multiple of 8 and
+/// `contacts` have room for end - begin + 8. Pairs that overlapped at the last call and do not now
+/// lose their history. `history` may be nullptr.
+std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
+                           const Record *position, ContactHistory *history,
+                           std::uint32_t *contacts);
 
 }    // namespace Talus
 

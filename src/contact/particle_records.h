@@ -2,14 +2,17 @@
 //
 // State of all particles of a rank, owned and ghost, as records in canonical order, and the sums of
 // their contact forces. The host's arrays are read once and written once in a step.
+//
+// What a contact needs of its partner apart from the position stands in one cache line, and so does
+// what it adds to it: (velocity, spin) and (force, moment). Scenes without friction have no second
+// halves.
 
 #ifndef TALUS_CONTACT_PARTICLE_RECORDS_H
 #define TALUS_CONTACT_PARTICLE_RECORDS_H
 
-#include "contact/candidate_list.h"
+#include "contact/big_vector.h"
+#include "contact/particle_order.h"
 #include "contact/record.h"
-
-#include <vector>
 
 namespace Talus {
 
@@ -19,23 +22,32 @@ struct ParticleView {
   const double *radius, *mass;
   const double
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
+  double *f, *torque;    ///< added to; torque may be nullptr like omega
 };
 
 class ParticleRecords {
  public:
-  /// Reads the state of all particles and clears the sums. `spins` is false in scenes without
-  /// friction: spin records and moments are then neither read nor kept. `couples`: laws with
-  /// resistance occur.
-  void read(const CandidateList &order, const ParticleView &host, bool spins, bool couples);
+  /// Makes room for `n` particles, and `spare` more slots for forces that nobody wants. `spins` is
+  /// false in scenes without friction: spin records and moments are then neither read nor kept.
+  /// `couples`: laws with resistance occur.
+  void resize(int n, int spare, bool spins, bool couples);
 
-  /// Adds the summed forces, and torques if spins are kept, to the host's rows of owned particles:
-  /// f += F, torque += C - r M.
-  void add_to(const CandidateList &order, double *f, double *torque) const;
+  /// Reads the state of slots begin ... end-1, or of the owned particles or ghosts among them, and
+  /// clears their sums.
+  enum class Which { ALL, OWNED, GHOSTS, NONE };
+  void read(const ParticleOrder &order, const ParticleView &host, int begin, int end, Which which);
+
+  /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
+  /// rows of owned particles: f += F, torque += C - r M.
+  void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
 
   double memory_usage() const;
 
-  std::vector<Record> position, velocity, spin;    ///< see record.h
-  std::vector<Record> force, moment, couple;
+  const Record &velocity(int slot) const { return motion[stride * slot]; }
+  const Record &spin(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
+
+  std::size_t stride = 1;    ///< records per particle in motion and load: 2 with spins
+  BigVector<Record> position, motion, load, couple;    ///< see record.h
 };
 
 }    // namespace Talus

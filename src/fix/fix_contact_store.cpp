@@ -5,6 +5,7 @@
 #include "contact/canonical_key.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -91,6 +94,7 @@ void FixContactStore::init()
                  ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
+  take_over_sorting();
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
 }
@@ -109,7 +113,46 @@ void FixContactStore::pre_exchange()
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
+  sort_particles();
   next_reneighbor = next_refresh(update->ntimestep);
+}
+
+/* The host sorts particles by place now and then, for the sake of the cache. Sorting them into the
+   canonical order instead serves the same end, and lets the records of src/contact be read and
+   written straight through. */
+
+void FixContactStore::take_over_sorting()
+{
+  if (host_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
+  host_sorts_every = atom->sortfreq;
+  atom->sortfreq = 0;    // until post_run()
+}
+
+void FixContactStore::sort_particles()
+{
+  if (!host_sorts_every) return;
+  const int n = atom->nlocal;
+  const auto before = [this](int i, int j) {
+    return keys[i] != keys[j] ? keys[i] < keys[j] : atom->tag[i] < atom->tag[j];
+  };
+  std::vector<int> from(n);    // which particle goes to each place
+  std::iota(from.begin(), from.end(), 0);
+  if (std::is_sorted(from.begin(), from.end(), before)) return;
+  std::sort(from.begin(), from.end(), before);
+
+  // every cycle of the permutation turns through one spare place behind the last particle
+  if (n == atom->nmax) atom->avec->grow(0);
+  for (int start = 0; start < n; start++) {
+    if (from[start] == start) continue;
+    atom->avec->copy(start, n, 0);
+    int place = start;
+    while (from[place] != start) {
+      atom->avec->copy(from[place], place, 0);
+      place = std::exchange(from[place], place);
+    }
+    atom->avec->copy(n, place, 0);
+    from[place] = place;
+  }
 }
 
 void FixContactStore::post_integrate()
@@ -124,6 +167,7 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
+  sort_particles();
   keep_positions();
 }
 
@@ -159,6 +203,8 @@ void FixContactStore::setup_post_neighbor()
 void FixContactStore::post_run()
 {
   file();
+  if (host_sorts_every) atom->sortfreq = host_sorts_every;
+  host_sorts_every = 0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -105,6 +105,8 @@ class FixContactStore : public Fix {
   void file();
   void agree_on_shared_pairs();
   void refresh_key(int i);
+  void take_over_sorting();
+  void sort_particles();
   void keep_positions();
   void put_positions_back();
   bigint next_refresh(bigint step) const;
@@ -116,6 +118,8 @@ class FixContactStore : public Fix {
   std::vector<std::uint64_t> keys;
   std::vector<std::int64_t> filed_tags;
   Talus::PartnerLists partners;
+
+  int host_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead
 
   bool guards_positions = false;    // a fix balance exists
   std::vector<double> positions;    // of owned particles as they were before fix balance

@@ -43,6 +43,7 @@ class FixLargeBody : public Fix {
   void keep_account() { keeps_account = true; }
   const Talus::EnergyAccount &energy_account() const { return account; }
   double contacts_here() const { return load[6]; }
+  double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
 
   /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
   /// mass, are those of a particle of this type, mass and radius against the body. Returns

@@ -19,7 +19,8 @@ using namespace Talus;
 
 namespace {
 
-constexpr double default_threshold = 1.0e-4;    // Chrono's, for speeds of slip, roll and spin
+constexpr double default_threshold =
+    1.0e-4;    // Chrono's, for speeds of slip, delayed roll and spin
 
 class Parser {
  public:
@@ -28,11 +29,13 @@ class Parser {
   ContactSpec parse()
   {
     ContactCoefficients &c = spec.given;
-    c.slip_min = c.roll_min = c.spin_min = default_threshold;
+    c.slip_min = default_threshold;
     normal();
     while (i < w.narg && keyword(w.arg[i])) {
     }
-    if (spec.law.delayed && !spec.law.resists) spec.law.delayed = false;
+    // resistance that holds a body needs no threshold
+    const bool given = std::find(seen.begin(), seen.end(), "vmin") != seen.end();
+    if (spec.law.delayed && !given) c.roll_min = c.spin_min = default_threshold;
     return spec;
   }
 
@@ -148,19 +151,47 @@ class Parser {
 
   void tangential()
   {
+    const std::vector<std::pair<std::string, TangentialLaw>> known = {
+        {"none", TangentialLaw::NONE},
+        {"dashpot", TangentialLaw::DASHPOT},
+        {"onestep", TangentialLaw::ONESTEP},
+        {"multistep", TangentialLaw::MULTISTEP}};
     const std::string modes = "none, dashpot, onestep or multistep";
     if (is_plaincoulomb())
       complain(i - 1, fmt::format("'{}' has a tangential force of its own: remove 'tangential'",
                                   name_of(spec.law.normal)));
-    const char *word = next("tangential law: " + modes);
-    int n = 0;
-    while (n < static_cast<int>(TangentialLaw::TANH) &&
-           strcmp(word, name_of(static_cast<TangentialLaw>(n))) != 0)
-      n++;
-    spec.law.tangential = static_cast<TangentialLaw>(n);
-    if (spec.law.tangential == TangentialLaw::TANH)
+    const std::string word = next("tangential law: " + modes);
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const auto &entry) { return entry.first == word; });
+    if (found == known.end())
       complain(i - 1, fmt::format("unknown tangential law '{}', expected {}", word, modes));
+    spec.law.tangential = found->second;
     if (spec.law.tangential != TangentialLaw::NONE) tangential_numbers();
+    if (spec.law.tangential == TangentialLaw::MULTISTEP) multistep_words();
+  }
+
+  /// [midpoint] [stock | slider], in any order. hooke and hertz with numbers follow the stock
+  /// styles gran/hooke/history and gran/hertz/history.
+  void multistep_words()
+  {
+    bool midpoint = false;
+    std::string rule;
+    while (at("midpoint") || at("stock") || at("slider")) {
+      const std::string word = w.arg[i];
+      if (word == "midpoint" ? midpoint : !rule.empty())
+        complain(i, fmt::format("surplus word '{}' after tangential multistep", word));
+      if (word == "midpoint")
+        midpoint = true;
+      else
+        rule = word;
+      i++;
+    }
+    const bool like_stock =
+        spec.law.normal == NormalLaw::HOOKE || spec.law.normal == NormalLaw::HERTZ;
+    if (rule.empty() ? like_stock : rule == "stock")
+      spec.law.tangential = midpoint ? TangentialLaw::MIDPOINT : TangentialLaw::MULTISTEP;
+    else
+      spec.law.tangential = midpoint ? TangentialLaw::SLIDER_MIDPOINT : TangentialLaw::SLIDER;
   }
 
   void tangential_numbers()
@@ -168,12 +199,12 @@ class Parser {
     ContactCoefficients &c = spec.given;
     const int at_kt = i;
     if (spec.law.tangential != TangentialLaw::DASHPOT) spec.kt_given = number_or_null("kt", c.kt);
+    const int at_gt = i;
     spec.gt_given = number_or_null("gt", c.gt);
     c.mu = not_negative("mu");
-    if (spec.law.has_history() && at("midpoint")) {
-      i++;
-      spec.law.tangential = TangentialLaw::MIDPOINT;
-    }
+    if (!spec.gt_given && spec.law.normal == NormalLaw::FLORES)
+      complain(at_gt, "expected a number for gt instead of NULL: gn of flores has another unit, "
+                      "1/(time distance^2), than gt, 1/(time distance)");
     if (spec.kt_given && spec.law.normal == NormalLaw::HOOKE_MATERIAL)
       complain(at_kt, "expected NULL for kt: hooke/material takes kt = kn from the material");
     if (spec.law.normal != NormalLaw::HOOKE) c.kt *= pressure_unit();

@@ -46,7 +46,7 @@ double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
 
 void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
 {
-  find_smallest_particles(laws.num_types(), group);
+  find_smallest_particles(laws.num_types(), {group});
   const double mine = contacts.largest_relative_speed();
   double speed;
   MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
@@ -54,13 +54,9 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   law_period = rayleigh = hertz = 0.0;
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
-  // forces are in LAMMPS' units: force/mass is acceleration only after conversion
-  const double unit = 1.0 / std::sqrt(force->ftm2v);
-  contact = unit * reduce_smallest(contacts.smallest_contact_period());
-  if (!(contact > 0.0)) contact = unit * law_period;
-  contact = smaller_defined(contact, unit * smallest_body_period(laws.num_types()));
-  rayleigh *= unit;
-  hertz *= std::pow(unit, 0.8);
+  contact = reduce_smallest(contacts.smallest_contact_period());
+  if (!(contact > 0.0)) contact = law_period;
+  contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));
 }
 
 double CriticalTimeStep::smallest() const
@@ -68,15 +64,20 @@ double CriticalTimeStep::smallest() const
   return smaller_defined(contact, smaller_defined(rayleigh, hertz));
 }
 
-void CriticalTimeStep::find_smallest_particles(int types, int group)
+/* Of the particles that are members of all groups. Forces are in LAMMPS' units: force/mass is
+   acceleration only after conversion. */
+
+void CriticalTimeStep::find_smallest_particles(int types, std::initializer_list<int> groups)
 {
   std::vector<double> mine(2 * (types + 1), never), all(mine);
   double *const r = mine.data(), *const m = r + types + 1;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & group)) continue;
+    const bool member =
+        std::all_of(groups.begin(), groups.end(), [=](int group) { return atom->mask[i] & group; });
+    if (!member) continue;
     const int type = atom->type[i];
     r[type] = std::min(r[type], atom->radius[i]);
-    m[type] = std::min(m[type], atom->rmass[i]);
+    m[type] = std::min(m[type], atom->rmass[i] / force->ftm2v);
   }
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
   radius.assign(all.begin(), all.begin() + types + 1);
@@ -109,12 +110,16 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
     rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
 }
 
-double CriticalTimeStep::smallest_body_period(int types) const
+/* Of particles that a body can touch. Leaves their radii and masses behind. */
+
+double CriticalTimeStep::smallest_body_period(int types, int group)
 {
   double smallest = 0.0;
   for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
     auto *body = dynamic_cast<FixLargeBody *>(ifix);
-    for (int type = 1; body && type <= types; type++)
+    if (!body) continue;
+    find_smallest_particles(types, {group, body->groupbit});
+    for (int type = 1; type <= types; type++)
       if (!std::isinf(radius[type]))
         smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
   }

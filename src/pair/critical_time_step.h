@@ -25,6 +25,7 @@
 #include "pair/law_book.h"
 #include "pointers.h"
 
+#include <initializer_list>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -42,14 +43,15 @@ class CriticalTimeStep : protected Pointers {
   double smallest() const;
 
  private:
-  void find_smallest_particles(int types, int group);
+  void find_smallest_particles(int types, std::initializer_list<int> groups);
   double reduce_smallest(double mine) const;
   void consider_pair(const LawBook &laws, int i, int j, double speed);
-  double smallest_body_period(int types) const;
+  double smallest_body_period(int types, int group);
   double rayleigh_of(const ContactSpec &spec, int type) const;
 
-  std::vector<double> radius,
-      mass;    // of the smallest particle of each type; infinite if there is none
+  /// Of the smallest particle of each type, masses in units of force/acceleration; infinite if
+  /// there is none.
+  std::vector<double> radius, mass;
   double law_period = 0.0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "atom.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
 
 #include <algorithm>
@@ -36,9 +37,17 @@ void EffectiveMasses::update()
   }
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & freeze_groups) masses[i] = std::numeric_limits<double>::infinity();
+  if (unit() == 1.0) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    masses[i] = unit() * (masses[i] > 0.0 ? masses[i] : atom->rmass[i]);
+}
+
+double EffectiveMasses::unit() const
+{
+  return 1.0 / force->ftm2v;
 }
 
 double EffectiveMasses::mass(int i) const
 {
-  return !masses.empty() && masses[i] > 0.0 ? masses[i] : atom->rmass[i];
+  return !masses.empty() && masses[i] > 0.0 ? masses[i] : unit() * atom->rmass[i];
 }

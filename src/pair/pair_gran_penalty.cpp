@@ -15,7 +15,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -23,13 +22,7 @@ using namespace Talus;
 
 namespace {
 
-constexpr int num_extra =
-    11;    // svector: ten entries as the stock gran/* styles, then overlap/radius
-
-Vector3<double> row(const double *p)
-{
-  return {p[0], p[1], p[2]};
-}
+constexpr int num_extra = 11;    // svector, see single()
 
 }    // namespace
 
@@ -188,7 +181,8 @@ void PairGranPenalty::create_store()
                "command",
                expected);
   if (!store) {
-    const double cell = radii.largest() > 0.0 ? 2.0 * radii.largest() : 1.0;
+    // well below the smallest particle of usual scenes: tags decide only where keys are equal
+    const double cell = radii.largest() > 0.0 ? 0.125 * radii.largest() : 1.0;
     const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
     store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
     if (!store) error->all(FLERR, "Pair style gran/penalty: cannot create fix {}", store_id);
@@ -295,25 +289,23 @@ void PairGranPenalty::renumber_pairs()
     tags[i] = atom->tag[i];
     filed_tags[i] = store->filed_tag(i);
   }
-  pipeline.pairs.order_particles(atom->nlocal, keys, std::move(tags));
-  add_candidate_pairs();
-  pipeline.pairs.finish();
-  pipeline.start_pairs(atom->type, store->partner_lists(), filed_tags);
+  pipeline.set_work(comm->nthreads, false);
+  pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
+                     neighbours());
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }
 
-void PairGranPenalty::add_candidate_pairs()
+NeighbourView PairGranPenalty::neighbours() const
 {
-  const double *special = force->special_lj;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int *neighbors = list->firstneigh[i];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const double weight = special[sbmask(neighbors[jj])];
-      if (weight != 0.0) pipeline.pairs.add_pair(i, neighbors[jj] & NEIGHMASK, weight);
-    }
-  }
+  const double *scale = force->special_lj;
+  return {list->inum,
+          list->ilist,
+          list->numneigh,
+          list->firstneigh,
+          NEIGHMASK,
+          SBBITS,
+          {scale[0], scale[1], scale[2], scale[3]}};
 }
 
 int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *)
@@ -335,7 +327,9 @@ ParticleView PairGranPenalty::view() const
           any ? atom->omega[0] : nullptr,
           atom->radius,
           atom->rmass,
-          masses.override_or_null()};
+          masses.override_or_null(),
+          any ? atom->f[0] : nullptr,
+          any ? atom->torque[0] : nullptr};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -343,25 +337,28 @@ ParticleView PairGranPenalty::view() const
 void PairGranPenalty::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (pipeline.pairs.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
+  if (pipeline.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
 
   reported.clear();
   const bool advance = update->setupflag == 0;
-  pipeline.compute(view(), update->dt, advance, vflag_either ? &reported : nullptr,
-                   keeps_account ? &account : nullptr);
+  pipeline.compute(view(), {update->dt, advance, vflag_either ? &reported : nullptr,
+                            keeps_account ? &account : nullptr});
   store->pairs_are_current();
-  if (atom->nlocal) pipeline.add_forces(atom->f[0], atom->torque[0]);
 
   if (update->setupflag) warn_large_time_step();
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
 }
 
+/* To the host, with newton off, an index of a ghost means that nothing is tallied for it. */
+
 void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
 {
+  const int nobody = atom->nlocal;
   for (const ReportedContact &c : contacts)
-    ev_tally_xyz(c.i, c.j, atom->nlocal, 0, 0.0, 0.0, c.force[0], c.force[1], c.force[2],
-                 c.separation[0], c.separation[1], c.separation[2]);
+    ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, atom->nlocal, 0, 0.0, 0.0,
+                 c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
+                 c.separation[2]);
 }
 
 /* For compute pair: contacts and candidate pairs. One that two ranks compute counts half on each.
@@ -371,81 +368,6 @@ void PairGranPenalty::count_contacts()
 {
   pvector[0] = pipeline.count_contacts();
   pvector[1] = pipeline.count_candidates();
-}
-
-double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
-                               double &fforce)
-{
-  fforce = 0.0;
-  if (!laws_current) prepare_laws();
-  std::fill(svector, svector + single_extra, 0.0);
-  const double ri = atom->radius[i], rj = atom->radius[j];
-  if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
-
-  const double r = std::sqrt(rsq);
-  ContactState<double> s;
-  s.normal = (1.0 / r) * (row(atom->x[i]) - row(atom->x[j]));
-  s.overlap = ri + rj - r;
-  s.velocity = row(atom->v[i]) - row(atom->v[j]);
-  s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
-  s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
-  s.inverse_radius = 1.0 / ri + 1.0 / rj;
-  s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
-  s.circle = circle_of_intersection(ri, rj, s.overlap);
-  s.inverse_distance = 1.0 / r;
-
-  const int row_of_types = pipeline.law_table().row(itype, jtype);
-  const ContactForce<double> out = single_contact(
-      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
-      update->dt, pipeline.history_of(i, j), pipeline.onset_of(i, j));
-
-  const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
-  const Vector3<double> ft = out.tangential;
-  const double extra[num_extra] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)),      vn.x, vn.y, vn.z,
-                                   vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
-  std::copy(extra, extra + num_extra, svector);
-  fforce = dot(out.force - out.tangential, s.normal) / r;    // with adhesion
-  return 0.0;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void PairGranPenalty::write_restart(FILE *fp)
-{
-  write_restart_settings(fp);
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      fwrite(&book.spec(i, j), sizeof(ContactSpec), 1, fp);
-    }
-}
-
-void PairGranPenalty::read_restart(FILE *fp)
-{
-  read_restart_settings(fp);
-  if (!allocated) allocate();
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      ContactSpec spec;
-      if (comm->me == 0) {
-        utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-        utils::sfread(FLERR, &spec, sizeof spec, 1, fp, nullptr, error);
-      }
-      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      MPI_Bcast(&spec, sizeof spec, MPI_BYTE, 0, world);
-      if (setflag[i][j]) book.set(i, j, spec);
-    }
-}
-
-void PairGranPenalty::write_restart_settings(FILE *fp)
-{
-  fwrite(&book.mix, sizeof book.mix, 1, fp);
-}
-
-void PairGranPenalty::read_restart_settings(FILE *fp)
-{
-  if (comm->me == 0) utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
-  MPI_Bcast(&book.mix, sizeof book.mix, MPI_BYTE, 0, world);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -73,7 +73,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client {
   void warn_small_periods();
   void warn_large_time_step();
 
-  void add_candidate_pairs();
+  Talus::NeighbourView neighbours() const;
   Talus::ParticleView view() const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);
   void count_contacts();

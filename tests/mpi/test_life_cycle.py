@@ -102,6 +102,25 @@ class LifeCycle(SceneCase):
         log = self.run_lammps(script.replace("run 300", "run 2") + 'print "END REACHED"\n', np=2).log
         self.assertIn("END REACHED", log.splitlines())
 
+    def test_history_of_other_particles_is_refused(self):
+        """Deleted between read_restart and what reads the history: pair style and large body."""
+        self.run_lammps(BEGIN.replace("run 300", "run 20") + "write_restart half\n")
+        bodies = [line for line in PHYSICS.splitlines() if "large/body" in line]
+        physics = "\n".join(line.replace("f_floor[3] f_xlo[1]", "") for line in PHYSICS.splitlines()
+                            if line not in bodies)
+        delete = "group one id 1\ndelete_atoms group one compress no\n"
+        cases = {
+            f"{delete}{physics}\nrun 0\n": "Pair style gran/penalty: particles were added or deleted between "
+                                           "read_restart and the first run",
+            f"{delete}{bodies[0]}\n": "Fix large/body floor: particles were added or deleted between read_restart "
+                                      "and this command",
+        }
+        for np in 1, 2:
+            for commands, message in cases.items():
+                log = self.run_lammps(START + "read_restart half\n" + commands, np=np, expect_error=True).log
+                self.assertIn(message, " ".join(log.split()))
+            self.run_lammps(START + f"read_restart half\n{physics}\nrun 0\n{delete}run 0\n", np=np)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=300
-"""One trajectory: the same bits on any ranks, grid, balance, skin, rebuild setting, sorting, restart.
+"""One trajectory: the same bits on any ranks, threads, grid, balance, skin, rebuild setting, sorting, restart.
 
 The scene is a heap that collapses when a wall is taken away; the reference is one uninterrupted run
 on one rank.  Compared at several steps are position, velocity, spin and stress of every particle, and
@@ -182,6 +182,11 @@ class SameBits(HeapCase):
         for grid in "4 1 1", "1 4 1", "1 1 4", "2 2 1", "1 2 2", "2 1 2":
             self.check(grid, 4, grid=grid)
         self.check("3 1 1", 3, grid="3 1 1")
+
+    def test_threads(self):
+        for np, threads in (1, 2), (1, 3), (2, 2), (3, 3), (8, 1):
+            self.check(f"threads {threads}", np, comm=f"package omp {threads}")
+        self.check("threads by suffix", 2, comm="suffix omp\npackage omp 2")
 
     def test_load_balancing(self):
         """(The command `balance ... shift` itself rounds positions once: the host's doing.)"""

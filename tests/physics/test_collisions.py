@@ -8,17 +8,10 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, relative_difference, thermo, write_sphere_data
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data particles
-pair_style gran/penalty
+SCRIPT = begin(data="particles") + """
 pair_coeff * * {law}
 neighbor {skin} bin
 fix step all nve/sphere/symplectic start half {gravity}

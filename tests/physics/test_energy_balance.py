@@ -10,21 +10,14 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, relative_difference, thermo, write_sphere_data
 
 CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE = (f"c_s[{n}]" for n in range(1, 8))
 ENERGIES = (ELASTIC, NORMAL, TANGENTIAL, RESISTANCE)
 G = 9.81
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin(units="{units}") + """
 pair_coeff * * {pair}
 {more}
 neighbor {skin} bin
@@ -51,11 +44,36 @@ class Case(SceneCase):
     def simulate(self, pair, spheres, steps, dt, more="", skin=0.1, every=None, np=1, gravity="", run=None,
                  box=5):
         write_sphere_data(self.path("data"), ((-box, box),) * 3, spheres)
-        script = SCRIPT.format(pair=pair, more=more or "fix step all nve/sphere/symplectic", skin=skin,
+        script = SCRIPT.format(units="si", pair=pair, more=more or "fix step all nve/sphere/symplectic", skin=skin,
                                dt=repr(dt), every=every or max(steps, 1), gravity=gravity,
                                run=run or f"run {steps}")
         self.log = self.run_lammps(script, np=np, timeout=250).log
         return thermo(self.log)
+
+
+class Units(SceneCase):
+
+    def test_restitution_in_all_units(self):
+        """e of the material laws needs force = mass acceleration, which real, metal and electron units do not
+        have: masses are converted.  What damping and friction take is the loss of kinetic energy."""
+        print("\nrestitution, dissipated/lost energy")
+        for units, young, speed in (("si", 1e8, 1.0), ("real", 1e5, 1e-5), ("metal", 1e5, 1e-2),
+                                    ("electron", 1e9, 1e-6)):
+            for law in f"hertz/material {young} 0.5 0.3", f"hooke/material {young} 0.5 0.3 {2 * speed}":
+                spheres = [Sphere((0, 0, s * 50.001), (0, 0, -s * speed), diameter=100.0, density=1.0, type=1)
+                           for s in (-1, 1)]
+                write_sphere_data(self.path("data"), ((-300, 300),) * 3, spheres)
+                dt = "$(c_t[1]/100)" if law.startswith("hooke") else "$(0.01*c_t[3])"
+                more = "fix step all nve/sphere/symplectic"
+                script = SCRIPT.format(pair=law, more=more, units=units, skin=1.0, dt="1e-9", every=100000, gravity="",
+                                       run=f"run 0\ntimestep {dt}\nrun 4000")
+                last = thermo(self.run_lammps(script).log)
+                first, last = last[0], last[-1]
+                self.assertEqual(last[CONTACTS], 0.0)
+                e = math.sqrt(last["c_k"] / first["c_k"])
+                print(f"{units:10}{law:40}{e:10.6f}{last[NORMAL] / (first['c_k'] - last['c_k']):12.6f}")
+                self.assertAlmostEqual(e, 0.5, delta=3e-3)
+                self.assert_close(last[NORMAL], first["c_k"] - last["c_k"], 1e-3)
 
 
 class EachEntry(Case):
@@ -179,6 +197,34 @@ class EachEntry(Case):
             self.assertEqual(row[CANDIDATES], 2.0)
             self.assertEqual(row[CONTACTS], 2.0)
             self.assert_close(row[OVERLAP], (1 - distance) / 0.5, 1e-9)
+
+    def test_largest_overlap_with_a_body(self):
+        for np in 1, 2:
+            row, = self.simulate("hooke 1e6 0.0", [Sphere((0, 0, 0.495)), Sphere((0.999, 0, 0.495))], 0, 1e-6, np=np,
+                                 more="fix step all nve/sphere/symplectic\n"
+                                 "fix floor all large/body plane 0 0 0 0 0 1 contact hooke 1e6 0.0")
+            self.assert_close(row[OVERLAP], 0.01, 1e-9)
+
+    def test_a_new_compute_begins_at_zero(self):
+        """And an old one goes on."""
+        spheres = [Sphere((0, 0, 0.499), (0, 0, -1.0), density=1000.0),
+                   Sphere((0.999, 0, 0.6), density=1000.0)]
+        rows = self.simulate("hooke 1e6 50.0", spheres, 20, 1e-6, every=20, run="""run 20
+compute s2 all penalty/stats
+thermo_style custom step c_k c_r c_s[1] c_s[2] c_s[3] c_s[4] c_s[5] c_s[6] c_s[7] c_s2[5]
+thermo_modify format float %.17g norm no
+run 20
+uncompute s2
+compute s2 all penalty/stats
+run 0""", more="fix step all nve/sphere/symplectic\n"
+                             "fix floor all large/body plane 0 0 0 0 0 1 contact hooke 1e6 50.0")
+        first, begin, end, again = rows[1:]
+        self.assertGreater(first[NORMAL], 0.0)
+        self.assertEqual(begin["c_s2[5]"], 0.0)
+        self.assertEqual(begin[NORMAL], first[NORMAL])
+        self.assert_close(end["c_s2[5]"], end[NORMAL] - first[NORMAL], 1e-9)
+        self.assertEqual(again["c_s2[5]"], 0.0)
+        self.assertEqual(again[NORMAL], end[NORMAL])
 
 
 LAW = "hertz/material 1e7 0.5 0.3 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"

@@ -14,6 +14,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 STEPS_PER_CONTACT = 2000    # Hertzian contact time over time step
@@ -47,15 +48,7 @@ RECOIL_6 = [
     (2.75, 1.27), (3.73, 3.24), (5.68, 7.13), (6.11, 7.98)]
 SPINS_6 = [.175, .2, .3, .5, .7, .9, 1.3, 2, 3, 4, 5, 7, 9, 12, 22]
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 {body}
 neighbor {skin} bin
@@ -253,38 +246,40 @@ class ImpactTables(SceneCase):
         return [Impact(material, 0.1, 0.2, words, spin=ratio * 0.2 / 0.1) for ratio in ratios]
 
     def test_6_digitised(self):
-        """Sliding impacts follow the digitised curve to 5 % if the tangential spring has no dashpot and the
-        attractive end of the contact is cut.  The others depend on how a law damps the tangential motion
-        at e = .5: ours (Chrono's) is known to miss the curve by up to .3; held here so that it stays."""
+        """5 % of full scale: recoil everywhere; restitution of the patch where it slides to the end (x < 1;
+        with limit_damping, as friction of the attractive end of a contact is no part of x) and where it sticks
+        late (1 < x < 4).  Where it sticks throughout (x > 4), the curve tells how a law damps tangential
+        motion at e = .5: gt = NULL, made for the normal direction, damps it too much (.24 at x = 24); no
+        number gt is within 5 % everywhere, .2 is within 11 %."""
         limit_ratio = 3.5 * 0.4 * 1.5    # Vt/Vn at which sliding ends
-        ratios = [limit_ratio / x for x, _ in DIGITISED_6], [t for t, _ in RECOIL_6]
-        plain = [self.spinning(AL_ALLOY_4, r, "limit_damping", "0.0") for r in ratios]
-        self.collide(plain[0] + plain[1], 0.4, gt="0.0")
-        default = [self.spinning(AL_ALLOY_4, r) for r in ratios]
-        self.collide(default[0] + default[1], 0.4)
+        patch, recoil = [limit_ratio / x for x, _ in DIGITISED_6], [t for t, _ in RECOIL_6]
+        found = {}
+        for name, words in (("default", ("", "NULL")), ("limit_damping", ("limit_damping", "NULL")),
+                            ("gt .2", ("", "0.2"))):
+            one, two = (self.spinning(AL_ALLOY_4, ratios, *words) for ratios in (patch, recoil))
+            self.collide(one + two, 0.4, gt=words[1])
+            found[name] = [i.patch / (0.1 * i.spin) for i in one], [-i.patch / (0.5 * i.speed) for i in two]
 
-        print("\ntest 6, Al alloy: Vt/Vn limit ratio, restitution of the patch: digitised, default, gt 0 "
-              "limit_damping")
-        for a, b, (x, table) in zip(default[0], plain[0], DIGITISED_6):
-            y, y_plain = (i.patch / (0.1 * i.spin) for i in (a, b))
-            print(f"{x:8}{table:9.3f}{y:9.3f}{y_plain:9.3f}")
-            self.assertAlmostEqual(y, table, delta=0.3, msg=f"at {x}")
-            if x < 1:
-                self.assertAlmostEqual(y_plain, table, delta=0.05 * 0.94, msg=f"at {x}")
-        print("test 6, Al alloy: tan incident, tan recoil: digitised, default, gt 0 limit_damping")
-        for a, b, (incident, table) in zip(default[1], plain[1], RECOIL_6):
-            recoil, recoil_plain = (-i.patch / (0.5 * i.speed) for i in (a, b))
-            print(f"{incident:8}{table:9.3f}{recoil:9.3f}{recoil_plain:9.3f}")
-            self.assertAlmostEqual(recoil, table, delta=0.6, msg=f"at {incident}")
-            if incident > limit_ratio:
-                self.assertAlmostEqual(recoil_plain, table, delta=0.05 * 8.4, msg=f"at {incident}")
+        scale = max(y for _, y in DIGITISED_6) - min(y for _, y in DIGITISED_6)
+        print(f"\ntest 6, Al alloy: Vt/Vn limit ratio, restitution of the patch: digitised, {', '.join(found)}")
+        for n, (x, table) in enumerate(DIGITISED_6):
+            y = {name: columns[0][n] for name, columns in found.items()}
+            print(f"{x:8}{table:9.3f}" + "".join(f"{value:9.3f}" for value in y.values()))
+            if x < 4:
+                law = "limit_damping" if x < 1 else "default"
+                self.assertAlmostEqual(y[law], table, delta=0.05 * scale, msg=f"at {x}")
+            self.assertAlmostEqual(y["gt .2"], table, delta=0.12 * scale, msg=f"at {x}")
+        scale = max(t for _, t in RECOIL_6) - min(t for _, t in RECOIL_6)
+        print(f"test 6, Al alloy: tan incident, tan recoil: digitised, {', '.join(found)}")
+        for n, (incident, table) in enumerate(RECOIL_6):
+            print(f"{incident:8}{table:9.3f}" + "".join(f"{columns[1][n]:9.3f}" for columns in found.values()))
+            for name, columns in found.items():
+                self.assertAlmostEqual(columns[1][n], table, delta=0.05 * scale, msg=f"{name} at {incident}")
 
     def test_6_sliding_spins_are_exact(self):
-        """The friction of a sliding patch is mu |F_n|: its impulse is mu (1+e) m v_n with limit_damping;
-        without, the attractive end of the contact adds to it.  The spring needs a little way to follow
-        the damping force at the beginning (2 %) and through the change of sign.  With a tangential
-        dashpot (default) the stored displacement is off by gt v_t/kt, which changes faster than the
-        limit: friction falls short of mu |F_n| by up to a quarter at e = .5.  It never exceeds it."""
+        """The friction of a sliding patch is mu |F_n|: its impulse is mu (1+e) m v_n with limit_damping; without,
+        the attractive end of the contact adds to it.  Without a tangential dashpot (gt 0) the spring needs a
+        little way to follow the damping force at the beginning (2 %) and through the change of sign."""
         for gt in "0.0", "NULL":
             for limit in "", "limit_damping":
                 ratios = [w * 0.1 / 0.2 for w in SPINS_6]
@@ -298,8 +293,7 @@ class ImpactTables(SceneCase):
                     slides = exact < (0.0 if limit else -0.2)
                     print(f"{2 * ratio:6.3f}{y[0]:9.4f}{y[1]:9.4f}" + (f"{exact:9.4f}" if slides else ""))
                     for value in y if slides else []:
-                        tail = 3.5 * 0.4 * (impulse - 1.5) / ratio
-                        short = tail + (0.02 if gt == "0.0" else 0.25) * (1 + exact)
+                        short = 0.02 * (1 + exact) + 3.5 * 0.4 * (impulse - 1.5) / ratio if gt == "0.0" else 1e-3
                         self.assertLess(value, exact + 1e-3, f"spin {2 * ratio}")
                         self.assertGreater(value, exact - short, f"spin {2 * ratio}")
 

@@ -10,7 +10,8 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from granular_script import begin
+from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
 
 R, RHO, G = 0.5, 2000.0, 9.81
 MASS = RHO * 4 / 3 * math.pi * R**3
@@ -19,15 +20,7 @@ GN = 100.0                  # 1/s
 DT = 1e-4
 HOOKE = f"hooke {KN} {GN}"
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 {more}
 neighbor 0.1 bin
@@ -172,16 +165,19 @@ class OnPlane(Scene):
         self.assertLess(worst, 1e-3)
 
     def test_thresholds(self):
-        """Just below its threshold each resistance is off, just above it is on."""
-        words = HOOKE + " rolling 0.02 spinning 0.3 vmin 1e-4 {0} {1}"
+        """Just below its threshold each resistance is off, just above it is on.  Only `delayed` resistance has a
+        threshold by default (here of over-damped contacts, which do not wait)."""
+        words, over_damped = HOOKE + " rolling 0.02 spinning 0.3 vmin 1e-4 {0} {1}", f"hooke {KN} 250.0"
         cases = [(words.format(1e-3, 9.0), (0, 0.999e-3 / R, 0), False),
                  (words.format(1e-3, 9.0), (0, 1.001e-3 / R, 0), True),
                  (words.format(9.0, 0.02), (0, 0, 0.01999), False),
                  (words.format(9.0, 0.02), (0, 0, 0.02001), True),
-                 (HOOKE + " rolling 0.02", (0, 0.999e-4 / R, 0), False),
-                 (HOOKE + " rolling 0.02", (0, 1.001e-4 / R, 0), True),
-                 (HOOKE + " spinning 0.3", (0, 0, 0.999e-4), False),
-                 (HOOKE + " spinning 0.3", (0, 0, 1.001e-4), True)]
+                 (HOOKE + " rolling 0.02", (0, 1e-9 / R, 0), True),
+                 (HOOKE + " spinning 0.3", (0, 0, 1e-9), True),
+                 (over_damped + " rolling 0.02 delayed", (0, 0.999e-4 / R, 0), False),
+                 (over_damped + " rolling 0.02 delayed", (0, 1.001e-4 / R, 0), True),
+                 (over_damped + " spinning 0.3 delayed", (0, 0, 0.999e-4), False),
+                 (over_damped + " spinning 0.3 delayed", (0, 0, 1.001e-4), True)]
         first, last = self.decay([(law, REST, w, (0, 0, 0)) for law, w, _ in cases], steps=2, every=2)
         for tag, (law, _, acts) in enumerate(cases, 1):
             changed = any(first.column(c)[tag] != last.column(c)[tag] for c in ("omegay", "omegaz"))
@@ -387,6 +383,22 @@ class Adhesion(Scene):
                 self.assertGreater(z, -R, laws[n])
             else:
                 self.assertLess(z, -R - 1e-4, laws[n])
+
+    def test_pair_local(self):
+        """Pair::single(): force along the line of centres with adhesion, as in f."""
+        spheres = [Sphere((s * (R - 1e-4), 0, 0), (-0.1 * s, 0, 0), diameter=2 * R, density=RHO) for s in (-1, 1)]
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
+        for words in f"constant {F_A}", f"dmt {F_A}", f"perko {F_A}":
+            self.run_lammps(SCRIPT.format(
+                pairs=f"pair_coeff * * {HOOKE} adhesion {words}", more="compute c all pair/local dist fx force\n"
+                "dump c all local 1 local index c_c[*]\ndump_modify c format float %.17g", dt=DT, steps=0, every=1))
+            (_, distance, fx, force), = read_local(self.path("local"))[0].rows
+            frame, = read_dump(self.path("out"))
+            push = KN * (2 * R - distance) + MASS / 2 * GN * 0.2
+            pull = F_A * {"constant": 1, "dmt": math.sqrt(R_EFF), "perko": R_EFF}[words.split()[0]]
+            self.assert_close(abs(fx), abs(push - pull), 1e-12, words)
+            self.assert_close(abs(fx), abs(frame.column("fx")[1]), 1e-12, words)
+            self.assert_close(abs(force), abs(fx), 1e-12, words)
 
     def test_sticking_speed(self):
         """hooke with adhesion F: m x'' = -kn x - m gn x' + F from x = 0 on.  Slower than a critical speed the

@@ -9,8 +9,8 @@
     all          above tan a = mu it slides with the acceleration g (sin a - mu cos a)
 
 Spheres that cannot roll are moved by the host's fix nve, which leaves spins alone; a clump of three
-spheres (fix rigid/small) cannot roll by itself.  A sphere that rolls against rolling resistance stops
-only down to the threshold of speed of the resistance: it creeps at that speed."""
+spheres (fix rigid/small) cannot roll by itself.  A sphere that rolls against rolling resistance rests
+as well, unless its resistance has a threshold of speed."""
 
 import math
 import os
@@ -18,6 +18,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 R, RHO, G, MU = 0.5, 2000.0, 9.81, 0.5
@@ -26,15 +27,7 @@ KN, KT, GN, GT = 1e7, 4e6, 100.0, 200.0    # GT: overdamped, so that friction do
 DT = 2e-4
 STEPS = 100000
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin() + """
 {pairs}
 fix floor all large/body plane 0 0 0 0 0 1 {contacts}
 neighbor 0.1 bin
@@ -151,20 +144,33 @@ class Rests(Slope):
                 print(f"tan a {tangent:5} {name:18}{creep / R:10.1e}")
                 self.assertLess(creep, 1e-6 * R, name)
 
-    def test_a_rolling_sphere_creeps_at_the_threshold_of_resistance(self):
-        """mu_r > tan a: resistance stops a sphere only down to `vmin roll` and to what it does in one time
-        step, 5/2 mu_r g dt: within that it goes on, on its tangential spring and in kicks."""
-        thresholds = (1e-3, 1e-4, 1e-5, 0.0)
+    def test_resistance_holds_a_sphere_that_can_roll(self):
+        """mu_r > tan a: it neither slips nor rolls."""
+        laws = {name: f"{words} rolling 0.4" for name, words in MULTISTEP.items()}
+        print(f"\na sphere that can roll, mu_r .4: creep over radius from a fifth of {self.STEPS} steps on")
+        for tangent in (0.1, 0.3, 0.39):
+            frames = self.simulate(list(laws.values()), tangent, self.STEPS, self.STEPS // 20, move="symplectic")
+            for tag, name in enumerate(laws, 1):
+                creep = self.creep(frames, tag, 0.2)
+                print(f"tan a {tangent:5} {name:18}{creep / R:10.1e}")
+                self.assertLess(creep, 1e-6 * R, name)
+
+    def test_thresholds_and_delayed_resistance_let_it_creep(self):
+        """A sphere goes on at the threshold of speed of `vmin roll`; `delayed` resistance, of constant size,
+        leaves it what it does in one time step, 5/2 mu_r g dt."""
+        thresholds = (1e-3, 1e-4, 1e-5)
         laws = [f"{MULTISTEP['hooke']} rolling 0.4 vmin 0 {roll} 0" for roll in thresholds]
-        tangent, steps = 0.2, self.STEPS
+        laws += [f"{MULTISTEP['hooke']} rolling 0.4 delayed vmin 0 {roll} 0" for roll in thresholds]
+        tangent, steps, kick = 0.2, 20000, 2.5 * 0.4 * G * DT
         frames = self.simulate(laws, tangent, steps, steps // 20, move="symplectic")
-        kick = 2.5 * 0.4 * G * DT
         print(f"\ncreep of a rolling sphere, tan a {tangent}, mu_r .4; 5/2 mu_r g dt = {kick:.1e} m/s")
-        for tag, roll in enumerate(thresholds, 1):
+        for tag, law in enumerate(laws, 1):
             first, last = frames[len(frames) // 5], frames[-1]
-            speed = (last.column("x")[tag] - first.column("x")[tag]) / ((last.step - first.step) * DT)
-            print(f"threshold {roll:7}: {speed:10.2e} m/s")
-            self.assertLess(abs(speed), roll + kick)
+            speed = abs(last.column("x")[tag] - first.column("x")[tag]) / ((last.step - first.step) * DT)
+            print(f"{' '.join(law.split()[8:]):40}{speed:10.2e} m/s")
+            roll = thresholds[(tag - 1) % 3]
+            self.assertLess(speed, roll + (kick if "delayed" in law else 2.5 * G * tangent * DT))
+            self.assertGreater(speed, 0.1 * roll)
 
 
 class Creeps(Slope):
@@ -234,6 +240,19 @@ class Slides(Slope):
                 print(f"{tangent:6}{found[0] / a:10.6f}{found[1] / alpha:10.6f}")
                 self.assert_close(found[0], a, 1e-3)
                 self.assert_close(found[1], alpha, 1e-3)
+
+    def test_a_sphere_rolls_against_resistance(self):
+        """mu_r < tan a: a = 5/7 g (sin a - mu_r cos a)."""
+        laws = [f"{MULTISTEP[name]} rolling 0.1" for name in ("hooke", "hertz", "hertz/material")]
+        print("\nrolling against mu_r .1: tan a, acceleration over the closed form")
+        for tangent in (0.15, 0.3, 0.6):
+            expected = 5 / 7 * G * (tangent - 0.1) / math.hypot(1, tangent)
+            frames = self.simulate(laws, tangent, 10000, 1000, move="symplectic")
+            for tag in 1, 2, 3:
+                first, last = frames[5], frames[-1]
+                found = (last.column("vx")[tag] - first.column("vx")[tag]) / ((last.step - first.step) * DT)
+                print(f"{tangent:6}{found / expected:10.6f}")
+                self.assert_close(found, expected, 1e-3)
 
 
 if __name__ == "__main__":

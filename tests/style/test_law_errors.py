@@ -90,6 +90,13 @@ def law_cases():
     yield "hooke 1e3 2.0 tangential multistep 1e3", "missing gt", "1e3"
     yield "hooke 1e3 2.0 tangential multistep 0.0 2.0 0.5", "tangential multistep needs kt > 0", "0.0"
     yield "hooke 0.0 2.0 tangential multistep NULL 2.0 0.5", "tangential multistep needs kt > 0", "NULL"
+    for mode in "dashpot", "onestep NULL", "multistep 1e3":
+        yield (f"flores 1e3 2.0 tangential {mode} NULL 0.5", "expected a number for gt instead of NULL: gn of "
+               "flores has another unit", "NULL")
+    for words, surplus in ("midpoint midpoint", "midpoint"), ("stock slider", "slider"), ("slider slider", "slider"):
+        yield (f"{GOOD} tangential multistep NULL NULL 0.5 {words}",
+               f"surplus word '{surplus}' after tangential multistep", surplus)
+    yield f"{GOOD} tangential dashpot NULL 0.5 slider", None, "slider"
     yield ("hooke/material 1e6 0.5 0.3 1.0 tangential multistep 1e3 NULL 0.5",
            "expected NULL for kt: hooke/material takes kt = kn", "1e3")
     yield ("hooke/material 1e6 0.5 0.3 1.0 tangential onestep 1e3 NULL 0.5",

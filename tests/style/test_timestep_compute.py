@@ -9,17 +9,10 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
-SCRIPT = """
-units {units}
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data data
-pair_style gran/penalty
+SCRIPT = begin(units="{units}") + """
 {pairs}
 {more}
 neighbor 0.2 bin
@@ -152,6 +145,16 @@ class TimestepCompute(SceneCase):
         self.check("group of type 1", pairs, TOUCHING,
                    (contact, rayleigh(0, 1e8, 0.3), hertz_time((0, 0), young, SPEED)), group="group big type 1",
                    name="big")
+
+    def test_group_of_a_body(self):
+        """A large body counts for the particles that it can touch, in the compute's group."""
+        floor = "fix floor big large/body plane 0 0 -4 0 0 1 contact hooke {k} 0.0"
+        big = math.sqrt(mass(0) / 1e7)
+        for k, group, expected in ((1e7, "all", big), (1e7, "small", math.sqrt(mass(1) / 1e4))):
+            found = self.compute("pair_coeff * * hooke 1e4 0.0", APART, group="group small type 2", name=group,
+                                 more="group big type 1\n" + floor.format(k=k))
+            self.assert_close(found[0], expected if group == "all" else math.sqrt(reduced(mass(1), mass(1)) / 1e4),
+                              1e-9, group)
 
     def test_units(self):
         """units real: force/mass is acceleration only after conversion, and stiffness is per pressure."""

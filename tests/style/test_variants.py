@@ -46,8 +46,11 @@ class Variants(BedCase):
                      "pair_coeff 1 1 hertz 9000.0 20.0 tangential multistep NULL NULL 0.5")
 
     def test_pressure_units(self):
-        """In units whose pressure is not force/distance^2, hertz converts kn and kt as the stock style."""
-        self.compare("pair_style gran/hertz/history 6.0e8 4.0e8 20.0 10.0 0.5 1\npair_coeff * *",
+        """In units whose pressure is not force/distance^2, hertz converts kn and kt as the stock style.  Where
+        force is not mass acceleration either, its damping is right; that of the stock style lacks a factor."""
+        factor = 48.88821291**2    # mass acceleration in units of force
+        self.compare(f"pair_style gran/hertz/history 6.0e8 4.0e8 {20 * factor!r} {10 * factor!r} 0.5 1\n"
+                     "pair_coeff * *",
                      "pair_style gran/penalty\n"
                      "pair_coeff * * hertz 6.0e8 20.0 tangential multistep 4.0e8 10.0 0.5",
                      before="units real")

@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "contact/candidate_list.h"
+#include "neighbour_lists.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -42,72 +43,138 @@ Particles random_particles(int n, RandomSource &random)
   return p;
 }
 
-TEST(CandidateList, OrdersParticlesByKeyThenTagThenHost)
+TEST(ParticleOrder, OrdersParticlesByKeyThenTagThenHost)
 {
   RandomSource random(1);
   for (int n : {0, 1, 2, 3, 50, 333}) {
     const Particles p = random_particles(n, random);
-    CandidateList list;
-    list.order_particles(p.owned, p.key, p.tag);
-    ASSERT_EQ(list.num_particles(), n);
-    EXPECT_EQ(list.tag, p.tag);
+    ParticleOrder order;
+    order.arrange(p.owned, p.key, p.tag);
+    ASSERT_EQ(order.size(), n);
+    ASSERT_EQ(order.num_parts(), 1);
+    EXPECT_EQ(order.tag, p.tag);
     for (int s = 0; s < n; s++) {
-      ASSERT_EQ(list.slot_of_atom[list.atom_of_slot[s]], s);
-      ASSERT_EQ(list.is_owned(list.atom_of_slot[s]), list.atom_of_slot[s] < p.owned);
+      ASSERT_EQ(order.slot_of_atom[order.atom_of_slot[s]], s);
+      ASSERT_EQ(order.part(s), 0);
       if (s == 0) continue;
-      const int a = list.atom_of_slot[s - 1], b = list.atom_of_slot[s];
+      const int a = order.atom_of_slot[s - 1], b = order.atom_of_slot[s];
       const auto rank = [&](int atom) { return std::tuple(p.key[atom], p.tag[atom], atom); };
       ASSERT_LT(rank(a), rank(b));
     }
   }
 }
 
+/// Random pairs of particles of which at least one is owned, as weights by slots.
+struct Pairs {
+  slow::NeighbourLists lists;
+  std::map<std::pair<int, int>, double> by_slots;    // in the order wanted
+
+  Pairs(const ParticleOrder &order, double chance, double odd_weight, RandomSource &random) :
+      lists(order.owned)
+  {
+    std::vector<std::tuple<int, int, double>> pairs;
+    for (int i = 0; i < order.owned; i++)
+      for (int j = i + 1; j < order.size(); j++)
+        if (random.chance(chance)) pairs.emplace_back(i, j, random.chance(0.8) ? 1.0 : odd_weight);
+    random.shuffle(pairs);
+    for (auto [i, j, weight] : pairs) {
+      by_slots[std::minmax({order.slot_of_atom[i], order.slot_of_atom[j]})] = weight;
+      if (random.chance(0.5)) std::swap(i, j);
+      lists.add(i, j, weight);
+    }
+  }
+};
+
 TEST(CandidateList, SortsPairsAndKeepsTheirWeights)
 {
   RandomSource random(2);
   CandidateList list;    // used again and again, as at rebuilds
-  for (int n : {40, 0, 7, 120, 2}) {
+  ParticleOrder order;
+  for (int n : {40, 0, 7, 120, 2, 300}) {
     const Particles p = random_particles(n, random);
-    list.order_particles(p.owned, p.key, p.tag);
-    std::map<std::pair<int, int>, double> expected;    // by slots, in the order wanted
-    std::vector<std::tuple<int, int, double>> pairs;
-    for (int i = 0; i < n; i++)
-      for (int j = i + 1; j < n; j++)
-        if (random.chance(0.2)) pairs.emplace_back(i, j, random.chance(0.8) ? 1.0 : 0.25);
-    random.shuffle(pairs);
-    for (auto [i, j, weight] : pairs) {
-      expected[std::minmax({list.slot_of_atom[i], list.slot_of_atom[j]})] = weight;
-      if (random.chance(0.5)) std::swap(i, j);
-      list.add_pair(i, j, weight);
-    }
-    list.finish();
+    order.arrange(p.owned, p.key, p.tag);
+    Pairs pairs(order, 0.2, 0.25, random);    // 300: rows of more than the few that are usual
+    list.collect(order, pairs.lists.view(), 0);
 
-    ASSERT_EQ(list.num_pairs(), static_cast<std::int64_t>(expected.size()));
+    ASSERT_EQ(list.num_pairs(), static_cast<std::int64_t>(pairs.by_slots.size()));
     std::int64_t c = 0;
-    for (const auto &[slots, weight] : expected) {
+    for (const auto &[slots, weight] : pairs.by_slots) {
       ASSERT_EQ(list.first[c], slots.first);
       ASSERT_EQ(list.second[c], slots.second);
       ASSERT_EQ(list.weighted() ? list.weights[c] : 1.0, weight);
       ASSERT_EQ(list.find(slots.first, slots.second), c);
       ASSERT_EQ(list.find(slots.second, slots.first), c);
+      ASSERT_TRUE(list.counts(c));
       c++;
     }
     for (int a = 0; a < n; a++)
-      for (int b = a; b < n; b++) ASSERT_EQ(list.find(a, b) >= 0, expected.count({a, b}) == 1);
+      for (int b = a; b < n; b++)
+        ASSERT_EQ(list.find(a, b) >= 0, pairs.by_slots.count({a, b}) == 1);
   }
 }
 
 TEST(CandidateList, StoresWeightsOnlyIfOneIsNotOne)
 {
   CandidateList list;
+  ParticleOrder order;
   for (double weight : {1.0, 0.5, 1.0}) {
-    list.order_particles(3, {7, 7, 7}, {3, 1, 2});
-    list.add_pair(0, 1, 1.0);
-    list.add_pair(2, 0, weight);
-    list.finish();
+    order.arrange(3, {7, 7, 7}, {3, 1, 2});
+    slow::NeighbourLists lists(3);
+    lists.add(0, 1, 1.0);
+    lists.add(2, 0, weight);
+    list.collect(order, lists.view(), 0);
     EXPECT_EQ(list.weighted(), weight != 1.0);
     EXPECT_GT(list.memory_usage(), 0.0);
   }
+}
+
+TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
+{
+  RandomSource random(3);
+  for (int threads : {1, 2, 3, 8})
+    for (bool two_phases : {false, true}) {
+      const Particles p = random_particles(200, random);
+      ParticleOrder order;
+      order.arrange(p.owned, p.key, p.tag);
+      Pairs pairs(order, 0.02, 1.0, random);
+      order.divide(pairs.lists.view(), threads, two_phases);
+      ASSERT_EQ(order.num_parts(), two_phases ? 2 * threads : threads);
+
+      std::map<std::pair<int, int>, int> counted;
+      std::vector<int> particles_of_part(order.num_parts(), 0);
+      for (int part = 0; part < order.num_parts(); part++) {
+        CandidateList list;
+        list.collect(order, pairs.lists.view(), part);
+        std::map<std::pair<int, int>, double> expected;
+        for (const auto &pair : pairs.by_slots)
+          if (list.serves(pair.first.first) || list.serves(pair.first.second))
+            expected.insert(pair);
+        ASSERT_EQ(list.num_pairs(), static_cast<std::int64_t>(expected.size()));
+        std::int64_t c = 0;
+        for (const auto &pair : expected) {
+          ASSERT_EQ(std::pair(list.first[c], list.second[c]), pair.first);
+          counted[pair.first] += list.counts(c);
+          for (int slot : {list.first[c], list.second[c]}) {
+            const bool needs_ghost = !order.is_owned(order.atom_of_slot[slot]);
+            ASSERT_FALSE(two_phases && part < threads && needs_ghost);
+          }
+          c++;
+        }
+        for (int s = 0; s < order.size(); s++) {
+          const bool owned = order.is_owned(order.atom_of_slot[s]);
+          ASSERT_TRUE(!list.serves(s) || owned || order.num_parts() == 1);
+          particles_of_part[part] += owned && list.serves(s);
+        }
+      }
+      for (const auto &pair : pairs.by_slots) ASSERT_EQ(counted[pair.first], 1);
+      int total = 0;
+      for (int n : particles_of_part) total += n;
+      EXPECT_EQ(total, order.owned);
+      for (int n : particles_of_part)
+        if (!two_phases) {
+          EXPECT_NEAR(n, order.owned / threads, order.owned / 8 + 1);
+        }
+    }
 }
 
 }    // namespace

@@ -144,8 +144,8 @@ class Scene : public TwoSpheres {
 
   void step()
   {
-    if (ages) law.delayed = !is_old();
     compute();
+    if (ages && is_old()) resist();
     if (frictionless_above_limit && exceeds_limit()) {
       steps_above_limit++;
       const double mu = coefficients.mu;
@@ -161,14 +161,39 @@ class Scene : public TwoSpheres {
   bool resisted = false;
 
  private:
+  Triple contact_normal() const { return (1.0 / norm(separation())) * separation(); }
+  Triple contact_force() const { return {batch.force[0][0], batch.force[1][0], batch.force[2][0]}; }
+
+  /// F_n of the last compute(), without adhesion.
+  double normal_force() const
+  {
+    return inner(contact_force(), contact_normal()) + coefficients.adhesion +
+        coefficients.adhesion_dmt * std::sqrt(effective_radius());
+  }
+
   /// The friction of mode None reaches the limit.
   bool exceeds_limit() const
   {
-    const Triple n = (1.0 / norm(separation())) * separation();
-    const Triple f{batch.force[0][0], batch.force[1][0], batch.force[2][0]};
-    const double pull = coefficients.adhesion + coefficients.adhesion_dmt * std::sqrt(effective_radius());
-    const double push = inner(f, n) + pull;
-    return overlap() > 0.0 && norm(f - inner(f, n) * n) > coefficients.mu * std::fabs(push) * (1.0 - 1e-12);
+    const Triple f = contact_force(), n = contact_normal();
+    return overlap() > 0.0 &&
+        norm(f - inner(f, n) * n) > coefficients.mu * std::fabs(normal_force()) * (1.0 - 1e-12);
+  }
+
+  /// Resistance of a contact that is old enough; our law without memory waits for ever.
+  void resist()
+  {
+    const auto vector = [](const Triple &t) { return Vector3<double>{t[0], t[1], t[2]}; };
+    const Triple spin = body[0].radius * body[0].omega + body[1].radius * body[1].omega;
+    const double push = normal_force();
+    const auto m = rolling_moment(coefficients.mu_roll * push, coefficients.roll_min, vector(spin),
+                                  vector(contact_normal()));
+    const auto c = spinning_couple(coefficients.mu_spin * batch.circle[0] * push, coefficients.spin_min,
+                                   vector(body[0].omega - body[1].omega), vector(contact_normal()));
+    const double moment[3] = {m.x, m.y, m.z}, couple[3] = {c.x, c.y, c.z};
+    for (int d = 0; d < 3; d++) {
+      batch.moment[d][0] += moment[d];
+      batch.couple[d][0] += couple[d];
+    }
   }
 
   /// A PlainCoulomb contact with coefficients has lasted one collision time.

@@ -234,7 +234,7 @@ inline Vector turned(const Vector &d, const Vector &n, Number &scale)
 /// Displacement of body 2 against body 1 in the step that led here, along the surface half way through it.
 struct Step {
   Vector displacement;
-  Number scale;
+  Number scale, lasted;
 };
 
 inline Step step_half_way(const Contact &c, Number v_n, Number dt)
@@ -251,7 +251,7 @@ inline Step step_half_way(const Contact &c, Number v_n, Number dt)
   const Number centres = norm(c.velocity[0]) + norm(c.velocity[1]);
   const Number speeds = centres + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
   const Number uncertain = lasted < dt ? 1 + centres / std::fabs(v_n) : Number(1);
-  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain};
+  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain, lasted};
 }
 
 inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
@@ -315,7 +315,12 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     Vector s = c.history;
     Number reach = norm(c.history);
     bool moved = norm(s) > 0;
-    if (advance && law.tangential == TangentialLaw::MULTISTEP) {
+    const bool slider =
+        law.tangential == TangentialLaw::SLIDER || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+    const bool midpoint =
+        law.tangential == TangentialLaw::MIDPOINT || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+    Number lasted = dt;
+    if (advance && !midpoint) {
       s = s + dt * v_t;
       moved = norm(s) > 0;
       s = s - inner(s, c.normal) * c.normal;
@@ -325,6 +330,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
       s = turned(s, c.normal, reach) + turned(step.displacement, c.normal, step.scale);
       moved = norm(s) > 0;
       reach = reach + step.scale;
+      lasted = step.lasted;
     }
     f_t = k.kt * s + k.gt * v_t;
     const Number size = norm(f_t);
@@ -335,7 +341,13 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     out.history_scale = norm(c.history);
     if (advance) {
       out.history_scale = reach;
-      if (capped) {
+      if (capped && slider && k.gt > 0) {
+        // gt (s - s_0)/dt + kt s = F, with s_0 from before the step
+        const Vector before = s - lasted * v_t;
+        const Number sum = lasted * k.kt + k.gt;
+        s = (1 / sum) * ((lasted * limit / size) * f_t + k.gt * before);
+        out.history_scale += lasted * (trial_scale + p.mu * normal_scale) / sum + lasted * speeds;
+      } else if (capped) {
         s = (1 / k.kt) * ((limit / size) * f_t - k.gt * v_t);
         out.history_scale += (trial_scale + p.mu * normal_scale) / k.kt;
       }
@@ -367,29 +379,52 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
       acts = delay(law.normal, k, c.overlap, mass, onset ? out.age : Number(0), out.clear_case);
     out.delayed = acts == 0;
 
+    const Number presses = law.delayed ? f_n : std::max(f_n, Number(0));
+    const Number quarter = Number(1) / 4;    // of the rotation may be taken away in a step
+    const Number turns = Number(5) / 2 * dt * ((std::isinf(c.mass[0]) ? 0 : 1 / c.mass[0]) +
+                                               (std::isinf(c.mass[1]) ? 0 : 1 / c.mass[1]));
     const Vector v_rot = outer(c.omega[1], arm[1]) - outer(c.omega[0], arm[0]);
     const Number rolling = norm(v_rot);
-    if (rolling > 0 && std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
-    if (rolling > p.roll_min && acts > 0) {
+    if (p.roll_min > 0 && std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
+    if (!law.delayed && rolling >= p.roll_min) {
+      // torque on body b is -r_b times the moment; that of friction is n x f_t by our normal
+      const Vector sum = c.radius[0] * c.omega[0] + c.radius[1] * c.omega[1];
+      const Vector friction = outer(f_t, c.normal);
+      const Number stop = turns > 0 ? quarter / turns : 0;
+      Vector moment = stop * (sum - inner(sum, c.normal) * c.normal) - friction;
+      if (!(norm(c.normal) > 0)) moment = {};
+      const Number needed = norm(moment), strength = p.mu_roll * presses;
+      const Number share = needed > strength ? strength / needed : Number(1);
+      out.rolls = needed > 0 && strength > 0;
+      for (int b = 0; b < 2; b++) {
+        out.torque[b] = out.torque[b] - c.radius[b] * share * moment;
+        out.torque_scale[b] +=
+            c.radius[b] * (p.mu_roll * normal_scale + share * (stop * turning + scale_t));
+      }
+    }
+    if (law.delayed && rolling > p.roll_min && acts > 0) {
       out.rolls = true;
       for (int b = 0; b < 2; b++) {
-        const Vector moment = (p.mu_roll * f_n / rolling) * outer(arm[b], v_rot);
+        const Vector moment = (p.mu_roll * presses / rolling) * outer(arm[b], v_rot);
         out.torque[b] = b == 0 ? out.torque[b] + moment : out.torque[b] - moment;
         out.torque_scale[b] +=
-            c.radius[b] * p.mu_roll * (normal_scale + std::fabs(f_n) * turning / rolling);
+            c.radius[b] * p.mu_roll * (normal_scale + std::fabs(presses) * turning / rolling);
       }
     }
     const Vector w = c.omega[1] - c.omega[0];
     const Number spinning = norm(w), w_scale = norm(c.omega[0]) + norm(c.omega[1]);
-    if (spinning > 0 && std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
-    if (spinning > p.spin_min && acts > 0) {
+    if (p.spin_min > 0 && std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
+    const bool above = law.delayed ? spinning > p.spin_min : spinning >= p.spin_min && turns > 0;
+    if (above && spinning > 0 && acts > 0) {
       out.spins = true;
       const Number strength = p.mu_spin * circle(c.radius[0], c.radius[1], c.overlap);
-      const Vector couple = (strength * f_n * inner(w, c.normal) / spinning) * c.normal;
+      Number factor = strength * presses / spinning;
+      const Number bend = 1 / c.radius[0] + 1 / c.radius[1];
+      if (!law.delayed) factor = std::min(factor, quarter / (turns * bend * bend));
+      const Vector couple = (factor * inner(w, c.normal)) * c.normal;
       out.torque[0] = out.torque[0] + couple;
       out.torque[1] = out.torque[1] - couple;
-      for (Number &scale : out.torque_scale)
-        scale += strength * (normal_scale + std::fabs(f_n) * w_scale / spinning);
+      for (Number &scale : out.torque_scale) scale += strength * normal_scale + std::fabs(factor) * w_scale;
     }
   }
 

@@ -1,9 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "contact/narrow_phase.h"
+#include "neighbour_lists.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace Talus;
 
@@ -19,23 +22,40 @@ bool touch(const Record &a, const Record &b)
 constexpr int num_particles = 30;
 
 /// A list of exactly `count` pairs of random particles, all different.
-CandidateList random_pairs(int count, RandomSource &random)
-{
+struct RandomPairs {
+  ParticleOrder order;
   CandidateList list;
-  std::vector<std::uint64_t> key;
-  std::vector<std::int64_t> tag;
-  for (int a = 0; a < num_particles; a++) {
-    key.push_back(random.bits());
-    tag.push_back(1 + a);
+
+  RandomPairs(int count, RandomSource &random)
+  {
+    std::vector<std::uint64_t> key;
+    std::vector<std::int64_t> tag;
+    for (int a = 0; a < num_particles; a++) {
+      key.push_back(random.bits());
+      tag.push_back(1 + a);
+    }
+    order.arrange(num_particles, key, tag);
+    std::vector<std::pair<int, int>> all;
+    for (int i = 0; i < num_particles; i++)
+      for (int j = i + 1; j < num_particles; j++) all.emplace_back(i, j);
+    random.shuffle(all);
+    slow::NeighbourLists lists(num_particles);
+    for (int c = 0; c < count; c++) lists.add(all[c].first, all[c].second, 1.0);
+    list.collect(order, lists.view(), 0);
   }
-  list.order_particles(num_particles, key, tag);
-  std::vector<std::pair<int, int>> all;
-  for (int i = 0; i < num_particles; i++)
-    for (int j = i + 1; j < num_particles; j++) all.emplace_back(i, j);
-  random.shuffle(all);
-  for (int c = 0; c < count; c++) list.add_pair(all[c].first, all[c].second, 1.0);
-  list.finish();
-  return list;
+};
+
+/// All at once, or in stretches of a few pairs.
+std::vector<std::uint32_t> find_all(const CandidateList &pairs, const std::vector<Record> &position,
+                                    ContactHistory *history, std::int64_t stretch = 1 << 20)
+{
+  std::vector<std::uint32_t> found(pairs.num_pairs() + 8);
+  std::int64_t n = 0;
+  for (std::int64_t begin = 0; begin < pairs.num_pairs(); begin += stretch)
+    n += find_contacts(pairs, begin, std::min(begin + stretch, pairs.num_pairs()), position.data(),
+                       history, &found[n]);
+  found.resize(n);
+  return found;
 }
 
 std::vector<Record> random_positions(RandomSource &random)
@@ -60,17 +80,17 @@ std::vector<std::uint32_t> by_brute_force(const CandidateList &pairs,
 TEST(NarrowPhase, FindsWhatTouchesForAnyNumberOfPairs)
 {
   RandomSource random(1);
-  std::vector<std::uint32_t> contacts;
   int touching = 0, pairs_seen = 0;
   for (int count = 0; count <= 40; count++)
     for (int round = 0; round < 50; round++) {
-      const CandidateList pairs = random_pairs(count, random);
+      const RandomPairs random_pairs(count, random);
+      const CandidateList &pairs = random_pairs.list;
       const std::vector<Record> position = random_positions(random);
-      const auto found = find_contacts(pairs, position, nullptr, contacts);
-      ASSERT_EQ(std::vector<std::uint32_t>(contacts.begin(), contacts.begin() + found),
-                by_brute_force(pairs, position))
-          << count << " pairs";
-      touching += static_cast<int>(found);
+      const std::vector<std::uint32_t> found = find_all(pairs, position, nullptr);
+      ASSERT_EQ(found, by_brute_force(pairs, position)) << count << " pairs";
+      ASSERT_EQ(find_all(pairs, position, nullptr, 8), found);
+      ASSERT_EQ(find_all(pairs, position, nullptr, 24), found);
+      touching += static_cast<int>(found.size());
       pairs_seen += count;
     }
   EXPECT_GT(touching, pairs_seen / 4);
@@ -81,23 +101,26 @@ TEST(NarrowPhase, SpheresThatJustReachEachOtherDoNotTouch)
 {
   RandomSource random(2);
   constexpr int all = num_particles * (num_particles - 1) / 2;
-  const CandidateList pairs = random_pairs(all, random);
-  std::vector<std::uint32_t> contacts;
+  const RandomPairs random_pairs(all, random);
+  const CandidateList &pairs = random_pairs.list;
+  const auto count = [&](const std::vector<Record> &p) {
+    return find_all(pairs, p, nullptr).size();
+  };
   std::vector<Record> position(num_particles, Record{{0.0, 0.0, 0.0, 0.5}});
-  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), all);    // even with the same centre
+  EXPECT_EQ(count(position), static_cast<std::size_t>(all));    // even with the same centre
   for (int a = 0; a < num_particles; a++) position[a].c[0] = a;
-  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), 0);
+  EXPECT_EQ(count(position), static_cast<std::size_t>(0));
   for (Record &p : position) p.c[3] = std::nextafter(0.5, 1.0);
-  EXPECT_EQ(find_contacts(pairs, position, nullptr, contacts), num_particles - 1);
+  EXPECT_EQ(count(position), static_cast<std::size_t>(num_particles - 1));
 }
 
 TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
 {
   RandomSource random(3);
-  std::vector<std::uint32_t> contacts;
   int forgotten = 0;
   for (int count = 0; count <= 40; count++) {
-    const CandidateList pairs = random_pairs(count, random);
+    const RandomPairs random_pairs(count, random);
+    const CandidateList &pairs = random_pairs.list;
     PartnerLists none;
     none.resize(num_particles);
     ContactHistory history;
@@ -105,7 +128,7 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
     std::vector<Record> expected(count);
     for (int step = 0; step < 20; step++) {
       const std::vector<Record> position = random_positions(random);
-      find_contacts(pairs, position, &history, contacts);
+      find_all(pairs, position, &history, step % 2 ? 8 : 1 << 20);
       for (int c = 0; c < count; c++) {
         const bool now = touch(position[pairs.first[c]], position[pairs.second[c]]);
         ASSERT_EQ(history.touches(c), now);

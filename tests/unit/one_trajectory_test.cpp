@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <deque>
 
 using namespace Talus;
 using namespace slow;
@@ -26,9 +27,17 @@ bool same_bits(const std::vector<Vector> &a, const std::vector<Vector> &b)
 /// Several ranks that share a packing.
 class Machine {
  public:
-  Machine(int num_ranks, const LawTable &laws, std::uint64_t seed) :
-      ranks(num_ranks, TestRank(laws)), random(seed)
+  Machine(int num_ranks, const LawTable &laws, std::uint64_t seed) : random(seed)
   {
+    for (int r = 0; r < num_ranks; r++) ranks.emplace_back(laws);
+  }
+
+  void divide(int threads, bool two_phases)
+  {
+    for (TestRank &rank : ranks) {
+      rank.divide(threads, two_phases);
+      rank.reports = false;    // so that the parts run at the same time
+    }
   }
 
   /// Distributes the particles anew, at random or in slabs, and rebuilds all pairs.
@@ -87,7 +96,7 @@ class Machine {
   double contacts = 0.0;
 
  private:
-  std::vector<TestRank> ranks;
+  std::deque<TestRank> ranks;
   RandomSource random;
 };
 
@@ -98,13 +107,21 @@ void expect_same(const Machine &a, const Machine &b)
   EXPECT_EQ(a.contacts, b.contacts);
 }
 
+/// How the ranks of a machine divide their work.
+struct Division {
+  int threads = 1;
+  bool two_phases = false;
+};
+
 /// Runs both machines over the same motion. Keys are refreshed every fourth step; machine b is
 /// rebuilt then and at the steps that are multiples of `interval`.
-void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interval)
+void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interval,
+                     Division division = {})
 {
   RandomSource random(12);
   Packing p = random_packing(200, random);
   Machine a(ranks_a, laws, 1), b(ranks_b, laws, 2);
+  b.divide(division.threads, division.two_phases);
   BruteForce twin;
   for (int step = 0; step < 12; step++) {
     const bool refresh = step % 4 == 0;
@@ -152,6 +169,24 @@ TEST_P(OneTrajectory, ThreeRanksOneOfThemEmptyAtTimes)
 TEST_P(OneTrajectory, TwoRanksAgainstFive)
 {
   run_and_compare(laws(), 2, 5, 3);
+}
+
+TEST_P(OneTrajectory, Threads)
+{
+  for (int threads : {2, 3, 8}) run_and_compare(laws(), 1, 1, 4, {threads, false});
+}
+TEST_P(OneTrajectory, MoreThreadsThanParticles)
+{
+  run_and_compare(laws(), 1, 1, 4, {300, false});
+}
+TEST_P(OneTrajectory, GhostsThatArriveLate)
+{
+  for (int ranks : {1, 2, 5}) run_and_compare(laws(), 1, ranks, 3, {1, true});
+}
+TEST_P(OneTrajectory, RanksAndThreadsAndLateGhosts)
+{
+  run_and_compare(laws(), 1, 3, 3, {3, true});
+  run_and_compare(laws(), 1, 3, 2, {2, false});
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, OneTrajectory, testing::Values(0, 1, 2));

@@ -7,9 +7,11 @@
 #define TALUS_TEST_TEST_RANK_H
 
 #include "contact/contact_pipeline.h"
+#include "neighbour_lists.h"
 #include "packing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -28,6 +30,12 @@ class TestRank {
   std::vector<Talus::ReportedContact> report;
 
   explicit TestRank(const Talus::LawTable &laws) { pipeline.set_laws(laws); }
+
+  bool reports = true;    ///< ask for reports, with which parts take turns
+
+  /// How the work is divided, from the next rebuild on. In two phases the state of ghosts is
+  /// spoiled until the first one is over.
+  void divide(int threads, bool two_phases) { pipeline.set_work(threads, two_phases); }
 
   /// Before a rebuild: histories leave with their particles.
   void depart(Luggage &luggage)
@@ -76,16 +84,15 @@ class TestRank {
       filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
       type.push_back(p.type[i]);
     }
-    pipeline.pairs.order_particles(owned, key, tag);
+    slow::NeighbourLists lists(owned);
     std::vector<Neighbours> shuffled = near;
     random.shuffle(shuffled);
     for (Neighbours n : shuffled) {
       if (!is_mine(n.i) && !is_mine(n.j)) continue;
       if (random.chance(0.5)) std::swap(n.i, n.j);
-      pipeline.pairs.add_pair(number[n.i], number[n.j], n.weight);
+      lists.add(number[n.i], number[n.j], n.weight);
     }
-    pipeline.pairs.finish();
-    pipeline.start_pairs(type.data(), partners, filed_tag);
+    pipeline.set_pairs({owned, key, tag, type.data(), partners, filed_tag}, lists.view());
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -100,13 +107,13 @@ class TestRank {
       mass.push_back(p.mass[i]);
       mass_override.push_back(p.mass_override[i]);
     }
-    const Talus::ParticleView view{x.data(),      v.data(),    omega.data(),
-                                   radius.data(), mass.data(), mass_override.data()};
-    report.clear();
-    pipeline.compute(view, dt, advance, &report);
-
     std::vector<double> f(3 * total, 0.0), t(3 * total, 0.0);
-    pipeline.add_forces(f.data(), t.data());
+    const Talus::ParticleView view{x.data(),      v.data(),    omega.data(),
+                                   radius.data(), mass.data(), mass_override.data(),
+                                   f.data(),      t.data()};
+    report.clear();
+    run(view, {dt, advance, reports ? &report : nullptr});
+
     force.assign(p.size(), Vector{});
     torque.assign(p.size(), Vector{});
     for (int a = 0; a < total; a++)
@@ -128,6 +135,27 @@ class TestRank {
   }
 
  private:
+  void run(const Talus::ParticleView &view, const Talus::ContactStep &step)
+  {
+    if (!pipeline.in_two_phases()) {
+      pipeline.compute(view, step);
+      return;
+    }
+    const auto spoiled = [this](const double *values, int width) {
+      std::vector<double> copy(values, values + width * particle.size());
+      std::fill(copy.begin() + width * owned, copy.end(), std::nan(""));
+      return copy;
+    };
+    const std::vector<double> x = spoiled(view.x, 3), v = spoiled(view.v, 3),
+                              omega = spoiled(view.omega, 3);
+    Talus::ParticleView early = view;
+    early.x = x.data();
+    early.v = v.data();
+    early.omega = omega.data();
+    pipeline.compute_early(early, step);
+    pipeline.compute_late(view, step);
+  }
+
   Talus::PartnerLists partners;
 };
 

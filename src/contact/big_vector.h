@@ -1,0 +1,33 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// std::vector whose storage begins at a cache line, and at a huge page if it is large: contacts
+// touch their partners in no order that the hardware could foresee, and with pages of 4 kB the
+// search for the page costs as much as the load itself.
+
+#ifndef TALUS_CONTACT_BIG_VECTOR_H
+#define TALUS_CONTACT_BIG_VECTOR_H
+
+#include <cstddef>
+#include <vector>
+
+namespace Talus {
+
+/// Throws std::bad_alloc. Memory of release_big() must come from allocate_big().
+void *allocate_big(std::size_t bytes);
+void release_big(void *memory) noexcept;
+
+template <class T> struct BigAllocator {
+  using value_type = T;
+  BigAllocator() = default;
+  template <class Other> BigAllocator(const BigAllocator<Other> &) noexcept {}
+  T *allocate(std::size_t n) { return static_cast<T *>(allocate_big(n * sizeof(T))); }
+  void deallocate(T *memory, std::size_t) noexcept { release_big(memory); }
+  bool operator==(const BigAllocator &) const { return true; }
+  bool operator!=(const BigAllocator &) const { return false; }
+};
+
+template <class T> using BigVector = std::vector<T, BigAllocator<T>>;
+
+}    // namespace Talus
+
+#endif

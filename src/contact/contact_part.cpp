@@ -1,0 +1,393 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/contact_part.h"
+
+#include "contact/narrow_phase.h"
+#include "contact/resistance.h"
+
+#include <algorithm>
+
+namespace Talus {
+
+ContactPart::ContactPart()
+{
+  batch.clear();
+}
+
+void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &partners,
+                              const std::vector<std::int64_t> &filed_tag)
+{
+  // the contacts of each law fill whole vectors of the batch: leave room for the gaps
+  const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
+  block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
+  if (scene.with_history)
+    history.fetch(pairs, partners, filed_tag);
+  else
+    history.release();
+  touching = 0;
+  contacts.resize(pairs.num_pairs() + lanes);    // the narrow phase stores a few entries ahead
+}
+
+void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
+                          const ContactStep &how)
+{
+  const Step step{how, scene, particles};
+  const auto choose = [&](auto shared) {
+    constexpr bool is_shared = decltype(shared)::value;
+    if (scene.with_history)
+      compute_all<true, true, is_shared>(step);
+    else if (scene.with_friction)
+      compute_all<true, false, is_shared>(step);
+    else
+      compute_all<false, false, is_shared>(step);
+  };
+  if (pairs.shared())
+    choose(std::true_type{});
+  else
+    choose(std::false_type{});
+}
+
+/* The narrow phase keeps a few blocks ahead of the forces: near enough to leave the positions in
+   the cache, far enough to call the rest of the partners' state into it. */
+
+template <bool friction, bool history_kept, bool shared>
+void ContactPart::compute_all(const Step &step)
+{
+  constexpr std::int64_t stretch = 8 * ContactBatch::width;
+  const std::int64_t candidates = pairs.num_pairs();
+  const Record *position = step.particles.position.data();
+  std::int64_t done = 0;
+  touching = 0;
+  for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
+    const std::int64_t end = std::min(candidates, begin + stretch);
+    touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
+                              &contacts[touching]);
+    for (; touching - done >= 2 * block_size; done += block_size) {
+      call_ahead<friction, history_kept>(step.particles, done + block_size);
+      compute_block<friction, history_kept, shared>(step, done, block_size);
+    }
+  }
+  for (; done < touching; done += block_size) {
+    const int count = static_cast<int>(std::min<std::int64_t>(block_size, touching - done));
+    compute_block<friction, history_kept, shared>(step, done, count);
+  }
+}
+
+/* Calls what the block of contacts from `begin` on needs into the cache: histories, and the second
+   particles; the first ones have been there lately. */
+
+template <bool friction, bool history_kept>
+void ContactPart::call_ahead(const ParticleRecords &particles, std::int64_t begin)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  for (std::int64_t n = begin; n < begin + block_size; n++) {
+    const std::size_t j = stride * pairs.second[contacts[n]];
+    __builtin_prefetch(&particles.motion[j]);
+    __builtin_prefetch(&particles.load[j], 1);
+    if (history_kept) __builtin_prefetch(&history.records[contacts[n]], 1);
+  }
+}
+
+template <bool friction, bool history_kept, bool shared>
+void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
+{
+  const std::uint32_t *block = &contacts[begin];
+  const ContactScene &scene = step.scene;
+  const int end = arrange(scene, block, count);
+  gather<friction, history_kept>(step.particles, end);
+  if (scene.with_onset) gather_onsets(end);
+  finish_geometry(end, friction);
+  if (scene.with_resistance) gather_resistance(step.particles, end);
+  run_kernels(step);
+  if (history_kept && step.advance) keep_history(end);
+  if (scene.with_onset && step.advance) keep_onsets(end);
+  transpose_results<friction>(end, scene.with_resistance);
+  if (pairs.weighted()) apply_weights(end);
+  add_up<friction, shared>(step.particles, block, count);
+  if (scene.with_resistance) add_couples<shared>(step.particles, block, count);
+  if (step.report) report_block(step, block, count);
+  if (step.account) account_block(step, block, count);
+}
+
+void ContactPart::place(std::uint32_t contact, int position, int lane)
+{
+  pair_of_lane[lane] = contact;
+  lane_of_contact[position] = lane;
+}
+
+/* Gives every contact of a block a lane. Contacts of one law stand together, and the last vector of
+   each law is filled up with copies of its last contact, which are computed but not added. Returns
+   the number of lanes in use, a multiple of `lanes`. */
+
+int ContactPart::arrange(const ContactScene &scene, const std::uint32_t *contacts, int count)
+{
+  const LawTable &laws = scene.laws;
+  ranges.clear();
+  int lane = 0;
+  const auto close_range = [&](int law, int begin) {
+    for (; lane % lanes; lane++) pair_of_lane[lane] = pair_of_lane[lane - 1];
+    if (lane > begin) ranges.push_back({law, begin, lane});
+  };
+
+  if (laws.num_laws() == 1)
+    for (int k = 0; k < count; k++) place(contacts[k], k, lane++);
+  if (laws.num_laws() == 1) close_range(0, 0);
+
+  for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
+    const int begin = lane;
+    for (int k = 0; k < count; k++)
+      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) place(contacts[k], k, lane++);
+    close_range(law, begin);
+  }
+
+  if (!laws.uniform())
+    for (int k = 0; k < lane; k++) batch.coefficients[k] = row_of_pair(scene, pair_of_lane[k]);
+  return lane;
+}
+
+/* Geometry and kinematics of the block. The sums of records give everything but the normal. */
+
+namespace {
+constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
+using Lanes = double[3][ContactBatch::width];
+
+/// Four records become lanes k ... k+3 of a vector and of a scalar.
+inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
+{
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
+  if (fourth) store(&fourth[k], rows[3]);
+}
+
+/// Lanes k ... k+3 become four records.
+inline void collect(const Lanes &vector, const double *fourth, int k, Vec4 *rows)
+{
+  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
+  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+}
+
+void clear_lanes(Lanes &vector, int begin, int end)
+{
+  for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
+}
+}    // namespace
+
+template <bool friction, bool history_kept>
+void ContactPart::gather(const ParticleRecords &particles, int end)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  const Record *x = particles.position.data(), *motion = particles.motion.data();
+  const Record *h = history.records.data();
+
+  for (int k = 0; k < end; k += 4) {
+    Vec4 a[4], b[4], c[4], d[4];
+    for (int q = 0; q < 4; q++) {
+      const std::uint32_t pair = pair_of_lane[k + q];
+      const int i = pairs.first[pair], j = pairs.second[pair];
+      const Record *mi = motion + stride * i, *mj = motion + stride * j;
+      a[q] = load4(x[i]) + difference_and_sum * load4(x[j]);
+      b[q] = load4(mi[0]) + difference_and_sum * load4(mj[0]);
+      if constexpr (friction) c[q] = load4(mi[1]) + load4(mj[1]);
+      if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
+      if constexpr (history_kept) d[q] = load4(h[pair]);
+    }
+    spread(a, batch.normal, batch.overlap, k);
+    spread(b, batch.velocity, batch.inverse_mass, k);
+    if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
+    if constexpr (history_kept) spread(d, batch.displacement, batch.at_limit, k);
+  }
+}
+
+void ContactPart::gather_onsets(int end)
+{
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) row[q] = load4(history.onsets[pair_of_lane[k + q]]);
+    spread(row, batch.onset, nullptr, k);
+  }
+}
+
+/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the
+   inverse radius still hold the product of the radii. */
+
+void ContactPart::finish_geometry(int end, bool radii_known)
+{
+  const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
+  for (int k = 0; k < end; k += lanes) {
+    const Vector3<Vec8> separation{load8(&batch.normal[0][k]), load8(&batch.normal[1][k]),
+                                   load8(&batch.normal[2][k])};
+    const Vec8 sum_of_radii = load8(&batch.overlap[k]);
+    const Vec8 distance = square_root(dot(separation, separation));
+    const auto apart = distance > zero;    // coincident centres have no normal and get no force
+    const Vec8 inverse = select(apart, one / distance, zero);
+    const Vector3<Vec8> normal = inverse * separation;
+    store(&batch.inverse_distance[k], inverse);
+    store(&batch.normal[0][k], normal.x);
+    store(&batch.normal[1][k], normal.y);
+    store(&batch.normal[2][k], normal.z);
+    store(&batch.overlap[k], select(apart, sum_of_radii - distance, zero));
+    if (!radii_known)
+      store(&batch.inverse_radius[k], sum_of_radii / load8(&batch.inverse_radius[k]));
+  }
+}
+
+/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces
+ * intersect. */
+
+void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
+{
+  const Record *x = particles.position.data();
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) {
+      const std::uint32_t pair = pair_of_lane[k + q];
+      const int i = pairs.first[pair], j = pairs.second[pair];
+      const Record &wi = particles.spin(i), &wj = particles.spin(j);
+      row[q] = wi.c[3] * load4(wi) - wj.c[3] * load4(wj);
+      batch.circle[k + q] = x[i].c[3];
+      second_radius[k + q] = x[j].c[3];
+    }
+    spread(row, batch.relative_spin, nullptr, k);
+  }
+  for (int k = 0; k < end; k += lanes)
+    store(&batch.circle[k],
+          circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
+                                 load8(&batch.overlap[k])));
+}
+
+void ContactPart::run_kernels(const Step &step)
+{
+  const LawTable &laws = step.scene.laws;
+  for (const LawRange &range : ranges) {
+    laws.kernel(range.law, step.advance)(batch, range.begin, range.end, laws.coefficients(),
+                                         step.dt);
+    // not written by the kernels of laws that have none
+    const ContactLaw law = laws.distinct_law(range.law);
+    if (step.scene.with_friction && !law.has_friction())
+      clear_lanes(batch.moment, range.begin, range.end);
+    if (step.scene.with_resistance && !law.resists)
+      clear_lanes(batch.couple, range.begin, range.end);
+  }
+}
+
+/* Copies of a contact hold the same result, so writing them twice does no harm. */
+
+void ContactPart::keep_history(int end)
+{
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    collect(batch.displacement, batch.at_limit, k, row);
+    for (int q = 0; q < 4; q++) store(history.records[pair_of_lane[k + q]], row[q]);
+  }
+}
+
+void ContactPart::keep_onsets(int end)
+{
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    collect(batch.onset, nullptr, k, row);
+    for (int q = 0; q < 4; q++) store(history.onsets[pair_of_lane[k + q]], row[q]);
+  }
+}
+
+template <bool friction> void ContactPart::transpose_results(int end, bool with_resistance)
+{
+  const auto rows_of = [](const Lanes &vector, int k, Record *records) {
+    Vec4 row[4];
+    collect(vector, nullptr, k, row);
+    for (int q = 0; q < 4; q++) store(records[k + q], row[q]);
+  };
+  for (int k = 0; k < end; k += 4) {
+    rows_of(batch.force, k, force_of_lane);
+    if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
+    if (with_resistance) rows_of(batch.couple, k, couple_of_lane);
+  }
+}
+
+void ContactPart::apply_weights(int end)
+{
+  for (int k = 0; k < end; k++) {
+    const double weight = pairs.weights[pair_of_lane[k]];
+    for (int d = 0; d < 3; d++) {
+      force_of_lane[k].c[d] *= weight;
+      moment_of_lane[k].c[d] *= weight;
+      couple_of_lane[k].c[d] *= weight;
+    }
+  }
+}
+
+/* Forces on particles of other parts go where nobody reads them. */
+
+template <bool friction, bool shared>
+void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  const std::size_t nowhere = pairs.nowhere();
+  const auto target = [&](int slot) {
+    return &particles.load[stride * (!shared || pairs.serves(slot) ? slot : nowhere)];
+  };
+  for (int n = 0; n < count; n++) {
+    Record *i = target(pairs.first[block[n]]), *j = target(pairs.second[block[n]]);
+    const int lane = lane_of_contact[n];
+    const Vec4 f = load4(force_of_lane[lane]);
+    store(i[0], load4(i[0]) + f);
+    store(j[0], load4(j[0]) - f);
+    if constexpr (friction) {
+      const Vec4 m = load4(moment_of_lane[lane]);
+      store(i[1], load4(i[1]) + m);
+      store(j[1], load4(j[1]) + m);
+    }
+  }
+}
+
+template <bool shared>
+void ContactPart::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
+{
+  const std::size_t nowhere = pairs.nowhere();
+  const auto target = [&](int slot) -> Record & {
+    return particles.couple[!shared || pairs.serves(slot) ? slot : nowhere];
+  };
+  for (int n = 0; n < count; n++) {
+    Record &i = target(pairs.first[block[n]]), &j = target(pairs.second[block[n]]);
+    const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
+    store(i, load4(i) + c);
+    store(j, load4(j) - c);
+  }
+}
+
+void ContactPart::report_block(const Step &step, const std::uint32_t *block, int count)
+{
+  const ParticleOrder &order = pairs.order();
+  for (int n = 0; n < count; n++) {
+    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
+    ReportedContact out{
+        order.atom_of_slot[i], order.atom_of_slot[j], pairs.serves(i), pairs.serves(j), {}, {}};
+    for (int d = 0; d < 3; d++) {
+      out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
+      out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
+    }
+    step.report->push_back(out);
+  }
+}
+
+void ContactPart::account_block(const Step &step, const std::uint32_t *block, int count)
+{
+  const LawTable &laws = step.scene.laws;
+  const BigVector<Record> &position = step.particles.position;
+  for (int n = 0; n < count; n++) {
+    if (!pairs.counts(block[n])) continue;
+    const int lane = lane_of_contact[n], row = row_of_pair(step.scene, block[n]);
+    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
+    step.account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, step.dt),
+                      pairs.order().share(i, j), i, position[i].c[3], j, position[j].c[3]);
+  }
+}
+
+double ContactPart::memory_usage() const
+{
+  return pairs.memory_usage() + history.memory_usage() +
+         static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
+}
+
+}    // namespace Talus

@@ -1,0 +1,134 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// One part of the contact work of a rank: it computes every contact that acts on its own particles
+// and adds the forces on them, and on no others. A contact between particles of two parts is
+// computed by both, from the same numbers in the same order, and each keeps a history of it: so
+// parts need neither locks nor sums over parts, may run at the same time or one after the other,
+// and give the same bits as one part alone. Parts serve threads (one range of particles each) and
+// the overlap of communication (particles without ghost partners first).
+
+#ifndef TALUS_CONTACT_CONTACT_PART_H
+#define TALUS_CONTACT_CONTACT_PART_H
+
+#include "contact/big_vector.h"
+#include "contact/candidate_list.h"
+#include "contact/contact_batch.h"
+#include "contact/contact_energy.h"
+#include "contact/contact_history.h"
+#include "contact/law_table.h"
+#include "contact/particle_records.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+/// One contact as reported on request: host's indices, force on i, x_i - x_j. A part reports all
+/// its contacts, in the order in which it adds them up; `for_i` and `for_j` say which of the
+/// particles it serves, so that every owned particle gets each of its contacts once, and in
+/// canonical order.
+struct ReportedContact {
+  int i, j;
+  bool for_i, for_j;
+  double force[3], separation[3];
+};
+
+/// What all parts of a rank share.
+struct ContactScene {
+  LawTable laws;
+  bool with_friction = false, with_history = false, with_onset = false, with_resistance = false;
+  std::vector<int> slot_type;    ///< types in canonical order; empty if laws are uniform
+
+  int row_of(int slot_a, int slot_b) const
+  {
+    return laws.uniform() ? 0 : laws.row(slot_type[slot_a], slot_type[slot_b]);
+  }
+};
+
+/// How a step is computed. `advance` is false while a run is set up: histories are then only read.
+/// `report`, if given, receives every contact that counts here; `account`, if given, their
+/// energies; both are not for use by several threads.
+struct ContactStep {
+  double dt;
+  bool advance;
+  std::vector<ReportedContact> *report = nullptr;
+  EnergyAccount *account = nullptr;
+};
+
+class ContactPart {
+ public:
+  ContactPart();
+
+  /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
+  void start_pairs(const ContactScene &scene, const PartnerLists &partners,
+                   const std::vector<std::int64_t> &filed_tag);
+
+  /// Computes all contacts of this part and adds their forces to the sums of its particles.
+  void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step);
+
+  /// visit(pair) for every contact of the last compute() that is counted here.
+  template <class Visit> void for_each_contact(Visit visit) const
+  {
+    for (std::int64_t n = 0; n < touching; n++)
+      if (!pairs.shared() || pairs.counts(contacts[n])) visit(contacts[n]);
+  }
+
+  int row_of_pair(const ContactScene &scene, std::int64_t pair) const
+  {
+    return scene.row_of(pairs.first[pair], pairs.second[pair]);
+  }
+
+  double memory_usage() const;
+
+  CandidateList pairs;
+  ContactHistory history;
+
+ private:
+  struct Step : ContactStep {
+    const ContactScene &scene;
+    ParticleRecords &particles;
+  };
+  template <bool friction, bool history_kept, bool shared> void compute_all(const Step &step);
+  template <bool friction, bool history_kept, bool shared>
+  void compute_block(const Step &step, std::int64_t begin, int count);
+  template <bool friction, bool history_kept>
+  void call_ahead(const ParticleRecords &particles, std::int64_t begin);
+  int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
+  void place(std::uint32_t contact, int position, int lane);
+  template <bool friction, bool history_kept>
+  void gather(const ParticleRecords &particles, int end);
+  void gather_resistance(const ParticleRecords &particles, int end);
+  void gather_onsets(int end);
+  void finish_geometry(int end, bool radii_known);
+  void run_kernels(const Step &step);
+  void keep_history(int end);
+  void keep_onsets(int end);
+  template <bool friction> void transpose_results(int end, bool with_resistance);
+  void apply_weights(int end);
+  template <bool friction, bool shared>
+  void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  template <bool shared>
+  void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  void account_block(const Step &step, const std::uint32_t *contacts, int count);
+  void report_block(const Step &step, const std::uint32_t *contacts, int count);
+
+  BigVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
+  std::int64_t touching = 0;
+  int block_size = ContactBatch::width;
+
+  // one block of contacts on its way through the kernels
+  struct LawRange {
+    int law, begin, end;
+  };
+  ContactBatch batch;
+  std::uint32_t pair_of_lane[ContactBatch::width];
+  int lane_of_contact[ContactBatch::width];
+  std::vector<LawRange> ranges;
+  Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
+      couple_of_lane[ContactBatch::width];
+  alignas(64) double second_radius[ContactBatch::width];
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,38 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The host's half neighbor list as it stands in memory, without its types.
+
+#ifndef TALUS_CONTACT_NEIGHBOUR_VIEW_H
+#define TALUS_CONTACT_NEIGHBOUR_VIEW_H
+
+namespace Talus {
+
+/// Rows of owned particles; every pair of which at least one member is owned stands in exactly one
+/// row. Entries are indices of particles in the lower bits and the kind of the pair in the upper
+/// ones; kinds scale the force, and a scale of zero takes the pair out.
+struct NeighbourView {
+  int rows = 0;
+  const int *particle = nullptr;          ///< row -> owned particle
+  const int *size = nullptr;              ///< particle -> entries
+  const int *const *entries = nullptr;    ///< particle -> entries
+  int index_mask = ~0,
+      kind_shift = 31;    ///< index = entry & index_mask, kind = entry >> shift & 3
+  double scale[4] = {1.0, 1.0, 1.0, 1.0};
+
+  /// Calls visit(i, j, scale) for every pair, in the order of the list.
+  template <class Visit> void for_each_pair(Visit visit) const
+  {
+    for (int r = 0; r < rows; r++) {
+      const int i = particle[r];
+      const int *row = entries[i];
+      for (int n = 0; n < size[i]; n++) {
+        const double weight = scale[row[n] >> kind_shift & 3];
+        if (weight != 0.0) visit(i, row[n] & index_mask, weight);
+      }
+    }
+  }
+};
+
+}    // namespace Talus
+
+#endif

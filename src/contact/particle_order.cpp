@@ -1,0 +1,86 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/particle_order.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace Talus {
+namespace {
+
+struct Entry {
+  std::uint64_t key;
+  std::int64_t tag;
+  int atom;
+  bool operator<(const Entry &o) const
+  {
+    return std::tie(key, tag, atom) < std::tie(o.key, o.tag, o.atom);
+  }
+};
+
+}    // namespace
+
+/* The host's particles are nearly in order already, since the contact store sorts them by key. */
+
+void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key,
+                            std::vector<std::int64_t> tag_of_atom)
+{
+  owned = num_owned;
+  tag = std::move(tag_of_atom);
+  const int total = static_cast<int>(tag.size());
+  parts = 1;
+  part_of_slot.clear();
+
+  std::vector<Entry> order(total);
+  for (int a = 0; a < total; a++) order[a] = {key[a], tag[a], a};
+  const auto middle = order.begin() + owned;
+  if (!std::is_sorted(order.begin(), middle)) std::sort(order.begin(), middle);
+  std::sort(middle, order.end());
+  std::inplace_merge(order.begin(), middle, order.end());
+
+  atom_of_slot.resize(total);
+  slot_of_atom.resize(total);
+  for (int s = 0; s < total; s++) {
+    atom_of_slot[s] = order[s].atom;
+    slot_of_atom[order[s].atom] = s;
+  }
+}
+
+void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool two_phases)
+{
+  parts = two_phases ? 2 * threads : threads;
+  part_of_slot.clear();
+  if (parts == 1) return;
+
+  std::vector<int> work(size(), 1);
+  std::vector<bool> late(two_phases ? size() : 0, false);
+  neighbours.for_each_pair([&](int i, int j, double) {
+    const int a = slot_of_atom[i], b = slot_of_atom[j];
+    work[a]++;
+    work[b]++;
+    if (!two_phases) return;
+    if (!is_owned(j)) late[a] = true;
+    if (!is_owned(i)) late[b] = true;
+  });
+
+  std::int64_t total = 0, done = 0;
+  for (int s = 0; s < size(); s++)
+    if (is_owned(atom_of_slot[s])) total += work[s];
+  part_of_slot.assign(size(), no_part);
+  for (int s = 0; s < size(); s++) {
+    if (!is_owned(atom_of_slot[s])) continue;
+    const int range = static_cast<int>(done * threads / total);
+    part_of_slot[s] = static_cast<std::uint16_t>(two_phases && late[s] ? threads + range : range);
+    done += work[s];
+  }
+}
+
+double ParticleOrder::memory_usage() const
+{
+  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
+                             sizeof(std::int64_t) * tag.capacity() +
+                             sizeof(std::uint16_t) * part_of_slot.capacity());
+}
+
+}    // namespace Talus

@@ -1,0 +1,55 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The canonical order of the particles of a rank, owned and ghosts ("slots"), and which part of the
+// rank's work computes the forces on each of them.
+
+#ifndef TALUS_CONTACT_PARTICLE_ORDER_H
+#define TALUS_CONTACT_PARTICLE_ORDER_H
+
+#include "contact/neighbour_view.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+class ParticleOrder {
+ public:
+  /// At a rebuild: puts all particles into the order of (key, tag); images of one particle keep the
+  /// order of the host. The arrays are in the host's numbering: owned particles 0 ... num_owned-1,
+  /// then ghosts. All forces are then computed by part 0.
+  void arrange(int num_owned, const std::vector<std::uint64_t> &key,
+               std::vector<std::int64_t> tag_of_atom);
+
+  /// Divides the owned particles: `threads` ranges of the order with about the same number of
+  /// pairs and, with `two_phases`, each of them into particles without any ghost partner (parts
+  /// 0 ... threads-1) and the others (parts threads ... 2 threads-1). Ghosts are in none.
+  void divide(const NeighbourView &neighbours, int threads, bool two_phases);
+
+  bool is_owned(int atom) const { return atom < owned; }
+  int size() const { return static_cast<int>(atom_of_slot.size()); }
+  int num_parts() const { return parts; }
+  /// Part of a slot; no_part for ghosts, unless there is one part only.
+  int part(int slot) const { return parts == 1 ? 0 : part_of_slot[slot]; }
+  /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
+  double share(int slot_a, int slot_b) const
+  {
+    return is_owned(atom_of_slot[slot_a]) && is_owned(atom_of_slot[slot_b]) ? 1.0 : 0.5;
+  }
+  double memory_usage() const;
+
+  static constexpr int no_part = 0xffff, max_threads = 0x7fff;
+
+  int owned = 0;                    ///< host's indices below this are owned by this rank
+  std::vector<std::int64_t> tag;    ///< by host's index, as of the rebuild
+  std::vector<int> atom_of_slot;    ///< slot -> host's index
+  std::vector<int> slot_of_atom;    ///< host's index -> slot
+
+ private:
+  int parts = 1;
+  std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
+};
+
+}    // namespace Talus
+
+#endif
