@@ -35,8 +35,8 @@ class Runner:
 
 
 def plan(bench, count):
-    """Steps that do not count and steps that do: about 3 s for the slowest code."""
-    steps = max(100, int(bench.size(1.0e7, 3.0e6) / count / 100) * 100)
+    """Steps that do not count and steps that do: some seconds for the slower code."""
+    steps = max(100, int(bench.size(3.0e7, 3.0e6) / count / 100) * 100)
     return 100, min(steps, 2000)
 
 

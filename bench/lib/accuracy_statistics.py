@@ -81,10 +81,13 @@ def show(section, case, scene, names, steps, table):
         for name in names:
             value = table[name, dt]
             rows.append([f"{scene.law.contact_time() / dt:.0f}", name]
-                        + ([f"{value[k][0]:.5g} +- {value[k][1]:.2g}" for k in keys] if value else ["failed"] * len(keys)))
+                        + ([f"{value[k][0]:.5g} +- {value[k][1]:.2g}" for k in keys] if value else ["unstable"] * len(keys)))
             section.record(scene=case, method=name, dt=dt,
                            **{k: value[k][0] for k in keys if value}, **{k + " error": value[k][1] for k in keys if value})
     section.table(["steps per contact", "method", *keys], rows)
+    if None in table.values():
+        section.text("""unstable: particles were lost in at least one run; a particle with many contacts has a lower limit than one
+impact (see the section on stability). steps per contact: of an impact at 1 m/s.""")
     return keys
 
 

@@ -213,10 +213,9 @@ def small_among_large():
 
 def pile(steps):
     """20 spheres heaped on a floor between walls, at rest: what moves in a very long time."""
-    balls = [Ball((1.06 * (k % 3) + 0.51 + 0.01 * (k % 5), 1.06 * (k // 3 % 3) + 0.51 + 0.01 * (k % 7),
-                   0.5 + 1.01 * (k // 9)),
-                  diameter=0.95 + 0.005 * (k % 10)) for k in range(20)]
-    walls = ((2, 0.0, 1), (0, 0.0, 1), (0, 3.3, -1), (1, 0.0, 1), (1, 3.3, -1))
+    balls = [Ball(((k % 3) + 0.51, (k // 3 % 3) + 0.51, 0.5 + 1.01 * (k // 9)), diameter=0.95 + 0.005 * (k % 10))
+             for k in range(20)]
+    walls = ((2, 0.0, 1), (0, 0.0, 1), (0, 3.02, -1), (1, 0.0, 1), (1, 3.02, -1))
     return Extreme(f"rest of {steps:.0e} steps", balls, ("hertz", 1e8, 2e3, 2.857e7, 1e3, 0.5), steps=steps,
                    box=((-1, 5), (-1, 5), (-1, 6)), gravity=10.0, planes=walls, frames=200, creep=True)
 
@@ -236,10 +235,12 @@ def scenes(quick):
     found += [impact(f"impact to overlap {d} r", elastic, speed_for(d)) for d in (0.05, 0.2, 0.5, 1.0, 1.5)]
     found += [impact("impact, passes through", elastic, 2 * speed_for(2.0))]
     found += [Extreme(f"initial overlap {d} r", [Ball((0, 0, 0)), Ball((1 - d / 2, 0, 0))], elastic, 100, WIDE)
-              for d in (0.1, 0.5)]
+              for d in (0.05, 0.5)]
     found += [impact(f"e = {e}, mu = {mu:g}", ("material", YOUNG, e, NU, mu), 1.0, 1.0)
               for e in (0.0, 0.1, 1.0) for mu in (0.0, 1e3)]
     found += [impact("e = 1.0, mu = 1000, midpoint", ("material", YOUNG, 1.0, NU, 1e3), 1.0, 1.0, midpoint=True)]
+    found += [impact("e = 1.0, mu = 1000, dt .05 critical", ("material", YOUNG, 1.0, NU, 1e3), 1.0, 1.0, fraction=0.05,
+                     steps=400)]
     found += [units(10.0**n) for n in (-12, -6, 6, 12)]
     found += [column(100 if quick else 1000)]
     found += [Extreme("squeezed between bodies", [Ball((0, 0, 0.475), (0.3, 0, 0), (0, 2.0, 0))], lossy, 20000, FREE,

@@ -5,6 +5,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "neigh_list.h"
 #include "update.h"
 
 #include <algorithm>
@@ -13,14 +14,14 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-void ContactWatch::look(const ContactPipeline &contacts)
+void ContactWatch::look(const ContactPipeline &contacts, const NeighList &list)
 {
   double worst;
   int rank;
   if (!said_overlap && exceeds(contacts.largest_overlap_ratio(), largest_overlap, worst, rank)) {
     said_overlap = true;
     double tags[2] = {0.0, 0.0};
-    if (comm->me == rank) name_deepest_pair(contacts, tags);
+    if (comm->me == rank) name_deepest_pair(list, tags);
     MPI_Bcast(tags, 2, MPI_DOUBLE, rank, world);
     if (comm->me == 0)
       error->warning(
@@ -74,19 +75,21 @@ ContactWatch::Move ContactWatch::largest_own_move() const
 /* Owned particles may have moved since the contacts were computed, ghosts have not: good enough to
    tell which pair it is. */
 
-void ContactWatch::name_deepest_pair(const ContactPipeline &contacts, double tags[2]) const
+void ContactWatch::name_deepest_pair(const NeighList &list, double tags[2]) const
 {
-  const CandidateList &pairs = contacts.pairs;
   double deepest = -1.0;
-  for (std::int64_t n = 0; n < pairs.num_pairs(); n++) {
-    const int i = pairs.atom_of_slot[pairs.first[n]], j = pairs.atom_of_slot[pairs.second[n]];
-    const double *a = atom->x[i], *b = atom->x[j];
-    const double r = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    const double overlap =
-        (atom->radius[i] + atom->radius[j] - r) / std::min(atom->radius[i], atom->radius[j]);
-    if (overlap <= deepest) continue;
-    deepest = overlap;
-    tags[0] = static_cast<double>(std::min(atom->tag[i], atom->tag[j]));
-    tags[1] = static_cast<double>(std::max(atom->tag[i], atom->tag[j]));
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii];
+    for (int jj = 0; jj < list.numneigh[i]; jj++) {
+      const int j = list.firstneigh[i][jj] & NEIGHMASK;
+      const double *a = atom->x[i], *b = atom->x[j];
+      const double r = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      const double overlap =
+          (atom->radius[i] + atom->radius[j] - r) / std::min(atom->radius[i], atom->radius[j]);
+      if (overlap <= deepest) continue;
+      deepest = overlap;
+      tags[0] = static_cast<double>(std::min(atom->tag[i], atom->tag[j]));
+      tags[1] = static_cast<double>(std::max(atom->tag[i], atom->tag[j]));
+    }
   }
 }

@@ -261,8 +261,8 @@ void PairGranPenalty::warn_large_time_step()
 
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
-  watch.look(pipeline);    // here, because all ranks come here and the pairs are still those of the
-                           // last step
+  // here, because all ranks come here and the pairs are still those of the last step
+  watch.look(pipeline, *list);
   pipeline.file_history(partners);
 }
 
