@@ -28,7 +28,8 @@ class Bench:
         self.name = name
         self.quick = options.quick
         self.rounds = options.rounds or (1 if options.quick else 5)
-        self.cases = options.cases.split(",") if options.cases else None
+        # a name that contains commas can be given alone
+        self.cases = [options.cases, *options.cases.split(",")] if options.cases else None
         self.workdir = tempfile.mkdtemp(prefix=f"talus-bench-{name}-")
         self.out = options.out or default_out(options)
         self.section = report.Section(name, module.TITLE, module.QUESTION, self)

@@ -87,7 +87,7 @@ class Section:
         if self.bench.quick:
             words.append("--quick")
         if self.bench.cases:
-            words += ["--cases", ",".join(self.bench.cases)]
+            words += ["--cases", f"'{self.bench.cases[0]}'"]
         return " ".join(words)
 
     def _text(self):
