@@ -69,3 +69,15 @@ ensure_packages() {
     die "missing Debian packages: ${missing[*]}; as root run: apt-get install ${missing[*]}"
   install_packages "${missing[@]}"
 }
+
+# optional_package NAME CONSEQUENCE: install it if that is possible; otherwise say what is missing.
+optional_package() {
+  local package=$1 consequence=$2
+  if have dpkg-query && dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed; then
+    return 0
+  fi
+  if [[ -z ${TALUS_SKIP_PACKAGES:-} ]] && have apt-get && (install_packages "$package"); then
+    return 0
+  fi
+  note "without the package $package, $consequence"
+}

@@ -32,7 +32,8 @@ constexpr int num_extra = 11;    // svector, see single()
 
 /* ---------------------------------------------------------------------- */
 
-PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), masses(lmp), radii(lmp), critical(lmp)
+PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
+    Pair(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -153,6 +154,7 @@ void PairGranPenalty::init_style()
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
+  watch.start();
   laws_current = false;    // init_one() will mix what is not set
 }
 
@@ -263,6 +265,8 @@ void PairGranPenalty::warn_large_time_step()
 
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
+  // here, because all ranks come here and the pairs are still those of the last step
+  watch.look(pipeline, *list);
   pipeline.file_history(partners);
 }
 

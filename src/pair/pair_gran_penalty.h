@@ -15,6 +15,7 @@
 #include "lammps_compat.h"
 #include "pair.h"
 #include "pair/contact_command.h"
+#include "pair/contact_watch.h"
 #include "pair/critical_time_step.h"
 #include "pair/effective_masses.h"
 #include "pair/largest_radii.h"
@@ -96,6 +97,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   EffectiveMasses masses;
   LargestRadii radii;
   CriticalTimeStep critical;
+  ContactWatch watch;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

@@ -1,0 +1,253 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Extreme scenes for Talus and for the stock styles, and what becomes of them."""
+
+import dataclasses
+import math
+
+import lammps
+import verdict
+from lammps import STOCK, TALUS
+
+COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
+YOUNG, NU = 1.0e7, 0.3
+
+
+@dataclasses.dataclass
+class Ball:
+    x: tuple
+    v: tuple = (0.0, 0.0, 0.0)
+    w: tuple = (0.0, 0.0, 0.0)
+    diameter: float = 1.0
+    density: float = 1000.0
+
+    def mass(self):
+        return self.density * math.pi / 6 * self.diameter**3
+
+
+@dataclasses.dataclass
+class Extreme:
+    """law: (kind, kn, gn, kt, gt, mu) of gran/*, or ("material", E, e, nu, mu). fraction: time step over the
+    smallest critical one of compute timestep/gran. planes: (axis, place, sign). frames: how many are looked at."""
+    name: str
+    balls: list
+    law: tuple
+    steps: int
+    box: tuple
+    fraction: float = 0.2
+    frames: int = 400
+    gravity: float = 0.0
+    planes: tuple = ()
+    periodic: str = "f f f"
+    fixed: tuple = ()            # indices of balls that are frozen
+    units: str = "si"
+    skin: float = 0.1
+    dt: float = 0.0              # instead of a fraction
+    creep: bool = False          # whether creep is what matters
+    midpoint: bool = False       # the second-order update of tangential displacements, with Talus
+
+    def hertz(self):
+        return self.law[0] in ("hertz", "material")
+
+    def stiffness(self):
+        if self.law[0] == "material":
+            return 4 / 3 * self.law[1] / (2 * (1 - self.law[3]**2))
+        return self.law[1]
+
+
+def talus_law(law):
+    if law[0] == "material":
+        _, young, e, nu, mu = law
+        return f"hertz/material {young!r} {e!r} {nu!r}" + (f" tangential multistep NULL NULL {mu!r}" if mu else "")
+    kind, kn, gn, kt, gt, mu = law
+    return f"{kind} {kn!r} {gn!r}" + (f" tangential multistep {kt!r} {gt!r} {mu!r}" if mu else "")
+
+
+def granular_law(law):
+    if law[0] == "material":
+        _, young, e, nu, mu = law
+        shear = f"mindlin NULL 1.0 {mu!r}" if mu else "linear_nohistory 0.0 0.0"
+        return f"hertz/material {young!r} {e!r} {nu!r} tangential {shear} damping coeff_restitution"
+    kind, kn, gn, kt, gt, mu = law
+    shear = {"hooke": "linear_history", "hertz": "mindlin"}[kind]
+    damping = {"hooke": "mass_velocity", "hertz": "viscoelastic"}[kind]
+    words = f"{shear} {kt!r} {gt / gn if gn else 0.0!r} {mu!r}" if mu else "linear_nohistory 0.0 0.0"
+    return f"{kind} {kn!r} {gn!r} tangential {words} damping {damping}"
+
+
+def _physics(scene, code):
+    text = ""
+    if code == TALUS:
+        words = talus_law(scene.law) + (" midpoint" if scene.midpoint else "")
+        pull = f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else ""
+        text += f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic{pull}\n"
+        for n, (axis, place, sign) in enumerate(scene.planes):
+            point, normal = ([place if d == axis else 0 for d in range(3)], [sign if d == axis else 0 for d in range(3)])
+            text += f"fix p{n} all large/body plane {' '.join(map(str, point + normal))} contact {words}\n"
+        return text
+    text += f"pair_style granular\npair_coeff * * {granular_law(scene.law)}\nfix move moving nve/sphere\n"
+    if scene.gravity:
+        text += f"fix gravity all gravity {scene.gravity!r} vector 0 0 -1\n"
+    for n, (axis, place, sign) in enumerate(scene.planes):
+        ends = f"{place!r} NULL" if sign > 0 else f"NULL {place!r}"
+        text += f"fix p{n} all wall/gran granular {granular_law(scene.law)} {'xyz'[axis]}plane {ends}\n"
+    return text
+
+
+def _head(scene, code):
+    hold = "group fixed id " + " ".join(str(k + 1) for k in scene.fixed) + "\nfix hold fixed freeze\n" \
+        "neigh_modify exclude group fixed fixed\n" if scene.fixed else ""
+    moving = "group moving subtract all fixed\n" if scene.fixed else "group moving union all\n"
+    return (f"units {scene.units}\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\n"
+            f"boundary {scene.periodic}\nread_data data\nneighbor {scene.skin!r} bin\n"
+            "neigh_modify every 1 delay 0 check yes\n" + hold.split("neigh_modify")[0].split("fix hold")[0] + moving
+            + _physics(scene, code) + (hold[hold.index("fix hold"):] if hold else ""))
+
+
+def write(scene, path):
+    lammps.write_data(path, scene.box,
+                      [(k + 1, 1, b.diameter, b.density, *b.x) for k, b in enumerate(scene.balls)],
+                      [(k + 1, *b.v, *b.w) for k, b in enumerate(scene.balls)])
+
+
+def critical_step(bench, scene, folder):
+    """The smallest critical time step of compute timestep/gran at the beginning."""
+    script = _head(scene, TALUS) + """compute t all timestep/gran
+thermo_style custom step c_t[1] c_t[2] c_t[3]
+timestep 1e-30
+run 0
+print "RESULT $(c_t[1]:%.17g) $(c_t[2]:%.17g) $(c_t[3]:%.17g)"
+"""
+    found = lammps.run(folder, "critical", script).printed("RESULT")[0]
+    return min(t for t in found if t > 0)
+
+
+def run(bench, scene, code, folder, dt):
+    """Outcome of a scene with one code."""
+    write(scene, f"{folder}/data")
+    every = max(1, scene.steps // scene.frames)
+    script = (_head(scene, code) + f"thermo {max(1, scene.steps // 20)}\nthermo_modify norm no lost warn flush no\n"
+              f"timestep {dt!r}\ndump d all custom {every} frames.{code} {COLUMNS}\n"
+              "dump_modify d format float %.17g sort id\n" + f"run {scene.steps}\n")
+    result = lammps.run(folder, f"scene-{code}", script, code, check=False, timeout=bench.size(900, 60))
+    frames = lammps.read_frames(f"{folder}/frames.{code}")
+    if code == TALUS:
+        for _, frame in frames:
+            synchronise(scene, frame, dt)
+    outcome = verdict.judge(frames, result, grains(scene))
+    if scene.fixed:
+        outcome.creep = 0.0
+    return outcome, frames
+
+
+def synchronise(scene, frame, dt):
+    """Velocities of Talus to the time of the positions, by half a kick; its forces are without gravity."""
+    for row, tag in enumerate(frame["id"]):
+        k = int(tag) - 1
+        if k in scene.fixed:
+            continue
+        ball = scene.balls[k]
+        inertia = 0.1 * ball.mass() * ball.diameter**2
+        for axis in "xyz":
+            pull = scene.gravity if axis == "z" else 0.0
+            frame["v" + axis][row] += 0.5 * dt * (frame["f" + axis][row] / ball.mass() - pull)
+            frame["omega" + axis][row] += 0.5 * dt * frame["tq" + axis][row] / inertia
+
+
+def grains(scene):
+    period = tuple(hi - lo if word == "p" else None for (lo, hi), word in zip(scene.box, scene.periodic.split()))
+    return verdict.Grains("hertz" if scene.hertz() else "hooke", scene.stiffness(),
+                          [b.diameter / 2 for b in scene.balls],
+                          [0.0 if k in scene.fixed else b.mass() for k, b in enumerate(scene.balls)],
+                          scene.gravity, scene.planes, period)
+
+
+# ---- the list ---------------------------------------------------------------------------------
+
+FREE = ((-20.0, 20.0),) * 3
+WIDE = ((-30.0, 30.0), (-5.0, 5.0), (-5.0, 5.0))
+
+
+def impact(name, law, normal=1.0, across=0.0, second=None, **more):
+    """Two spheres meet; second: diameter and density of the one at the right, which is at rest if heavy."""
+    diameter, density = second or (1.0, 1000.0)
+    gap = 0.01 * min(1.0, diameter)
+    share = 1 / (1 + (density * diameter**3) / 1000.0)      # centre of mass at rest
+    right = Ball((0.5 * diameter + gap / 2, 0, 0), (-normal * share, -across * share, 0), diameter=diameter, density=density)
+    left = Ball((-0.5 - gap / 2, 0, 0), (normal * (1 - share), across * (1 - share), 0))
+    options = {"steps": 100, "box": WIDE, "skin": 0.1 * min(1.0, diameter), **more}
+    return Extreme(name, [left, right], law, **options)
+
+
+def speed_for(depth):
+    """Elastic Hertz impact of two equal spheres whose overlap reaches depth times the radius."""
+    e_eff, r_eff, m_eff = YOUNG / (2 * (1 - NU**2)), 0.25, 1000 * math.pi / 12
+    return math.sqrt((depth * 0.5)**2.5 * 16 * e_eff * math.sqrt(r_eff) / (15 * m_eff))
+
+
+def units(factor):
+    """The impact with lengths, masses and times multiplied by `factor`: E goes with 1/factor^2."""
+    law = ("material", YOUNG / factor**2, 0.8, NU, 0.3)
+    scene = impact(f"units times {factor:.0e}", law, 1.0, 0.5, units="lj")
+    for b in scene.balls:
+        b.x = tuple(c * factor for c in b.x)
+        b.w = tuple(c / factor for c in b.w)
+        b.diameter *= factor
+        b.density /= factor**2
+    scene.box = tuple((a * factor, b * factor) for a, b in scene.box)
+    scene.skin *= factor
+    return scene
+
+
+def column(count):
+    return Extreme(f"column of {count}", [Ball((0, 0, k + 0.5)) for k in range(count)], ("hertz", 1e10, 2e4, 0.0, 0.0, 0.0),
+                   steps=20000, box=((-5, 5), (-5, 5), (-1.0, count + 5.0)), gravity=10.0, planes=((2, 0.0, 1),), frames=40)
+
+
+def small_among_large():
+    """Two fixed spheres of .01 and one of .0005 in the gap below them (Vyas et al. 2025)."""
+    balls = [Ball((0, 0, 0), diameter=0.01, density=2500.0), Ball((0.01, 0, 0), diameter=0.01, density=2500.0),
+             Ball((0.005, 2.79374817e-5, 1.60053725e-3), diameter=5e-4, density=2500.0)]
+    return Extreme("size ratio 20, wedged", balls, ("hooke", 1e4, 1.1e5, 8235.0, 5.5e4, 0.5), steps=300000, dt=1e-6,
+                   box=((-0.02, 0.03),) * 3, gravity=9.81, fixed=(0, 1), skin=1e-4, frames=300)
+
+
+def pile(steps):
+    """20 spheres heaped on a floor between walls, at rest: what moves in a very long time."""
+    balls = [Ball(((k % 3) + 0.51, (k // 3 % 3) + 0.51, 0.5 + 1.01 * (k // 9)), diameter=0.95 + 0.005 * (k % 10))
+             for k in range(20)]
+    walls = ((2, 0.0, 1), (0, 0.0, 1), (0, 3.02, -1), (1, 0.0, 1), (1, 3.02, -1))
+    return Extreme(f"rest of {steps:.0e} steps", balls, ("hertz", 1e8, 2e3, 2.857e7, 1e3, 0.5), steps=steps,
+                   box=((-1, 5), (-1, 5), (-1, 6)), gravity=10.0, planes=walls, frames=200, creep=True)
+
+
+def resting_grid(gravity):
+    """27 spheres that just touch, at rest, no gravity."""
+    balls = [Ball((k % 3 * 0.9999, k // 3 % 3 * 0.9999, k // 9 * 0.9999)) for k in range(27)]
+    return Extreme("zero gravity, at rest", balls, ("material", YOUNG, 0.5, NU, 0.5), steps=20000, box=FREE, gravity=gravity)
+
+
+def scenes(quick):
+    elastic = ("material", YOUNG, 1.0, NU, 0.0)
+    lossy = ("material", YOUNG, 0.8, NU, 0.5)
+    found = [impact(f"size ratio {n}", lossy, 1.0, 0.5, (1.0 / n, 1000.0)) for n in (10, 100)]
+    found += [small_among_large()]
+    found += [impact(f"mass ratio {n:.0e}", lossy, 1.0, 0.5, (1.0, 1000.0 * n)) for n in (1e3, 1e6)]
+    found += [impact(f"impact to overlap {d} r", elastic, speed_for(d)) for d in (0.05, 0.2, 0.5, 1.0, 1.5)]
+    found += [impact("impact, passes through", elastic, 2 * speed_for(2.0))]
+    found += [Extreme(f"initial overlap {d} r", [Ball((0, 0, 0)), Ball((1 - d / 2, 0, 0))], elastic, 100, WIDE)
+              for d in (0.05, 0.5)]
+    found += [impact(f"e = {e}, mu = {mu:g}", ("material", YOUNG, e, NU, mu), 1.0, 1.0)
+              for e in (0.0, 0.1, 1.0) for mu in (0.0, 1e3)]
+    found += [impact("e = 1.0, mu = 1000, midpoint", ("material", YOUNG, 1.0, NU, 1e3), 1.0, 1.0, midpoint=True)]
+    found += [impact("e = 1.0, mu = 1000, dt .05 critical", ("material", YOUNG, 1.0, NU, 1e3), 1.0, 1.0, fraction=0.05,
+                     steps=400)]
+    found += [units(10.0**n) for n in (-12, -6, 6, 12)]
+    found += [column(100 if quick else 1000)]
+    found += [Extreme("squeezed between bodies", [Ball((0, 0, 0.475), (0.3, 0, 0), (0, 2.0, 0))], lossy, 20000, FREE,
+                      planes=((2, 0.0, 1), (2, 0.95, -1)))]
+    found += [resting_grid(0.0), pile(100000 if quick else 10000000)]
+    found += [impact("dt 2 critical, impact", elastic, fraction=2.0, steps=20),
+              impact("dt 6 critical, impact", elastic, fraction=6.0, steps=6)]
+    unstable = pile(20000)
+    unstable.name, unstable.fraction, unstable.creep = "dt 1.5 critical, pile", 1.5, False
+    return found + [unstable]

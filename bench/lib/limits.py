@@ -1,0 +1,194 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""The largest stable time step, by bisection in the running code, and what linear theory says.
+
+Spheres of mass 1 and diameter 1 with linear contacts of stiffness 1, pressed together so that contacts
+never open, disturbed by 1e-9; unstable if the disturbance grows by 10^4."""
+
+import dataclasses
+import itertools
+import math
+
+import lammps
+from lammps import STOCK, TALUS
+
+OVERLAP, KICK, GROWTH = 1e-3, 1e-9, 1e4
+DENSITY = 6 / math.pi
+INERTIA = 0.4 * 0.25
+
+
+@dataclasses.dataclass
+class Case:
+    """moving, fixed: lists of (position, radius). period: box edge if it is a lattice. zeta: damping ratio
+    of one contact against a fixed sphere; friction: kt/kn, None without; mu is so large that nothing slides."""
+    group: str
+    name: str
+    moving: list
+    fixed: list
+    period: float = 0.0
+    zeta: float = 0.0
+    friction: float = None
+
+
+def cage(n, ratio=1.0):
+    """A sphere between n fixed ones that are `ratio` times as large."""
+    t = math.sqrt(3)
+    corners = {1: [(0, 0, -1)], 2: [(0, 0, -1), (0, 0, 1)],
+               4: [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
+               6: [tuple(s * (d == k) for d in range(3)) for k in range(3) for s in (1, -1)],
+               8: list(itertools.product((1, -1), repeat=3)),
+               12: [p for a, b in itertools.product((1, -1), repeat=2) for p in ((a, b, 0), (a, 0, b), (0, a, b))]}[n]
+    length = {4: t, 8: t, 12: math.sqrt(2)}.get(n, 1.0)
+    distance = 0.5 + 0.5 * ratio - OVERLAP
+    return [((0.0, 0.0, 0.0), 0.5)], [(tuple(distance * c / length for c in p), 0.5 * ratio) for p in corners]
+
+
+def lattice(kind):
+    """(moving spheres, box edge): simple, body-centred or face-centred cubic, 6, 8, 12 contacts."""
+    basis, edge, cells = {"sc": ([(0, 0, 0)], 1.0, 4), "bcc": ([(0, 0, 0), (.5, .5, .5)], 2 / math.sqrt(3), 4),
+                          "fcc": ([(0, 0, 0), (.5, .5, 0), (.5, 0, .5), (0, .5, .5)], math.sqrt(2), 3)}[kind]
+    edge *= 1 - OVERLAP
+    return [(tuple(edge * (c + b) for c, b in zip(cell, base)), 0.5)
+            for cell in itertools.product(range(cells), repeat=3) for base in basis], edge * cells
+
+
+def cases(quick):
+    found = [Case("damping", f"damping ratio {z}", *cage(1), zeta=z) for z in (0.0, 0.1, 0.3, 0.7)]
+    for n in (2, 6, 12) if quick else (2, 4, 6, 8, 12):
+        for friction in (None, 2 / 7, 1.0):
+            words = "no friction" if friction is None else f"kt/kn {friction:.3g}"
+            found.append(Case("contacts", f"{n} contacts, {words}", *cage(n), friction=friction))
+    for ratio in (10,) if quick else (3, 10, 30, 100):
+        found.append(Case("size", f"between 2 that are {ratio} times larger, kt/kn .286", *cage(2, ratio), friction=2 / 7))
+    for kind in ("fcc",) if quick else ("sc", "bcc", "fcc"):
+        spheres, edge = lattice(kind)
+        for friction in (None, 2 / 7):
+            words = "no friction" if friction is None else "kt/kn .286"
+            found.append(Case("lattice", f"{kind} lattice, {words}", spheres, [], edge, friction=friction))
+    return found
+
+
+# ---- theory -----------------------------------------------------------------------------------
+
+def theory(case):
+    """Largest stable time step of symplectic Euler for the linear system; None without numpy.
+
+    Undamped: 2/omega with the largest eigenfrequency of translation and rotation; one damped contact:
+    2 (sqrt(1 + zeta^2) - zeta)."""
+    if case.zeta:
+        return 2 * (math.sqrt(1 + case.zeta**2) - case.zeta)
+    try:
+        import numpy as np
+    except ImportError:
+        return None
+    n = len(case.moving)
+    k = np.zeros((6 * n, 6 * n))
+    for i, j, normal in _touching(case):
+        rows = np.zeros((3, 6 * n))      # relative displacement of the surfaces
+        cross = np.array([[0, -normal[2], normal[1]], [normal[2], 0, -normal[0]], [-normal[1], normal[0], 0]])
+        rows[:, 6 * i:6 * i + 3] += np.eye(3)
+        rows[:, 6 * i + 3:6 * i + 6] += 0.5 * cross       # theta x (-r n) = r n x theta
+        if j is not None:
+            rows[:, 6 * j:6 * j + 3] -= np.eye(3)
+            rows[:, 6 * j + 3:6 * j + 6] += 0.5 * cross
+        along = np.outer(normal, normal)
+        k += rows.T @ (along + (case.friction or 0.0) * (np.eye(3) - along)) @ rows
+    scale = np.tile([1.0] * 3 + [INERTIA**-0.5] * 3, n)
+    return 2 / math.sqrt(np.linalg.eigvalsh(k * np.outer(scale, scale))[-1])
+
+
+def _touching(case):
+    """(i, j or None for a fixed one, unit normal from j to i) of every contact once."""
+    everyone = case.moving + case.fixed
+    for i, j in itertools.combinations(range(len(everyone)), 2):
+        if i >= len(case.moving):
+            break
+        (x, a), (y, b) = everyone[i], everyone[j]
+        gap = [p - q for p, q in zip(x, y)]
+        if case.period:
+            gap = [math.remainder(g, case.period) for g in gap]
+        distance = math.hypot(*gap)
+        if distance < a + b:
+            yield i, (j if j < len(case.moving) else None), [g / distance for g in gap]
+
+
+# ---- measurement ------------------------------------------------------------------------------
+
+SCRIPT = """variable low string {low!r}
+variable high string {high!r}
+variable critical string 0
+variable k loop {halvings}
+label again
+variable h equal 0.5*(v_low+v_high)
+variable here string ${{h}}
+clear
+units si
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+boundary {boundary}
+read_data {data}
+neighbor 0.05 bin
+group moving type 1
+group base type 2
+{physics}
+timestep ${{here}}
+thermo 1000000000
+thermo_modify lost ignore
+compute k moving ke
+compute r moving erotate/sphere
+fix ke moving ave/time 1 1 1 c_k c_r
+run 0 post no
+variable start string $(c_k+c_r)
+variable growth equal (c_k+c_r)/v_start
+variable unstable equal "!(v_growth<{square}) || count(moving)<{moving}"
+fix stop all halt 1 v_unstable > 0 error continue message no
+run {steps} post no
+{critical}
+if "${{unstable}}" then "variable high string ${{here}}" else "variable low string ${{here}}"
+next k
+jump SELF again
+print "RESULT ${{low}} ${{high}} ${{critical}}"
+"""
+
+
+def _physics(case, code):
+    gn = 2 * case.zeta
+    kt, gt = (case.friction or 0.0), 0.0
+    if code == TALUS:
+        words = f"hooke 1.0 {gn!r}" + (f" tangential multistep {kt!r} {gt!r} 1e4" if case.friction else "")
+        text = f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic\n" \
+               "compute t all timestep/gran\n"
+    else:
+        mu = 1e4 if case.friction else 0.0
+        text = f"pair_style gran/hooke/history 1.0 {kt or 1.0!r} {gn!r} {gt!r} {mu!r} 1\npair_coeff * *\n" \
+               "fix move moving nve/sphere\n"
+    if len(case.fixed) == 1:      # what a single contact pushes away
+        text += f"fix weight moving addforce 0.0 0.0 {-OVERLAP!r}\n"
+    return text + "fix hold base freeze\nneigh_modify exclude group base base\n"
+
+
+def write_case(case, path):
+    low, high = min(-3.0, -3 * max((r for _, r in case.fixed), default=1)), max(3.0, 3 * max((r for _, r in case.fixed), default=1))
+    box = ((0.0, case.period),) * 3 if case.period else ((low, high),) * 3
+    # without friction, nothing keeps spheres in a row from buckling at any time step: kick them along it
+    directions = [-1, -1, 2, -1, -1, -1] if len(case.fixed) in (1, 2) and not case.friction else range(6)
+    rows, speeds = [], []
+    for k, (x, r) in enumerate(case.moving + case.fixed):
+        moves = k < len(case.moving)
+        rows.append((k + 1, 1 if moves else 2, 2 * r, DENSITY, *x))
+        speeds.append((k + 1, *(KICK * math.sin(1 + 3.7 * k + 1.3 * d) * (moves and d >= 0) for d in directions)))
+    lammps.write_data(path, box, rows, speeds, types=2)
+
+
+def measured(bench, case, code, steps):
+    """(largest stable time step, critical one of compute timestep/gran or None)."""
+    name = f"limit-{abs(hash((case.name, code))):x}"
+    write_case(case, bench.path(name + ".data"))
+    critical = "if \"${critical} == 0\" then \"run 0 post no\" \"variable critical string $(c_t[1])\"" if code == TALUS else ""
+    result = lammps.run(bench.workdir, name, SCRIPT.format(
+        low=0.1, high=2.5, halvings=12 if not bench.quick else 9, boundary="p p p" if case.period else "f f f",
+        data=name + ".data", physics=_physics(case, code), steps=steps, square=GROWTH**2,
+        moving=len(case.moving), critical=critical), code)
+    low, high, found = result.printed("RESULT")[0]
+    return 0.5 * (low + high), found or None

@@ -1,0 +1,118 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Peak of resident memory per particle, by what is switched on, against other codes."""
+
+import beds
+import lammps
+import machine
+from lammps import LIGGGHTS, STOCK, TALUS
+
+TITLE = "Memory"
+QUESTION = """How many bytes does a particle take, with which features, and what would 10^9 particles need? Peak of the
+resident memory of one process, which the operating system keeps, for beds of different size: their difference over the
+difference in particles leaves out what does not grow with them."""
+
+STEPS = 120     # with one rebuild of the neighbor lists, which is where the peak is
+
+COMPARED = ("Talus, multistep friction, floor and walls", "stock gran/hertz/history, floor and walls")
+NOTHING = "pair_style none\ncomm_modify cutoff 3e-3\nfix move all nve/sphere\n"
+STOCK_PLAIN = "gran/hooke 500.0 NULL 50.0 NULL 0.5 1"    # as stiff as the Hertzian contacts of the bed
+
+
+def talus(law, bodies):
+    text = beds.talus(law)
+    return text if bodies else "\n".join(line for line in text.splitlines() if "large/body" not in line) + "\n"
+
+
+def stock(pair, bodies):
+    text = beds.stock(pair)
+    return text if bodies else "\n".join(line for line in text.splitlines() if "wall/gran" not in line) + "\n"
+
+
+def variants():
+    """name: (code, physics)"""
+    found = {
+        "particles alone": (STOCK, NOTHING),
+        "Talus, no friction": (TALUS, talus(beds.FRICTIONLESS, False)),
+        "Talus, onestep friction": (TALUS, talus(beds.HISTORY.replace("multistep", "onestep"), False)),
+        "Talus, multistep friction": (TALUS, talus(beds.HISTORY, False)),
+        "Talus, multistep friction, floor and walls": (TALUS, talus(beds.HISTORY, True)),
+        "stock gran/hooke": (STOCK, stock(STOCK_PLAIN, False)),
+        "stock gran/hertz/history": (STOCK, stock(f"gran/{beds.STOCK_HISTORY}", False)),
+        "stock gran/hertz/history, floor and walls": (STOCK, stock(f"gran/{beds.STOCK_HISTORY}", True)),
+        "stock granular, floor and walls": (STOCK, beds.stock_granular()),
+    }
+    if machine.LIGGGHTS:
+        found["LIGGGHTS, floor and walls"] = (LIGGGHTS, None)
+    return found
+
+
+def peak(bench, count, code, physics):
+    data, box = beds.bed(bench, count)
+    if code == LIGGGHTS:
+        script = beds.liggghts_script(data, box, 0, STEPS)
+    else:
+        script = beds.script(data, physics, 0, STEPS)
+    return lammps.run(bench.workdir, "memory", script, code).peak
+
+
+def arrays():
+    """What the pipeline of Talus holds for each particle (owned and ghost) and each candidate pair, by design."""
+    return [
+        ["particle: place and radius; velocity and 1/mass", "64 B", "always"],
+        ["particle: surface spin and 1/radius", "32 B", "friction or resistance"],
+        ["particle: sum of forces", "32 B", "always"],
+        ["particle: sum of moments", "32 B", "friction or resistance"],
+        ["candidate pair: two indices", "8 B", "always"],
+        ["candidate pair: displacement, whether it slides", "32 B", "multistep"],
+        ["candidate pair: impact speed, age", "32 B", "laws that read them"],
+    ]
+
+
+def measure(bench):
+    section = bench.section
+    sizes = bench.size((50000, 400000), (12500, 50000))
+    rows, per_particle = [], {}
+    for name, (code, physics) in variants().items():
+        if not bench.wants(name):
+            continue
+        bench.note(name)
+        peaks = [peak(bench, count, code, physics) for count in sizes]
+        per_particle[name] = (peaks[1] - peaks[0]) / (sizes[1] - sizes[0])
+        section.record(variant=name, small=sizes[0], large=sizes[1], small_bytes=peaks[0], large_bytes=peaks[1],
+                       bytes_per_particle=per_particle[name])
+        rows.append([name, peaks[1] / 2**20, per_particle[name], per_particle[name] * 1e9 / 2**40])
+    section.table(["", f"peak at {sizes[1]} (MiB)", "bytes per particle", "10^9 particles (TiB)"], rows)
+    section.text(f"Beds of {sizes[0]} and {sizes[1]} spheres, {STEPS} steps with a rebuild, one rank. Differences between the "
+                 "rows are what a feature takes; the temporary copies of a rebuild are part of the peak.")
+    ours, stock = (per_particle.get(name) for name in COMPARED)
+    if ours and stock and ours > stock:
+        section.headline(f"memory: Talus takes {ours:.0f} bytes per particle, stock {stock:.0f}.")
+    if not bench.quick and bench.wants("large"):
+        large(bench)
+    section.heading("Arrays of Talus")
+    section.table(["array", "bytes", "held if"], arrays())
+    section.text("By design, for comparison with the measured differences. Indices, keys and the lists that carry displacements "
+                 "through a rebuild come on top.")
+    if rows:
+        section.plot("", "Bytes per particle", lambda plt: draw(plt, rows))
+
+
+def large(bench):
+    """The whole process with 1 236 372 spheres."""
+    count = 1236372
+    rows = []
+    for name in COMPARED:
+        bench.note(f"{count} spheres: {name}")
+        code, physics = variants()[name]
+        size = peak(bench, count, code, physics) / count
+        rows.append([name, size])
+        bench.section.record(variant=name + ", whole process", large=count, bytes_per_particle=size)
+    bench.section.table([f"{count} spheres, whole process", "bytes per particle"], rows)
+
+
+def draw(plt, rows):
+    _, axes = plt.subplots(figsize=(6.5, 0.3 * len(rows) + 1))
+    axes.barh(range(len(rows)), [row[2] for row in rows], color=["0.35" if "Talus" in row[0] else "0.7" for row in rows])
+    axes.set_yticks(range(len(rows)), [row[0] for row in rows], fontsize=7)
+    axes.invert_yaxis()
+    axes.set_xlabel("bytes per particle")

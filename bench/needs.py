@@ -1,0 +1,172 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""What every feature costs, and what goes wrong where it is left out."""
+
+import concurrent.futures
+import os
+
+import beds
+import features
+import heap
+import lammps
+import machine
+import paired
+
+TITLE = "What each feature costs"
+QUESTION = """What does a scene save that leaves a feature out, in time, memory and message size, and how wrong is it where the
+feature matters?"""
+
+STICKS = f"hertz {beds.KN} {beds.GN} tangential multistep NULL NULL {beds.MU}"
+
+
+def variants(bench):
+    """name: (law, with walls, atom style, words for the integrator, boundary)."""
+    onestep = STICKS.replace("multistep", "onestep")
+    dashpot = STICKS.replace("multistep NULL", "dashpot")
+    material = f"hertz/material {beds.YOUNG} 0.5 {beds.NU} tangential multistep NULL NULL {beds.MU}"
+    found = {
+        "no friction": (beds.FRICTIONLESS, True, "sphere", "", "f f f"),
+        "dashpot friction": (dashpot, True, "sphere", "", "f f f"),
+        "onestep friction": (onestep, True, "sphere", "", "f f f"),
+        "multistep friction": (STICKS, True, "sphere", "", "f f f"),
+        "multistep, midpoint": (STICKS + " midpoint", True, "sphere", "", "f f f"),
+        "multistep, material law": (material, True, "sphere", "", "f f f"),
+        "multistep, rolling": (STICKS + " rolling 0.02", True, "sphere", "", "f f f"),
+        "multistep, rolling, spinning": (STICKS + " rolling 0.02 spinning 0.02", True, "sphere", "", "f f f"),
+        "multistep, adhesion": (STICKS + " adhesion perko 0.01", True, "sphere", "", "f f f"),
+        "multistep, impact speed and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
+                                                                                        f"{beds.NU} 1.0 tang"),
+                                            True, "sphere", "", "f f f"),
+        "multistep, one body instead of five": (STICKS, False, "sphere", "", "f f f"),
+        "multistep, orientation": (STICKS, True, "hybrid sphere dipole", " orientation yes", "f f f"),
+    }
+    return {name: v for name, v in found.items() if bench.wants(name)}
+
+
+def script(bench, variant, count, steps):
+    law, walls, style, words, boundary = variant
+    data, _ = beds.bed(bench, count)
+    physics = beds.talus(law, walls=walls).replace("symplectic start", f"symplectic{words} start")
+    if style != "sphere":
+        return hybrid(data, physics, style, steps)
+    return beds.script(data, physics, 100, steps, boundary=boundary)
+
+
+def hybrid(data, physics, style, steps):
+    """The bed in the data format of atom_style hybrid, written once."""
+    path = data.replace(".data", ".dipole")
+    if not os.path.exists(path):
+        box, rows, velocities = beds.read_data(data)
+        with open(path + ".new", "w") as file:
+            file.write(f"spheres with dipoles\n\n{len(rows)} atoms\n1 atom types\n\n")
+            for axis, (low, high) in zip("xyz", box):
+                file.write(f"{low!r} {high!r} {axis}lo {axis}hi\n")
+            file.write("\nAtoms\n\n")
+            file.writelines(f"{r[0]} {int(r[1])} {r[4]!r} {r[5]!r} {r[6]!r} {r[2]!r} {r[3]!r} 0.0 1.0 0.0 0.0\n" for r in rows)
+            file.write("\nVelocities\n\n")
+            file.writelines(" ".join(map(repr, v)) + "\n" for v in velocities)
+        os.replace(path + ".new", path)
+    return beds.script(path, physics, 100, steps, style=style)
+
+
+def times(bench, found, count, steps):
+    """{name: Series of ns per particle and step}, all in turn on one core."""
+    core = paired.one_core()
+
+    def run(text):
+        return lambda: lammps.run(bench.workdir, "needs", text, cores=core).loops()[-1].nanoseconds()
+    return paired.measure({name: run(script(bench, v, count, steps)) for name, v in found.items()}, bench.rounds)
+
+
+def bytes_per_particle(bench, variant, sizes):
+    """Slope of the peak of resident memory over the size of the bed, with one rebuild."""
+    peaks = [lammps.run(bench.workdir, "needs", script(bench, variant, n, 20)).peak for n in sizes]
+    return (peaks[1] - peaks[0]) / (sizes[1] - sizes[0])
+
+
+def message(bench, variant):
+    """Bytes of a proxy in each step: position and velocity, spin, dipole; what the host packs."""
+    size = 72 if variant[2] == "sphere" else 96
+    if features.has(bench, "comm_proxy yes") and "tangential" not in variant[0] and "rolling" not in variant[0]:
+        return "72, direct 48"
+    return str(size)
+
+
+def costs(bench):
+    section, found = bench.section, variants(bench)
+    count = bench.size(50000, 12500)
+    sizes = bench.size((50000, 400000), (12500, 50000))
+    bench.note("times")
+    series = times(bench, found, count, bench.size(600, 200))
+    base = "multistep friction" if "multistep friction" in series else next(iter(series), None)
+    rows = []
+    for name, variant in found.items():
+        bench.note(f"memory: {name}")
+        memory = bytes_per_particle(bench, variant, sizes)
+        ratio = paired.ratio(series[name], series[base])
+        rows.append([name, series[name].median, str(ratio), memory, message(bench, variant)])
+        section.record(feature=name, ns=series[name].median, ratio=ratio.median, bytes_per_particle=memory)
+    section.heading("Cost")
+    section.table(["scene", "ns per particle and step", f"time over that of {base}", "bytes per particle",
+                   "bytes of a proxy in a message"], rows)
+    section.text(f"""Bed of {count} spheres at rest, floor and four walls, one core, {bench.rounds} rounds in turn; memory: slope of the peak
+between {sizes[0]} and {sizes[1]} spheres. The host's exchange sends position, velocity and spin of every proxy in each
+step, needed or not, and the dipole with orientation.""")
+    exchange(bench)
+    if rows:
+        section.plot("", "Time over that of multistep friction", lambda plt: draw(plt, rows))
+
+
+def exchange(bench):
+    """What it costs to have neighbours at all: one rank, a box periodic in x and y against four walls."""
+    if not bench.wants("exchange"):
+        return
+    bench.note("exchange")
+    core, steps = paired.one_core(), bench.size(3000, 300)
+    texts = {"periodic": beds.script(beds.tile_data(bench)[0], beds.talus(walls=False), 100, steps, boundary="p p f"),
+             "fenced": beds.script(beds.bed(bench, beds.TILE)[0], beds.talus(), 100, steps)}
+
+    def run(text):
+        return lambda: lammps.run(bench.workdir, "exchange", text, cores=core).loops()[-1].nanoseconds()
+    series = paired.measure({name: run(text) for name, text in texts.items()}, bench.rounds)
+    ratio = paired.ratio(series["periodic"], series["fenced"])
+    bench.section.text(f"""Exchange: {beds.TILE} spheres on a floor, box periodic in x and y against four walls:
+{series["periodic"].median:.1f} against {series["fenced"].median:.1f} ns per particle and step, ratio {ratio}. The periodic one has
+proxies on four sides, on which contacts are computed twice.""")
+    bench.section.record(feature="exchange, periodic", ns=series["periodic"].median, ratio=ratio.median)
+
+
+def draw(plt, rows):
+    _, axes = plt.subplots(figsize=(6.5, 0.3 * len(rows) + 1))
+    axes.barh(range(len(rows)), [float(row[2].split()[0]) for row in rows], color="0.5")
+    axes.axvline(1.0, color="0.0", linestyle="--")
+    axes.set_yticks(range(len(rows)), [row[0] for row in rows], fontsize=7)
+    axes.invert_yaxis()
+    axes.set_xlabel("time / time with multistep friction")
+
+
+# ---- what is wrong without it -----------------------------------------------------------------
+
+def errors(bench):
+    section = bench.section
+    laws = heap.laws()
+    steps = bench.size(60000, 12000)
+    with concurrent.futures.ThreadPoolExecutor(len(machine.cores())) as pool:
+        found = dict(zip(laws, pool.map(lambda law: heap.collapse(bench, law, laws[law], steps), laws)))
+    full = found[next(iter(laws))]
+    rows = []
+    for name, state in found.items():
+        rows.append([name, state.height, state.runout, state.creep, 100 * (state.height / full.height - 1)])
+        section.record(feature="heap: " + name, height=state.height, runout=state.runout, creep=state.creep)
+    section.heading("What is wrong without it: a heap")
+    section.table(["law", "mean height (d)", "run-out (d)", "creep (d/s)", "height, difference (%)"], rows)
+    section.text(f"""A column of {heap.COUNT} spheres falls apart on a floor, {steps} steps of {heap.DT:g} s. mean height of the centres and
+run-out (radius that holds 95 % of the spheres) at the end, in diameters; creep: mean horizontal way in the last quarter of the
+time over that time. The first row is the full law; a heap of spheres without friction, or with friction that has no memory,
+does not stand.""")
+
+
+def measure(bench):
+    costs(bench)
+    if bench.wants("heap"):
+        bench.note("heap")
+        errors(bench)

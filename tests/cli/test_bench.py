@@ -1,0 +1,148 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""scripts/bench: its errors, its report, and what its verdicts and fits are made of; no benchmark is run."""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+
+ROOT = os.environ["TALUS_SOURCE_DIR"]
+os.environ.update(TALUS_ROOT=ROOT, TALUS_BUILD=os.environ["TALUS_BINARY_DIR"], TALUS_BENCH_HOST=os.environ["TALUS_LMP"],
+                  TALUS_BENCH_CACHE=os.path.join(tempfile.gettempdir(), "unused"))
+sys.path.insert(0, os.path.join(ROOT, "bench", "lib"))
+import errors
+import lammps
+import paired
+import report
+import verdict
+
+
+class Command(unittest.TestCase):
+
+    def said(self, *words):
+        done = subprocess.run([os.path.join(ROOT, "scripts", "bench"), *words], capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=60, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_messages(self):
+        self.assertEqual(self.said("--help")[0], 0)
+        for words, part in ((("nonsense",), "no benchmark 'nonsense'; there are: accuracy"), ((), "which benchmark?"),
+                            (("single", "--fast"), "unknown option '--fast'"), (("single", "--out"), "--out needs a value")):
+            status, text = self.said(*words)
+            self.assertEqual(status, 1)
+            self.assertIn(part, text)
+
+
+class Report(unittest.TestCase):
+
+    def write(self, folder, name, sentence, headline=None):
+        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=5, clock=lambda: "1:00")
+        section = report.Section(name, f"Title of {name}", "Question?", bench)
+        section.text(sentence)
+        section.record(a=1, b=2.5)
+        if headline:
+            section.headline(headline)
+        section.write()
+        with open(os.path.join(folder, "REPORT.md")) as file:
+            return file.read()
+
+    def test_sections_are_replaced_and_kept_in_order(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(folder, "stability", "old words", "a bad thing.")
+            self.write(folder, "single", "first")
+            text = self.write(folder, "stability", "new words")
+            self.assertNotIn("old words", text)
+            self.assertNotIn("a bad thing", text)
+            self.assertLess(text.index("first"), text.index("new words"))
+            self.assertEqual(text.count("## Title of stability"), 1)
+            text = self.write(folder, "single", "second", "too slow.")
+            self.assertLess(text.index("* too slow."), text.index("## Title"))
+            with open(os.path.join(folder, "results", "single.csv")) as file:
+                self.assertEqual(file.read(), "a,b\n1,2.5\n")
+
+
+class Numbers(unittest.TestCase):
+
+    def test_ratio_is_taken_round_by_round(self):
+        found = paired.ratio(paired.Series([10.0, 40.0, 30.0]), paired.Series([5.0, 10.0, 10.0]))
+        self.assertEqual((found.median, found.low, found.high), (3.0, 2.0, 4.0))
+
+    def test_rounds_take_turns(self):
+        calls = []
+        paired.measure({name: lambda name=name: calls.append(name) or 1.0 for name in "ab"}, 2)
+        self.assertEqual("".join(calls), "abba")
+
+    def test_order_and_step_for_an_error(self):
+        steps = [2.0**-k for k in range(8)]
+        second = [h * h for h in steps]
+        self.assertAlmostEqual(errors.order(steps, second), 2.0, places=9)
+        self.assertAlmostEqual(errors.step_for(1e-3, steps, second), math.sqrt(1e-3), places=9)
+        self.assertIsNone(errors.step_for(1e-6, steps, second))
+        # a run that failed, or was good by chance, does not count
+        self.assertLess(errors.step_for(1e-3, steps, [1e-9] * 3 + [math.inf] + second[4:]), steps[3])
+
+    def test_loops_of_both_codes(self):
+        new = "Loop time of 1.5 on 1 procs for 100 steps with 10 atoms\nPair    | 1.0 | 1.2 | 1.3 | 0.0 | 80\nOther | | 0.3 | | | 20\n"
+        old = "Loop time of 3 on 1 procs for 100 steps with 10 atoms, finish time 0.1\nPair  time (%) = 2 (66)\nModfy time (%) = 0.5 (16)\n"
+        first, second = lammps.read_loops(new + old)
+        self.assertEqual((first.nanoseconds(), first.breakdown), (1.5e6, {"Pair": 1.2, "Other": 0.3}))
+        self.assertEqual((second.seconds, second.breakdown), (3.0, {"Pair": 2.0, "Modify": 0.5}))
+
+
+class Verdicts(unittest.TestCase):
+    """For every detector a failure that it catches."""
+
+    GRAINS = verdict.Grains("hertz", 1e7, [0.5, 0.5], [500.0, 500.0])
+
+    def judge(self, spoil=None, warnings=(), error="", frames=20):
+        def frame(k):
+            x = 1.0 + 0.01 * k
+            found = {"x": [-x / 2, x / 2], "y": [0.0, 0.0], "z": [0.0, 0.0], "vx": [-1.0, 1.0]}
+            found.update({key: [0.0, 0.0] for key in ("vy", "vz", "omegax", "omegay", "omegaz")})
+            if spoil and k >= frames - 2:
+                spoil(found)
+            return k, found
+        result = types.SimpleNamespace(warnings=lambda: list(warnings), error=lambda: error)
+        return verdict.judge([frame(k) for k in range(frames)], result, self.GRAINS)
+
+    def test_clean(self):
+        outcome = self.judge()
+        self.assertEqual((outcome.word(), outcome.faults()), ("stable", []))
+
+    def test_energy(self):
+        outcome = self.judge(lambda f: f.update(vx=[-1.001, 1.001]))
+        self.assertEqual(outcome.word(), "silent")
+        self.assertAlmostEqual(outcome.growth, 2e-3, places=4)
+        self.assertEqual(self.judge(lambda f: f.update(vx=[-1.0002, 1.0002])).word(), "stable")
+
+    def test_energy_of_a_contact(self):
+        """A contact that is pressed holds 2/5 k sqrt(R) d^(5/2)."""
+        (kinetic, elastic, _), overlap = verdict.energies(
+            {"x": [-0.49, 0.49], **{key: [0.0, 0.0] for key in ("y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz")}},
+            self.GRAINS)
+        self.assertEqual(kinetic, 0.0)
+        self.assertAlmostEqual(elastic, 0.4 * 1e7 * 0.5 * 0.02**2.5)
+        self.assertAlmostEqual(overlap, 0.04)
+
+    def test_overlap(self):
+        self.assertIn("overlap 0.12 r", self.judge(lambda f: f.update(x=[-0.47, 0.47])).faults())
+
+    def test_not_a_number(self):
+        self.assertIn("not a number", self.judge(lambda f: f["y"].__setitem__(0, math.nan)).faults())
+
+    def test_lost(self):
+        self.assertIn("1 lost", self.judge(lambda f: [column.pop() for column in f.values()]).faults())
+
+    def test_what_was_said(self):
+        deep = lambda f: f.update(x=[-0.47, 0.47])
+        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: ..."]).word(), "warned")
+        self.assertEqual(self.judge(deep, ["WARNING: something else"]).word(), "silent")
+        self.assertEqual(self.judge(error="ERROR: Lost atoms").word(), "stopped")
+        self.assertEqual(self.judge(error="ERROR: no", frames=1).word(), "refused")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Orders of convergence that the accuracy benchmark finds, in short: a change that loses one fails here.
+
+Two spheres of diameter 1 m and 1000 kg/m^3 meet at 1 m/s, .01 m apart at the beginning."""
+
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+
+MASS = 1000 * math.pi / 6
+STEP, TIME = 1 / 64, 8 / 64       # coarsest time step: a quarter of the impact
+LEVELS = (3, 4, 5, 6, 7)          # time steps STEP/2^k
+REFERENCE = 11
+
+HERTZ = 1.0e7
+MINDLIN = 3 * (1 - 0.3) / (2 - 0.3) * HERTZ
+FRICTION = "tangential multistep"
+
+SCRIPT = """
+clear
+units si
+boundary f f f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_data data
+neighbor 0.1 bin
+pair_style gran/penalty
+pair_coeff * * {law}
+fix move all nve/sphere/symplectic start {start}
+timestep {dt!r}
+thermo 100000
+run {steps}
+write_dump all custom end.{name} id x y z vx vy vz omegax omegay omegaz modify format float %.17g
+"""
+
+
+class Convergence(SceneCase):
+
+    def setUp(self):
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, [
+            Sphere((-0.505, 0, 0), (0.5, 0.4, 0), (0, 0, 1.0), density=1000.0),
+            Sphere((0.505, 0, 0), (-0.5, -0.4, 0), (0, 0, 1.0), density=1000.0)])
+
+    def motion(self, runs):
+        """The final positions, velocities and spins of runs (law, start, k) with the time step STEP/2^k."""
+        script = "".join(SCRIPT.format(law=law, start=start, dt=STEP / 2**k, steps=round(TIME / STEP) * 2**k, name=n)
+                         for n, (law, start, k) in enumerate(runs))
+        self.run_lammps(script)
+        ends = []
+        for n in range(len(runs)):
+            frame, = read_dump(self.path(f"end.{n}"))
+            ends.append([frame.atoms[tag] for tag in (1, 2)])
+        return ends
+
+    def order(self, law, start="half", reference=None):
+        """(slope of log error of the motion over log dt, finest error) against a run with a very fine step."""
+        runs = [(law, start, k) for k in LEVELS] + [(reference or law, start, REFERENCE)]
+        *coarse, exact = self.motion(runs)
+        errors = [max(abs(a - b) for row, other in zip(end, exact) for a, b in zip(row[1:], other[1:]))
+                  for end in coarse]
+        x = [-k * math.log(2) for k in LEVELS]
+        y = [math.log(e) for e in errors]
+        mx, my = sum(x) / len(x), sum(y) / len(y)
+        slope = sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx)**2 for a in x)
+        print(f"{law}, start {start}: order {slope:.2f}, errors " + " ".join(f"{e:.1e}" for e in errors))
+        return slope, errors[-1]
+
+    def test_sliding_is_of_second_order(self):
+        order, finest = self.order(f"hertz {HERTZ} 0.0 {FRICTION} {MINDLIN} 0.0 0.1")
+        self.assertGreater(order, 1.75)
+        self.assertLess(finest, 3e-5)
+
+    def test_midpoint_sticks_with_second_order_and_the_plain_update_does_not(self):
+        law = f"hertz {HERTZ} 0.0 {FRICTION} {MINDLIN} 0.0 10.0"
+        order, finest = self.order(law + " midpoint")
+        self.assertGreater(order, 1.6)
+        self.assertLess(finest, 2e-4)
+        order, coarse = self.order(law, reference=law + " midpoint")
+        self.assertGreater(order, 0.8)
+        self.assertLess(order, 1.5)        # otherwise midpoint has lost its reason
+        self.assertGreater(coarse, 5 * finest)
+
+    def test_damped_friction(self):
+        """Of first order in the end, with a small coefficient: at these time steps it looks like second."""
+        for start in "plain", "half":
+            order, finest = self.order(f"hertz {HERTZ} 150.0 {FRICTION} {MINDLIN} 75.0 0.3", start)
+            self.assertGreater(order, 1.5)
+            self.assertLess(finest, 5e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Stability limits of the stability benchmark, in short: stable 3 % below the theory, unstable 3 % above.
+
+Spheres of mass 1 and diameter 1, linear contacts of stiffness 1 that never open; the limit is 2 over the
+largest eigenfrequency of translation and rotation."""
+
+import itertools
+import math
+import os
+import random
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, write_sphere_data
+
+DENSITY = 6 / math.pi
+OVERLAP, KICK = 1e-3, 1e-9
+
+SCRIPT = """
+clear
+units si
+boundary {boundary}
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_data {data}
+neighbor 0.05 bin
+group moving type 1
+group base type 2
+pair_style gran/penalty
+pair_coeff * * hooke 1.0 0.0 {friction}
+fix move moving nve/sphere/symplectic
+fix hold base freeze
+neigh_modify exclude group base base
+compute k moving ke
+compute r moving erotate/sphere
+compute t all timestep/gran
+timestep {dt!r}
+thermo 100000
+thermo_modify norm no lost ignore
+thermo_style custom step c_k c_r c_t[1]
+run 0
+variable begin string $(c_k+c_r)
+variable grown equal (c_k+c_r)/v_begin
+fix stop all halt 1 v_grown > 1e8 error continue message no
+run 4000
+print "RESULT $(v_grown) $(count(moving)) ${{begin}}"
+"""
+
+STICKS = "tangential multistep {} 0.0 1e9"
+
+
+def kicked(positions):
+    draw = random.Random(2)
+    return [Sphere(x, [draw.gauss(0, KICK) for _ in "xyz"], [draw.gauss(0, KICK) for _ in "xyz"], density=DENSITY)
+            for x in positions]
+
+
+def cage():
+    """A sphere among twelve fixed ones, as in the densest packing."""
+    signs = list(itertools.product((1, -1), repeat=2))
+    corners = [c for a, b in signs for c in ((a, b, 0), (a, 0, b), (0, a, b))]
+    distance = (1 - OVERLAP) / math.sqrt(2)
+    return kicked([(0, 0, 0)]) + [Sphere(tuple(distance * c for c in corner), density=DENSITY, type=2)
+                                  for corner in corners]
+
+
+def lattice(cells=3):
+    """Spheres in the densest packing, periodic; and the edge of the box."""
+    edge = math.sqrt(2) * (1 - OVERLAP)
+    basis = ((0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5))
+    return kicked([tuple(edge * (c + b) for c, b in zip(cell, base))
+                   for cell in itertools.product(range(cells), repeat=3) for base in basis]), edge * cells
+
+
+class Limits(SceneCase):
+
+    def grows(self, data, friction, limit, boundary="f f f"):
+        """[whether the disturbance grows at .97, at 1.03 of the limit]."""
+        script = "".join(SCRIPT.format(boundary=boundary, data=data, friction=friction, dt=f * limit)
+                         for f in (0.97, 1.03))
+        found = [line.split()[1:] for line in self.run_lammps(script).log.splitlines() if line.startswith("RESULT ")]
+        count = found[0][1]
+        return [not float(grown) < 1e8 or left != count for grown, left, _ in found]
+
+    def test_twelve_contacts(self):
+        write_sphere_data(self.path("data"), ((-3, 3),) * 3, cage(), types=2)
+        # 2 over the square root of: translation 4 kn + 8 kt, rotation 20 kt (kn = 1, mass 1, inertia .1)
+        for kt in None, 2 / 7, 1.0:
+            largest = max(4 + 8 * (kt or 0), 20 * (kt or 0))
+            friction = STICKS.format(kt) if kt else ""
+            self.assertEqual(self.grows("data", friction, 2 / math.sqrt(largest)), [False, True], f"kt {kt}")
+
+    def test_lattice(self):
+        spheres, edge = lattice()
+        write_sphere_data(self.path("data"), ((0, edge),) * 3, spheres, types=2)
+        # zone boundary: longitudinal without friction, coupled to rotation with it
+        for friction, limit in ("", math.sqrt(0.5)), (STICKS.format(2 / 7), math.sqrt(0.35)):
+            self.assertEqual(self.grows("data", friction, limit, "p p p"), [False, True], friction)
+
+
+GAS = """
+units si
+boundary p p p
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_data data
+neighbor 0.1 bin
+pair_style gran/penalty
+pair_coeff * * hertz/material {young!r} 1.0 0.3
+fix move all nve/sphere/symplectic
+compute t all timestep/gran
+thermo_style custom step c_t[1] c_t[2] c_t[3]
+timestep 1e-30
+run 0
+variable dt equal 0.2*ternary(c_t[1]<c_t[2],c_t[1],c_t[2])
+timestep ${{dt}}
+compute account all penalty/stats
+compute k all ke
+variable total equal c_k+c_account[4]
+thermo_style custom step c_k c_account[4] v_total
+thermo_modify norm no
+fix mean all ave/time 1 200 {half} v_total
+thermo {half}
+run 0
+variable begin string $(v_total)
+run {steps}
+print "RESULT $(f_mean/v_begin-1)"
+"""
+
+
+class Stiff(SceneCase):
+    """An elastic gas neither gains nor loses energy, however stiff its spheres are."""
+
+    STEPS = 8000
+
+    def test_energy(self):
+        draw = random.Random(9)
+        spheres = [Sphere((1.3 * (k % 4) + 0.6, 1.3 * (k // 4 % 4) + 0.6, 1.3 * (k // 16) + 0.6),
+                          [draw.gauss(0, 1) for _ in "xyz"], density=1000.0) for k in range(64)]
+        write_sphere_data(self.path("data"), ((0, 5.2),) * 3, spheres)
+        for young in 1e8, 1e12:
+            script = GAS.format(young=young, steps=self.STEPS, half=self.STEPS // 2)
+            grown, = [float(line.split()[1]) for line in self.run_lammps(script).log.splitlines()
+                      if line.startswith("RESULT ")]
+            print(f"E = {young:g}: energy {grown:+.1e}")
+            self.assertLess(abs(grown), 1e-2 if young < 1e10 else 1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,91 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: procs=2
+"""Warnings about deep overlaps and large moves: where they are due, once per run, and not elsewhere."""
+
+import os
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, write_sphere_data
+
+OVERLAP = r"WARNING: Pair style gran/penalty: particles (\d+) and (\d+) overlap by (\S+) of the smaller radius at step"
+MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its radius in a time step at step"
+
+SCRIPT = """
+units si
+boundary {boundary}
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_data data
+neighbor 0.3 bin
+pair_style gran/penalty
+pair_coeff * * hooke 1000.0 0.0
+fix move all nve/sphere/symplectic
+timestep {dt}
+thermo 1000
+run {steps}
+run {steps}
+"""
+
+
+class Warned(SceneCase):
+
+    def found(self, spheres, pattern, dt=1e-4, steps=10, boundary="f f f", **options):
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
+        return re.findall(pattern, self.run_lammps(SCRIPT.format(dt=dt, steps=steps, boundary=boundary), **options).log)
+
+    def pair(self, overlap, axis=0, diameter=1.0):
+        """Particles 7 and 3, across the middle of the box; others that touch less."""
+        place = [0.0, 0.2, 0.2]
+        spheres = []
+        for tag, side in (7, -1), (3, 1):
+            x = list(place)
+            x[axis] = side * (diameter - overlap * diameter / 2) / 2
+            spheres.append(Sphere(tuple(x), diameter=diameter, id=tag))
+        return spheres + [Sphere((-3, -3, -3), id=1), Sphere((-3, -3, -2.02), id=2)]
+
+    def test_deep_overlap(self):
+        for np in 1, 2, 4:
+            (low, high, ratio), *more = self.found(self.pair(0.3), OVERLAP, np=np)
+            self.assertEqual((low, high), ("3", "7"))
+            self.assertAlmostEqual(float(ratio), 0.3, delta=0.02)
+            self.assertEqual(len(more), 1, "once for each of the two runs")
+
+    def test_overlap_across_a_periodic_border(self):
+        spheres = [Sphere((-4.6, 0, 0), id=4), Sphere((4.6, 0, 0), id=9)]
+        (low, high, ratio), *_ = self.found(spheres, OVERLAP, boundary="p p p", np=2)
+        self.assertEqual((low, high), ("4", "9"))
+        self.assertAlmostEqual(float(ratio), 0.4, delta=0.02)
+
+    def test_smaller_radius_counts(self):
+        """An overlap of .06 is little for a sphere of radius 2.5 and much for one of .25."""
+        small = [Sphere((0, 0, 0), diameter=5.0), Sphere((2.5 + 0.25 - 0.06, 0, 0), diameter=0.5)]
+        large = [Sphere((-1.0, 0, 0), diameter=3.0), Sphere((-1.0 + 3.0 - 0.06, 0, 0), diameter=3.0)]
+        self.assertEqual(len(self.found(small, OVERLAP)), 2)
+        self.assertEqual(self.found(large, OVERLAP), [])
+
+    def test_ordinary_overlap(self):
+        self.assertEqual(self.found(self.pair(0.09), OVERLAP), [])
+
+    def test_deep_overlap_during_an_impact(self):
+        """Not there at the beginning of the run: found when the lists are rebuilt."""
+        spheres = [Sphere((-0.6, 0, 0), (20, 0, 0), id=5), Sphere((0.6, 0, 0), (-20, 0, 0), id=6)]
+        found = self.found(spheres, OVERLAP, dt=1e-3, steps=60)
+        self.assertEqual(found[0][:2], ("5", "6"))
+
+    def test_large_move(self):
+        spheres = self.pair(0.0) + [Sphere((2, 2, 2), (0, 0, -30), id=5), Sphere((3, -3, 0), (30, 0, 0), diameter=2, id=6)]
+        for np in 1, 2:
+            (tag, ratio), *more = self.found(spheres, MOVE, dt=2e-3, steps=5, np=np)
+            self.assertEqual(tag, "5")
+            self.assertAlmostEqual(float(ratio), 0.12, delta=1e-3)
+            self.assertEqual(len(more), 1, "once for each of the two runs")
+        self.assertEqual(self.found(spheres, MOVE, dt=1.5e-3, steps=5), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
