@@ -74,6 +74,7 @@ class BodyContacts {
   void forget(int atom);
   void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                      std::size_t begin, std::size_t end);
+  void call_ahead(const BodyParticleView &view, int atom) const;
   void touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                   std::size_t candidate);
   void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
