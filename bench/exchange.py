@@ -1,20 +1,13 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """What the exchange of proxies costs: messages and bytes, time per step in a model of a network, and on this machine.
 
-usage: exchange.py DIRECTORY [--full] [--only counts|model|real]
-Writes exchange_counts.csv, exchange_model*.csv, exchange_real.csv and, with matplotlib, plots into DIRECTORY.
-
-Needs the environment of the tests (TALUS_LMP, TALUS_BINARY_DIR, LAMMPS_PLUGIN_PATH, TALUS_MPIEXEC).
-
 counts  Messages and bytes that a rank sends in a step without a rebuild, by the stock exchange and the direct
-        one, on grids of ranks; counted by the preloaded library tests/libcount_mpi.so.
-model   Two ranks under bench/libnetwork_model.so, which delivers a message no earlier than latency + bytes/bandwidth
+        one, on grids of ranks; counted by a preloaded library.
+model   Two ranks under a preloaded library which delivers a message no earlier than latency + bytes/bandwidth
         after it was sent. This is a model, not a network.
 real    Two ranks without it: ratio of the times of whole steps, direct over stock, taken in turns.
 """
 
-import argparse
-import csv
 import itertools
 import math
 import os
@@ -22,8 +15,13 @@ import re
 import shlex
 import statistics
 import subprocess
-import sys
-import tempfile
+
+import machine
+
+TITLE = "Exchange of proxies"
+QUESTION = """How many messages and bytes does a rank send in a step, by the exchange of LAMMPS and by the direct one of
+comm_proxy? How much of the time of a network does run_style verlet/proxy hide behind the forces between owned particles,
+and from which latency and bandwidth on does that pay? And what does the direct exchange cost on this machine?"""
 
 LAW = {"friction": "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5", "frictionless": "hertz 4000.0 40.0"}
 SEGMENTS = 30    # short runs of each measurement
@@ -75,14 +73,14 @@ class Runner:
 
     def __init__(self, workdir):
         self.workdir = workdir
-        self.program = os.environ["TALUS_LMP"]
+        self.program = machine.TALUS_LMP
 
     def run(self, script, ranks, preload=None, **variables):
         with open(os.path.join(self.workdir, "in.bench"), "w") as file:
             file.write(script)
         env = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_MCA_pml": "ob1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", **{k: str(v) for k, v in variables.items()}}
-        command = shlex.split(os.environ.get("TALUS_MPIEXEC", "mpiexec")) + ["-np", str(ranks)]
+        command = ["mpirun"] + ["-np", str(ranks)]
         if preload:
             command += ["env", f"LD_PRELOAD={preload}"]
         command += [self.program, "-in", "in.bench", "-log", "log.bench", "-screen", "none"]
@@ -113,20 +111,13 @@ def microseconds_per_step(log):
     return [1e6 * float(seconds) / int(steps) for seconds, steps in loops]
 
 
-def write(directory, name, columns, rows):
-    with open(os.path.join(directory, name + ".csv"), "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        writer.writerows(rows)
-
-
 # ---- counts ----------------------------------------------------------------------------------
 
-def counts(runner, directory, full):
+def counts(bench, runner):
     grids = [(2, 1, 1), (4, 1, 1), (2, 2, 1), (8, 1, 1), (4, 2, 1), (2, 2, 2)]
-    if full:
+    if not bench.quick:
         grids += [(16, 1, 1), (4, 4, 1), (4, 2, 2), (64, 1, 1), (8, 8, 1), (4, 4, 4)]
-    library = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "libcount_mpi.so")
+    library = os.path.join(machine.BUILD, "tests", "libcount_mpi.so")
     rows = []
     for grid, law, method in itertools.product(grids, LAW, ("stock", "direct")):
         ranks = math.prod(grid)
@@ -141,10 +132,12 @@ def counts(runner, directory, full):
         messages, sent, collectives = ([rank[k] for rank in per_rank] for k in range(3))
         rows.append(["x".join(map(str, grid)), ranks, law, method, statistics.mean(messages), max(messages),
                      statistics.mean(sent), max(sent), max(collectives)])
-        print(*rows[-1], flush=True)
-    write(directory, "exchange_counts",
-          ["grid", "ranks", "law", "exchange", "messages per rank and step", "largest", "bytes per rank and step",
-           "largest bytes", "blocking collectives per step"], rows)
+        bench.note(" ".join(map(str, rows[-1][:4])))
+    columns = ["grid", "ranks", "law", "exchange", "messages per rank and step", "largest", "bytes per rank and step",
+               "largest bytes", "blocking collectives per step"]
+    tabulate(bench, "Messages and bytes", columns, rows)
+    bench.section.text("216 particles per rank at rest, periodic in all directions, counted outside of Talus by a preloaded "
+                       "library over steps without a rebuild.")
 
 
 def rest_scene(grid, law, method, steps):
@@ -184,29 +177,34 @@ def read_counts(path):
 
 # ---- the model of a network ------------------------------------------------------------------
 
-def model(runner, directory, full):
-    latencies = (1, 5, 25, 100, 400, 1000) if full else (1, 25, 400)       # us
-    bandwidths = (0.1, 1.0, 5.0, 25.0) if full else (0.1, 1.0, 25.0)       # GB/s
-    sizes = (1000, 5000, 20000, 100000) if full else (1000, 10000)         # particles per rank
+def model(bench, runner):
+    full = not bench.quick
+    latencies = (1, 5, 25, 100, 400, 1000) if full else (1, 400)      # us
+    bandwidths = (0.1, 1.0, 25.0) if full else (1.0,)                 # GB/s
+    sizes = (1000, 5000, 20000, 100000) if full else (1000,)          # particles per rank
     rows = []
     for size in sizes:
         runner.bed(2 * size)
-        steps = max(300, (12000000 if full else 3000000) // size)
+        steps = max(300, (6000000 if full else 1000000) // size)
         base = {method: timed(runner, method, steps, 0.0, 1e6) for method in METHODS}
         for latency, bandwidth in itertools.product(latencies, bandwidths):
             times = {method: timed(runner, method, steps, latency, bandwidth) for method in METHODS}
             rows.append([size, latency, bandwidth, *(base[m] for m in METHODS), *(times[m] for m in METHODS),
                          hidden(base, times)])
-            print(*(f"{x:.4g}" for x in rows[-1]), flush=True)
-    write(directory, "exchange_model",
-          ["particles per rank", "latency (us)", "bandwidth (GB/s)", *(f"{m}, no network (us/step)" for m in METHODS),
-           *(f"{m} (us/step)" for m in METHODS), "share hidden"], rows)
-    plot_model(directory, rows, sizes, bandwidths)
+            bench.note(" ".join(f"{x:.4g}" for x in rows[-1]))
+    columns = ["particles per rank", "latency (us)", "bandwidth (GB/s)", *(f"{m}, no network (us/step)" for m in METHODS),
+               *(f"{m} (us/step)" for m in METHODS), "share hidden"]
+    tabulate(bench, "A model of a network", columns, rows)
+    bench.section.text("Two ranks. A preloaded library delivers each message no earlier than latency + bytes/bandwidth after "
+                       "it was sent: a model, no network. Share hidden: how much of the time that the model adds to the "
+                       "blocking direct exchange is not added with overlap.")
+    bench.section.plot("model", "Time of a step over the latency of the modelled network",
+                       lambda plt: draw_model(plt, rows, sizes, bandwidths))
 
 
 def timed(runner, method, steps, latency, bandwidth):
     """Best of many short runs: the model adds a fixed time, everything else that varies is noise."""
-    library = os.path.join(os.environ["TALUS_BINARY_DIR"], "bench", "libnetwork_model.so")
+    library = os.path.join(machine.BUILD, "bench", "libnetwork_model.so")
     return min(microseconds_per_step(
         runner.run(scene(method, steps), 2, library, TALUS_LATENCY=1e-6 * latency, TALUS_BANDWIDTH=1e9 * bandwidth)))
 
@@ -217,17 +215,9 @@ def hidden(base, times):
     return 1.0 - (times["overlapped"] - base["overlapped"]) / blocking if blocking > 0.0 else float("nan")
 
 
-def plot_model(directory, rows, sizes, bandwidths):
-    try:
-        import matplotlib
-    except ImportError:
-        print("no matplotlib: no plots", file=sys.stderr)
-        return
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-    matplotlib.rcParams.update({"svg.hashsalt": "talus", "svg.fonttype": "none", "font.size": 9})
+def draw_model(pyplot, rows, sizes, bandwidths):
     styles = {"stock": ("0.0", "o", "-"), "direct": ("0.3", "s", "--"), "overlapped": ("0.55", "^", "-.")}
-    figure, axes = pyplot.subplots(len(sizes), len(bandwidths), squeeze=False, sharex=True, sharey="row",
+    _, axes = pyplot.subplots(len(sizes), len(bandwidths), squeeze=False, sharex=True, sharey="row",
                                    figsize=(3.0 * len(bandwidths), 2.4 * len(sizes)), layout="constrained")
     for (i, size), (j, bandwidth) in itertools.product(enumerate(sizes), enumerate(bandwidths)):
         axis = axes[i][j]
@@ -242,47 +232,43 @@ def plot_model(directory, rows, sizes, bandwidths):
         if j == 0:
             axis.set_ylabel("us per step")
     axes[0][0].legend(fontsize=7)
-    figure.savefig(os.path.join(directory, "exchange_model.svg"), metadata={"Date": None})
-    pyplot.close(figure)
 
 
 # ---- this machine ----------------------------------------------------------------------------
 
-def real(runner, directory, full):
-    sizes = (1000, 5000, 20000, 100000) if full else (1000, 10000)
-    rounds = 9 if full else 3
+def real(bench, runner):
+    full = not bench.quick
     rows = []
-    for size in sizes:
+    for size in (1000, 5000, 20000, 100000) if full else (1000,):
         runner.bed(2 * size)
-        steps = max(300, (12000000 if full else 3000000) // size)
+        steps = max(300, (12000000 if full else 1000000) // size)
         for law in LAW:
             times = {method: [] for method in METHODS}
-            for _ in range(rounds):
+            for _ in range(bench.rounds):
                 for method in METHODS:
                     times[method].append(statistics.mean(microseconds_per_step(
                         runner.run(scene(method, steps, law), 2))))
             ratios = {m: statistics.median(t / s for t, s in zip(times[m], times["stock"])) for m in METHODS}
             rows.append([size, law, *(statistics.median(times[m]) for m in METHODS), ratios["direct"],
                          ratios["overlapped"]])
-            print(*rows[-1], flush=True)
-    write(directory, "exchange_real",
-          ["particles per rank", "law", *(f"{m} (us/step)" for m in METHODS), "direct over stock",
-           "overlapped over stock"], rows)
+            bench.note(f"{size} per rank, {law}: direct {ratios['direct']:.3f}, overlapped {ratios['overlapped']:.3f}")
+            if ratios["direct"] > 1.02:
+                bench.section.headline(f"exchange: with {size} particles per rank ({law}) the direct exchange takes "
+                                       f"{ratios['direct']:.2f} of the time of the stock one on this machine.")
+    columns = ["particles per rank", "law", *(f"{m} (us/step)" for m in METHODS), "direct over stock",
+               "overlapped over stock"]
+    tabulate(bench, "Two ranks of this machine", columns, rows)
+    bench.section.text("Whole steps; ratios are medians of runs taken in turns.")
 
 
-def main(words=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory")
-    parser.add_argument("--full", action="store_true")
-    parser.add_argument("--only", choices=("counts", "model", "real"))
-    options = parser.parse_args(words)
-    os.makedirs(options.directory, exist_ok=True)
-    parts = {"counts": counts, "model": model, "real": real}
-    for name, part in parts.items():
-        if options.only in (None, name):
-            with tempfile.TemporaryDirectory(prefix="talus-exchange-") as workdir:
-                part(Runner(workdir), options.directory, options.full)
+def tabulate(bench, heading, columns, rows):
+    bench.section.heading(heading)
+    bench.section.table(columns, rows)
+    for row in rows:
+        bench.section.record(part=heading, **dict(zip(columns, row)))
 
 
-if __name__ == "__main__":
-    main()
+def measure(bench):
+    for name, part in {"counts": counts, "model": model, "real": real}.items():
+        if bench.wants(name):
+            part(bench, Runner(bench.workdir))

@@ -16,7 +16,8 @@ def _required(name):
 
 
 ROOT = _required("TALUS_ROOT")
-TALUS_LMP = os.path.join(_required("TALUS_BUILD"), "lmp")    # the host with the plugin loaded
+BUILD = _required("TALUS_BUILD")
+TALUS_LMP = os.path.join(BUILD, "lmp")    # the host with the plugin loaded
 STOCK_LMP = _required("TALUS_BENCH_HOST")                    # the same host without it
 HOST_SOURCE = os.environ.get("TALUS_BENCH_SOURCE", "")
 CACHE = _required("TALUS_BENCH_CACHE")
