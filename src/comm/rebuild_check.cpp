@@ -23,10 +23,14 @@ RebuildCheck::~RebuildCheck()
   int finalized = 0;
   MPI_Finalized(&finalized);
   if (finalized) return;
-  // A reduction that other ranks left with an error never ends: its handle is given up.
-  int ended = 1;
-  if (request != MPI_REQUEST_NULL) MPI_Test(&request, &ended, MPI_STATUS_IGNORE);
-  if (ended) MPI_Comm_free(&own_world);
+  constexpr double patience = 1.0;    // seconds
+  const double start = MPI_Wtime();
+  int ended = request == MPI_REQUEST_NULL;
+  while (!ended && MPI_Wtime() - start < patience) MPI_Test(&request, &ended, MPI_STATUS_IGNORE);
+  if (ended)
+    MPI_Comm_free(&own_world);
+  else
+    static_cast<void>(lengths.release());    // a reduction that goes on may still write there
 }
 
 /* ---------------------------------------------------------------------- */
@@ -49,11 +53,11 @@ void RebuildCheck::ask()
   const int n = neighbor->includegroup ? atom->nfirst : atom->nlocal;
   const MotionForecast here =
       n ? forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt) : MotionForecast();
-  mine[0] = here.moved;
-  mine[1] = here.next;
-  mine[2] = here.step;
+  lengths->mine[0] = here.moved;
+  lengths->mine[1] = here.next;
+  lengths->mine[2] = here.step;
   corners_when_asked = box_corners();
-  MPI_Iallreduce(mine, all, 3, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  MPI_Iallreduce(lengths->mine, lengths->all, 3, MPI_DOUBLE, MPI_MAX, own_world, &request);
   asked = true;
 }
 
@@ -72,7 +76,7 @@ bool RebuildCheck::decide()
 
   MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
-  const MotionForecast forecast{all[0], all[1], all[2]};
+  const MotionForecast forecast{lengths->all[0], lengths->all[1], lengths->all[2]};
   if (!forecast.may_leave(limit())) return false;
   if (forecast.moved > 0.5 * neighbor->skin) {
     late++;

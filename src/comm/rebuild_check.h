@@ -14,12 +14,15 @@
 #include "pointers.h"
 
 #include <array>
+#include <memory>
 
 namespace Talus {
 
 class RebuildCheck : protected LAMMPS_NS::Pointers {
  public:
   explicit RebuildCheck(LAMMPS_NS::LAMMPS *lmp);
+  /// Completes what was asked; after a second without an end (a rank has left with an error) gives
+  /// it up. Collective.
   ~RebuildCheck() override;
   RebuildCheck(const RebuildCheck &) = delete;
   RebuildCheck &operator=(const RebuildCheck &) = delete;
@@ -49,7 +52,10 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   MPI_Comm own_world = MPI_COMM_NULL;
   MPI_Request request = MPI_REQUEST_NULL;
   bool asked = false;
-  double mine[3], all[3];    ///< the three lengths of a MotionForecast, here and everywhere
+  struct Lengths {
+    double mine[3], all[3];    ///< of a MotionForecast, here and everywhere
+  };
+  std::unique_ptr<Lengths> lengths = std::make_unique<Lengths>();    ///< MPI writes here
   LAMMPS_NS::bigint list_step = -1;    ///< when the lists were made, as far as we know
   Corners corners_of_list{}, corners_when_asked{};
   int late = 0;
