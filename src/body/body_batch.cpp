@@ -78,17 +78,17 @@ void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &
       1.0 / (replaced ? view.mass_override[i] : view.mass[i]) + frame.inverse_mass;
   batch.inverse_radius[lane] = 1.0 / r;
   batch.coefficients[lane] = task.laws.row(view.type[i], view.type[i]);
-  if (task.laws.has_resistance()) {
+  if (task.with_resistance) {
     // the body is flat on the scale of the contact: the circle in which it cuts the sphere
     const double d = contact.overlap;
     set_lane(batch.relative_spin, lane, spin);
     batch.circle[lane] = std::sqrt(std::max(2.0 * r * d - d * d, 0.0));
   }
-  if (task.laws.has_history()) {
+  if (task.with_history) {
     set_lane(batch.displacement, lane, {history.c[0], history.c[1], history.c[2]});
     batch.at_limit[lane] = history.c[3];
   }
-  if (task.laws.has_onset()) set_lane(batch.onset, lane, {onset.c[0], onset.c[1], onset.c[2]});
+  if (task.with_onset) set_lane(batch.onset, lane, {onset.c[0], onset.c[1], onset.c[2]});
   if (++filled == ContactBatch::width) flush(task, law);
 }
 
@@ -99,10 +99,10 @@ void BodyBatch::flush(const BodyTask &task, int law)
   const int end = (filled + lanes - 1) / lanes * lanes;
   task.laws.kernel(law, task.advance)(batch, 0, end, task.laws.coefficients(), task.dt);
   const ContactLaw its = task.laws.distinct_law(law);
-  const bool keeps = task.laws.has_history() && task.advance;
+  const bool keeps = task.with_history && task.advance;
   for (int lane = 0; lane < filled; lane++) {
     apply(task, lane, its);
-    if (keeps) keep_history(lane, task.laws.has_onset());
+    if (keeps) keep_history(lane, task.with_onset);
     if (task.record_parts) record(task, lane);
     if (!task.energies) continue;
     const int i = atom_of_lane[lane];

@@ -50,6 +50,7 @@ struct BodyTask {
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
   EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
+  bool with_history, with_onset, with_resistance;    ///< of any law
 };
 
 class BodyBatch {

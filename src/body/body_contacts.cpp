@@ -95,7 +95,10 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
                       step.advance,
                       step.exact != nullptr,
                       step.touched != nullptr,
-                      step.account};
+                      step.account,
+                      with_history,
+                      with_onset,
+                      laws.has_resistance()};
   new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
 
   const std::size_t n = candidates.size();

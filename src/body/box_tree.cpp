@@ -26,6 +26,7 @@ BoxTree::BoxTree(const std::vector<Bounds> &boxes) : things(boxes.size())
   std::iota(things.begin(), things.end(), 0);
   nodes.emplace_back();
   split(0, boxes, 0, static_cast<int>(boxes.size()));
+  nodes.shrink_to_fit();
 }
 
 void BoxTree::split(int node, const std::vector<Bounds> &boxes, int begin, int end)

@@ -43,6 +43,8 @@ struct MotionClock {
 
   /// The time at step `now`, which dt led to.
   double read(std::int64_t now, double dt_now);
+  /// The same for a step that was read before, or the first one, whatever the time step is now.
+  double at(std::int64_t now) const { return time + static_cast<double>(now - step) * dt; }
 };
 
 }    // namespace Talus

@@ -49,7 +49,10 @@ TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
 {
   join_corners(soup);
   if (triangles.empty()) throw std::runtime_error("all its triangles are without area");
+  vertices.shrink_to_fit();
   find_edges();
+  edges.shrink_to_fit();
+  edge_users.shrink_to_fit();
   find_patches();
   find_rings();
   prepare_faces();
@@ -66,6 +69,10 @@ void TriangleMesh::join_corners(const std::vector<Triangle> &soup)
     if (is_new) vertices.push_back(p);
     return place->second;
   };
+  triangles.reserve(soup.size());
+  faces.reserve(soup.size());
+  areas.reserve(soup.size());
+  file_numbers.reserve(soup.size());
   for (std::size_t n = 0; n < soup.size(); n++) {
     const int number = static_cast<int>(n);
     const Vector3<double> *p = soup[n].corner;

@@ -214,13 +214,13 @@ void LargeBodyMotion::evaluate_state()
 void LargeBodyMotion::place()
 {
   if (kind == Kind::VARIABLE) evaluate_state();
-  if (kind == Kind::PRESCRIBED)
-    now.set(prescribed->at(clock.read(update->ntimestep, update->dt), now.origin));
+  if (kind == Kind::PRESCRIBED) now.set(prescribed->at(clock.at(update->ntimestep), now.origin));
 }
 
 void LargeBodyMotion::advance(const BodyLoad &load)
 {
   if (kind == Kind::NONE) return;
+  if (kind == Kind::PRESCRIBED) clock.read(update->ntimestep, update->dt);
   if (depends_on_time()) {
     place();
     return;

@@ -69,6 +69,9 @@ TEST(BodyMotion, ClockDoesNotDependOnInterruptions)
   // another time step from step 1500 on
   for (int step = 1501; step <= 1600; step++) a.read(step, 2e-3);
   EXPECT_NEAR(a.read(1600, 2e-3), 1.5 + 0.2, 1e-12);
+  // a new run is set up with another time step: the time there is still that of the steps so far
+  EXPECT_EQ(a.at(1600), a.read(1600, 2e-3));
+  EXPECT_NEAR(a.read(1601, 5e-3), 1.7 + 0.005, 1e-12);
 }
 
 TEST(BodyMotion, GuidedBodyReachesTheGivenBits)
