@@ -124,6 +124,10 @@ def explain_orders(section, results):
         section.text("""In frictional scenes without damping this is the update of the tangential displacement: the methods
 differ in nothing else from those with `midpoint`, whose order is in the row beside. The first step of a contact counts
 whole, though the contact began within it, and directions are those of the end of the step.""")
+    if any("midpoint" in name for _, name, _ in low):
+        section.text("""With `midpoint` the force in the middle of the contact is of second order (column force); what follows the
+contact is not: a contact that sticks ends with a displacement left in its spring, whose stiffness goes to zero as the
+square root of the overlap, and a force that ends like a square root is integrated to order 1.5.""")
 
 
 def best(ladders, names, target):

@@ -76,7 +76,7 @@ def finish(bench, case, what, other, ours, ratio, floor, goal):
     for k, (a, b) in enumerate(zip(other.values, ours.values)):
         bench.section.record(case=case, round=k + 1, other_ns=a, ours_ns=b, ratio=a / b)
     if ratio.median < floor:
-        bench.section.headline(f"single, {case}: {ratio.median:.2f}, below the {floor} that was aimed at at least.")
+        bench.section.headline(f"single, {case}: ratio {ratio.median:.2f}, less than the {floor} that was aimed at.")
     return [case, what, other.median, ours.median, str(ratio), floor, goal]
 
 

@@ -180,7 +180,7 @@ def layout(count):
     return -(-tiles // across), across
 
 
-def bed(bench, count, relax=4000):
+def bed(bench, count, relax=3000):
     """Path of a bed of `count` spheres between floor and four walls, and its box."""
     path = cache_path(f"bed-{count}")
     if not os.path.exists(path):
