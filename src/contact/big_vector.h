@@ -28,6 +28,18 @@ template <class T> struct BigAllocator {
 
 template <class T> using BigVector = std::vector<T, BigAllocator<T>>;
 
+/// Gives a vector `n` elements, the old content being of no interest: old and new storage never
+/// stand side by side, so that rebuilds do not double the peak of memory. A little room is left, for
+/// counts of pairs that grow from one rebuild to the next.
+template <class Vector> void renew(Vector &v, std::size_t n)
+{
+  if (v.capacity() < n) {
+    Vector().swap(v);
+    v.reserve(n + n / 32);
+  }
+  v.resize(n);
+}
+
 }    // namespace Talus
 
 #endif

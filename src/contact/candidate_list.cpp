@@ -33,9 +33,9 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   if (count > std::numeric_limits<std::uint32_t>::max() - 8)
     throw std::length_error("more than 2^32 candidate pairs on one rank");
 
-  first.resize(count);
-  second.resize(count);
-  weights.resize(all_unit ? 0 : count);
+  renew(first, count);
+  renew(second, count);
+  renew(weights, all_unit ? 0 : count);
   for_each_of_part([&](int a, int b, double weight) {
     const std::int64_t c = row_start[a + 1]++;    // which ends as the end of the row
     first[c] = a;

@@ -11,8 +11,10 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
 {
   const ParticleOrder &order = pairs.order();
   const bool with_onsets = partners.num_values() == 8;
-  records.assign(pairs.num_pairs(), Record{});
-  onsets.assign(with_onsets ? pairs.num_pairs() : 0, Record{});
+  renew(records, pairs.num_pairs());
+  renew(onsets, with_onsets ? pairs.num_pairs() : 0);
+  std::fill(records.begin(), records.end(), Record{});
+  std::fill(onsets.begin(), onsets.end(), Record{});
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {

@@ -25,7 +25,7 @@ void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &par
   else
     history.release();
   touching = 0;
-  contacts.resize(pairs.num_pairs() + lanes);    // the narrow phase stores a few entries ahead
+  renew(contacts, pairs.num_pairs() + lanes);    // the narrow phase stores a few entries ahead
 }
 
 void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,

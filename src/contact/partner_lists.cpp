@@ -2,6 +2,8 @@
 
 #include "contact/partner_lists.h"
 
+#include "contact/big_vector.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -54,7 +56,7 @@ void PartnerLists::layout()
     total += r.size;
     r.size = 0;    // counts up again in append()
   }
-  pool.resize(total * stride());
+  renew(pool, total * stride());
 }
 
 double *PartnerLists::append(int atom, std::int64_t tag)
