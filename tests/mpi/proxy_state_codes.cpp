@@ -68,7 +68,9 @@ class CodedGhosts {
     poison();
     static_cast<CommBrick *>(comm)->CommBrick::forward_comm();    // the staged one
     const std::vector<double> staged = ghost_states();
-    expect(std::memcmp(direct.data(), staged.data(), sizeof(double) * direct.size()) == 0,
+    // no ghosts, no storage: nothing to hand to memcmp
+    expect(direct.empty() ||
+               std::memcmp(direct.data(), staged.data(), sizeof(double) * direct.size()) == 0,
            scene + ": not the bits of the staged exchange");
   }
 
