@@ -47,8 +47,8 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `report`, if given, receives every contact that counts here; `account`, if given, their
-/// energies; both are not for use by several threads. `meanwhile`, if given, is called now and
+/// `report`, if given, receives every contact; `account`, if given, the energies of those that
+/// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
 /// then, by the first part and so by the first thread: for messages that need someone to look after
 /// them.
 struct ContactStep {

@@ -69,6 +69,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, n
 
 FixContactStore::~FixContactStore()
 {
+  give_sorting_back();    // after a run that ended in an error
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   atom->delete_callback(id, Atom::BORDER);
@@ -94,7 +95,6 @@ void FixContactStore::init()
                  ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
-  take_over_sorting();
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
 }
@@ -119,7 +119,8 @@ void FixContactStore::pre_exchange()
 
 /* The host sorts particles by place now and then, for the sake of the cache. Sorting them into the
    canonical order instead serves the same end, and lets the records of src/contact be read and
-   written straight through. */
+   written straight through. Only while a run lasts: init() is called by many commands after which
+   no run follows, and what atom_modify sets between runs must hold. */
 
 void FixContactStore::take_over_sorting()
 {
@@ -167,6 +168,7 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
+  take_over_sorting();
   sort_particles();
   keep_positions();
 }
@@ -203,6 +205,11 @@ void FixContactStore::setup_post_neighbor()
 void FixContactStore::post_run()
 {
   file();
+  give_sorting_back();
+}
+
+void FixContactStore::give_sorting_back()
+{
   if (!host_sorts_every) return;
   atom->sortfreq = host_sorts_every;
   atom->nextsort = MAXBIGINT;    // not before the next setup, which makes the bins for it

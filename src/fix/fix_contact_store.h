@@ -106,6 +106,7 @@ class FixContactStore : public Fix {
   void agree_on_shared_pairs();
   void refresh_key(int i);
   void take_over_sorting();
+  void give_sorting_back();
   void sort_particles();
   void keep_positions();
   void put_positions_back();
