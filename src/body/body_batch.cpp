@@ -8,18 +8,6 @@
 namespace Talus {
 namespace {
 
-Vector3<double> row(const double *rows, int i)
-{
-  return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
-}
-
-void add_to(double *rows, int i, const Vector3<double> &value)
-{
-  rows[3L * i] += value.x;
-  rows[3L * i + 1] += value.y;
-  rows[3L * i + 2] += value.z;
-}
-
 Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
 {
   return {v[0][k], v[1][k], v[2][k]};
@@ -60,11 +48,10 @@ void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &
   const BodyParticleView &view = task.view;
   const BodyFrame &frame = task.frame;
   const int lane = filled;
-  const double r = view.radius[i];
-  const bool replaced = view.mass_override && view.mass_override[i] > 0.0;
-  Vector3<double> velocity = row(view.v, i), spin = row(view.omega, i);
+  const double r = view.radius_of(i);
+  Vector3<double> velocity = view.velocity(i), spin = view.spin(i);
   if (frame.moves) {
-    velocity = frame.to_body(velocity - frame.velocity_at(row(view.x, i)));
+    velocity = frame.to_body(velocity - frame.velocity_at(view.position(i)));
     spin = frame.to_body(spin - frame.state.spin);
   }
   atom_of_lane[lane] = i;
@@ -74,8 +61,7 @@ void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &
   batch.overlap[lane] = contact.overlap;
   set_lane(batch.velocity, lane, velocity);
   set_lane(batch.spin, lane, r * spin);
-  batch.inverse_mass[lane] =
-      1.0 / (replaced ? view.mass_override[i] : view.mass[i]) + frame.inverse_mass;
+  batch.inverse_mass[lane] = view.inverse_mass(i) + frame.inverse_mass;
   batch.inverse_radius[lane] = 1.0 / r;
   batch.coefficients[lane] = task.laws.row(view.type[i], view.type[i]);
   if (task.with_resistance) {
@@ -106,10 +92,10 @@ void BodyBatch::flush(const BodyTask &task, int law)
     if (task.record_parts) record(task, lane);
     if (!task.energies) continue;
     const int i = atom_of_lane[lane];
-    largest_overlap = std::max(largest_overlap, batch.overlap[lane] / task.view.radius[i]);
+    largest_overlap = std::max(largest_overlap, batch.overlap[lane] / task.view.radius_of(i));
     task.energies->add(
         lane_energy(its, task.laws.coefficients(batch.coefficients[lane]), batch, lane, task.dt),
-        1.0, i, task.view.radius[i], -1, 0.0);
+        1.0, i, task.view.radius_of(i), -1, 0.0);
   }
   filled = 0;
 }
@@ -137,23 +123,23 @@ void BodyBatch::apply(const BodyTask &task, int lane, ContactLaw law)
   const BodyParticleView &view = task.view;
   const BodyFrame &frame = task.frame;
   const int i = atom_of_lane[lane];
-  const double r = view.radius[i];
+  const double r = view.radius_of(i);
   const Vector3<double> force = frame.to_space(lane_of(batch.force, lane));
-  add_to(view.f, i, force);
+  view.add_force(i, force);
   Vector3<double> resistance{0.0, 0.0, 0.0};    // couple on the particle
   if (law.resists) {
     const Vector3<double> couple = frame.to_space(lane_of(batch.couple, lane));
     const Vector3<double> moment = frame.to_space(lane_of(batch.moment, lane));
-    add_to(view.torque, i, couple - r * moment);
+    view.add_torque(i, couple - r * moment);
     const Vector3<double> normal = frame.to_space(lane_of(batch.normal, lane));
     resistance = couple - r * (moment - cross(normal, force));
   } else if (law.has_friction()) {
-    add_to(view.torque, i, -r * frame.to_space(lane_of(batch.moment, lane)));
+    view.add_torque(i, -r * frame.to_space(lane_of(batch.moment, lane)));
   }
 
   const Vector3<double> branch = r * frame.to_space(lane_of(batch.normal, lane));
   const Vector3<double> about = frame.moves ? frame.state.position : frame.origin;
-  const Vector3<double> arm = row(view.x, i) - branch - about;
+  const Vector3<double> arm = view.position(i) - branch - about;
   const Vector3<double> torque = -cross(arm, force) - resistance;
   load.force = load.force - force;
   load.torque = load.torque + torque;

@@ -8,6 +8,7 @@
 #define TALUS_BODY_BODY_BATCH_H
 
 #include "body/body_load.h"
+#include "body/body_particle_view.h"
 #include "body/body_state.h"
 #include "body/contact_memory.h"
 #include "body/large_body_shape.h"
@@ -19,18 +20,6 @@
 #include <vector>
 
 namespace Talus {
-
-/// The host's arrays, rows of three doubles. Forces, torques and virials are added to.
-struct BodyParticleView {
-  int owned;
-  const double *x, *v, *omega;
-  const double *radius, *mass;
-  const double
-      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
-  const int *type;       ///< counts from 1
-  double *f, *torque;
-  double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
-};
 
 /// What a part of the body felt in one step.
 struct TouchedPart {

@@ -13,11 +13,6 @@ namespace {
 constexpr double free_way = 0.5;
 constexpr std::size_t ahead = 12;    // candidates whose state is called into the cache
 
-Vector3<double> row(const double *rows, int i)
-{
-  return {rows[3L * i], rows[3L * i + 1], rows[3L * i + 2]};
-}
-
 double length(const Vector3<double> &v)
 {
   return std::sqrt(dot(v, v));
@@ -47,8 +42,8 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   for (int i = 0; i < view.owned; i++) {
     bool near = false;
     if (mask[i] & group) {
-      const Vector3<double> x = frame.point_to_body(row(view.x, i));
-      const double reach = view.radius[i] + margin;
+      const Vector3<double> x = frame.point_to_body(view.position(i));
+      const double reach = view.radius_of(i) + margin;
       if (frame.moves) listed_reach = std::max(listed_reach, length(x - frame.origin) + reach);
       near = single ? shape.distance_bound(x) < reach : shape.is_near(x, reach, parts);
       if (near && !single) {
@@ -149,11 +144,7 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
 
 void BodyContacts::call_ahead(const BodyParticleView &view, int i) const
 {
-  for (const double *rows : {view.x, view.v, view.omega, static_cast<const double *>(view.f),
-                             static_cast<const double *>(view.torque)})
-    __builtin_prefetch(rows + 3L * i);
-  for (const double *numbers : {view.radius, view.mass}) __builtin_prefetch(numbers + i);
-  __builtin_prefetch(view.type + i);
+  view.call(i);
   if (with_history && single) __builtin_prefetch(&history[i]);
 }
 
@@ -163,7 +154,7 @@ void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task,
   static const Record none{};
   const int i = candidates[c];
   SurfaceContact contact;
-  if (shape.touches(task.frame.point_to_body(row(task.view.x, i)), task.view.radius[i], contact))
+  if (shape.touches(task.frame.point_to_body(task.view.position(i)), task.view.radius_of(i), contact))
     batch.add(task, law, i, contact, with_history ? history[i] : none, with_onset ? onset[i] : none,
               i);
   else
@@ -187,10 +178,10 @@ void BodyContacts::touch_often(const LargeBodyShape &shape, const BodyTask &task
                                int law, std::size_t c)
 {
   const int i = candidates[c];
-  const Vector3<double> x = task.frame.point_to_body(row(task.view.x, i));
+  const Vector3<double> x = task.frame.point_to_body(task.view.position(i));
   SurfaceContact found[LargeBodyShape::max_contacts];
   const int count =
-      shape.find_contacts(x, task.view.radius[i], parts_near(c, x, task.view.radius[i]), found);
+      shape.find_contacts(x, task.view.radius_of(i), parts_near(c, x, task.view.radius_of(i)), found);
   NewList &list = new_lists[c];
   list.first = static_cast<int>(batch.remembered.size());
   list.count = count;
@@ -228,7 +219,7 @@ void BodyContacts::remember_velocities(const BodyFrame &frame, const BodyParticl
   before.clear();
   frame_before = frame;
   for (const int i : candidates) {
-    Motion m{row(view.v, i), row(view.omega, i), row(view.x, i)};
+    Motion m{view.velocity(i), view.spin(i), view.position(i)};
     if (frame.moves) {
       m.velocity = frame.to_body(m.velocity - frame.velocity_at(m.place));
       m.spin = frame.to_body(m.spin - frame.state.spin);
@@ -245,7 +236,7 @@ void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleVi
 {
   for (std::size_t n = 0; n < candidates.size(); n++) {
     const int i = candidates[n];
-    Vector3<double> velocity = row(view.v, i), spin = row(view.omega, i);
+    Vector3<double> velocity = view.velocity(i), spin = view.spin(i);
     if (frame_before.moves) {
       const Vector3<double> arm = before[n].place - frame_before.state.position;
       velocity =

@@ -41,7 +41,7 @@ void RebuildCheck::list_is_new()
   corners_of_list = box_corners();
 }
 
-void RebuildCheck::ask()
+void RebuildCheck::ask(const RecordTravel *travel)
 {
   drop();
   const int ago = neighbor->ago + 1;    // in the next step
@@ -51,8 +51,11 @@ void RebuildCheck::ask()
     return;
 
   const int n = neighbor->includegroup ? atom->nfirst : atom->nlocal;
-  const MotionForecast here =
-      n ? forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt) : MotionForecast();
+  MotionForecast here;
+  if (travel)
+    here = {travel->moved, travel->next, update->dt * travel->speed};
+  else if (n)
+    here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
   lengths->mine[1] = here.next;
   lengths->mine[2] = here.step;

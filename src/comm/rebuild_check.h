@@ -10,6 +10,7 @@
 #define TALUS_COMM_REBUILD_CHECK_H
 
 #include "comm/motion_forecast.h"
+#include "contact/particle_records.h"
 
 #include "pointers.h"
 
@@ -31,8 +32,9 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   void list_is_new();
 
   /// After the particles of this step have moved and lists, if due, are made: starts to find out
-  /// how far particles may be in the next step, if a check is due there. Does not wait.
-  void ask();
+  /// how far particles may be in the next step, if a check is due there. Does not wait. `travel`:
+  /// what is known of that already, where the host's arrays are not up to date.
+  void ask(const RecordTravel *travel);
 
   /// Once per step, after particles have moved: whether lists are made anew in this step.
   bool decide();

@@ -20,6 +20,7 @@
 #include "neighbor.h"
 #include "output.h"
 #include "pair.h"
+#include "pair/pair_gran_penalty.h"
 #include "timer.h"
 #include "update.h"
 
@@ -28,7 +29,7 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, 0, nullptr), lists(lmp)
+VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, 0, nullptr), lists(lmp), records(lmp)
 {
   if (narg == 0) return;
   if (std::strcmp(arg[0], "overlap") != 0)
@@ -80,7 +81,19 @@ void VerletProxy::run(int n)
     proxy->set_overlap(overlaps);
   }
   lists.start_count();
-  lists.ask();
+  lists.ask(nullptr);
+  records.start(pair_compute_flag);
+  say_where_steps_are_made();
+  // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
+  struct Return {
+    RecordSteps &records;
+    ~Return()
+    {
+      if (!records.pair()) return;
+      records.pair()->keep_state(false);
+      records.pair()->return_state(true);
+    }
+  } at_the_end{records};
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
       update->nsteps = i;
@@ -91,7 +104,18 @@ void VerletProxy::run(int n)
   lists.drop();
 }
 
-/* One step of the host's Verlet loop, in its order; only the two marked places differ. */
+void VerletProxy::say_where_steps_are_made()
+{
+  const std::string line =
+      records.hazard().empty()
+          ? "Talus verlet/proxy: steps without output are made in Talus' own records\n"
+          : fmt::format("Talus verlet/proxy: every step goes through the arrays of LAMMPS: {}\n",
+                        records.hazard());
+  if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
+  said = line;
+}
+
+/* One step of the host's Verlet loop, in its order; only the marked places differ. */
 
 void VerletProxy::step()
 {
@@ -107,10 +131,14 @@ void VerletProxy::step()
     rebuild();
   else
     update_proxies();    // the host's forward_comm() is complete at its end
-  lists.ask();
+  PairGranPenalty *keeper = records.keeper();
+  lists.ask(keeper ? &keeper->travel() : nullptr);
   timer->stamp(Timer::COMM);
 
-  force_clear();
+  // nobody reads the host's forces in a step after which particles stay in the records
+  const bool may_stay = records.may_stay(now, eflag || vflag);
+  if (records.pair()) records.pair()->keep_state(may_stay);
+  if (!may_stay) force_clear();
   timer->stamp();
   compute_forces();
 
@@ -128,6 +156,8 @@ void VerletProxy::step()
 
 void VerletProxy::update_proxies()
 {
+  if (const PairGranPenalty *keeper = records.keeper())
+    keeper->show_state(records.sent_particles());
   CommProxy *proxy = overlaps ? current() : nullptr;
   if (proxy && proxy->has_plan()) {
     proxy->begin();
@@ -139,6 +169,8 @@ void VerletProxy::update_proxies()
 
 void VerletProxy::rebuild()
 {
+  if (PairGranPenalty *keeper = records.keeper()) keeper->return_state(false);
+  records.forget_plan();
   timer->stamp(Timer::COMM);
   if (modify->n_pre_exchange) {
     modify->pre_exchange();

@@ -12,6 +12,7 @@
 
 #include "comm/exchange_counters.h"
 #include "comm/rebuild_check.h"
+#include "comm/record_steps.h"
 
 #include "verlet.h"
 
@@ -35,11 +36,15 @@ class VerletProxy : public Verlet {
   void compute_forces();
   class CommProxy *current() const;
 
+  void say_where_steps_are_made();
+
   Talus::RebuildCheck lists;
+  Talus::RecordSteps records;
   bool wanted = true;                  ///< overlap yes
   bool overlaps = false;               ///< in this run
   Talus::ExchangeCounters at_start;    ///< of the run
   std::string announced;               ///< last reason given for not overlapping
+  std::string said;                    ///< last line about records
 };
 
 }    // namespace LAMMPS_NS

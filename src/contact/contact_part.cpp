@@ -149,7 +149,7 @@ int ContactPart::arrange(const ContactScene &scene, const std::uint32_t *contact
 /* Geometry and kinematics of the block. The sums of records give everything but the normal. */
 
 namespace {
-constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
+constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
 using Lanes = double[3][ContactBatch::width];
 
 /// Four records become lanes k ... k+3 of a vector and of a scalar.
@@ -158,6 +158,12 @@ inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
   transpose(rows[0], rows[1], rows[2], rows[3]);
   for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
   if (fourth) store(&fourth[k], rows[3]);
+}
+
+/// r w and 1/r of a spin record, with the position record of the particle.
+inline Vec4 surface_velocity(Vec4 position, const Record &spin)
+{
+  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * load4(spin);
 }
 
 /// Lanes k ... k+3 become four records.
@@ -187,9 +193,10 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
       const std::uint32_t pair = pair_of_lane[k + q];
       const int i = pairs.first[pair], j = pairs.second[pair];
       const Record *mi = motion + stride * i, *mj = motion + stride * j;
-      a[q] = load4(x[i]) + difference_and_sum * load4(x[j]);
+      const Vec4 xi = load4(x[i]), xj = load4(x[j]);
+      a[q] = xi + difference_and_sum * xj;
       b[q] = load4(mi[0]) + difference_and_sum * load4(mj[0]);
-      if constexpr (friction) c[q] = load4(mi[1]) + load4(mj[1]);
+      if constexpr (friction) c[q] = surface_velocity(xi, mi[1]) + surface_velocity(xj, mj[1]);
       if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
       if constexpr (history_kept) d[q] = load4(h[pair]);
     }
@@ -244,8 +251,7 @@ void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
     for (int q = 0; q < 4; q++) {
       const std::uint32_t pair = pair_of_lane[k + q];
       const int i = pairs.first[pair], j = pairs.second[pair];
-      const Record &wi = particles.spin(i), &wj = particles.spin(j);
-      row[q] = wi.c[3] * load4(wi) - wj.c[3] * load4(wj);
+      row[q] = load4(particles.spin(i)) - load4(particles.spin(j));
       batch.circle[k + q] = x[i].c[3];
       second_radius[k + q] = x[j].c[3];
     }

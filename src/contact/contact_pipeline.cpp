@@ -22,11 +22,10 @@ void ContactPipeline::set_work(int num_threads, bool in_phases)
   two_phases = in_phases;
 }
 
-/* work(begin, end) for as many ranges of slots as there are threads, at the same time. */
+/* work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time. */
 
-template <class Work> void ContactPipeline::in_ranges(Work work) const
+template <class Work> void ContactPipeline::in_ranges(std::int64_t n, Work work) const
 {
-  const std::int64_t n = order.size();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (int t = 0; t < threads; t++)
     work(static_cast<int>(n * t / threads), static_cast<int>(n * (t + 1) / threads));
@@ -34,6 +33,7 @@ template <class Work> void ContactPipeline::in_ranges(Work work) const
 
 void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &neighbours)
 {
+  in_records = prepared = false;
   order.arrange(given.owned, given.key, given.tag);
   order.divide(neighbours, threads, two_phases);
   scene.slot_type.clear();
@@ -84,27 +84,31 @@ void ContactPipeline::adopt_first_copies(
 void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  run_parts(host, step, 0, ParticleRecords::Which::ALL);
+  run_parts(host, step, 0,
+            step.read ? ParticleRecords::Which::ALL : ParticleRecords::Which::GHOSTS);
   for (int p = parts_per_phase; p < static_cast<int>(parts.size()); p += parts_per_phase)
     run_parts(host, step, p, ParticleRecords::Which::NONE);
-  add_forces(host);
+  end_step(host, step);
 }
 
 void ContactPipeline::compute_early(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  run_parts(host, step, 0, ParticleRecords::Which::OWNED);
+  run_parts(host, step, 0,
+            step.read ? ParticleRecords::Which::OWNED : ParticleRecords::Which::NONE);
 }
 
 void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &step)
 {
   run_parts(host, step, parts_per_phase, ParticleRecords::Which::GHOSTS);
-  add_forces(host);
+  end_step(host, step);
 }
 
-void ContactPipeline::add_forces(const ParticleView &host) const
+void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step)
 {
-  in_ranges([&](int begin, int end) { particles.add_to(order, host, begin, end); });
+  in_records = !step.deliver;
+  if (step.deliver)
+    in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
 }
 
 void ContactPipeline::start_step(const ContactStep &step)
@@ -118,8 +122,12 @@ void ContactPipeline::start_step(const ContactStep &step)
 void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part,
                                 ParticleRecords::Which which)
 {
-  if (which != ParticleRecords::Which::NONE)
-    in_ranges([&](int begin, int end) { particles.read(order, host, begin, end, which); });
+  if (which == ParticleRecords::Which::GHOSTS)
+    in_ranges(order.size() - order.owned, [&](int begin, int end) {
+      particles.read_atoms(order, host, order.owned + begin, order.owned + end);
+    });
+  else if (which != ParticleRecords::Which::NONE)
+    in_ranges(order.size(), [&](int begin, int end) { particles.read(order, host, begin, end, which); });
   const int count = std::min(parts_per_phase, static_cast<int>(parts.size()) - first_part);
   const bool alone = threads == 1 || step.report || step.account;
 #pragma omp parallel for schedule(static) num_threads(threads) if (!alone)
@@ -127,6 +135,73 @@ void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &ste
     ContactStep of_part = step;
     if (p) of_part.meanwhile = nullptr;
     parts[first_part + p].compute(scene, particles, of_part);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves, const double *x_then)
+{
+  bool all = true;
+  role.assign(order.size(), ParticleRecords::MOVES);
+  for (int s = 0; s < order.size(); s++) {
+    const int a = order.atom_of_slot[s];
+    if (!order.is_owned(a))
+      role[s] = ParticleRecords::GHOST;
+    else if (!moves(a))
+      role[s] = ParticleRecords::RESTS;
+    all = all && role[s] == ParticleRecords::MOVES;
+  }
+  if (all) role.clear();
+  renew(held, x_then ? order.size() : 0);
+  for (int s = 0; x_then && s < order.size(); s++) {
+    const int a = order.atom_of_slot[s];
+    if (!order.is_owned(a)) continue;
+    const double *x = x_then + 3L * a;
+    held[s] = {{x[0], x[1], x[2], 0.0}};
+  }
+  prepared = true;
+}
+
+RecordTravel ContactPipeline::advance(const RecordStep &step)
+{
+  std::vector<RecordTravel> travel(threads);
+  const std::int64_t n = order.size();
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (int t = 0; t < threads; t++)
+    travel[t] = particles.advance(step, role, held.empty() ? nullptr : held.data(),
+                                  static_cast<int>(n * t / threads),
+                                  static_cast<int>(n * (t + 1) / threads));
+  RecordTravel of_all;
+  for (const RecordTravel &one : travel) {
+    of_all.moved = std::max(of_all.moved, one.moved);
+    of_all.next = std::max(of_all.next, one.next);
+    of_all.speed = std::max(of_all.speed, one.speed);
+  }
+  return of_all;
+}
+
+void ContactPipeline::return_state(double *x, double *v, double *omega, double *f,
+                                   double *torque)
+{
+  in_ranges(order.size(), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      const int atom = order.atom_of_slot[s];
+      if (!order.is_owned(atom)) continue;
+      const std::int64_t a = 3L * atom;
+      particles.write_state(s, x + a, v + a, omega + a);
+      if (f) particles.write_forces(s, f + a, torque + a);
+    }
+  });
+  in_records = false;
+}
+
+void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,
+                                 double *omega) const
+{
+  for (const int atom : atoms) {
+    const std::int64_t a = 3L * atom;
+    particles.write_state(order.slot_of_atom[atom], x + a, v + a, omega + a);
   }
 }
 

@@ -57,11 +57,34 @@ class ContactPipeline {
                      const std::function<const double *(int, std::int64_t)> &ghost_values) const;
 
   /// Computes all contacts and adds their forces to the host's arrays.
+  ///
+  /// With `deliver` false the forces stay in the records, and the state of the owned particles with
+  /// them: until a compute() that delivers, the host's arrays need not be up to date. Whoever adds
+  /// other forces does so in records(). With `read` false, owned particles are taken as they are in
+  /// the records: allowed if the last compute() did not deliver, and usual after advance().
   void compute(const ParticleView &host, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first what needs no ghost, and reads none; then
   /// the rest.
   void compute_early(const ParticleView &host, const ContactStep &step);
   void compute_late(const ParticleView &host, const ContactStep &step);
+
+  /// Particles live in the records since the last compute().
+  bool holds_state() const { return in_records; }
+  ParticleRecords &records() { return particles; }
+  const ParticleOrder &particle_order() const { return order; }
+
+  /// To be called before the first advance() after set_pairs(): who moves, by host's index of owned
+  /// particles, and where they were when lists were made, rows of three doubles, nullptr if nobody
+  /// asks for the travel.
+  void prepare_to_move(const std::function<bool(int)> &moves, const double *x_then);
+  bool can_move() const { return prepared; }
+  /// Moves the owned particles, if holds_state(), and clears forces.
+  RecordTravel advance(const RecordStep &step);
+  /// Ends holds_state(): writes positions, velocities and spins of all owned particles to the
+  /// host's arrays, and sets its forces and torques to those in the records, if given.
+  void return_state(double *x, double *v, double *omega, double *f, double *torque);
+  /// Positions, velocities and spins of some owned particles, for those who only read them.
+  void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
@@ -102,10 +125,10 @@ class ContactPipeline {
   Place place_of(int i, int j) const;
   double overlap_of(int slot_a, int slot_b) const;
   void start_step(const ContactStep &step);
-  void add_forces(const ParticleView &host) const;
+  void end_step(const ParticleView &host, const ContactStep &step);
   void run_parts(const ParticleView &host, const ContactStep &step, int first_part,
                  ParticleRecords::Which which);
-  template <class Work> void in_ranges(Work work) const;
+  template <class Work> void in_ranges(std::int64_t n, Work work) const;
 
   ContactScene scene;
   int threads = 1;
@@ -113,6 +136,9 @@ class ContactPipeline {
 
   ParticleOrder order;
   ParticleRecords particles;
+  bool in_records = false, prepared = false;
+  std::vector<ParticleRecords::Role> role;    ///< by slot; empty if all move
+  BigVector<Record> held;                     ///< by slot, or empty
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
   int parts_per_phase = 1;
 };

@@ -14,6 +14,10 @@ inline Vec4 record_of(const double *row, double fourth)
   return Vec4{row[0], row[1], row[2], fourth};
 }
 
+struct Place {
+  int slot, atom;    // slot < 0: not wanted
+};
+
 inline void add_to_row(double *row, Vec4 value)
 {
   for (int d = 0; d < 3; d++) row[d] += value[d];
@@ -33,8 +37,8 @@ void ParticleRecords::resize(int n, int spare, bool spins, bool couples)
 
 /* Eight particles at a time, for the sake of the divisions. */
 
-void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host, int begin, int end,
-                           Which which)
+template <class Place>
+void ParticleRecords::read_places(const ParticleView &host, int begin, int end, Place place)
 {
   const bool spins = stride == 2;
   const Vec4 zero{};
@@ -42,7 +46,7 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
     const int count = std::min(lanes, end - base);
     alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
     for (int k = 0; k < lanes; k++) {
-      const int a = order.atom_of_slot[base + std::min(k, count - 1)];
+      const int a = place(base + std::min(k, count - 1)).atom;
       const bool replaced = host.mass_override && host.mass_override[a] > 0.0;
       inverse_mass[k] = replaced ? host.mass_override[a] : host.mass[a];
       inverse_radius[k] = host.radius[a];
@@ -51,8 +55,8 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
     store(inverse_radius, splat<Vec8>(1.0) / load8(inverse_radius));
 
     for (int k = 0; k < count; k++) {
-      const int s = base + k, a = order.atom_of_slot[s];
-      if (which != Which::ALL && (which == Which::OWNED) != order.is_owned(a)) continue;
+      const auto [s, a] = place(base + k);
+      if (s < 0) continue;
       const double r = host.radius[a];
       Record *moves = &motion[stride * s], *loads = &load[stride * s];
       store(position[s], record_of(host.x + 3L * a, r));
@@ -61,10 +65,28 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
       if (!couple.empty()) store(couple[s], zero);
       if (!spins) continue;
       const double *w = host.omega + 3L * a;
-      store(moves[1], Vec4{r * w[0], r * w[1], r * w[2], inverse_radius[k]});
+      store(moves[1], record_of(w, inverse_radius[k]));
       store(loads[1], zero);
     }
   }
+}
+
+void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host, int begin, int end,
+                           Which which)
+{
+  const int *atom_of_slot = order.atom_of_slot.data();
+  if (which == Which::OWNED && order.owned < order.size())
+    read_places(host, begin, end, [&](int s) {
+      return Place{order.is_owned(atom_of_slot[s]) ? s : -1, atom_of_slot[s]};
+    });
+  else
+    read_places(host, begin, end, [&](int s) { return Place{s, atom_of_slot[s]}; });
+}
+
+void ParticleRecords::read_atoms(const ParticleOrder &order, const ParticleView &host, int begin,
+                                 int end)
+{
+  read_places(host, begin, end, [&](int a) { return Place{order.slot_of_atom[a], a}; });
 }
 
 void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,
@@ -74,13 +96,20 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
   for (int s = begin; s < end; s++) {
     const int a = order.atom_of_slot[s];
     if (!order.is_owned(a)) continue;
-    const Record *loads = &load[stride * s];
-    add_to_row(host.f + 3L * a, load4(loads[0]));
-    if (!spins) continue;
-    double *torque = host.torque + 3L * a;
-    add_to_row(torque, -position[s].c[3] * load4(loads[1]));
-    if (!couple.empty()) add_to_row(torque, load4(couple[s]));
+    add_to_row(host.f + 3L * a, load4(load[stride * s]));
+    if (spins) add_to_row(host.torque + 3L * a, torque(s));
   }
+}
+
+/* Torques are added in one order whoever adds them up: first those of the contacts, and of these
+   first the lever arms. */
+
+Vec4 ParticleRecords::torque(int s) const
+{
+  const Record *loads = &load[stride * s];
+  if (loads[0].c[3] != 0.0) return load4(loads[1]);
+  const Vec4 of_forces = Vec4{} - position[s].c[3] * load4(loads[1]);
+  return couple.empty() ? of_forces : of_forces + load4(couple[s]);
 }
 
 double ParticleRecords::memory_usage() const

@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // State of all particles of a rank, owned and ghost, as records in canonical order, and the sums of
-// their contact forces. The host's arrays are read once and written once in a step.
+// their contact forces. The host's arrays are read once and written once in a step; or, as long as
+// nobody but us looks at the particles, not at all: advance() then moves them here.
 //
 // What a contact needs of its partner apart from the position stands in one cache line, and so does
 // what it adds to it: (velocity, spin) and (force, moment). Scenes without friction have no second
@@ -14,6 +15,8 @@
 #include "contact/particle_order.h"
 #include "contact/record.h"
 
+#include <vector>
+
 namespace Talus {
 
 /// The host's arrays: rows of three doubles, owned particles first, then ghosts.
@@ -25,6 +28,20 @@ struct ParticleView {
   double *f, *torque;    ///< added to; torque may be nullptr like omega
 };
 
+/// One step of semi-implicit Euler for spheres: v += kick (F/m) + fall, x += dt v,
+/// omega += kick T/(inertia m r^2).
+struct RecordStep {
+  double dt, kick;      ///< time; kick times the host's force/(mass acceleration)
+  double fall[3];       ///< change of velocity by gravity
+  double inertia;       ///< 2/5 for spheres, 1/2 for discs
+};
+
+/// How far particles have gone: maxima over particles of the distance from where they were when
+/// lists were made, of that plus the length of this step, and of the speed (see MotionForecast).
+struct RecordTravel {
+  double moved = 0.0, next = 0.0, speed = 0.0;
+};
+
 class ParticleRecords {
  public:
   /// Makes room for `n` particles, and `spare` more slots for forces that nobody wants. `spins` is
@@ -32,14 +49,39 @@ class ParticleRecords {
   /// `couples`: laws with resistance occur.
   void resize(int n, int spare, bool spins, bool couples);
 
-  /// Reads the state of slots begin ... end-1, or of the owned particles or ghosts among them, and
-  /// clears their sums.
+  /// Reads the state of slots begin ... end-1, or of the owned particles among them, and clears
+  /// their sums.
   enum class Which { ALL, OWNED, GHOSTS, NONE };
   void read(const ParticleOrder &order, const ParticleView &host, int begin, int end, Which which);
+  /// The same for the host's particles begin ... end-1.
+  void read_atoms(const ParticleOrder &order, const ParticleView &host, int begin, int end);
 
   /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
   void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
+
+  /// Writes x, v and, if spins are kept, omega of a slot to the host's row.
+  void write_state(int slot, double *x, double *v, double *omega) const;
+  /// Sets the host's row of forces, and that of torques if spins are kept.
+  void write_forces(int slot, double *f, double *torque) const;
+
+  /// Moves the particles of slots begin ... end-1 and clears their sums. `role` of each slot, empty:
+  /// all move. `held`: positions when lists were made, or nullptr if nobody asks for the travel.
+  enum Role : unsigned char { GHOST, MOVES, RESTS };
+  RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
+                       int begin, int end);
+
+  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it.
+  Vec4 torque(int slot) const;
+  /// For forces other than contacts between particles: from here on until advance() the second half
+  /// of the load is the torque itself, which others may add to.
+  void settle_torque(int slot)
+  {
+    Record *loads = &load[2 * static_cast<std::size_t>(slot)];
+    if (loads[0].c[3] != 0.0) return;
+    store(loads[1], torque(slot));
+    loads[0].c[3] = 1.0;
+  }
 
   double memory_usage() const;
 
@@ -48,6 +90,11 @@ class ParticleRecords {
 
   std::size_t stride = 1;    ///< records per particle in motion and load: 2 with spins
   BigVector<Record> position, motion, load, couple;    ///< see record.h
+
+ private:
+  template <class Place>
+  void read_places(const ParticleView &host, int begin, int end, Place place);
+  void kick(const RecordStep &step, int slot);
 };
 
 }    // namespace Talus

@@ -263,6 +263,8 @@ void FixLargeBody::min_post_force(int vflag)
 BodyParticleView FixLargeBody::view() const
 {
   if (atom->nlocal == 0) return {};
+  auto *keeper = dynamic_cast<PairGranPenalty *>(force->pair);
+  const bool kept = keeper && keeper->holds_state();
   return {atom->nlocal,
           atom->x[0],
           atom->v[0],
@@ -272,7 +274,24 @@ BodyParticleView FixLargeBody::view() const
           masses.override_or_null(),
           atom->type,
           atom->f[0],
-          atom->torque[0]};
+          atom->torque[0],
+          nullptr,
+          kept ? &keeper->records() : nullptr,
+          kept ? keeper->slot_of_atom() : nullptr};
+}
+
+std::string FixLargeBody::hazard_of_records() const
+{
+  if (keeps_account) return "its energies are accounted for";
+  if (motion.asks_variables()) return "its variables may read particles";
+  const auto *its = dynamic_cast<const RegionShape *>(shape.get());
+  if (its && its->moves()) return "its region may read particles";
+  const auto *pair = dynamic_cast<PairGranPenalty *>(force->pair);
+  const bool turns = std::any_of(specs.begin() + 1, specs.end(),
+                                 [](const ContactSpec &s) { return s.law.has_friction(); });
+  if (turns && pair && !pair->turns_particles())
+    return "it has friction and the contacts between particles have none";
+  return "";
 }
 
 void FixLargeBody::compute_contacts(const BodyParticleView &to, bool advance)

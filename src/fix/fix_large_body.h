@@ -57,6 +57,9 @@ class FixLargeBody : public Fix {
   double contacts_here() const { return mine.contacts; }
   double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
 
+  /// For run style verlet/proxy: "", or why contacts with this body need the host's arrays.
+  std::string hazard_of_records() const;
+
   /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
   /// mass, are those of a particle of this type, mass and radius against the body. Returns
   /// sqrt(m/k), 0 without stiffness.

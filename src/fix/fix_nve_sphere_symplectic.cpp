@@ -10,6 +10,7 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
+#include "pair/pair_gran_penalty.h"
 #include "update.h"
 
 #include <cmath>
@@ -126,6 +127,7 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
+  keeper = dynamic_cast<PairGranPenalty *>(force->pair);
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())
@@ -188,8 +190,33 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
   const double kick = next_kick();
-  advance(kick, dt);
+  if (keeper && keeper->holds_state())
+    advance_records(kick, dt);
+  else
+    advance(kick, dt);
   if (rotates) rotate(dt);
+}
+
+/* ----------------------------------------------------------------------
+   particles that the pair style keeps: the same step there
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::advance_records(double kick, double dt)
+{
+  const double kick_f = kick * force->ftm2v;
+  const double *const g = gravity.acceleration();
+  keeper->advance({dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia}, groupbit);
+}
+
+std::string FixNVESphereSymplectic::hazard_of_records()
+{
+  if (rotates) return "it turns orientations";
+  if (group->dynamic[igroup]) return "its group is dynamic";
+  int frozen = 0;
+  for (auto &fix : modify->get_fix_by_style("^freeze")) frozen |= fix->groupbit;
+  if (count_members([&](int i) { return (atom->mask[i] & frozen) != 0; }))
+    return "some of its particles belong to a fix freeze";
+  return "";
 }
 
 /* ----------------------------------------------------------------------
@@ -213,7 +240,8 @@ int FixNVESphereSymplectic::nmoving() const
 
 /* ----------------------------------------------------------------------
    v, x, omega of all members; the arrays of the host are contiguous
-   a particle's result does not depend on its index or its thread
+   a particle's result does not depend on its index or its thread;
+   every operation is that of ParticleRecords::advance()
 ------------------------------------------------------------------------- */
 
 void FixNVESphereSymplectic::advance(double kick, double dt)
@@ -237,8 +265,8 @@ void FixNVESphereSymplectic::advance(double kick, double dt)
 #pragma omp parallel for schedule(static) num_threads(comm->nthreads) if (comm->nthreads > 1)
   for (bigint i = 0; i < n; i++) {
     if (!(mask[i] & groupbit)) continue;
-    const double per_mass = kick_f / rmass[i];
-    const double per_inertia = per_mass / (inertia * radius[i] * radius[i]);
+    const double per_mass = kick_f * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
+    const double per_inertia = per_mass * (inverse_radius * inverse_radius) * (1.0 / inertia);
     const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
     for (int d = 0; d < 3; d++) {
       const bigint k = 3 * i + d;

@@ -44,6 +44,7 @@ FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
 #include "fix.h"
 
 #include <functional>
+#include <string>
 
 namespace LAMMPS_NS {
 
@@ -54,6 +55,10 @@ class FixNVESphereSymplectic : public Fix {
   void init() override;
   void initial_integrate(int) override;
   double compute_scalar() override;
+
+  /// For run style verlet/proxy: "", or why this fix cannot move particles in the records of the
+  /// contacts. Collective.
+  std::string hazard_of_records();
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -71,9 +76,12 @@ class FixNVESphereSymplectic : public Fix {
   void check_fix(Fix *);
   bigint count_members(const std::function<bool(int)> &);
 
+  class PairGranPenalty *keeper = nullptr;    // of particles between steps, see init()
+
   int nmoving() const;
   double next_kick();
   void advance(double, double);
+  void advance_records(double, double);
   void rotate(double);
 };
 

@@ -190,6 +190,13 @@ void LargeBodyMotion::init()
   for (Quantity &q : given_load) find(q);
 }
 
+bool LargeBodyMotion::asks_variables() const
+{
+  const auto named = [](const Quantity &q) { return !q.name.empty(); };
+  return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), named)) ||
+         (has_load && std::any_of(std::begin(given_load), std::end(given_load), named));
+}
+
 double LargeBodyMotion::evaluate(const Quantity &q)
 {
   return q.name.empty() ? q.value : input->variable->compute_equal(q.index);

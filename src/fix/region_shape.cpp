@@ -39,6 +39,11 @@ int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearPart
   return count;
 }
 
+bool RegionShape::moves() const
+{
+  return region->dynamic_check() || region->varshape;
+}
+
 bool RegionShape::touches(const Vector3<double> &centre, double radius,
                           SurfaceContact &contact) const
 {

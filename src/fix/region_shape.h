@@ -20,6 +20,8 @@ class RegionShape : public Talus::LargeBodyShape {
   /// Regions may be deleted and defined anew between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
   void replace(Region *now) { region = now; }
+  /// Its place or shape follows variables.
+  bool moves() const;
 
   bool touches(const Talus::Vector3<double> &centre, double radius,
                Talus::SurfaceContact &contact) const override;

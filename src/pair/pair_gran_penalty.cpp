@@ -348,6 +348,9 @@ void PairGranPenalty::compute(int eflag, int vflag)
   const bool advance = update->setupflag == 0;
   ContactStep step{update->dt, advance, vflag_either ? &reported : nullptr,
                    keeps_account ? &account : nullptr};
+  step.read = !pipeline.holds_state();
+  step.deliver = !keeps_state;
+  if (!keeps_state) return_state(false);
   if (pipeline.in_two_phases()) {
     auto *exchange = dynamic_cast<PendingExchange *>(comm);
     const std::function<void()> progress = [exchange] { exchange->progress(); };

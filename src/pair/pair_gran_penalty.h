@@ -59,6 +59,27 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   const Talus::ContactPipeline &contacts() const { return pipeline; }
   const LawBook &laws() const { return book; }
 
+  /// Steps that nobody looks at are made without the host's arrays, in the records of the contacts.
+  /// The run style says before compute() whether the particles may stay there after it; the
+  /// integrator then moves them there, and large bodies add their forces there.
+  void keep_state(bool yes) { keeps_state = yes; }
+  /// Contacts between particles exert torques.
+  bool turns_particles() const { return pipeline.keeps_spins(); }
+  bool holds_state() const { return pipeline.holds_state(); }
+  /// Moves the owned particles of a group. Only if holds_state().
+  void advance(const Talus::RecordStep &step, int groupbit);
+  /// How far they went in the last advance().
+  const Talus::RecordTravel &travel() const { return last_travel; }
+  Talus::ParticleRecords &records() { return pipeline.records(); }
+  const int *slot_of_atom() const { return pipeline.particle_order().slot_of_atom.data(); }
+  /// Ends holds_state(), if it does: the host's arrays are up to date again, on request with the
+  /// forces that will move the particles in the next step.
+  void return_state(bool with_forces);
+  /// The same for some particles and for reading only.
+  void show_state(const std::vector<int> &atoms) const;
+  /// "", or why records do not do for this scene.
+  std::string hazard_of_records() const;
+
   // FixContactStore::Client
   void file_history(Talus::PartnerLists &partners) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
@@ -90,6 +111,9 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   Talus::ContactPipeline pipeline;
   std::vector<Talus::ReportedContact> reported;
+
+  bool keeps_state = false;
+  Talus::RecordTravel last_travel;
 
   bool keeps_account = false;
   Talus::EnergyAccount account;

@@ -1,0 +1,104 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "comm/record_steps.h"
+
+#include "comm/comm_proxy.h"
+#include "fix/fix_large_body.h"
+#include "fix/fix_nve_sphere_symplectic.h"
+#include "pair/pair_gran_penalty.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace Talus;
+
+void RecordSteps::start(bool pairs_computed)
+{
+  style = dynamic_cast<PairGranPenalty *>(force->pair);
+  at_end_of_step.clear();
+  forget_plan();
+  reason = find_hazard(pairs_computed);
+}
+
+std::string RecordSteps::find_hazard(bool pairs_computed)
+{
+  if (!style || !pairs_computed) return "the pair style is not gran/penalty on its own";
+  if (const std::string its = style->hazard_of_records(); !its.empty()) return its;
+  if (atom->molecular != Atom::ATOMIC || force->kspace) return "there are bonds or long-range forces";
+  if (atom->avec->size_forward != 3)
+    return std::string("radii or more vary with atom style ") + atom->atom_style;
+  if (neighbor->includegroup || atom->firstgroupname)
+    return "neighbor lists or particles are restricted to a group";
+  const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if ((comm->nprocs > 1 || periodic) && !dynamic_cast<CommProxy *>(comm))
+    return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
+
+  int integrators = 0;
+  for (int n = 0; n < modify->nfix; n++) {
+    Fix *fix = modify->fix[n];
+    if (dynamic_cast<FixNVESphereSymplectic *>(fix)) integrators++;
+    const std::string its = hazard_of_fix(fix, modify->fmask[n]);
+    if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
+    if (modify->fmask[n] & END_OF_STEP) at_end_of_step.push_back(fix);
+  }
+  if (integrators != 1) return "it takes one fix nve/sphere/symplectic";
+  return "";
+}
+
+/* A fix of the host that is called in every step may read or change anything. Fix freeze and OMP
+   change nothing that a step in the records needs. */
+
+std::string RecordSteps::hazard_of_fix(Fix *fix, int mask) const
+{
+  if (auto *integrator = dynamic_cast<FixNVESphereSymplectic *>(fix))
+    return integrator->hazard_of_records();
+  if (const auto *body = dynamic_cast<FixLargeBody *>(fix)) return body->hazard_of_records();
+  if (dynamic_cast<FixContactStore *>(fix) || std::strcmp(fix->style, "OMP") == 0 ||
+      utils::strmatch(fix->style, "^freeze"))
+    return "";
+  constexpr int in_every_step = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE |
+                                POST_FORCE | FINAL_INTEGRATE;
+  return mask & in_every_step ? "may look at particles in every step" : "";
+}
+
+bool RecordSteps::may_stay(bigint now, bool tallied) const
+{
+  if (!reason.empty() || tallied) return false;
+  if (now >= update->laststep || now >= output->next) return false;
+  return std::none_of(at_end_of_step.begin(), at_end_of_step.end(), [now](const Fix *fix) {
+    return fix->nevery <= 0 || now % fix->nevery == 0;
+  });
+}
+
+PairGranPenalty *RecordSteps::keeper() const
+{
+  return reason.empty() && style->holds_state() ? style : nullptr;
+}
+
+const std::vector<int> &RecordSteps::sent_particles()
+{
+  if (sent_is_known) return sent;
+  sent.clear();
+  if (const auto *proxy = dynamic_cast<CommProxy *>(comm)) {
+    sent = proxy->plan().self().send_index;
+    for (const ExchangeNeighbor &n : proxy->plan().neighbors())
+      sent.insert(sent.end(), n.send_index.begin(), n.send_index.end());
+  }
+  std::sort(sent.begin(), sent.end());
+  sent.erase(std::unique(sent.begin(), sent.end()), sent.end());
+  sent_is_known = true;
+  return sent;
+}

@@ -1,0 +1,59 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Which steps of run style verlet/proxy are made in the records of the contacts alone: those that
+// nobody but Talus looks at. Then the host's arrays of positions, velocities and forces are neither
+// read nor written. The particles come back to them for every step with output, a fix of the host
+// at its end or new neighbour lists, and at the end of a run, even one that ends in an error.
+
+#ifndef TALUS_COMM_RECORD_STEPS_H
+#define TALUS_COMM_RECORD_STEPS_H
+
+#include "lmptype.h"
+#include "pointers.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Fix;
+class PairGranPenalty;
+}    // namespace LAMMPS_NS
+
+namespace Talus {
+
+class RecordSteps : protected LAMMPS_NS::Pointers {
+ public:
+  explicit RecordSteps(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// At the start of a run, after setup. Collective; decides the same on all ranks.
+  void start(bool pairs_computed);
+  /// "" if this run has such steps, else the first reason why not, for people.
+  const std::string &hazard() const { return reason; }
+
+  /// Before forces are computed: whether particles may stay in the records until the next step.
+  bool may_stay(LAMMPS_NS::bigint now, bool tallied) const;
+
+  /// The pair style if particles live in its records now, else nullptr.
+  LAMMPS_NS::PairGranPenalty *keeper() const;
+  /// Of this run, or nullptr.
+  LAMMPS_NS::PairGranPenalty *pair() const { return reason.empty() ? style : nullptr; }
+
+  /// Owned particles whose states other ranks or images need; as of the present exchange plan.
+  const std::vector<int> &sent_particles();
+  /// The plan has changed.
+  void forget_plan() { sent_is_known = false; }
+
+ private:
+  std::string find_hazard(bool pairs_computed);
+  std::string hazard_of_fix(LAMMPS_NS::Fix *fix, int mask) const;
+
+  std::string reason = "no run yet";
+  LAMMPS_NS::PairGranPenalty *style = nullptr;
+  std::vector<LAMMPS_NS::Fix *> at_end_of_step;
+  std::vector<int> sent;
+  bool sent_is_known = false;
+};
+
+}    // namespace Talus
+
+#endif
