@@ -74,11 +74,19 @@ std::string RecordSteps::hazard_of_fix(Fix *fix, int mask) const
   return mask & in_every_step ? "may look at particles in every step" : "";
 }
 
-bool RecordSteps::may_stay(bigint now, bool tallied) const
+bool RecordSteps::may_stay(bigint now, bool tallied)
 {
-  if (!reason.empty() || tallied) return false;
-  if (now >= update->laststep || now >= output->next) return false;
-  return std::none_of(at_end_of_step.begin(), at_end_of_step.end(), [now](const Fix *fix) {
+  if (!reason.empty()) return false;
+  const bool may = !tallied && !is_looked_at(now);
+  if (may && !sent_is_known) find_sent_particles();
+  style->keep_state(may);
+  return may;
+}
+
+bool RecordSteps::is_looked_at(bigint now) const
+{
+  if (now >= update->laststep || now >= output->next) return true;
+  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(), [now](const Fix *fix) {
     return fix->nevery <= 0 || now % fix->nevery == 0;
   });
 }
@@ -88,9 +96,13 @@ PairGranPenalty *RecordSteps::keeper() const
   return reason.empty() && style->holds_state() ? style : nullptr;
 }
 
-const std::vector<int> &RecordSteps::sent_particles()
+void RecordSteps::show_sent_particles() const
 {
-  if (sent_is_known) return sent;
+  if (const PairGranPenalty *its = keeper()) its->show_state(sent);
+}
+
+void RecordSteps::find_sent_particles()
+{
   sent.clear();
   if (const auto *proxy = dynamic_cast<CommProxy *>(comm)) {
     sent = proxy->plan().self().send_index;
@@ -99,6 +111,6 @@ const std::vector<int> &RecordSteps::sent_particles()
   }
   std::sort(sent.begin(), sent.end());
   sent.erase(std::unique(sent.begin(), sent.end()), sent.end());
+  style->set_sent_particles(sent);
   sent_is_known = true;
-  return sent;
 }

@@ -30,22 +30,25 @@ class RecordSteps : protected LAMMPS_NS::Pointers {
   /// "" if this run has such steps, else the first reason why not, for people.
   const std::string &hazard() const { return reason; }
 
-  /// Before forces are computed: whether particles may stay in the records until the next step.
-  bool may_stay(LAMMPS_NS::bigint now, bool tallied) const;
+  /// Before forces are computed: whether particles may stay in the records until the next step. The
+  /// pair style is told.
+  bool may_stay(LAMMPS_NS::bigint now, bool tallied);
 
   /// The pair style if particles live in its records now, else nullptr.
   LAMMPS_NS::PairGranPenalty *keeper() const;
   /// Of this run, or nullptr.
   LAMMPS_NS::PairGranPenalty *pair() const { return reason.empty() ? style : nullptr; }
 
-  /// Owned particles whose states other ranks or images need; as of the present exchange plan.
-  const std::vector<int> &sent_particles();
-  /// The plan has changed.
+  /// Before an exchange: shows it the particles that it sends, if they live in the records.
+  void show_sent_particles() const;
+  /// There is a new exchange plan.
   void forget_plan() { sent_is_known = false; }
 
  private:
   std::string find_hazard(bool pairs_computed);
   std::string hazard_of_fix(LAMMPS_NS::Fix *fix, int mask) const;
+  bool is_looked_at(LAMMPS_NS::bigint now) const;
+  void find_sent_particles();
 
   std::string reason = "no run yet";
   LAMMPS_NS::PairGranPenalty *style = nullptr;

@@ -131,16 +131,20 @@ void VerletProxy::step()
     rebuild();
   else
     update_proxies();    // the host's forward_comm() is complete at its end
-  PairGranPenalty *keeper = records.keeper();
-  lists.ask(keeper ? &keeper->travel() : nullptr);
+  // asked later where particles move on the way through the computation of forces
+  const bool in_records = records.keeper();
+  if (!in_records) lists.ask(nullptr);
   timer->stamp(Timer::COMM);
 
   // nobody reads the host's forces in a step after which particles stay in the records
   const bool may_stay = records.may_stay(now, eflag || vflag);
-  if (records.pair()) records.pair()->keep_state(may_stay);
   if (!may_stay) force_clear();
   timer->stamp();
   compute_forces();
+  if (in_records) {
+    const RecordTravel travel = records.pair()->travel();
+    lists.ask(&travel);
+  }
 
   if (modify->n_post_force_any) modify->post_force(vflag);
   modify->final_integrate();
@@ -156,8 +160,7 @@ void VerletProxy::step()
 
 void VerletProxy::update_proxies()
 {
-  if (const PairGranPenalty *keeper = records.keeper())
-    keeper->show_state(records.sent_particles());
+  records.show_sent_particles();
   CommProxy *proxy = overlaps ? current() : nullptr;
   if (proxy && proxy->has_plan()) {
     proxy->begin();

@@ -23,8 +23,8 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
 
   bool all_unit = true;
   row_start.assign(order.size() + 2, 0);
-  for_each_of_part([&](int a, int, double weight) {
-    row_start[a + 2]++;
+  for_each_of_part([&](int, int b, double weight) {
+    row_start[b + 2]++;
     all_unit = all_unit && weight == 1.0;
   });
   for (std::size_t s = 2; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
@@ -37,13 +37,18 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   renew(second, count);
   renew(weights, all_unit ? 0 : count);
   for_each_of_part([&](int a, int b, double weight) {
-    const std::int64_t c = row_start[a + 1]++;    // which ends as the end of the row
+    const std::int64_t c = row_start[b + 1]++;    // which ends as the end of the row
     first[c] = a;
     second[c] = b;
     if (!all_unit) weights[c] = weight;
   });
   row_start.pop_back();
   for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
+
+  constexpr int records_in_cache = 2048;
+  distant.clear();
+  for (std::int64_t c = 0; c < count; c++)
+    if (second[c] - first[c] > records_in_cache) distant.push_back(static_cast<std::uint32_t>(c));
 }
 
 /* Rows hold a few pairs, often in order already; those of a sphere much larger than the others may
@@ -55,17 +60,17 @@ void CandidateList::sort_row(std::int64_t begin, std::int64_t end)
   if (end - begin > few) {
     std::vector<std::pair<int, double>> row;
     for (std::int64_t c = begin; c < end; c++)
-      row.emplace_back(second[c], weighted() ? weights[c] : 1.0);
+      row.emplace_back(first[c], weighted() ? weights[c] : 1.0);
     std::sort(row.begin(), row.end());
     for (std::int64_t c = begin; c < end; c++) {
-      second[c] = row[c - begin].first;
+      first[c] = row[c - begin].first;
       if (weighted()) weights[c] = row[c - begin].second;
     }
     return;
   }
   for (std::int64_t c = begin + 1; c < end; c++)
-    for (std::int64_t k = c; k > begin && second[k] < second[k - 1]; k--) {
-      std::swap(second[k], second[k - 1]);
+    for (std::int64_t k = c; k > begin && first[k] < first[k - 1]; k--) {
+      std::swap(first[k], first[k - 1]);
       if (weighted()) std::swap(weights[k], weights[k - 1]);
     }
 }
@@ -73,16 +78,17 @@ void CandidateList::sort_row(std::int64_t begin, std::int64_t end)
 std::int64_t CandidateList::find(int slot_a, int slot_b) const
 {
   const int a = std::min(slot_a, slot_b), b = std::max(slot_a, slot_b);
-  const auto begin = second.begin() + row_start[a], end = second.begin() + row_start[a + 1];
-  const auto found = std::lower_bound(begin, end, b);
-  return found != end && *found == b ? found - second.begin() : -1;
+  const auto begin = first.begin() + row_start[b], end = first.begin() + row_start[b + 1];
+  const auto found = std::lower_bound(begin, end, a);
+  return found != end && *found == a ? found - first.begin() : -1;
 }
 
 double CandidateList::memory_usage() const
 {
   return static_cast<double>(sizeof(int) * (first.capacity() + second.capacity()) +
                              sizeof(std::int64_t) * row_start.capacity() +
-                             sizeof(double) * weights.capacity());
+                             sizeof(double) * weights.capacity() +
+                             sizeof(std::uint32_t) * distant.capacity());
 }
 
 }    // namespace Talus

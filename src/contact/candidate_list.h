@@ -1,9 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The broad phase as the kernels want it: the pairs that may touch before the next rebuild as a
-// flat list of slots (first[c] < second[c], see ParticleOrder), sorted by first and then second.
+// flat list of slots (first[c] < second[c], see ParticleOrder), sorted by second and then first.
 // Working through it in order adds the forces on every particle in ascending order of its
-// partners, on every rank and every thread.
+// partners, on every rank and every thread; and whatever a pair needs has been touched lately or
+// stands next in memory, apart from few pairs whose members stand far from each other.
 
 #ifndef TALUS_CONTACT_CANDIDATE_LIST_H
 #define TALUS_CONTACT_CANDIDATE_LIST_H
@@ -41,6 +42,9 @@ class CandidateList {
   /// Slot behind the last particle for forces that this part does not want; every part has its own.
   std::size_t nowhere() const { return static_cast<std::size_t>(particles->size()) + part; }
 
+  /// Where the slots of this part are.
+  ParticleOrder::Range slots() const { return particles->range(part); }
+
   const ParticleOrder &order() const { return *particles; }
   std::int64_t num_pairs() const { return static_cast<std::int64_t>(first.size()); }
   bool weighted() const { return !weights.empty(); }
@@ -48,13 +52,16 @@ class CandidateList {
 
   BigVector<int> first, second;
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
+  /// Pairs, in ascending order, whose first particle will have left a cache of 1 MB when the second
+  /// one comes.
+  std::vector<std::uint32_t> distant;
 
  private:
   void sort_row(std::int64_t begin, std::int64_t end);
 
   const ParticleOrder *particles = nullptr;
   int part = 0;
-  std::vector<std::int64_t> row_start;    ///< pairs of slot s: row_start[s] ... row_start[s+1]-1
+  std::vector<std::int64_t> row_start;    ///< pairs with second s: row_start[s] ... row_start[s+1]-1
 };
 
 }    // namespace Talus

@@ -29,9 +29,9 @@ void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &par
 }
 
 void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
-                          const ContactStep &how)
+                          const ContactStep &how, const Bring &bring)
 {
-  const Step step{how, scene, particles};
+  const Step step{how, scene, particles, bring};
   const auto choose = [&](auto shared) {
     constexpr bool is_shared = decltype(shared)::value;
     if (scene.with_history)
@@ -47,8 +47,9 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
     choose(std::false_type{});
 }
 
-/* The narrow phase keeps a few blocks ahead of the forces: near enough to leave the positions in
-   the cache, far enough to call the rest of the partners' state into it. */
+/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending order
+   of the second particle: memory is read straight ahead, and first particles, but for the distant
+   ones, are still in the cache. */
 
 template <bool friction, bool history_kept, bool shared>
 void ContactPart::compute_all(const Step &step)
@@ -56,36 +57,37 @@ void ContactPart::compute_all(const Step &step)
   constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
+  ParticleOrder::Range to_bring = pairs.slots();
+  std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
+    call_distant(step.particles, next_distant, end + stretch);
+    const int needed = std::min(pairs.second[end - 1] + 1, to_bring.end);
+    if (needed > to_bring.begin) step.bring(to_bring.begin, needed);
+    to_bring.begin = std::max(to_bring.begin, needed);
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
-    for (; touching - done >= 2 * block_size; done += block_size) {
-      call_ahead<friction, history_kept>(step.particles, done + block_size);
+    for (; touching - done >= block_size; done += block_size)
       compute_block<friction, history_kept, shared>(step, done, block_size);
-    }
   }
-  for (; done < touching; done += block_size) {
-    const int count = static_cast<int>(std::min<std::int64_t>(block_size, touching - done));
-    compute_block<friction, history_kept, shared>(step, done, count);
-  }
+  if (done < touching)
+    compute_block<friction, history_kept, shared>(step, done, static_cast<int>(touching - done));
+  if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
 }
 
-/* Calls what the block of contacts from `begin` on needs into the cache: histories, and the second
-   particles; the first ones have been there lately. */
+/* Calls the first particles of distant pairs before `end` into the cache. */
 
-template <bool friction, bool history_kept>
-void ContactPart::call_ahead(const ParticleRecords &particles, std::int64_t begin)
+void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &next,
+                               std::int64_t end) const
 {
-  constexpr std::size_t stride = friction ? 2 : 1;
-  for (std::int64_t n = begin; n < begin + block_size; n++) {
-    const std::size_t j = stride * pairs.second[contacts[n]];
-    __builtin_prefetch(&particles.motion[j]);
-    __builtin_prefetch(&particles.load[j], 1);
-    if (history_kept) __builtin_prefetch(&history.records[contacts[n]], 1);
+  for (; next < pairs.distant.size() && pairs.distant[next] < end; next++) {
+    const std::size_t i = pairs.first[pairs.distant[next]];
+    __builtin_prefetch(&particles.position[i]);
+    __builtin_prefetch(&particles.motion[particles.stride * i]);
+    __builtin_prefetch(&particles.load[particles.stride * i], 1);
   }
 }
 

@@ -62,14 +62,21 @@ struct ContactStep {
 
 class ContactPart {
  public:
+  /// Makes the state of the slots begin ... end-1 that belong to a part the present one, and clears
+  /// their sums; other parts are not touched.
+  using Bring = std::function<void(int begin, int end)>;
+
   ContactPart();
 
   /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
   void start_pairs(const ContactScene &scene, const PartnerLists &partners,
                    const std::vector<std::int64_t> &filed_tag);
 
-  /// Computes all contacts of this part and adds their forces to the sums of its particles.
-  void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step);
+  /// Computes all contacts of this part and adds their forces to the sums of its particles. All of
+  /// its slots are brought on the way, a while before they are needed, so that they pass through
+  /// the cache once; slots of other parts must be there from the beginning.
+  void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step,
+               const Bring &bring);
 
   /// visit(pair) for every contact of the last compute() that is counted here.
   template <class Visit> void for_each_contact(Visit visit) const
@@ -92,12 +99,12 @@ class ContactPart {
   struct Step : ContactStep {
     const ContactScene &scene;
     ParticleRecords &particles;
+    const Bring &bring;
   };
   template <bool friction, bool history_kept, bool shared> void compute_all(const Step &step);
   template <bool friction, bool history_kept, bool shared>
   void compute_block(const Step &step, std::int64_t begin, int count);
-  template <bool friction, bool history_kept>
-  void call_ahead(const ParticleRecords &particles, std::int64_t begin);
+  void call_distant(const ParticleRecords &particles, std::size_t &next, std::int64_t end) const;
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
   void place(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history_kept>

@@ -33,7 +33,7 @@ template <class Work> void ContactPipeline::in_ranges(std::int64_t n, Work work)
 
 void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &neighbours)
 {
-  in_records = prepared = false;
+  in_records = prepared = move_pending = false;
   order.arrange(given.owned, given.key, given.tag);
   order.divide(neighbours, threads, two_phases);
   scene.slot_type.clear();
@@ -45,7 +45,10 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   parts_per_phase = threads;
   particles.resize(order.size(), order.num_parts(), scene.with_friction, scene.with_resistance);
 
+  mark(order.frontier(), at_frontier);
+
   const int num_parts = order.num_parts();
+  travels.assign(num_parts + 1, RecordTravel{});
   std::exception_ptr failure;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (int p = 0; p < num_parts; p++) try {
@@ -84,31 +87,73 @@ void ContactPipeline::adopt_first_copies(
 void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  run_parts(host, step, 0,
-            step.read ? ParticleRecords::Which::ALL : ParticleRecords::Which::GHOSTS);
-  for (int p = parts_per_phase; p < static_cast<int>(parts.size()); p += parts_per_phase)
-    run_parts(host, step, p, ParticleRecords::Which::NONE);
+  bring_frontier(host, step);
+  if (order.num_parts() > 1 || !step.read) read_ghosts(host);
+  for (int p = 0; p < static_cast<int>(parts.size()); p += parts_per_phase)
+    run_parts(host, step, p);
   end_step(host, step);
 }
 
 void ContactPipeline::compute_early(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  run_parts(host, step, 0,
-            step.read ? ParticleRecords::Which::OWNED : ParticleRecords::Which::NONE);
+  bring_frontier(host, step);
+  run_parts(host, step, 0);
 }
 
 void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &step)
 {
-  run_parts(host, step, parts_per_phase, ParticleRecords::Which::GHOSTS);
+  read_ghosts(host);
+  run_parts(host, step, parts_per_phase);
   end_step(host, step);
 }
 
 void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step)
 {
   in_records = !step.deliver;
+  move_pending = false;
   if (step.deliver)
-    in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+    in_ranges(order.size(),
+              [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+}
+
+/* What several parts read has to be there before any of them begins. */
+
+void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep &step)
+{
+  if (step.read) {
+    const std::vector<int> &list = order.frontier();
+    in_ranges(list.size(), [&](int begin, int end) {
+      particles.read(order, host, {begin, end, list.data()});
+    });
+  } else if (!move_pending) {    // nobody has moved them: only the sums are those of the last step
+    in_ranges(order.size(), [&](int begin, int end) { particles.clear(begin, end); });
+  }
+}
+
+void ContactPipeline::read_ghosts(const ParticleView &host)
+{
+  const int *slots = order.slot_of_atom.data() + order.owned;
+  in_ranges(order.size() - order.owned, [&](int begin, int end) {
+    particles.read(order, host, {begin, end, slots});
+  });
+}
+
+void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, int part, int begin,
+                            int end)
+{
+  const auto flags = [](const std::vector<unsigned char> &v) {
+    return v.empty() ? nullptr : v.data();
+  };
+  SlotChoice slots{begin, end, nullptr, order.part_of_slots(), part, nullptr};
+  if (step.read) {
+    slots.marked = flags(at_frontier);
+    particles.read(order, host, slots);
+  } else if (move_pending) {
+    slots.marked = flags(is_moved_at_once);
+    travels[part].join(
+        particles.advance(move, role, held.empty() ? nullptr : held.data(), slots));
+  }
 }
 
 void ContactPipeline::start_step(const ContactStep &step)
@@ -116,31 +161,33 @@ void ContactPipeline::start_step(const ContactStep &step)
   if (step.account) step.account->begin_step(order.size());
 }
 
-/* Reads what is asked for, then computes the parts of one phase. Reports and accounts are kept in
-   the order of the parts, so these then run one after the other. */
+/* Computes the parts of one phase. Reports and accounts are kept in the order of the parts, so these
+   then run one after the other. */
 
-void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part,
-                                ParticleRecords::Which which)
+void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part)
 {
-  if (which == ParticleRecords::Which::GHOSTS)
-    in_ranges(order.size() - order.owned, [&](int begin, int end) {
-      particles.read_atoms(order, host, order.owned + begin, order.owned + end);
-    });
-  else if (which != ParticleRecords::Which::NONE)
-    in_ranges(order.size(), [&](int begin, int end) { particles.read(order, host, begin, end, which); });
   const int count = std::min(parts_per_phase, static_cast<int>(parts.size()) - first_part);
   const bool alone = threads == 1 || step.report || step.account;
 #pragma omp parallel for schedule(static) num_threads(threads) if (!alone)
   for (int p = 0; p < count; p++) {
     ContactStep of_part = step;
     if (p) of_part.meanwhile = nullptr;
-    parts[first_part + p].compute(scene, particles, of_part);
+    parts[first_part + p].compute(scene, particles, of_part, [&, p](int begin, int end) {
+      bring(host, step, first_part + p, begin, end);
+    });
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves, const double *x_then)
+void ContactPipeline::mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const
+{
+  marks.assign(slots.empty() ? 0 : order.size(), 0);
+  for (const int s : slots) marks[s] = 1;
+}
+
+void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
+                                      const std::vector<int> &sent, const double *x_then)
 {
   bool all = true;
   role.assign(order.size(), ParticleRecords::MOVES);
@@ -153,6 +200,14 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves, con
     all = all && role[s] == ParticleRecords::MOVES;
   }
   if (all) role.clear();
+
+  moved_at_once = order.frontier();
+  for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
+  std::sort(moved_at_once.begin(), moved_at_once.end());
+  moved_at_once.erase(std::unique(moved_at_once.begin(), moved_at_once.end()),
+                      moved_at_once.end());
+  mark(moved_at_once, is_moved_at_once);
+
   renew(held, x_then ? order.size() : 0);
   for (int s = 0; x_then && s < order.size(); s++) {
     const int a = order.atom_of_slot[s];
@@ -163,37 +218,54 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves, con
   prepared = true;
 }
 
-RecordTravel ContactPipeline::advance(const RecordStep &step)
+void ContactPipeline::advance(const RecordStep &step)
 {
-  std::vector<RecordTravel> travel(threads);
-  const std::int64_t n = order.size();
+  move = step;
+  move_pending = true;
+  travels.assign(travels.size(), RecordTravel{});
+  const Record *then = held.empty() ? nullptr : held.data();
+  std::vector<RecordTravel> pieces(threads);
+  const std::int64_t n = moved_at_once.size();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++)
-    travel[t] = particles.advance(step, role, held.empty() ? nullptr : held.data(),
-                                  static_cast<int>(n * t / threads),
-                                  static_cast<int>(n * (t + 1) / threads));
-  RecordTravel of_all;
-  for (const RecordTravel &one : travel) {
-    of_all.moved = std::max(of_all.moved, one.moved);
-    of_all.next = std::max(of_all.next, one.next);
-    of_all.speed = std::max(of_all.speed, one.speed);
+  for (int t = 0; t < threads; t++) {
+    const SlotChoice piece{static_cast<int>(n * t / threads),
+                           static_cast<int>(n * (t + 1) / threads), moved_at_once.data()};
+    pieces[t] = particles.advance(move, role, then, piece);
   }
-  return of_all;
+  for (const RecordTravel &piece : pieces) travels.back().join(piece);
+}
+
+RecordTravel ContactPipeline::travel() const
+{
+  RecordTravel all;
+  for (const RecordTravel &one : travels) all.join(one);
+  return all;
 }
 
 void ContactPipeline::return_state(double *x, double *v, double *omega, double *f,
                                    double *torque)
 {
-  in_ranges(order.size(), [&](int begin, int end) {
-    for (int s = begin; s < end; s++) {
-      const int atom = order.atom_of_slot[s];
-      if (!order.is_owned(atom)) continue;
-      const std::int64_t a = 3L * atom;
-      particles.write_state(s, x + a, v + a, omega + a);
-      if (f) particles.write_forces(s, f + a, torque + a);
-    }
+  if (move_pending)
+    in_ranges(order.size(), [&](int begin, int end) {
+      SlotChoice slots{begin, end};
+      slots.marked = is_moved_at_once.empty() ? nullptr : is_moved_at_once.data();
+      particles.advance(move, role, nullptr, slots);
+    });
+  move_pending = in_records = false;
+  write_state(x, v, omega);
+  if (f)
+    in_ranges(order.owned, [&](int begin, int end) {
+      for (int a = begin; a < end; a++)
+        particles.write_forces(order.slot_of_atom[a], f + 3L * a, torque + 3L * a);
+    });
+}
+
+void ContactPipeline::write_state(double *x, double *v, double *omega) const
+{
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++)
+      particles.write_state(order.slot_of_atom[a], x + 3L * a, v + 3L * a, omega + 3L * a);
   });
-  in_records = false;
 }
 
 void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,

@@ -73,16 +73,23 @@ class ContactPipeline {
   ParticleRecords &records() { return particles; }
   const ParticleOrder &particle_order() const { return order; }
 
-  /// To be called before the first advance() after set_pairs(): who moves, by host's index of owned
-  /// particles, and where they were when lists were made, rows of three doubles, nullptr if nobody
-  /// asks for the travel.
-  void prepare_to_move(const std::function<bool(int)> &moves, const double *x_then);
+  /// To be called before the first advance() after set_pairs(), with what concerns owned particles
+  /// by host's index: who moves; whose states are sent away before forces are computed; and where
+  /// they were when lists were made, rows of three doubles, nullptr if nobody asks for the travel.
+  void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
+                       const double *x_then);
   bool can_move() const { return prepared; }
-  /// Moves the owned particles, if holds_state(), and clears forces.
-  RecordTravel advance(const RecordStep &step);
-  /// Ends holds_state(): writes positions, velocities and spins of all owned particles to the
-  /// host's arrays, and sets its forces and torques to those in the records, if given.
+  /// Moves the owned particles, if holds_state(): those at once that are sent or that several parts
+  /// read, the others on the way through the next compute().
+  void advance(const RecordStep &step);
+  /// How far they went, after compute().
+  RecordTravel travel() const;
+  /// Ends holds_state(): completes an advance() and writes positions, velocities and spins of all
+  /// owned particles to the host's arrays, and sets its forces and torques to those in the records,
+  /// if given.
   void return_state(double *x, double *v, double *omega, double *f, double *torque);
+  /// After a compute() that has delivered: only the state.
+  void write_state(double *x, double *v, double *omega) const;
   /// Positions, velocities and spins of some owned particles, for those who only read them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
 
@@ -126,8 +133,11 @@ class ContactPipeline {
   double overlap_of(int slot_a, int slot_b) const;
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &host, const ContactStep &step);
-  void run_parts(const ParticleView &host, const ContactStep &step, int first_part,
-                 ParticleRecords::Which which);
+  void bring_frontier(const ParticleView &host, const ContactStep &step);
+  void read_ghosts(const ParticleView &host);
+  void run_parts(const ParticleView &host, const ContactStep &step, int first_part);
+  void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
+  void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
 
   ContactScene scene;
@@ -136,9 +146,17 @@ class ContactPipeline {
 
   ParticleOrder order;
   ParticleRecords particles;
-  bool in_records = false, prepared = false;
+  std::vector<unsigned char> at_frontier;    ///< by slot; empty if none is
+
+  // particles in the records
+  bool in_records = false, prepared = false, move_pending = false;
+  RecordStep move{};
   std::vector<ParticleRecords::Role> role;    ///< by slot; empty if all move
+  std::vector<int> moved_at_once;             ///< slots
+  std::vector<unsigned char> is_moved_at_once;    ///< by slot; empty if none is
   BigVector<Record> held;                     ///< by slot, or empty
+  std::vector<RecordTravel> travels;          ///< by part, and one more
+
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
   int parts_per_phase = 1;
 };

@@ -32,14 +32,10 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
 std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
                            const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
-  constexpr std::int64_t ahead = 64;    // pairs whose second position is called into the cache
   const int *first = pairs.first.data(), *second = pairs.second.data();
-  const std::int64_t last = pairs.num_pairs() - 8;
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {
-    if (c + ahead <= last)
-      for (int k = 0; k < 8; k++) __builtin_prefetch(&position[second[c + ahead + k]]);
     const unsigned bits = c + 8 <= end ? touching4(position, first + c, second + c) |
                                              touching4(position, first + c + 4, second + c + 4) << 4
                                        : touching_tail(position, first + c, second + c, end - c);

@@ -31,6 +31,7 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   const int total = static_cast<int>(tag.size());
   parts = 1;
   part_of_slot.clear();
+  frontier_slots.clear();
 
   std::vector<Entry> order(total);
   for (int a = 0; a < total; a++) order[a] = {key[a], tag[a], a};
@@ -51,6 +52,7 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool tw
 {
   parts = two_phases ? 2 * threads : threads;
   part_of_slot.clear();
+  frontier_slots.clear();
   if (parts == 1) return;
 
   std::vector<int> work(size(), 1);
@@ -74,13 +76,36 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool tw
     part_of_slot[s] = static_cast<std::uint16_t>(two_phases && late[s] ? threads + range : range);
     done += work[s];
   }
+  find_ranges(neighbours);
+}
+
+void ParticleOrder::find_ranges(const NeighbourView &neighbours)
+{
+  range_of_part.assign(parts, {size(), 0});
+  for (int s = 0; s < size(); s++) {
+    if (part_of_slot[s] == no_part) continue;
+    Range &its = range_of_part[part_of_slot[s]];
+    its.begin = std::min(its.begin, s);
+    its.end = s + 1;
+  }
+  for (Range &its : range_of_part) its.begin = std::min(its.begin, its.end);
+
+  std::vector<bool> read_by_others(size(), false);
+  neighbours.for_each_pair([&](int i, int j, double) {
+    const int a = slot_of_atom[i], b = slot_of_atom[j];
+    if (part_of_slot[a] == no_part || part_of_slot[b] == no_part) return;
+    if (part_of_slot[a] != part_of_slot[b]) read_by_others[a] = read_by_others[b] = true;
+  });
+  for (int s = 0; s < size(); s++)
+    if (read_by_others[s]) frontier_slots.push_back(s);
 }
 
 double ParticleOrder::memory_usage() const
 {
   return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
                              sizeof(std::int64_t) * tag.capacity() +
-                             sizeof(std::uint16_t) * part_of_slot.capacity());
+                             sizeof(std::uint16_t) * part_of_slot.capacity() +
+                             sizeof(int) * frontier_slots.capacity());
 }
 
 }    // namespace Talus

@@ -31,6 +31,18 @@ class ParticleOrder {
   int num_parts() const { return parts; }
   /// Part of a slot; no_part for ghosts, unless there is one part only.
   int part(int slot) const { return parts == 1 ? 0 : part_of_slot[slot]; }
+  const std::uint16_t *part_of_slots() const
+  {
+    return parts == 1 ? nullptr : part_of_slot.data();
+  }
+  /// Slots of a part are within this range, in ascending order; in part 0 alone they are all.
+  struct Range {
+    int begin, end;
+  };
+  Range range(int part) const { return parts == 1 ? Range{0, size()} : range_of_part[part]; }
+  /// Owned slots that parts other than their own read; empty if there is one part only.
+  const std::vector<int> &frontier() const { return frontier_slots; }
+
   /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
   double share(int slot_a, int slot_b) const
   {
@@ -46,8 +58,12 @@ class ParticleOrder {
   std::vector<int> slot_of_atom;    ///< host's index -> slot
 
  private:
+  void find_ranges(const NeighbourView &neighbours);
+
   int parts = 1;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
+  std::vector<Range> range_of_part;
+  std::vector<int> frontier_slots;
 };
 
 }    // namespace Talus

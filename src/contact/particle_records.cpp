@@ -14,10 +14,6 @@ inline Vec4 record_of(const double *row, double fourth)
   return Vec4{row[0], row[1], row[2], fourth};
 }
 
-struct Place {
-  int slot, atom;    // slot < 0: not wanted
-};
-
 inline void add_to_row(double *row, Vec4 value)
 {
   for (int d = 0; d < 3; d++) row[d] += value[d];
@@ -37,56 +33,33 @@ void ParticleRecords::resize(int n, int spare, bool spins, bool couples)
 
 /* Eight particles at a time, for the sake of the divisions. */
 
-template <class Place>
-void ParticleRecords::read_places(const ParticleView &host, int begin, int end, Place place)
+void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
+                           const SlotChoice &slots)
 {
-  const bool spins = stride == 2;
-  const Vec4 zero{};
-  for (int base = begin; base < end; base += lanes) {
-    const int count = std::min(lanes, end - base);
-    alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
-    for (int k = 0; k < lanes; k++) {
-      const int a = place(base + std::min(k, count - 1)).atom;
-      const bool replaced = host.mass_override && host.mass_override[a] > 0.0;
-      inverse_mass[k] = replaced ? host.mass_override[a] : host.mass[a];
-      inverse_radius[k] = host.radius[a];
-    }
-    store(inverse_mass, splat<Vec8>(1.0) / load8(inverse_mass));
-    store(inverse_radius, splat<Vec8>(1.0) / load8(inverse_radius));
+  slots.in_groups([&](const int *slot, int count) { read_eight(order, host, slot, count); });
+}
 
-    for (int k = 0; k < count; k++) {
-      const auto [s, a] = place(base + k);
-      if (s < 0) continue;
-      const double r = host.radius[a];
-      Record *moves = &motion[stride * s], *loads = &load[stride * s];
-      store(position[s], record_of(host.x + 3L * a, r));
-      store(moves[0], record_of(host.v + 3L * a, inverse_mass[k]));
-      store(loads[0], zero);
-      if (!couple.empty()) store(couple[s], zero);
-      if (!spins) continue;
-      const double *w = host.omega + 3L * a;
-      store(moves[1], record_of(w, inverse_radius[k]));
-      store(loads[1], zero);
-    }
+inline void ParticleRecords::read_eight(const ParticleOrder &order, const ParticleView &host,
+                                        const int *slots, int count)
+{
+  alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
+  for (int k = 0; k < lanes; k++) {
+    const int a = order.atom_of_slot[slots[std::min(k, count - 1)]];
+    const bool replaced = host.mass_override && host.mass_override[a] > 0.0;
+    inverse_mass[k] = replaced ? host.mass_override[a] : host.mass[a];
+    inverse_radius[k] = host.radius[a];
   }
-}
+  store(inverse_mass, splat<Vec8>(1.0) / load8(inverse_mass));
+  store(inverse_radius, splat<Vec8>(1.0) / load8(inverse_radius));
 
-void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host, int begin, int end,
-                           Which which)
-{
-  const int *atom_of_slot = order.atom_of_slot.data();
-  if (which == Which::OWNED && order.owned < order.size())
-    read_places(host, begin, end, [&](int s) {
-      return Place{order.is_owned(atom_of_slot[s]) ? s : -1, atom_of_slot[s]};
-    });
-  else
-    read_places(host, begin, end, [&](int s) { return Place{s, atom_of_slot[s]}; });
-}
-
-void ParticleRecords::read_atoms(const ParticleOrder &order, const ParticleView &host, int begin,
-                                 int end)
-{
-  read_places(host, begin, end, [&](int a) { return Place{order.slot_of_atom[a], a}; });
+  for (int k = 0; k < count; k++) {
+    const std::size_t s = slots[k];
+    const std::int64_t a = 3L * order.atom_of_slot[s];
+    store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
+    store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
+    if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
+    clear(slots[k]);
+  }
 }
 
 void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,

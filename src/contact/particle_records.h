@@ -15,6 +15,8 @@
 #include "contact/particle_order.h"
 #include "contact/record.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace Talus {
@@ -36,10 +38,46 @@ struct RecordStep {
   double inertia;       ///< 2/5 for spheres, 1/2 for discs
 };
 
+/// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
+/// these only the slots of one part, if `part_of_slot` is given, that are not marked.
+struct SlotChoice {
+  int begin, end;
+  const int *list = nullptr;
+  const std::uint16_t *part_of_slot = nullptr;
+  int part = 0;
+  const unsigned char *marked = nullptr;
+
+  bool holds(int slot) const
+  {
+    return (!part_of_slot || part_of_slot[slot] == part) && (!marked || !marked[slot]);
+  }
+  /// visit(slots, count) for groups of up to eight.
+  template <class Visit> void in_groups(Visit visit) const
+  {
+    int group[lanes], count = 0;
+    for (int n = begin; n < end; n++) {
+      const int slot = list ? list[n] : n;
+      if (!holds(slot)) continue;
+      group[count++] = slot;
+      if (count < lanes) continue;
+      visit(group, count);
+      count = 0;
+    }
+    if (count) visit(group, count);
+  }
+};
+
 /// How far particles have gone: maxima over particles of the distance from where they were when
 /// lists were made, of that plus the length of this step, and of the speed (see MotionForecast).
 struct RecordTravel {
   double moved = 0.0, next = 0.0, speed = 0.0;
+
+  void join(const RecordTravel &other)
+  {
+    moved = std::max(moved, other.moved);
+    next = std::max(next, other.next);
+    speed = std::max(speed, other.speed);
+  }
 };
 
 class ParticleRecords {
@@ -49,12 +87,8 @@ class ParticleRecords {
   /// `couples`: laws with resistance occur.
   void resize(int n, int spare, bool spins, bool couples);
 
-  /// Reads the state of slots begin ... end-1, or of the owned particles among them, and clears
-  /// their sums.
-  enum class Which { ALL, OWNED, GHOSTS, NONE };
-  void read(const ParticleOrder &order, const ParticleView &host, int begin, int end, Which which);
-  /// The same for the host's particles begin ... end-1.
-  void read_atoms(const ParticleOrder &order, const ParticleView &host, int begin, int end);
+  /// Reads the state of some slots and clears their sums.
+  void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
 
   /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
@@ -65,11 +99,13 @@ class ParticleRecords {
   /// Sets the host's row of forces, and that of torques if spins are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
-  /// Moves the particles of slots begin ... end-1 and clears their sums. `role` of each slot, empty:
-  /// all move. `held`: positions when lists were made, or nullptr if nobody asks for the travel.
+  /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
+  /// `held`: positions when lists were made, or nullptr if nobody asks for the travel.
   enum Role : unsigned char { GHOST, MOVES, RESTS };
   RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
-                       int begin, int end);
+                       const SlotChoice &slots);
+  /// Only clears sums.
+  void clear(int begin, int end);
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it.
   Vec4 torque(int slot) const;
@@ -92,9 +128,14 @@ class ParticleRecords {
   BigVector<Record> position, motion, load, couple;    ///< see record.h
 
  private:
-  template <class Place>
-  void read_places(const ParticleView &host, int begin, int end, Place place);
+  void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
+                  int count);
   void kick(const RecordStep &step, int slot);
+  void clear(int slot)
+  {
+    for (std::size_t n = stride * slot; n < stride * (slot + 1UL); n++) store(load[n], Vec4{});
+    if (!couple.empty()) store(couple[slot], Vec4{});
+  }
 };
 
 }    // namespace Talus

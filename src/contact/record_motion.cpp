@@ -74,24 +74,21 @@ inline void ParticleRecords::kick(const RecordStep &step, int s)
 }
 
 RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<Role> &role,
-                                      const Record *held, int begin, int end)
+                                      const Record *held, const SlotChoice &slots)
 {
-  const Vec4 zero{};
   Vec8 moved{}, next{}, fastest{};
-  for (int base = begin; base < end; base += lanes) {
-    const int count = std::min(lanes, end - base);
+  slots.in_groups([&](const int *slot, int count) {
     Vec4 way[lanes] = {}, speed[lanes] = {};
     for (int k = 0; k < count; k++) {
-      const int s = base + k;
+      const int s = slot[k];
       const Role its = role.empty() ? MOVES : role[s];
       if (its == MOVES) kick(step, s);
-      for (std::size_t n = 0; n < stride; n++) store(load[stride * s + n], zero);
-      if (!couple.empty()) store(couple[s], zero);
+      clear(s);
       if (!held || its == GHOST) continue;
       way[k] = load4(position[s]) - load4(held[s]);
       speed[k] = load4(motion[stride * s]);
     }
-    if (!held) continue;
+    if (!held) return;
     alignas(64) double way2[lanes], speed2[lanes];
     squares(way, way2);
     squares(speed, speed2);
@@ -99,8 +96,13 @@ RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<
     moved = larger(d, moved);
     next = larger(d + splat<Vec8>(step.dt) * v, next);
     fastest = larger(v, fastest);
-  }
+  });
   return {largest(moved), largest(next), largest(fastest)};
+}
+
+void ParticleRecords::clear(int begin, int end)
+{
+  for (int s = begin; s < end; s++) clear(s);
 }
 
 }    // namespace Talus

@@ -350,7 +350,6 @@ void PairGranPenalty::compute(int eflag, int vflag)
                    keeps_account ? &account : nullptr};
   step.read = !pipeline.holds_state();
   step.deliver = !keeps_state;
-  if (!keeps_state) return_state(false);
   if (pipeline.in_two_phases()) {
     auto *exchange = dynamic_cast<PendingExchange *>(comm);
     const std::function<void()> progress = [exchange] { exchange->progress(); };
@@ -363,6 +362,8 @@ void PairGranPenalty::compute(int eflag, int vflag)
     finish_exchange();
     pipeline.compute(view(), step);
   }
+  if (step.deliver && !step.read && atom->nlocal)
+    pipeline.write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
 
   if (update->setupflag) warn_large_time_step();

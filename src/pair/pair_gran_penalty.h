@@ -66,10 +66,13 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline.keeps_spins(); }
   bool holds_state() const { return pipeline.holds_state(); }
-  /// Moves the owned particles of a group. Only if holds_state().
+  /// Moves the owned particles of a group, until the end of the next compute(). Only if
+  /// holds_state().
   void advance(const Talus::RecordStep &step, int groupbit);
-  /// How far they went in the last advance().
-  const Talus::RecordTravel &travel() const { return last_travel; }
+  /// How far they went in the last step.
+  Talus::RecordTravel travel() const { return pipeline.travel(); }
+  /// Owned particles whose states are exchanged, before compute().
+  void set_sent_particles(const std::vector<int> &atoms) { sent = atoms; }
   Talus::ParticleRecords &records() { return pipeline.records(); }
   const int *slot_of_atom() const { return pipeline.particle_order().slot_of_atom.data(); }
   /// Ends holds_state(), if it does: the host's arrays are up to date again, on request with the
@@ -113,7 +116,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   std::vector<Talus::ReportedContact> reported;
 
   bool keeps_state = false;
-  Talus::RecordTravel last_travel;
+  std::vector<int> sent;
 
   bool keeps_account = false;
   Talus::EnergyAccount account;

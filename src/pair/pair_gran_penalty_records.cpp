@@ -15,10 +15,10 @@ void PairGranPenalty::advance(const RecordStep &step, int groupbit)
   if (!pipeline.can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
     const int *mask = atom->mask;
-    pipeline.prepare_to_move([=](int i) { return (mask[i] & groupbit) != 0; },
+    pipeline.prepare_to_move([=](int i) { return (mask[i] & groupbit) != 0; }, sent,
                              then && atom->nlocal ? then[0] : nullptr);
   }
-  last_travel = pipeline.advance(step);
+  pipeline.advance(step);
 }
 
 void PairGranPenalty::return_state(bool with_forces)
