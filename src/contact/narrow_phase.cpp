@@ -33,6 +33,7 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
                            const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
   const int *first = pairs.first.data(), *second = pairs.second.data();
+  constexpr std::int64_t ahead = 256;    // pairs whose histories are called into the cache
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {
@@ -45,6 +46,9 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
       out += bits >> k & 1U;
     }
     if (!history) continue;
+    // two records to a line; beyond the end there is nothing to call, and no harm in it
+    for (int k = 0; k < 8; k += 2)
+      __builtin_prefetch(history->records.data() + c + ahead + k, 1);
     const unsigned separated = history->touching[c / 8] & ~bits;
     if (separated) history->forget(c / 8, separated);
     history->touching[c / 8] = static_cast<std::uint8_t>(bits);
