@@ -131,6 +131,7 @@ class ParticleRecords {
   void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
                   int count);
   void kick(const RecordStep &step, int slot);
+  void call(int slot, const Record *held) const;
   void clear(int slot)
   {
     for (std::size_t n = stride * slot; n < stride * (slot + 1UL); n++) store(load[n], Vec4{});

@@ -73,14 +73,26 @@ inline void ParticleRecords::kick(const RecordStep &step, int s)
   store(moves[1], w + per_inertia * torque(s));
 }
 
+/* Calls a slot into the cache; one beyond the last does no harm. */
+
+inline void ParticleRecords::call(int slot, const Record *held) const
+{
+  __builtin_prefetch(position.data() + slot, 1);
+  __builtin_prefetch(motion.data() + stride * slot, 1);
+  __builtin_prefetch(load.data() + stride * slot, 1);
+  if (held) __builtin_prefetch(held + slot);
+}
+
 RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<Role> &role,
                                       const Record *held, const SlotChoice &slots)
 {
+  constexpr int ahead = 96;
   Vec8 moved{}, next{}, fastest{};
   slots.in_groups([&](const int *slot, int count) {
     Vec4 way[lanes] = {}, speed[lanes] = {};
     for (int k = 0; k < count; k++) {
       const int s = slot[k];
+      call(s + ahead, held);
       const Role its = role.empty() ? MOVES : role[s];
       if (its == MOVES) kick(step, s);
       clear(s);
