@@ -23,7 +23,7 @@ std::size_t rounded_up(std::size_t bytes, std::size_t unit)
 
 void *allocate_big(std::size_t bytes)
 {
-  const std::size_t unit = bytes >= 4 * huge_page ? huge_page : cache_line;
+  const std::size_t unit = bytes >= huge_page / 2 ? huge_page : cache_line;
   void *memory = std::aligned_alloc(unit, rounded_up(bytes ? bytes : 1, unit));
   if (!memory) throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
