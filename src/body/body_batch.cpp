@@ -63,7 +63,7 @@ void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &
   set_lane(batch.spin, lane, r * spin);
   batch.inverse_mass[lane] = view.inverse_mass(i) + frame.inverse_mass;
   batch.inverse_radius[lane] = 1.0 / r;
-  batch.coefficients[lane] = task.laws.row(view.type[i], view.type[i]);
+  batch.coefficients[lane] = task.row_of(i);
   if (task.with_resistance) {
     // the body is flat on the scale of the contact: the circle in which it cuts the sphere
     const double d = contact.overlap;

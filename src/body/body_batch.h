@@ -40,6 +40,12 @@ struct BodyTask {
   bool record_parts;
   EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
   bool with_history, with_onset, with_resistance;    ///< of any law
+
+  /// Row of the table for a particle; types are not read where all have the same law.
+  int row_of(int atom) const
+  {
+    return laws.uniform() ? 0 : laws.row(view.type[atom], view.type[atom]);
+  }
 };
 
 class BodyBatch {

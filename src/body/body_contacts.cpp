@@ -11,7 +11,7 @@ namespace {
 // A body may go half a skin before its list is made anew; particles may each go half a skin in one
 // direction before the rebuild that the list is made after, and half a skin in the other.
 constexpr double free_way = 0.5;
-constexpr std::size_t ahead = 12;    // candidates whose state is called into the cache
+constexpr std::size_t ahead = 40;    // candidates whose state is called into the cache
 
 double length(const Vector3<double> &v)
 {
@@ -128,8 +128,7 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
   for (int law = 0; law < laws.num_laws(); law++) {
     for (std::size_t c = begin; c < end; c++) {
       if (c + ahead < end) call_ahead(task.view, candidates[c + ahead]);
-      const int type = task.view.type[candidates[c]];
-      if (laws.law_index(laws.row(type, type)) != law) continue;
+      if (laws.law_index(task.row_of(candidates[c])) != law) continue;
       if (single)
         touch_once(shape, task, batch, law, c);
       else

@@ -77,7 +77,6 @@ struct BodyParticleView {
         __builtin_prefetch(rows + 3L * i);
       for (const double *numbers : {radius, mass}) __builtin_prefetch(numbers + i);
     }
-    __builtin_prefetch(type + i);
   }
 
  private:

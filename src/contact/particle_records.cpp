@@ -74,17 +74,6 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
   }
 }
 
-/* Torques are added in one order whoever adds them up: first those of the contacts, and of these
-   first the lever arms. */
-
-Vec4 ParticleRecords::torque(int s) const
-{
-  const Record *loads = &load[stride * s];
-  if (loads[0].c[3] != 0.0) return load4(loads[1]);
-  const Vec4 of_forces = Vec4{} - position[s].c[3] * load4(loads[1]);
-  return couple.empty() ? of_forces : of_forces + load4(couple[s]);
-}
-
 double ParticleRecords::memory_usage() const
 {
   return static_cast<double>(sizeof(Record)) *

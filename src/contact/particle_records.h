@@ -107,8 +107,15 @@ class ParticleRecords {
   /// Only clears sums.
   void clear(int begin, int end);
 
-  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it.
-  Vec4 torque(int slot) const;
+  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
+  /// one order whoever adds them up: first those of the contacts, and of these first the lever arms.
+  Vec4 torque(int slot) const
+  {
+    const Record *loads = &load[2 * static_cast<std::size_t>(slot)];
+    if (loads[0].c[3] != 0.0) return load4(loads[1]);
+    const Vec4 of_forces = Vec4{} - position[slot].c[3] * load4(loads[1]);
+    return couple.empty() ? of_forces : of_forces + load4(couple[slot]);
+  }
   /// For forces other than contacts between particles: from here on until advance() the second half
   /// of the load is the torque itself, which others may add to.
   void settle_torque(int slot)
