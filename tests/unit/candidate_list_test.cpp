@@ -64,10 +64,19 @@ TEST(ParticleOrder, OrdersParticlesByKeyThenTagThenHost)
   }
 }
 
+/// By the second slot, then the first.
+struct InOrder {
+  bool operator()(const std::pair<int, int> &a, const std::pair<int, int> &b) const
+  {
+    return std::tie(a.second, a.first) < std::tie(b.second, b.first);
+  }
+};
+template <class T> using BySlots = std::map<std::pair<int, int>, T, InOrder>;
+
 /// Random pairs of particles of which at least one is owned, as weights by slots.
 struct Pairs {
   slow::NeighbourLists lists;
-  std::map<std::pair<int, int>, double> by_slots;    // in the order wanted
+  BySlots<double> by_slots;    // in the order wanted
 
   Pairs(const ParticleOrder &order, double chance, double odd_weight, RandomSource &random) :
       lists(order.owned)
@@ -113,6 +122,61 @@ TEST(CandidateList, SortsPairsAndKeepsTheirWeights)
   }
 }
 
+TEST(CandidateList, NamesDistantPairs)
+{
+  constexpr int n = 6000;
+  std::vector<std::uint64_t> key(n);
+  std::vector<std::int64_t> tag(n);
+  for (int a = 0; a < n; a++) {
+    key[a] = a;
+    tag[a] = a + 1;
+  }
+  ParticleOrder order;
+  order.arrange(n, key, tag);
+  slow::NeighbourLists lists(n);
+  RandomSource random(5);
+  for (int k = 0; k < 4000; k++) {
+    const int i = random.below(n - 1);
+    lists.add(i, i + 1 + random.below(n - i - 1), 1.0);
+  }
+  CandidateList list;
+  list.collect(order, lists.view(), 0);
+  std::vector<std::uint32_t> expected;
+  for (std::int64_t c = 0; c < list.num_pairs(); c++)
+    if (list.second[c] - list.first[c] > 2048) expected.push_back(static_cast<std::uint32_t>(c));
+  EXPECT_GT(expected.size(), 100U);
+  EXPECT_EQ(list.distant, expected);
+}
+
+TEST(ParticleOrder, FrontierIsWhatOtherPartsRead)
+{
+  RandomSource random(4);
+  for (int threads : {1, 2, 5})
+    for (bool two_phases : {false, true}) {
+      const Particles p = random_particles(200, random);
+      ParticleOrder order;
+      order.arrange(p.owned, p.key, p.tag);
+      Pairs pairs(order, 0.02, 1.0, random);
+      order.divide(pairs.lists.view(), threads, two_phases);
+      std::vector<int> expected;
+      for (int s = 0; s < order.size(); s++) {
+        bool read = false;
+        for (const auto &[slots, weight] : pairs.by_slots)
+          for (const auto &[mine, other] :
+               {slots, std::pair<int, int>(slots.second, slots.first)})
+            read = read || (mine == s && order.part(s) != order.part(other) &&
+                            order.part(s) != ParticleOrder::no_part &&
+                            order.part(other) != ParticleOrder::no_part);
+        if (read) expected.push_back(s);
+        const int part = order.part(s);
+        if (part == ParticleOrder::no_part) continue;
+        ASSERT_GE(s, order.range(part).begin);
+        ASSERT_LT(s, order.range(part).end);
+      }
+      EXPECT_EQ(order.frontier(), expected);
+    }
+}
+
 TEST(CandidateList, StoresWeightsOnlyIfOneIsNotOne)
 {
   CandidateList list;
@@ -140,12 +204,12 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
       order.divide(pairs.lists.view(), threads, two_phases);
       ASSERT_EQ(order.num_parts(), two_phases ? 2 * threads : threads);
 
-      std::map<std::pair<int, int>, int> counted;
+      BySlots<int> counted;
       std::vector<int> particles_of_part(order.num_parts(), 0);
       for (int part = 0; part < order.num_parts(); part++) {
         CandidateList list;
         list.collect(order, pairs.lists.view(), part);
-        std::map<std::pair<int, int>, double> expected;
+        BySlots<double> expected;
         for (const auto &pair : pairs.by_slots)
           if (list.serves(pair.first.first) || list.serves(pair.first.second))
             expected.insert(pair);

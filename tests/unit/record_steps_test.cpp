@@ -1,0 +1,257 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Steps that are made in the records must have the bits of steps through the host's arrays, with
+// any division of the work, whoever is sent, and whenever the host looks at the particles. The twin
+// is the plain loop of the integrator around a pipeline that reads and delivers in every step.
+
+#include "neighbour_lists.h"
+#include "packing.h"
+
+#include "contact/contact_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+constexpr double skin = 1.5;
+const RecordStep euler{1e-3, 1e-3, {0.0, 1e-3, -4e-3}, 0.4};
+
+/// A host: rows of three, owned particles only.
+struct Host {
+  std::vector<double> x, v, omega, radius, mass, f, torque;
+  int n = 0;
+
+  explicit Host(const Packing &p) : radius(p.radius), mass(p.mass), n(p.size())
+  {
+    for (int i = 0; i < n; i++)
+      for (int d = 0; d < 3; d++) {
+        x.push_back(p.x[i][d]);
+        v.push_back(p.v[i][d]);
+        omega.push_back(p.omega[i][d]);
+      }
+    f.assign(3 * n, 0.0);
+    torque.assign(3 * n, 0.0);
+  }
+
+  ParticleView view()
+  {
+    return {x.data(),    v.data(), omega.data(), radius.data(),
+            mass.data(), nullptr,  f.data(),     torque.data()};
+  }
+  void clear_forces()
+  {
+    std::fill(f.begin(), f.end(), 0.0);
+    std::fill(torque.begin(), torque.end(), 0.0);
+  }
+  void spoil()
+  {
+    for (auto *rows : {&x, &v, &omega, &f, &torque}) std::fill(rows->begin(), rows->end(), NAN);
+  }
+  void step(const std::function<bool(int)> &moves)
+  {
+    for (int i = 0; i < n; i++) {
+      if (!moves(i)) continue;
+      const double per_mass = euler.kick * (1.0 / mass[i]), inverse_radius = 1.0 / radius[i];
+      const double per_inertia =
+          per_mass * (inverse_radius * inverse_radius) * (1.0 / euler.inertia);
+      for (int k = 3 * i; k < 3 * i + 3; k++) {
+        v[k] += per_mass * f[k] + euler.fall[k - 3 * i];
+        x[k] += euler.dt * v[k];
+        omega[k] += per_inertia * torque[k];
+      }
+    }
+  }
+};
+
+bool same_rows(const std::vector<double> &a, const std::vector<double> &b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+bool same_state(const Host &a, const Host &b)
+{
+  return same_rows(a.x, b.x) && same_rows(a.v, b.v) && same_rows(a.omega, b.omega);
+}
+
+struct Division {
+  int threads;
+  bool two_phases;
+  bool some_rest, some_sent;
+};
+
+class RecordSteps : public testing::TestWithParam<Division> {
+ protected:
+  RecordSteps() : p(packing(random)), twin(p), host(p)
+  {
+    const LawTable laws = mixed_laws();
+    for (ContactPipeline *pipeline : {&slow, &fast}) pipeline->set_laws(laws);
+    fast.set_work(GetParam().threads, GetParam().two_phases);
+    partners.resize(p.size());
+    for (ContactPipeline *pipeline : {&slow, &fast}) number_pairs(*pipeline);
+    if (GetParam().some_sent)
+      for (int i = 0; i < p.size(); i += 7) sent.push_back(i);
+  }
+
+  static Packing packing(RandomSource &random) { return random_packing(300, random); }
+
+  void number_pairs(ContactPipeline &pipeline)
+  {
+    NeighbourLists lists(p.size());
+    for (const Neighbours &n : candidates(p, skin, true)) lists.add(n.i, n.j, n.weight);
+    pipeline.set_pairs({p.size(), p.key, p.tag, p.type.data(), partners, p.tag}, lists.view());
+  }
+
+  bool moves(int i) const { return !GetParam().some_rest || i % 5 != 2; }
+
+  void compute(ContactPipeline &pipeline, Host &of, const ContactStep &step)
+  {
+    if (!pipeline.in_two_phases()) return pipeline.compute(of.view(), step);
+    pipeline.compute_early(of.view(), step);
+    pipeline.compute_late(of.view(), step);
+  }
+
+  void advance()
+  {
+    if (!fast.can_move())
+      fast.prepare_to_move([this](int i) { return moves(i); }, sent, twin_then.data());
+    fast.advance(euler);
+  }
+
+  RandomSource random{21};
+  Packing p;
+  Host twin, host;
+  std::vector<double> twin_then = twin.x;    // where particles were when the pairs were made
+  PartnerLists partners;
+  ContactPipeline slow, fast;
+  std::vector<int> sent;
+};
+
+TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
+{
+  const std::vector<int> looked_at{0, 1, 5, 6, 20, 39};
+  for (int n = 0; n < 40; n++) {
+    const auto in = [&](int step) {
+      return std::find(looked_at.begin(), looked_at.end(), step) != looked_at.end();
+    };
+    if (n > 0) twin.step([this](int i) { return moves(i); });
+    twin.clear_forces();
+    compute(slow, twin, {euler.dt, n > 0});
+
+    const bool held = fast.holds_state();
+    ASSERT_EQ(held, n > 0 && !in(n - 1));
+    if (held)
+      advance();
+    else if (n > 0)
+      host.step([this](int i) { return moves(i); });
+    if (held) {    // what is sent is there before forces are computed
+      fast.show_state(sent, host.x.data(), host.v.data(), host.omega.data());
+      for (const int i : sent)
+        for (int k = 3 * i; k < 3 * i + 3; k++) ASSERT_EQ(host.x[k], twin.x[k]);
+    }
+    host.clear_forces();
+    ContactStep step{euler.dt, n > 0};
+    step.read = !held;
+    step.deliver = in(n);
+    compute(fast, host, step);
+    if (held && in(n)) fast.write_state(host.x.data(), host.v.data(), host.omega.data());
+    if (in(n)) {
+      ASSERT_TRUE(same_state(host, twin)) << n;
+      ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
+    } else {
+      host.spoil();
+    }
+  }
+}
+
+TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
+{
+  for (const bool in_the_middle : {false, true}) {
+    ContactStep keep{euler.dt, true};
+    keep.deliver = false;
+    compute(slow, twin, {euler.dt, true});
+    compute(fast, host, keep);
+    host.spoil();
+    if (in_the_middle) {
+      advance();
+      twin.step([this](int i) { return moves(i); });
+    }
+    fast.return_state(host.x.data(), host.v.data(), host.omega.data(),
+                      in_the_middle ? nullptr : host.f.data(),
+                      in_the_middle ? nullptr : host.torque.data());
+    EXPECT_FALSE(fast.holds_state());
+    EXPECT_TRUE(same_state(host, twin));
+    if (!in_the_middle) {
+      EXPECT_TRUE(same_rows(host.f, twin.f));
+      EXPECT_TRUE(same_rows(host.torque, twin.torque));
+    }
+    for (Host *one : {&twin, &host}) one->clear_forces();
+  }
+}
+
+TEST_P(RecordSteps, TellHowFarParticlesGo)
+{
+  ContactStep keep{euler.dt, true};
+  keep.deliver = false;
+  compute(slow, twin, {euler.dt, true});
+  compute(fast, host, keep);
+  advance();
+  twin.step([this](int i) { return moves(i); });
+  keep.read = false;
+  compute(fast, host, keep);
+
+  RecordTravel expected;
+  const auto length = [](const double *a, const double *b) {
+    return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                     (a[2] - b[2]) * (a[2] - b[2]));
+  };
+  const double nothing[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < twin.n; i++) {
+    const double d = length(&twin.x[3 * i], &twin_then[3 * i]);
+    const double speed = length(&twin.v[3 * i], nothing);
+    expected.join({d, d + euler.dt * speed, speed});
+  }
+  const RecordTravel travel = fast.travel();
+  EXPECT_GT(expected.moved, 0.0);
+  EXPECT_EQ(travel.moved, expected.moved);
+  EXPECT_EQ(travel.next, expected.next);
+  EXPECT_EQ(travel.speed, expected.speed);
+}
+
+TEST_P(RecordSteps, TakeTorquesOfOthers)
+{
+  ContactStep keep{euler.dt, true};
+  keep.deliver = false;
+  compute(slow, twin, {euler.dt, true});
+  compute(fast, host, keep);
+  ParticleRecords &records = fast.records();
+  for (int i = 0; i < twin.n; i += 3) {
+    const int s = fast.particle_order().slot_of_atom[i];
+    for (int time = 0; time < 2; time++) {
+      records.settle_torque(s);
+      records.load[2 * s + 1].c[1] += 0.25;
+      records.load[2 * s].c[0] -= 0.5;
+      twin.torque[3 * i + 1] += 0.25;
+      twin.f[3 * i] -= 0.5;
+    }
+  }
+  advance();
+  twin.step([this](int i) { return moves(i); });
+  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), nullptr, nullptr);
+  EXPECT_TRUE(same_state(host, twin));
+}
+
+INSTANTIATE_TEST_SUITE_P(Divisions, RecordSteps,
+                         testing::Values(Division{1, false, false, false},
+                                         Division{1, false, true, true},
+                                         Division{1, true, false, true},
+                                         Division{3, false, true, false},
+                                         Division{2, true, true, true}));
+
+}    // namespace
