@@ -1,0 +1,175 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300 procs=2
+"""run style verlet/proxy: steps that nobody looks at are made in Talus' own records, and it does not show.
+
+Every scene runs with run style verlet and with verlet/proxy, and must have the same bits wherever
+anybody can look: dumps, thermo output, averages of host fixes, restarts, runs that go on without a
+setup or end before their time.  What may look at particles in every step switches records off, and
+the log says so."""
+
+import os
+import random
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, write_sphere_data
+
+LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
+RECORDS = "steps without output are made in Talus' own records"
+HOST = "every step goes through the arrays of LAMMPS: "
+
+SCENE = """
+units lj
+boundary {boundary}
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+read_data grains
+group base id <= 40
+group loose subtract all base
+pair_style gran/penalty
+pair_coeff * * {law}
+neighbor 0.1 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.001
+{movers}
+fix floor all large/body plane 0 0 0  0 0 1  contact {law}
+{walls}
+{more}
+{style}
+thermo 7
+thermo_modify norm no lost ignore
+dump all all custom {every} dump id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz
+dump_modify all format float %a sort id
+{run}
+"""
+MOVERS = "fix step all nve/sphere/symplectic start {start} gravity 4.0 vector 0.3 0.1 -1"
+FROZEN = "fix step loose nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1\nfix held base freeze"
+WALLS = """fix xlo all large/body plane 0 0 0  1 0 0  contact {law}
+fix ylo all large/body plane 0 0 0  0 1 0  contact {law}
+fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
+fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
+fix top all large/body box 2 2 4 7 5 5 outside move rotate 4.5 3.5 4.5  0 0 1  3.0  contact {law}
+"""
+PROXY = "comm_proxy yes\nrun_style verlet/proxy"
+
+
+def scene(style, law=LAW, boundary="f f f", movers=None, start="plain", more="", every=20,
+          run="run 130"):
+    return SCENE.format(law=law, boundary=boundary, movers=movers or MOVERS.format(start=start),
+                        walls=WALLS.format(law=law) if boundary == "f f f" else "", more=more,
+                        style=style, every=every, run=run)
+
+
+def grains():
+    draw = random.Random(4)
+    return [Sphere(tuple(1.15 * s + 0.7 + draw.uniform(-0.1, 0.1) for s in (i, j, k)),
+                   v=tuple(draw.uniform(-2.0, 2.0) for _ in "xyz"),
+                   diameter=draw.uniform(0.7, 1.15))
+            for k in range(3) for j in range(6) for i in range(8)]
+
+
+class RecordSteps(SceneCase):
+
+    def setUp(self):
+        super().setUp()
+        write_sphere_data(self.path("grains"), ((0, 9.5), (0, 7.2), (-0.5, 6.5)), grains())
+
+    def run_scene(self, style, np=1, threads=1, **options):
+        """The text of the dump and of the log."""
+        log = self.run_lammps(scene(style, **options), np=np, cwd=self.dir,
+                              env={"OMP_NUM_THREADS": str(threads)}).log
+        with open(self.path("dump")) as f:
+            frames = f.read()
+        os.remove(self.path("dump"))
+        return frames, log
+
+    def assert_same(self, style=PROXY, np=1, threads=1, **options):
+        expected, _ = self.run_scene("comm_proxy yes" if "comm_proxy" in style else "", np=np,
+                                     **options)
+        frames, log = self.run_scene(style, np=np, threads=threads, **options)
+        self.assertIn(RECORDS, log)
+        self.assertGreater(expected.count("TIMESTEP"), 2)
+        self.assertEqual(frames, expected)
+        return log
+
+    def test_with_walls_on_ranks_and_threads(self):
+        self.assert_same("run_style verlet/proxy")
+        for np, threads in (1, 1), (1, 3), (2, 1), (2, 2), (4, 1):
+            for overlap in "yes", "no":
+                with self.subTest(ranks=np, threads=threads, overlap=overlap):
+                    self.assert_same(PROXY + " overlap " + overlap, np=np, threads=threads)
+
+    def test_half_kick_at_the_start(self):
+        self.assert_same(start="half")
+
+    def test_laws(self):
+        for law in ("hertz 4000.0 40.0", LAW + " rolling 0.1",
+                    "hooke 4000.0 40.0 tangential onestep NULL NULL 0.5"):
+            with self.subTest(law=law):
+                self.assert_same(law=law, np=2)
+
+    def test_frozen_particles_stay_where_they_are(self):
+        log = self.assert_same(movers=FROZEN, np=2)
+        self.assertIn(RECORDS, log)
+
+    def test_fixes_that_look_now_and_then(self):
+        more = ("compute ke all ke\ncompute top all reduce max z vx fz\n"
+                "fix mean all ave/time 3 2 9 c_ke c_top[*] file means format ' %a'\n")
+        results = []
+        for style in "", "run_style verlet/proxy":
+            frames, log = self.run_scene(style, more=more)
+            with open(self.path("means")) as f:
+                results.append((frames, f.read()))
+        self.assertIn(RECORDS, log)
+        self.assertGreater(len(results[0][1].splitlines()), 10)
+        self.assertEqual(*results)
+
+    def test_runs_that_go_on(self):
+        self.assert_same(run="run 33\nrun 47 pre no post no\nrun 50")
+
+    def test_restart_files_on_the_way(self):
+        self.assert_same(run="restart 45 middle\nrun 60\nclear\nread_restart middle.45\n"
+                             "write_dump all custom dump id x vx omegax modify append yes "
+                             "format float %a sort id")
+
+    def test_run_that_ends_before_its_time(self):
+        """The time allowed is over at a step that nobody was going to look at."""
+        run = ("thermo 1000\nundump all\nrun 50\ntimer timeout 0:00:00 every 10\nrun 37\n"
+               "timer timeout off\nwrite_dump all custom dump id x vx omegax fx tqx "
+               "modify format float %a sort id\n")
+        results = []
+        for style in "", "run_style verlet/proxy":
+            frames, log = self.run_scene(style, run=run)
+            results.append((frames, re.search(r"Loop time .* for (\d+) steps", log).group(1)))
+        self.assertEqual(*results)
+
+    def test_periodic_boxes(self):
+        """Wrapping rounds, so that only the same rebuild schedule gives the same bits: here a fixed one."""
+        rebuild = "neigh_modify every 10 delay 0 check no"
+        for np in 1, 2:
+            with self.subTest(ranks=np):
+                self.assert_same(boundary="p p f", more=rebuild, np=np)
+
+    def test_what_looks_in_every_step(self):
+        cases = {
+            "fix drag all viscous 0.1": "fix drag (viscous): may look at particles in every step",
+            "compute e all penalty/stats\nthermo_style custom step c_e[*]": "accounted for",
+            "variable v equal 0.0\nvariable d equal 0.1*step*dt\nvariable s equal 0.1\nfix lid all "
+            f"large/body plane 0 0 6 0 0 -1 move variable NULL NULL v_d NULL NULL v_s contact {LAW}":
+                "fix lid (large/body): its variables may read particles",
+        }
+        for more, reason in cases.items():
+            with self.subTest(reason=reason):
+                _, log = self.run_scene("run_style verlet/proxy", more=more, run="run 20")
+                self.assertRegex(log, re.escape(HOST) + ".*" + re.escape(reason))
+                self.assertNotIn(RECORDS, log)
+        _, log = self.run_scene("run_style verlet/proxy", np=2, run="run 20")
+        self.assertIn(HOST + "the exchange is the one of LAMMPS: add 'comm_proxy yes'", log)
+
+
+if __name__ == "__main__":
+    unittest.main()
