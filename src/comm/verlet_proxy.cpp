@@ -54,7 +54,10 @@ void VerletProxy::init()
   if (!wanted) return;
   const std::string hazard = hazard_of_overlap(lmp, pair_compute_flag);
   overlaps = hazard.empty();
-  if (comm->me == 0 && !overlaps && hazard != announced)
+  // on one rank without periodic images there is nothing to overlap, and so nothing to warn about
+  const bool has_proxies =
+      comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if (comm->me == 0 && !overlaps && has_proxies && hazard != announced)
     error->warning(FLERR, "Run style verlet/proxy: overlap is off: {}", hazard);
   announced = hazard;
   if (CommProxy *proxy = current()) proxy->set_overlap(overlaps);
