@@ -32,16 +32,16 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
                           const ContactStep &how)
 {
   const Step step{how, scene, particles};
-  const auto choose = [&](auto shared) {
-    constexpr bool is_shared = decltype(shared)::value;
+  const auto choose = [&](auto screened) {
+    constexpr bool is_screened = decltype(screened)::value;
     if (scene.with_history)
-      compute_all<true, true, is_shared>(step);
+      compute_all<true, true, is_screened>(step);
     else if (scene.with_friction)
-      compute_all<true, false, is_shared>(step);
+      compute_all<true, false, is_screened>(step);
     else
-      compute_all<false, false, is_shared>(step);
+      compute_all<false, false, is_screened>(step);
   };
-  if (pairs.shared())
+  if (pairs.screened())
     choose(std::true_type{});
   else
     choose(std::false_type{});
@@ -50,7 +50,7 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
 /* The narrow phase keeps a few blocks ahead of the forces: near enough to leave the positions in
    the cache, far enough to call the rest of the partners' state into it. */
 
-template <bool friction, bool history_kept, bool shared>
+template <bool friction, bool history_kept, bool screened>
 void ContactPart::compute_all(const Step &step)
 {
   constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
@@ -65,12 +65,12 @@ void ContactPart::compute_all(const Step &step)
                               &contacts[touching]);
     for (; touching - done >= 2 * block_size; done += block_size) {
       call_ahead<friction, history_kept>(step.particles, done + block_size);
-      compute_block<friction, history_kept, shared>(step, done, block_size);
+      compute_block<friction, history_kept, screened>(step, done, block_size);
     }
   }
   for (; done < touching; done += block_size) {
     const int count = static_cast<int>(std::min<std::int64_t>(block_size, touching - done));
-    compute_block<friction, history_kept, shared>(step, done, count);
+    compute_block<friction, history_kept, screened>(step, done, count);
   }
 }
 
@@ -89,7 +89,7 @@ void ContactPart::call_ahead(const ParticleRecords &particles, std::int64_t begi
   }
 }
 
-template <bool friction, bool history_kept, bool shared>
+template <bool friction, bool history_kept, bool screened>
 void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
 {
   const std::uint32_t *block = &contacts[begin];
@@ -104,8 +104,8 @@ void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
   if (scene.with_onset && step.advance) keep_onsets(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  add_up<friction, shared>(step.particles, block, count);
-  if (scene.with_resistance) add_couples<shared>(step.particles, block, count);
+  add_up<friction, screened>(step.particles, block, count);
+  if (scene.with_resistance) add_couples<screened>(step.particles, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
@@ -320,13 +320,13 @@ void ContactPart::apply_weights(int end)
 
 /* Forces on particles of other parts go where nobody reads them. */
 
-template <bool friction, bool shared>
+template <bool friction, bool screened>
 void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const std::size_t nowhere = pairs.nowhere();
   const auto target = [&](int slot) {
-    return &particles.load[stride * (!shared || pairs.serves(slot) ? slot : nowhere)];
+    return &particles.load[stride * (!screened || pairs.serves(slot) ? slot : nowhere)];
   };
   for (int n = 0; n < count; n++) {
     Record *i = target(pairs.first[block[n]]), *j = target(pairs.second[block[n]]);
@@ -342,12 +342,12 @@ void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block,
   }
 }
 
-template <bool shared>
+template <bool screened>
 void ContactPart::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   const std::size_t nowhere = pairs.nowhere();
   const auto target = [&](int slot) -> Record & {
-    return particles.couple[!shared || pairs.serves(slot) ? slot : nowhere];
+    return particles.couple[!screened || pairs.serves(slot) ? slot : nowhere];
   };
   for (int n = 0; n < count; n++) {
     Record &i = target(pairs.first[block[n]]), &j = target(pairs.second[block[n]]);

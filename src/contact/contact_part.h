@@ -92,8 +92,8 @@ class ContactPart {
     const ContactScene &scene;
     ParticleRecords &particles;
   };
-  template <bool friction, bool history_kept, bool shared> void compute_all(const Step &step);
-  template <bool friction, bool history_kept, bool shared>
+  template <bool friction, bool history_kept, bool screened> void compute_all(const Step &step);
+  template <bool friction, bool history_kept, bool screened>
   void compute_block(const Step &step, std::int64_t begin, int count);
   template <bool friction, bool history_kept>
   void call_ahead(const ParticleRecords &particles, std::int64_t begin);
@@ -109,9 +109,9 @@ class ContactPart {
   void keep_onsets(int end);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, bool shared>
+  template <bool friction, bool screened>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  template <bool shared>
+  template <bool screened>
   void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);

@@ -40,6 +40,12 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
   const Vec4 zero{};
   for (int base = begin; base < end; base += lanes) {
     const int count = std::min(lanes, end - base);
+    const auto wanted = [&](int s) {
+      return which == Which::ALL || (which == Which::OWNED) == order.is_owned(order.atom_of_slot[s]);
+    };
+    bool any = false;
+    for (int k = 0; k < count; k++) any = any || wanted(base + k);
+    if (!any) continue;
     alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
     for (int k = 0; k < lanes; k++) {
       const int a = order.atom_of_slot[base + std::min(k, count - 1)];
@@ -52,7 +58,7 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
 
     for (int k = 0; k < count; k++) {
       const int s = base + k, a = order.atom_of_slot[s];
-      if (which != Which::ALL && (which == Which::OWNED) != order.is_owned(a)) continue;
+      if (!wanted(s)) continue;
       const double r = host.radius[a];
       Record *moves = &motion[stride * s], *loads = &load[stride * s];
       store(position[s], record_of(host.x + 3L * a, r));

@@ -37,6 +37,13 @@ class ParticleRecords {
   enum class Which { ALL, OWNED, GHOSTS, NONE };
   void read(const ParticleOrder &order, const ParticleView &host, int begin, int end, Which which);
 
+  /// Forgets what has been added to a particle so far.
+  void clear_sums(int slot)
+  {
+    for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
+    if (!couple.empty()) store(couple[slot], Vec4{});
+  }
+
   /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
   void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
