@@ -41,7 +41,8 @@ void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
   for (int base = begin; base < end; base += lanes) {
     const int count = std::min(lanes, end - base);
     const auto wanted = [&](int s) {
-      return which == Which::ALL || (which == Which::OWNED) == order.is_owned(order.atom_of_slot[s]);
+      return which == Which::ALL ||
+             (which == Which::OWNED) == order.is_owned(order.atom_of_slot[s]);
     };
     bool any = false;
     for (int k = 0; k < count; k++) any = any || wanted(base + k);
