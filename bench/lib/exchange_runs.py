@@ -1,0 +1,152 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Scenes of the benchmark of the exchange, and how they are run: with a library preloaded, on any number of ranks."""
+
+import os
+import re
+import shlex
+import statistics
+import subprocess
+
+import beds
+import machine
+
+LAWS = {"friction": beds.HISTORY, "frictionless": beds.FRICTIONLESS}
+METHODS = {
+    "stock": "comm_proxy no\nrun_style verlet",
+    "direct": "comm_proxy yes\nrun_style verlet/proxy overlap no",
+    "overlapped": "comm_proxy yes\nrun_style verlet/proxy",
+}
+# under the run style of LAMMPS
+VERLET = {"stock": "comm_proxy no\nrun_style verlet", "direct": "comm_proxy yes\nrun_style verlet"}
+
+COUNTER = os.path.join(machine.BUILD, "tests", "libcount_mpi.so")
+MODEL = os.path.join(machine.BUILD, "bench", "libnetwork_model.so")
+
+START = """units {units}
+boundary {boundary}
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+processors {grid}
+"""
+
+
+class Runner:
+    """Runs scripts in a directory of their own."""
+
+    def __init__(self, workdir):
+        self.workdir = workdir
+
+    def run(self, script, ranks=2, preload=None, **variables):
+        """Returns the log.  preload: a library; variables: of the environment."""
+        with open(os.path.join(self.workdir, "in.bench"), "w") as file:
+            file.write(script)
+        env = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               **{name: str(value) for name, value in variables.items()}}
+        command = ["mpirun", "-np", str(ranks)]
+        if preload:
+            command += ["env", f"LD_PRELOAD={preload}"]
+        command += [machine.TALUS_LMP, "-in", "in.bench", "-log", "log.bench", "-screen", "none"]
+        done = subprocess.run(command, cwd=self.workdir, env=env, capture_output=True, text=True)
+        with open(os.path.join(self.workdir, "log.bench")) as file:
+            log = file.read()
+        if done.returncode:
+            raise RuntimeError(f"{shlex.join(command)}\n{log[-2000:]}\n{done.stderr[-2000:]}")
+        return log
+
+    def in_model(self, script, latency, bandwidth):
+        """On two ranks in a model of a network of that latency (us) and bandwidth (GB/s)."""
+        return self.run(script, 2, MODEL, TALUS_LATENCY=1e-6 * latency, TALUS_BANDWIDTH=1e9 * bandwidth)
+
+
+class Bed:
+    """A bed on a floor, between walls or periodic in x and y, cut in two along x, that has come to rest."""
+
+    def __init__(self, bench, runner, count, law="friction", periodic=False, physics=None):
+        self.count, self.file = count, f"rest-{count}-{law}-{periodic}-{bool(physics)}"
+        self.physics = physics or beds.talus(LAWS[law], walls=not periodic)
+        self.boundary = "p p f" if periodic else "f f f"
+        data = beds.tile_data(bench)[0] if periodic else beds.bed(bench, count)[0]
+        steps = bench.size(4000, 2000)
+        runner.run(self.start(f"read_data {data}") + self.physics +
+                   f"neighbor {beds.SKIN} bin\n{beds.neighbors(0)}timestep {beds.DT}\nfix slow all viscous 2e-2\n"
+                   f"thermo 100000\nthermo_modify lost error\nrun {steps}\nwrite_restart {self.file}\n")
+
+    def start(self, read):
+        return START.format(units="si", boundary=self.boundary, grid="2 1 1") + read + "\n"
+
+    def script(self, command, steps, segments=20, every=0):
+        """Continues the bed: a run to warm up, then short ones.  `every`: see beds.neighbors()."""
+        return (self.start(f"read_restart {self.file}") + self.physics +
+                f"neighbor {beds.SKIN} bin\n{beds.neighbors(every)}timestep {beds.DT}\nthermo 1000000\n"
+                f"thermo_modify lost error\n{command}\nrun {max(10, steps // 10)}\n" +
+                segments * f"run {max(5, steps // segments)} pre no post no\n" +
+                ("comm_proxy info\n" if "comm_proxy yes" in command else ""))
+
+
+def microseconds(log):
+    """Of a step, in each of the short runs after the first run."""
+    loops = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)[1:]
+    return [1e6 * float(seconds) / int(steps) for seconds, steps in loops]
+
+
+def undisturbed(log):
+    """Time of a step (us) without a rebuild, and without what else the machine does now and then."""
+    return statistics.quantiles(microseconds(log), n=4)[0]
+
+
+def waited(log):
+    """Time that a rank waits for proxies in a step (us), mean of the ranks."""
+    def counter(name):
+        return float(re.search(rf"{name} +\S+ +(\S+) +\S+$", log, re.MULTILINE)[1])
+    return 1e6 * counter("seconds waiting") / counter("exchanges so far")
+
+
+# ---- counting ---------------------------------------------------------------------------------
+
+def rest_scene(grid, law, method, steps):
+    """Grains at rest that do not touch, 6 x 6 x 6 per rank, periodic: nothing ever happens but the exchange."""
+    box = [6 * n for n in grid]
+    law = {"friction": "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5", "frictionless": "hertz 4000.0 40.0"}[law]
+    return START.format(units="lj", boundary="p p p", grid="%d %d %d" % grid) + f"""
+lattice sc 1.0
+region box block 0 {box[0]} 0 {box[1]} 0 {box[2]}
+create_box 1 box
+create_atoms 1 box
+set group all diameter 0.8
+set group all density 1.0
+comm_modify cutoff 1.2
+pair_style gran/penalty
+pair_coeff * * {law}
+fix step all nve/sphere/symplectic
+neigh_modify every 1 delay 0 check yes
+thermo 100000
+{METHODS[method]}
+run {steps}
+"""
+
+
+def counted(runner, grid, law, method):
+    """[messages, bytes, blocking collectives] of a step, of each rank."""
+    ranks = grid[0] * grid[1] * grid[2]
+    stem = os.path.join(runner.workdir, "counts")
+    totals = []
+    for steps in 10, 30:
+        runner.run(rest_scene(grid, law, method, steps), ranks, COUNTER, TALUS_COUNTS=stem,
+                   OMPI_MCA_mpi_yield_when_idle=1)
+        totals.append([_read_counts(f"{stem}.{rank}") for rank in range(ranks)])
+    return [[(b - a) / 20 for a, b in zip(*pair)] for pair in zip(*totals)]
+
+
+def _read_counts(path):
+    messages = sent = collectives = 0
+    with open(path) as file:
+        for line in file:
+            words = line.split()
+            if words[0] == "to":
+                messages += int(words[3])
+                sent += int(words[5])
+            elif words[0] == "collectives":
+                collectives = int(words[1])
+    return messages, sent, collectives
