@@ -9,13 +9,11 @@
 // sending, on a duplicate of the communicator. All ranks must share one clock. Only what LAMMPS and
 // Talus use in their time steps is modelled: point to point, (i)allreduce.
 
-#include <mpi.h>
+#include "preloaded_sends.h"
 
 #include <cstdlib>
 #include <map>
 #include <vector>
-
-#define EXPORTED extern "C" __attribute__((visibility("default")))
 
 namespace {
 
@@ -61,15 +59,6 @@ double reduction_time(MPI_Comm comm)
   PMPI_Comm_size(comm, &ranks);
   while (1 << rounds < ranks) rounds++;
   return latency * rounds;
-}
-
-// The small message is on its way before the one it belongs to.
-void announce(int to, int tag, MPI_Comm comm)
-{
-  const MPI_Comm shadow = shadow_of(comm);
-  if (shadow == MPI_COMM_NULL || to == MPI_PROC_NULL) return;
-  const double now = PMPI_Wtime();
-  PMPI_Send(&now, 1, MPI_DOUBLE, to, tag, shadow);
 }
 
 double due_time(MPI_Comm shadow, const MPI_Status &status)
@@ -127,6 +116,15 @@ MPI_Status *entry(MPI_Status *statuses, int k)
 
 }    // namespace
 
+// The small message is on its way before the one it belongs to.
+static void sees_send(int, MPI_Datatype, int to, int tag, MPI_Comm comm)
+{
+  const MPI_Comm shadow = shadow_of(comm);
+  if (shadow == MPI_COMM_NULL || to == MPI_PROC_NULL) return;
+  const double now = PMPI_Wtime();
+  PMPI_Send(&now, 1, MPI_DOUBLE, to, tag, shadow);
+}
+
 EXPORTED int MPI_Init(int *argc, char ***argv)
 {
   const int result = PMPI_Init(argc, argv);
@@ -156,20 +154,6 @@ EXPORTED int MPI_Comm_free(MPI_Comm *comm)
     shadows.erase(found);
   }
   return PMPI_Comm_free(comm);
-}
-
-EXPORTED int MPI_Send(const void *buffer, int count, MPI_Datatype type, int to, int tag,
-                      MPI_Comm comm)
-{
-  announce(to, tag, comm);
-  return PMPI_Send(buffer, count, type, to, tag, comm);
-}
-
-EXPORTED int MPI_Isend(const void *buffer, int count, MPI_Datatype type, int to, int tag,
-                       MPI_Comm comm, MPI_Request *request)
-{
-  announce(to, tag, comm);
-  return PMPI_Isend(buffer, count, type, to, tag, comm, request);
 }
 
 EXPORTED int MPI_Irecv(void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,

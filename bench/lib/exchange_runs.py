@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Scenes of the benchmark of the exchange, and how they are run: with a library preloaded, on any number of ranks."""
 
+import dataclasses
 import os
 import re
 import shlex
@@ -9,6 +10,7 @@ import subprocess
 
 import beds
 import machine
+import paired
 
 LAWS = {"friction": beds.HISTORY, "frictionless": beds.FRICTIONLESS}
 METHODS = {
@@ -76,31 +78,60 @@ class Bed:
     def start(self, read):
         return START.format(units="si", boundary=self.boundary, grid="2 1 1") + read + "\n"
 
-    def script(self, command, steps, segments=20, every=0):
-        """Continues the bed: a run to warm up, then short ones.  `every`: see beds.neighbors()."""
+    def script(self, methods, steps, cycles, every=0):
+        """Continues the bed: short runs of all methods in turns, every second cycle in reverse order.  The machine
+        changes its speed from second to second, so the turns must be shorter.  every: see beds.neighbors()."""
+        commands = [f"{command}\nprint 'METHOD {name}'\nrun {steps} post no\n" for name, command in methods.items()]
         return (self.start(f"read_restart {self.file}") + self.physics +
                 f"neighbor {beds.SKIN} bin\n{beds.neighbors(every)}timestep {beds.DT}\nthermo 1000000\n"
-                f"thermo_modify lost error\n{command}\nrun {max(10, steps // 10)}\n" +
-                segments * f"run {max(5, steps // segments)} pre no post no\n" +
-                ("comm_proxy info\n" if "comm_proxy yes" in command else ""))
+                f"thermo_modify lost error\nrun {2 * steps}\n" +
+                "".join("".join(commands[::1 if k % 2 == 0 else -1]) for k in range(cycles)))
 
 
-def microseconds(log):
-    """Of a step, in each of the short runs after the first run."""
-    loops = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)[1:]
-    return [1e6 * float(seconds) / int(steps) for seconds, steps in loops]
+@dataclasses.dataclass
+class Turns:
+    """Of one method: time of a step (us) in each cycle, waiting for proxies (us), and bytes of a message."""
+    step: list
+    waited: list
+    sent: float = 0.0
+
+    @property
+    def median(self):
+        return statistics.median(self.step)
+
+    @property
+    def waiting(self):
+        return statistics.median(self.waited) if self.waited else float("nan")
 
 
-def undisturbed(log):
-    """Time of a step (us) without a rebuild, and without what else the machine does now and then."""
-    return statistics.quantiles(microseconds(log), n=4)[0]
+EXCHANGE = re.compile(r"Talus exchange: (\d+) updates .* bytes [^/]+/([^/]+)/.* waiting [^/]+/([^/]+)/")
+LOOP = re.compile(r"Loop time of (\S+) on \d+ procs for (\d+) steps")
 
 
-def waited(log):
-    """Time that a rank waits for proxies in a step (us), mean of the ranks."""
-    def counter(name):
-        return float(re.search(rf"{name} +\S+ +(\S+) +\S+$", log, re.MULTILINE)[1])
-    return 1e6 * counter("seconds waiting") / counter("exchanges so far")
+def read_turns(log):
+    """{method: Turns} of a script by Bed.script()."""
+    found, turns = {}, None
+    for line in log.splitlines():
+        exchange, loop = EXCHANGE.match(line), LOOP.match(line)
+        if line.startswith("METHOD "):
+            turns = found.setdefault(line.split()[1], Turns([], []))
+        elif exchange and turns:
+            turns.waited.append(1e6 * float(exchange[3]) / max(1, int(exchange[1])))
+            turns.sent = float(exchange[2])
+        elif loop and turns:
+            turns.step.append(1e6 * float(loop[1]) / int(loop[2]))
+    return found
+
+
+def ratio(a, b):
+    """Median of a/b over the cycles, and its quartiles."""
+    low, middle, high = statistics.quantiles([x / y for x, y in zip(a.step, b.step)], n=4)
+    return paired.Ratio(middle, low, high)
+
+
+def difference(a, b):
+    """Median of a - b over the cycles (us)."""
+    return statistics.median(x - y for x, y in zip(a.step, b.step))
 
 
 # ---- counting ---------------------------------------------------------------------------------

@@ -127,7 +127,7 @@ void ProxyExchange::pack_and_send(int n)
   const int size = stride * to.send_count();
   MPI_Isend(buffer, size, MPI_DOUBLE, to.rank, TAG_STATE, comm, &sends[n]);
   counters.messages++;
-  counters.proxies += to.send_count();
+  counters.particles += to.send_count();
   counters.bytes += sizeof(double) * static_cast<double>(size);
 }
 
