@@ -70,7 +70,9 @@ class Bed:
         self.physics = physics or beds.talus(LAWS[law], walls=not periodic)
         self.boundary = "p p f" if periodic else "f f f"
         data = beds.tile_data(bench)[0] if periodic else beds.bed(bench, count)[0]
-        steps = bench.size(4000, 2000)
+        if os.path.exists(os.path.join(runner.workdir, self.file)):
+            return
+        steps = max(500, min(4000, 100000000 // count))
         runner.run(self.start(f"read_data {data}") + self.physics +
                    f"neighbor {beds.SKIN} bin\n{beds.neighbors(0)}timestep {beds.DT}\nfix slow all viscous 2e-2\n"
                    f"thermo 100000\nthermo_modify lost error\nrun {steps}\nwrite_restart {self.file}\n")
