@@ -5,6 +5,9 @@
 // and no reduction over all ranks before the last rank has begun it + TALUS_LATENCY * ceil(log2 P).
 // Messages do not share a link. It is a model: what it leaves out makes real networks slower.
 //
+// The two numbers are read again at every barrier: LAMMPS has one at the start of each run, and
+// `shell putenv` to set them.
+//
 // Through the profiling interface of MPI: each message is preceded by a small one with the time of
 // sending, on a duplicate of the communicator. All ranks must share one clock. Only what LAMMPS and
 // Talus use in their time steps is modelled: point to point, (i)allreduce.
@@ -45,11 +48,16 @@ void add_shadow(MPI_Comm comm)
   PMPI_Comm_dup(comm, &shadows[comm]);
 }
 
-void start()
+void read_settings()
 {
   latency = number("TALUS_LATENCY");
   const double bandwidth = number("TALUS_BANDWIDTH");
   seconds_per_byte = bandwidth > 0.0 ? 1.0 / bandwidth : 0.0;
+}
+
+void start()
+{
+  read_settings();
   add_shadow(MPI_COMM_WORLD);
 }
 
@@ -137,6 +145,12 @@ EXPORTED int MPI_Init_thread(int *argc, char ***argv, int required, int *provide
   const int result = PMPI_Init_thread(argc, argv, required, provided);
   start();
   return result;
+}
+
+EXPORTED int MPI_Barrier(MPI_Comm comm)
+{
+  read_settings();
+  return PMPI_Barrier(comm);
 }
 
 EXPORTED int MPI_Comm_dup(MPI_Comm comm, MPI_Comm *copy)

@@ -57,10 +57,6 @@ class Runner:
             raise RuntimeError(f"{shlex.join(command)}\n{log[-2000:]}\n{done.stderr[-2000:]}")
         return log
 
-    def in_model(self, script, latency, bandwidth):
-        """On two ranks in a model of a network of that latency (us) and bandwidth (GB/s)."""
-        return self.run(script, 2, MODEL, TALUS_LATENCY=1e-6 * latency, TALUS_BANDWIDTH=1e9 * bandwidth)
-
 
 class Bed:
     """A bed on a floor, between walls or periodic in x and y, cut in two along x, that has come to rest."""
@@ -80,14 +76,22 @@ class Bed:
     def start(self, read):
         return START.format(units="si", boundary=self.boundary, grid="2 1 1") + read + "\n"
 
-    def script(self, methods, steps, cycles, every=0):
+    def script(self, methods, steps, cycles, every=0, networks=(None,)):
         """Continues the bed: short runs of all methods in turns, every second cycle in reverse order.  The machine
-        changes its speed from second to second, so the turns must be shorter.  every: see beds.neighbors()."""
-        commands = [f"{command}\nprint 'METHOD {name}'\nrun {steps} post no\n" for name, command in methods.items()]
+        changes its speed from second to second, so the turns must be shorter.  every: see beds.neighbors();
+        networks: latency (us) and bandwidth (GB/s) of the model of a network, whose library must be preloaded."""
+        turns = [f"{modelled_by(networks[n])}{command}\nprint 'TURN {name} {n}'\nrun {steps} post no\n"
+                 for n in range(len(networks)) for name, command in methods.items()]
         return (self.start(f"read_restart {self.file}") + self.physics +
                 f"neighbor {beds.SKIN} bin\n{beds.neighbors(every)}timestep {beds.DT}\nthermo 1000000\n"
                 f"thermo_modify lost error\nrun {2 * steps}\n" +
-                "".join("".join(commands[::1 if k % 2 == 0 else -1]) for k in range(cycles)))
+                "".join("".join(turns[::1 if k % 2 == 0 else -1]) for k in range(cycles)))
+
+
+def modelled_by(network):
+    if not network:
+        return ""
+    return f"shell putenv TALUS_LATENCY={1e-6 * network[0]!r} TALUS_BANDWIDTH={1e9 * network[1]!r}\n"
 
 
 @dataclasses.dataclass
@@ -111,12 +115,15 @@ LOOP = re.compile(r"Loop time of (\S+) on \d+ procs for (\d+) steps")
 
 
 def read_turns(log):
-    """{method: Turns} of a script by Bed.script()."""
-    found, turns = {}, None
+    """[{method: Turns}, ...] of a script by Bed.script(), for each network."""
+    found, turns = [], None
     for line in log.splitlines():
         exchange, loop = EXCHANGE.match(line), LOOP.match(line)
-        if line.startswith("METHOD "):
-            turns = found.setdefault(line.split()[1], Turns([], []))
+        if line.startswith("TURN "):
+            _, method, network = line.split()
+            while len(found) <= int(network):
+                found.append({})
+            turns = found[int(network)].setdefault(method, Turns([], []))
         elif exchange and turns:
             turns.waited.append(1e6 * float(exchange[3]) / max(1, int(exchange[1])))
             turns.sent = float(exchange[2])
@@ -129,11 +136,6 @@ def ratio(a, b):
     """Median of a/b over the cycles, and its quartiles."""
     low, middle, high = statistics.quantiles([x / y for x, y in zip(a.step, b.step)], n=4)
     return paired.Ratio(middle, low, high)
-
-
-def difference(a, b):
-    """Median of a - b over the cycles (us)."""
-    return statistics.median(x - y for x, y in zip(a.step, b.step))
 
 
 # ---- counting ---------------------------------------------------------------------------------
