@@ -165,7 +165,7 @@ def draw_model(plt, rows, sizes, bandwidths):
     for (i, size), (j, bandwidth) in itertools.product(enumerate(sizes), enumerate(bandwidths)):
         axis = axes[i][j]
         chosen = [row for row in rows if row[0] == size and row[2] == bandwidth]
-        for k, (method, style) in enumerate(zip(METHODS, (0, 3, 4))):
+        for k, (method, style) in enumerate(zip(METHODS, (0, 1, 6))):
             axis.loglog([row[1] for row in chosen], [row[7 + k] for row in chosen], label=method, **plot.style(style))
         axis.set_title(f"{size} per rank, {bandwidth:g} GB/s")
         if i == len(sizes) - 1:
@@ -179,7 +179,7 @@ def draw_overlap(plt, rows, sizes):
     _, (left, right) = plt.subplots(1, 2, figsize=(7.5, 3.2))
     for k, size in enumerate(sizes):
         points = sorted((row[3], row[10], row[11]) for row in rows if row[0] == size)
-        style = plot.style((0, 3, 4)[k % 3])
+        style = plot.style((0, 3, 5)[k % 3], linestyle="none")
         left.semilogx([p[0] for p in points], [p[1] for p in points], label=f"{size} per rank", **style)
         clear = [p for p in points if p[2] == p[2]]
         right.semilogx([p[0] for p in clear], [p[2] for p in clear], **style)
