@@ -6,6 +6,7 @@
 #include "atom_vec.h"
 #include "domain.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -44,31 +45,37 @@ void HostPacker::set(int new_size, bool with_velocity)
   velocity = with_velocity;
 }
 
-/* The host's packing begins with x of all particles (and v, if it sends velocities), so that the
-   shift can be added afterwards: the host itself could add only one step. */
+/* One particle at a time: the host packs several ones array by array, and the receiver must be able
+   to take out single ones. */
 
-void HostPacker::pack(const int *particles, int count, const PeriodicShift &shift, double *out)
+void HostPacker::pack(const int *particles, int count, double *out)
 {
   int pbc[6] = {0, 0, 0, 0, 0, 0};
-  int *list = const_cast<int *>(particles);    // the host does not change it
-  if (velocity)
-    atom->avec->pack_comm_vel(count, list, out, 0, pbc);
-  else
-    atom->avec->pack_comm(count, list, out, 0, pbc);
-
-  const int width = velocity ? 6 : 3;
-  for (const auto &step : shifts.of(shift))
-    for (int k = 0; k < count; k++)
-      for (int d = 0; d < 3; d++) out[width * k + d] += step[d];
+  for (int k = 0; k < count; k++, out += size) {
+    int particle = particles[k];
+    if (velocity)
+      atom->avec->pack_comm_vel(1, &particle, out, 0, pbc);
+    else
+      atom->avec->pack_comm(1, &particle, out, 0, pbc);
+  }
 }
 
-void HostPacker::unpack(int first, int count, const double *in)
+/* What the host packs begins with x, so that the shift can be added afterwards: the host itself
+   could add only one step. */
+
+void HostPacker::unpack(const ProxyRun &run, const int *places, const double *message)
 {
-  double *buffer = const_cast<double *>(in);    // the host does not change it
-  if (velocity)
-    atom->avec->unpack_comm_vel(count, first, buffer);
-  else
-    atom->avec->unpack_comm(count, first, buffer);
+  const auto &steps = shifts.of(run.shift);
+  state.resize(size);
+  for (int k = 0; k < run.count; k++) {
+    std::copy_n(message + static_cast<std::size_t>(size) * places[k], size, state.begin());
+    for (const auto &step : steps)
+      for (int d = 0; d < 3; d++) state[d] += step[d];
+    if (velocity)
+      atom->avec->unpack_comm_vel(1, run.first + k, state.data());
+    else
+      atom->avec->unpack_comm(1, run.first + k, state.data());
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -81,35 +88,35 @@ bool SpherePacker::applies(bool ghost_velocity) const
          !domain->deform_vremap;
 }
 
-void SpherePacker::pack(const int *particles, int count, const PeriodicShift &shift, double *out)
+void SpherePacker::pack(const int *particles, int count, double *out)
 {
   const double *const *x = atom->x, *const *v = atom->v, *const *omega = atom->omega;
-  const int width = stride();
-  for (int k = 0; k < count; k++) {
+  for (int k = 0; k < count; k++, out += stride()) {
     const int i = particles[k];
-    double *to = out + static_cast<std::size_t>(width) * k;
     for (int d = 0; d < 3; d++) {
-      to[d] = x[i][d];
-      to[3 + d] = v[i][d];
+      out[d] = x[i][d];
+      out[3 + d] = v[i][d];
     }
     if (spins)
-      for (int d = 0; d < 3; d++) to[6 + d] = omega[i][d];
+      for (int d = 0; d < 3; d++) out[6 + d] = omega[i][d];
   }
-  for (const auto &step : shifts.of(shift))
-    for (int k = 0; k < count; k++)
-      for (int d = 0; d < 3; d++) out[static_cast<std::size_t>(width) * k + d] += step[d];
 }
 
-void SpherePacker::unpack(int first, int count, const double *in)
+void SpherePacker::unpack(const ProxyRun &run, const int *places, const double *message)
 {
   double **x = atom->x, **v = atom->v, **omega = atom->omega;
-  for (int i = first; i < first + count; i++) {
+  const auto width = static_cast<std::size_t>(stride());
+  const auto &steps = shifts.of(run.shift);
+  for (int k = 0; k < run.count; k++) {
+    const int i = run.first + k;
+    const double *in = message + width * places[k];
     for (int d = 0; d < 3; d++) {
       x[i][d] = in[d];
       v[i][d] = in[3 + d];
     }
     if (spins)
       for (int d = 0; d < 3; d++) omega[i][d] = in[6 + d];
-    in += stride();
+    for (const auto &step : steps)
+      for (int d = 0; d < 3; d++) x[i][d] += step[d];
   }
 }

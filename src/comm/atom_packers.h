@@ -37,12 +37,13 @@ class HostPacker : public ProxyPacker, protected LAMMPS_NS::Pointers {
   void set(int size, bool velocity);
 
   int stride() const override { return size; }
-  void pack(const int *particles, int count, const PeriodicShift &shift, double *out) override;
-  void unpack(int first, int count, const double *in) override;
+  void pack(const int *particles, int count, double *out) override;
+  void unpack(const ProxyRun &run, const int *places, const double *message) override;
 
  private:
   int size = 0;
   bool velocity = false;
+  std::vector<double> state;    ///< scratch of unpack()
   ShiftSteps shifts;
 };
 
@@ -56,8 +57,8 @@ class SpherePacker : public ProxyPacker, protected LAMMPS_NS::Pointers {
   void send_spins(bool yes) { spins = yes; }
 
   int stride() const override { return spins ? 9 : 6; }
-  void pack(const int *particles, int count, const PeriodicShift &shift, double *out) override;
-  void unpack(int first, int count, const double *in) override;
+  void pack(const int *particles, int count, double *out) override;
+  void unpack(const ProxyRun &run, const int *places, const double *message) override;
 
  private:
   bool spins = true;

@@ -213,12 +213,12 @@ std::string CommProxy::describe_message() const
 {
   if (!own_packing) {
     const auto bytes = sizeof(double) * host_packer.stride();
-    return fmt::format("{} bytes per proxy, packed by LAMMPS (atom style {})", bytes,
+    return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {})", bytes,
                        atom->atom_style);
   }
-  if (!sends_spins()) return "48 bytes per proxy: x, v";
+  if (!sends_spins()) return "48 bytes per particle: x, v";
   const std::string why = spin_reader.empty() ? "for friction" : "for " + spin_reader;
-  return "72 bytes per proxy: x, v, omega (" + why + ")";
+  return "72 bytes per particle: x, v, omega (" + why + ")";
 }
 
 double CommProxy::memory_usage()

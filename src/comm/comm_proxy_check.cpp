@@ -24,7 +24,7 @@ class IdentityPacker : public ProxyPacker {
 
   int stride() const override { return 2; }
 
-  void pack(const int *particles, int count, const PeriodicShift &, double *out) override
+  void pack(const int *particles, int count, double *out) override
   {
     for (int k = 0; k < count; k++) {
       out[2 * k] = static_cast<double>(tag_of(particles[k]));
@@ -32,12 +32,13 @@ class IdentityPacker : public ProxyPacker {
     }
   }
 
-  void unpack(int first, int count, const double *in) override
+  void unpack(const ProxyRun &run, const int *places, const double *message) override
   {
-    for (int k = 0; k < count; k++) {
-      const int i = first + k;
+    for (int k = 0; k < run.count; k++) {
+      const int i = run.first + k;
+      const double *in = message + 2L * places[k];
       seen[i]++;
-      if (in[2 * k] != static_cast<double>(tag_of(i)) || in[2 * k + 1] != atom->type[i]) wrong++;
+      if (in[0] != static_cast<double>(tag_of(i)) || in[1] != atom->type[i]) wrong++;
     }
   }
 

@@ -15,7 +15,7 @@ struct ExchangeCounters {
   double overlapped = 0.0;    ///< of them begun without being finished at once
   double messages = 0.0;      ///< sent
   double bytes = 0.0;         ///< sent
-  double proxies = 0.0;       ///< sent
+  double particles = 0.0;     ///< whose states have been sent
   double pack_seconds = 0.0, wait_seconds = 0.0, unpack_seconds = 0.0;
 
   /// What has been added since `then`.
@@ -23,7 +23,7 @@ struct ExchangeCounters {
   {
     return {exchanges - then.exchanges,       overlapped - then.overlapped,
             messages - then.messages,         bytes - then.bytes,
-            proxies - then.proxies,           pack_seconds - then.pack_seconds,
+            particles - then.particles,       pack_seconds - then.pack_seconds,
             wait_seconds - then.wait_seconds, unpack_seconds - then.unpack_seconds};
   }
 };

@@ -8,23 +8,11 @@
 
 using namespace Talus;
 
-namespace {
-
-constexpr int words_per_run = 4;    // of a request: count, shift in x, y, z
-
-[[noreturn]] void reject(int rank, const std::string &why)
-{
-  throw std::invalid_argument("request of rank " + std::to_string(rank) + ": " + why);
-}
-
-}    // namespace
-
 void ExchangePlan::clear()
 {
   owned = proxies = 0;
   own = ExchangeNeighbor{};
   others.clear();
-  origin.clear();
 }
 
 /* Kept sorted by distance above our own rank. */
@@ -49,70 +37,60 @@ void ExchangePlan::build(int my_rank, int first_proxy, const std::vector<ProxyOr
   me = own.rank = my_rank;
   owned = first_proxy;
   proxies = static_cast<int>(origins.size());
-  origin = origins;
 
-  ExchangeNeighbor *from = nullptr;
-  for (int k = 0; k < proxies; k++) {
-    const ProxyOrigin &o = origins[k];
-    const bool continues = from && from->rank == o.owner && from->receive.back().shift == o.shift;
-    if (!continues) {
-      from = &neighbor(o.owner);    // adding one moves the others: looked up again each time
-      from->receive.push_back({first_proxy + k, 0, o.shift});
-    }
-    from->receive.back().count++;
-    from->receive_count++;
+  ExchangeNeighbor *last = nullptr;
+  for (int k = 0; k < proxies; k++) add_to_runs(origins[k], first_proxy + k, last);
+  arrange_message(own);
+  for (ExchangeNeighbor &from : others) arrange_message(from);
+  accept_request(me, own.receive_index);
+}
+
+/* Leaves the owner's index where the place in the message will stand. */
+
+void ExchangePlan::add_to_runs(const ProxyOrigin &origin, int proxy, ExchangeNeighbor *&last)
+{
+  const bool continues =
+      last && last->rank == origin.owner && last->receive.back().shift == origin.shift;
+  if (!continues) {
+    last = &neighbor(origin.owner);    // adding one moves the others: looked up again each time
+    last->receive.push_back({proxy, 0, origin.shift});
   }
-  accept_request(me, request_for(me));
+  last->receive.back().count++;
+  last->receive_place.push_back(origin.index);
+}
+
+void ExchangePlan::arrange_message(ExchangeNeighbor &from)
+{
+  std::vector<int> &wanted = from.receive_index;
+  wanted = from.receive_place;
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  for (int &place : from.receive_place)
+    place =
+        static_cast<int>(std::lower_bound(wanted.begin(), wanted.end(), place) - wanted.begin());
 }
 
 std::vector<int> ExchangePlan::request_for(int rank) const
 {
-  const ExchangeNeighbor *from = &own;
-  if (rank != me) {
-    const auto found = std::find_if(others.begin(), others.end(),
-                                    [rank](const ExchangeNeighbor &n) { return n.rank == rank; });
-    if (found == others.end()) return {};
-    from = &*found;
-  }
-  if (from->receive.empty()) return {};
-
-  std::vector<int> message{static_cast<int>(from->receive.size())};
-  message.reserve(1 + words_per_run * from->receive.size() + from->receive_count);
-  for (const ProxyRun &run : from->receive) {
-    message.push_back(run.count);
-    message.insert(message.end(), run.shift.begin(), run.shift.end());
-  }
-  for (const ProxyRun &run : from->receive)
-    for (int k = run.first; k < run.first + run.count; k++)
-      message.push_back(origin[k - owned].index);
-  return message;
+  if (rank == me) return own.receive_index;
+  for (const ExchangeNeighbor &n : others)
+    if (n.rank == rank) return n.receive_index;
+  return {};
 }
 
 void ExchangePlan::accept_request(int rank, const std::vector<int> &message)
 {
   if (message.empty()) return;
-  take_runs(neighbor(rank), message);
-}
-
-void ExchangePlan::take_runs(ExchangeNeighbor &to, const std::vector<int> &message) const
-{
-  const auto size = static_cast<long>(message.size());
-  const long runs = message[0], head = 1 + words_per_run * runs;
-  if (runs < 1 || head > size) reject(to.rank, "wrong number of runs");
-
-  to.send.clear();
-  long total = 0;
-  for (long r = 0; r < runs; r++) {
-    const int *word = &message[1 + words_per_run * r];
-    if (word[0] < 1) reject(to.rank, "empty run");
-    to.send.push_back({static_cast<int>(total), word[0], {word[1], word[2], word[3]}});
-    total += word[0];
+  const auto reject = [rank](const std::string &why) {
+    throw std::invalid_argument("request of rank " + std::to_string(rank) + ": " + why);
+  };
+  int before = -1;
+  for (const int i : message) {
+    if (i < 0 || i >= owned) reject("particle " + std::to_string(i) + " is not ours");
+    if (i <= before) reject("particle " + std::to_string(i) + " is not in order");
+    before = i;
   }
-  if (head + total != size) reject(to.rank, "runs and indices do not match");
-
-  to.send_index.assign(message.begin() + head, message.end());
-  for (const int i : to.send_index)
-    if (i < 0 || i >= owned) reject(to.rank, "particle " + std::to_string(i) + " is not ours");
+  neighbor(rank).send_index = message;
 }
 
 int ExchangePlan::num_interior() const

@@ -10,7 +10,9 @@
 //   request_for(rank)               what to send to `rank`, which owns some of our proxies
 //   accept_request(rank, message)   what `rank` asked of us; afterwards the plan is complete
 //
-// Both sides keep the same runs in the same order, so that messages carry no indices.
+// A message holds the state of each particle that the receiver needs, once, however many images of
+// it the receiver has; which state belongs to which proxy, and how the proxy is shifted, only the
+// receiver knows. Both sides know the order, so that messages carry no indices.
 
 #ifndef TALUS_COMM_EXCHANGE_PLAN_H
 #define TALUS_COMM_EXCHANGE_PLAN_H
@@ -31,9 +33,9 @@ struct ProxyOrigin {
 };
 static_assert(sizeof(ProxyOrigin) == 5 * sizeof(int));
 
-/// Proxies that follow each other on the receiving side and have owner and shift in common.
+/// Proxies that follow each other and have owner and shift in common.
 struct ProxyRun {
-  int first;    ///< receiving: index of the first proxy; sending: position in send_index
+  int first;    ///< index of the first proxy
   int count;
   PeriodicShift shift;
 
@@ -43,11 +45,13 @@ struct ProxyRun {
 /// What is exchanged with one rank, or with ourselves.
 struct ExchangeNeighbor {
   int rank = -1;
-  std::vector<ProxyRun> send, receive;
-  std::vector<int> send_index;    ///< owned particles, run after run
-  int receive_count = 0;          ///< proxies received
+  std::vector<int> send_index;       ///< our particles, in the order of the message
+  std::vector<int> receive_index;    ///< theirs: indices on their rank, ascending
+  std::vector<ProxyRun> receive;
+  std::vector<int> receive_place;    ///< of the proxies, run after run: place in receive_index
 
   int send_count() const { return static_cast<int>(send_index.size()); }
+  int receive_count() const { return static_cast<int>(receive_index.size()); }
 };
 
 class ExchangePlan {
@@ -57,12 +61,11 @@ class ExchangePlan {
   /// complete at once.
   void build(int me, int first_proxy, const std::vector<ProxyOrigin> &origins);
 
-  /// The request for a rank, empty if none of its particles is a proxy here: number of runs, then
-  /// count and shift of each run, then the owner's indices run after run.
+  /// The request for a rank, empty if none of its particles is a proxy here: their indices.
   std::vector<int> request_for(int rank) const;
 
-  /// Sending side: takes a request. Throws std::invalid_argument if it is malformed or names a
-  /// particle that we do not own.
+  /// Sending side: takes a request. Throws std::invalid_argument if it names a particle that we do
+  /// not own, or one twice.
   void accept_request(int rank, const std::vector<int> &message);
 
   /// Drops everything.
@@ -81,12 +84,12 @@ class ExchangePlan {
 
  private:
   ExchangeNeighbor &neighbor(int rank);
-  void take_runs(ExchangeNeighbor &from, const std::vector<int> &message) const;
+  void add_to_runs(const ProxyOrigin &origin, int proxy, ExchangeNeighbor *&last);
+  static void arrange_message(ExchangeNeighbor &from);
 
   int me = 0, owned = 0, proxies = 0;
   ExchangeNeighbor own;
   std::vector<ExchangeNeighbor> others;
-  std::vector<ProxyOrigin> origin;    ///< of all proxies
 };
 
 }    // namespace Talus

@@ -58,7 +58,7 @@ std::string Talus::describe_exchange(CommProxy &comm, MPI_Comm world)
   text += line("  of them overlapped", c.overlapped, world);
   text += line("messages sent", c.messages, world);
   text += line("bytes sent", c.bytes, world);
-  text += line("proxies sent", c.proxies, world);
+  text += line("particles sent", c.particles, world);
   text += line("seconds packing and sending", c.pack_seconds, world);
   text += line("seconds waiting", c.wait_seconds, world);
   text += line("seconds unpacking", c.unpack_seconds, world);

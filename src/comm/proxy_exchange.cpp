@@ -87,7 +87,7 @@ void ProxyExchange::size_buffers(int new_stride)
     send_start.push_back(sent);
     receive_start.push_back(received);
     sent += static_cast<std::size_t>(stride) * n.send_count();
-    received += static_cast<std::size_t>(stride) * n.receive_count;
+    received += static_cast<std::size_t>(stride) * n.receive_count();
   }
   send_buffer.resize(sent);
   receive_buffer.resize(received);
@@ -108,8 +108,8 @@ void ProxyExchange::begin(ProxyPacker &with)
   const double start = MPI_Wtime();
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
   for (std::size_t n = 0; n < neighbors.size(); n++)
-    if (neighbors[n].receive_count)
-      MPI_Irecv(receive_buffer.data() + receive_start[n], stride * neighbors[n].receive_count,
+    if (neighbors[n].receive_count())
+      MPI_Irecv(receive_buffer.data() + receive_start[n], stride * neighbors[n].receive_count(),
                 MPI_DOUBLE, neighbors[n].rank, TAG_STATE, comm, &receives[n]);
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
@@ -123,13 +123,11 @@ void ProxyExchange::pack_and_send(int n)
 {
   const ExchangeNeighbor &to = the_plan.neighbors()[n];
   double *buffer = send_buffer.data() + send_start[n];
-  for (const ProxyRun &run : to.send)
-    packer->pack(&to.send_index[run.first], run.count, run.shift,
-                 buffer + static_cast<std::size_t>(stride) * run.first);
+  packer->pack(to.send_index.data(), to.send_count(), buffer);
   const int size = stride * to.send_count();
   MPI_Isend(buffer, size, MPI_DOUBLE, to.rank, TAG_STATE, comm, &sends[n]);
   counters.messages++;
-  counters.proxies += to.send_count();
+  counters.particles += to.send_count();
   counters.bytes += sizeof(double) * static_cast<double>(size);
 }
 
@@ -137,18 +135,17 @@ void ProxyExchange::pack_and_send(int n)
 
 void ProxyExchange::unpack_from(const ExchangeNeighbor &from, const double *buffer)
 {
+  const int *places = from.receive_place.data();
   for (const ProxyRun &run : from.receive) {
-    packer->unpack(run.first, run.count, buffer);
-    buffer += static_cast<std::size_t>(stride) * run.count;
+    packer->unpack(run, places, buffer);
+    places += run.count;
   }
 }
 
 void ProxyExchange::copy_to_self()
 {
   const ExchangeNeighbor &own = the_plan.self();
-  for (const ProxyRun &run : own.send)
-    packer->pack(&own.send_index[run.first], run.count, run.shift,
-                 self_buffer.data() + static_cast<std::size_t>(stride) * run.first);
+  packer->pack(own.send_index.data(), own.send_count(), self_buffer.data());
   unpack_from(own, self_buffer.data());
 }
 

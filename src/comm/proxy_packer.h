@@ -11,15 +11,16 @@ namespace Talus {
 
 class ProxyPacker {
  public:
-  /// Numbers per proxy, at most; a run occupies count * stride() of them in a message. The same
-  /// on all ranks, and constant from begin() to finish() of an exchange.
+  /// Numbers per particle in a message. The same on all ranks, and constant from begin() to
+  /// finish() of an exchange.
   virtual int stride() const = 0;
 
-  /// Writes the state of `count` owned particles, as seen shifted by whole periods.
-  virtual void pack(const int *particles, int count, const PeriodicShift &shift, double *out) = 0;
+  /// Writes the states of `count` owned particles.
+  virtual void pack(const int *particles, int count, double *out) = 0;
 
-  /// Reads the state of the proxies first, first + 1, ..., first + count - 1.
-  virtual void unpack(int first, int count, const double *in) = 0;
+  /// Sets the state of the proxies of a run: proxy run.first + k is the particle whose state is the
+  /// places[k]-th one of `message`, shifted by whole periods.
+  virtual void unpack(const ProxyRun &run, const int *places, const double *message) = 0;
 
  protected:
   ~ProxyPacker() = default;    // never deleted through this interface

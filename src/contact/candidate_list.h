@@ -39,6 +39,9 @@ class CandidateList {
   /// Other parts compute forces on some members of these pairs.
   bool shared() const { return particles->num_parts() > 1; }
 
+  /// Forces on particles that other parts serve must be kept off their sums.
+  bool screened() const { return shared() && !particles->runs_alone_first(part); }
+
   /// Slot behind the last particle for forces that this part does not want; every part has its own.
   std::size_t nowhere() const { return static_cast<std::size_t>(particles->size()) + part; }
 

@@ -32,16 +32,16 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
                           const ContactStep &how, const Bring &bring)
 {
   const Step step{how, scene, particles, bring};
-  const auto choose = [&](auto shared) {
-    constexpr bool is_shared = decltype(shared)::value;
+  const auto choose = [&](auto screened) {
+    constexpr bool is_screened = decltype(screened)::value;
     if (scene.with_history)
-      compute_all<true, true, is_shared>(step);
+      compute_all<true, true, is_screened>(step);
     else if (scene.with_friction)
-      compute_all<true, false, is_shared>(step);
+      compute_all<true, false, is_screened>(step);
     else
-      compute_all<false, false, is_shared>(step);
+      compute_all<false, false, is_screened>(step);
   };
-  if (pairs.shared())
+  if (pairs.screened())
     choose(std::true_type{});
   else
     choose(std::false_type{});
@@ -51,7 +51,7 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
    of the second particle: memory is read straight ahead, and first particles, but for the distant
    ones, are still in the cache. */
 
-template <bool friction, bool history_kept, bool shared>
+template <bool friction, bool history_kept, bool screened>
 void ContactPart::compute_all(const Step &step)
 {
   constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
@@ -71,10 +71,10 @@ void ContactPart::compute_all(const Step &step)
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= block_size; done += block_size)
-      compute_block<friction, history_kept, shared>(step, done, block_size);
+      compute_block<friction, history_kept, screened>(step, done, block_size);
   }
   if (done < touching)
-    compute_block<friction, history_kept, shared>(step, done, static_cast<int>(touching - done));
+    compute_block<friction, history_kept, screened>(step, done, static_cast<int>(touching - done));
   if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
 }
 
@@ -91,7 +91,7 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
   }
 }
 
-template <bool friction, bool history_kept, bool shared>
+template <bool friction, bool history_kept, bool screened>
 void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
 {
   const std::uint32_t *block = &contacts[begin];
@@ -106,8 +106,8 @@ void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
   if (scene.with_onset && step.advance) keep_onsets(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  add_up<friction, shared>(step.particles, block, count);
-  if (scene.with_resistance) add_couples<shared>(step.particles, block, count);
+  add_up<friction, screened>(step.particles, block, count);
+  if (scene.with_resistance) add_couples<screened>(step.particles, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
@@ -328,13 +328,13 @@ void ContactPart::apply_weights(int end)
 
 /* Forces on particles of other parts go where nobody reads them. */
 
-template <bool friction, bool shared>
+template <bool friction, bool screened>
 void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const std::size_t nowhere = pairs.nowhere();
   const auto target = [&](int slot) {
-    return &particles.load[stride * (!shared || pairs.serves(slot) ? slot : nowhere)];
+    return &particles.load[stride * (!screened || pairs.serves(slot) ? slot : nowhere)];
   };
   for (int n = 0; n < count; n++) {
     Record *i = target(pairs.first[block[n]]), *j = target(pairs.second[block[n]]);
@@ -350,12 +350,12 @@ void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block,
   }
 }
 
-template <bool shared>
+template <bool screened>
 void ContactPart::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   const std::size_t nowhere = pairs.nowhere();
   const auto target = [&](int slot) -> Record & {
-    return particles.couple[!shared || pairs.serves(slot) ? slot : nowhere];
+    return particles.couple[!screened || pairs.serves(slot) ? slot : nowhere];
   };
   for (int n = 0; n < count; n++) {
     Record &i = target(pairs.first[block[n]]), &j = target(pairs.second[block[n]]);

@@ -101,8 +101,8 @@ class ContactPart {
     ParticleRecords &particles;
     const Bring &bring;
   };
-  template <bool friction, bool history_kept, bool shared> void compute_all(const Step &step);
-  template <bool friction, bool history_kept, bool shared>
+  template <bool friction, bool history_kept, bool screened> void compute_all(const Step &step);
+  template <bool friction, bool history_kept, bool screened>
   void compute_block(const Step &step, std::int64_t begin, int count);
   void call_distant(const ParticleRecords &particles, std::size_t &next, std::int64_t end) const;
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
@@ -117,9 +117,9 @@ class ContactPart {
   void keep_onsets(int end);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, bool shared>
+  template <bool friction, bool screened>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  template <bool shared>
+  template <bool screened>
   void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);

@@ -44,6 +44,10 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   parts.resize(order.num_parts());
   parts_per_phase = threads;
   particles.resize(order.size(), order.num_parts(), scene.with_friction, scene.with_resistance);
+  late_slots.clear();
+  for (int s = 0; two_phases && s < order.size(); s++)
+    if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
+      late_slots.push_back(s);
 
   mark(order.frontier(), at_frontier);
 
@@ -166,6 +170,8 @@ void ContactPipeline::start_step(const ContactStep &step)
 
 void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part)
 {
+  if (first_part)
+    for (const int slot : late_slots) particles.clear_sums(slot);
   const int count = std::min(parts_per_phase, static_cast<int>(parts.size()) - first_part);
   const bool alone = threads == 1 || step.report || step.account;
 #pragma omp parallel for schedule(static) num_threads(threads) if (!alone)

@@ -159,6 +159,7 @@ class ContactPipeline {
 
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
   int parts_per_phase = 1;
+  std::vector<int> late_slots;    ///< particles of the second phase
 };
 
 }    // namespace Talus

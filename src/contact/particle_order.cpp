@@ -30,6 +30,7 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   tag = std::move(tag_of_atom);
   const int total = static_cast<int>(tag.size());
   parts = 1;
+  two_phases = false;
   part_of_slot.clear();
   frontier_slots.clear();
 
@@ -48,8 +49,9 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   }
 }
 
-void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool two_phases)
+void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in_phases)
 {
+  two_phases = in_phases;
   parts = two_phases ? 2 * threads : threads;
   part_of_slot.clear();
   frontier_slots.clear();

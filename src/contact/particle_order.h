@@ -48,6 +48,9 @@ class ParticleOrder {
   {
     return is_owned(atom_of_slot[slot_a]) && is_owned(atom_of_slot[slot_b]) ? 1.0 : 0.5;
   }
+  /// The only part that runs before the others: what it adds to their particles is cleared before
+  /// they start, see ContactPipeline.
+  bool runs_alone_first(int part) const { return two_phases && parts == 2 && part == 0; }
   double memory_usage() const;
 
   static constexpr int no_part = 0xffff, max_threads = 0x7fff;
@@ -61,6 +64,7 @@ class ParticleOrder {
   void find_ranges(const NeighbourView &neighbours);
 
   int parts = 1;
+  bool two_phases = false;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
   std::vector<int> frontier_slots;

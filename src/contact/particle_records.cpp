@@ -58,7 +58,7 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
     store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
     store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
     if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
-    clear(slots[k]);
+    clear_sums(slots[k]);
   }
 }
 

@@ -90,6 +90,13 @@ class ParticleRecords {
   /// Reads the state of some slots and clears their sums.
   void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
 
+  /// Forgets what has been added to a particle so far.
+  void clear_sums(int slot)
+  {
+    for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
+    if (!couple.empty()) store(couple[slot], Vec4{});
+  }
+
   /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
   void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
@@ -139,11 +146,6 @@ class ParticleRecords {
                   int count);
   void kick(const RecordStep &step, int slot);
   void call(int slot, const Record *held) const;
-  void clear(int slot)
-  {
-    for (std::size_t n = stride * slot; n < stride * (slot + 1UL); n++) store(load[n], Vec4{});
-    if (!couple.empty()) store(couple[slot], Vec4{});
-  }
 };
 
 }    // namespace Talus

@@ -95,7 +95,7 @@ RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<
       call(s + ahead, held);
       const Role its = role.empty() ? MOVES : role[s];
       if (its == MOVES) kick(step, s);
-      clear(s);
+      clear_sums(s);
       if (!held || its == GHOST) continue;
       way[k] = load4(position[s]) - load4(held[s]);
       speed[k] = load4(motion[stride * s]);
@@ -114,7 +114,7 @@ RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<
 
 void ParticleRecords::clear(int begin, int end)
 {
-  for (int s = begin; s < end; s++) clear(s);
+  for (int s = begin; s < end; s++) clear_sums(s);
 }
 
 }    // namespace Talus

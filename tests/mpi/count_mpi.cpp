@@ -9,14 +9,12 @@
 //   to RANK messages N bytes N      point to point, per rank of MPI_COMM_WORLD
 // A program that needs no numbering of its own in duplicated communicators is assumed.
 
-#include <mpi.h>
+#include "../../bench/exchange/preloaded_sends.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <string>
-
-#define EXPORTED extern "C" __attribute__((visibility("default")))
 
 namespace {
 
@@ -25,15 +23,6 @@ struct Sent {
 };
 std::map<int, Sent> sent;
 long collectives = 0, started = 0;
-
-void count_message(int count, MPI_Datatype type, int to)
-{
-  if (to == MPI_PROC_NULL) return;
-  int size = 0;
-  PMPI_Type_size(type, &size);
-  sent[to].messages++;
-  sent[to].bytes += static_cast<long>(count) * size;
-}
 
 void write_counts()
 {
@@ -51,38 +40,26 @@ void write_counts()
 
 }    // namespace
 
+static void sees_send(int count, MPI_Datatype type, int to, int, MPI_Comm)
+{
+  if (to == MPI_PROC_NULL) return;
+  int size = 0;
+  PMPI_Type_size(type, &size);
+  sent[to].messages++;
+  sent[to].bytes += static_cast<long>(count) * size;
+}
+
 EXPORTED int MPI_Finalize()
 {
   write_counts();
   return PMPI_Finalize();
 }
 
-EXPORTED int MPI_Send(const void *buffer, int count, MPI_Datatype type, int to, int tag,
-                      MPI_Comm comm)
-{
-  count_message(count, type, to);
-  return PMPI_Send(buffer, count, type, to, tag, comm);
-}
-
-EXPORTED int MPI_Rsend(const void *buffer, int count, MPI_Datatype type, int to, int tag,
-                       MPI_Comm comm)
-{
-  count_message(count, type, to);
-  return PMPI_Rsend(buffer, count, type, to, tag, comm);
-}
-
-EXPORTED int MPI_Isend(const void *buffer, int count, MPI_Datatype type, int to, int tag,
-                       MPI_Comm comm, MPI_Request *request)
-{
-  count_message(count, type, to);
-  return PMPI_Isend(buffer, count, type, to, tag, comm, request);
-}
-
 EXPORTED int MPI_Sendrecv(const void *out, int out_count, MPI_Datatype out_type, int to,
                           int out_tag, void *in, int in_count, MPI_Datatype in_type, int from,
                           int in_tag, MPI_Comm comm, MPI_Status *status)
 {
-  count_message(out_count, out_type, to);
+  sees_send(out_count, out_type, to, out_tag, comm);
   return PMPI_Sendrecv(out, out_count, out_type, to, out_tag, in, in_count, in_type, from, in_tag,
                        comm, status);
 }

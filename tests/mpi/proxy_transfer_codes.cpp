@@ -27,13 +27,20 @@ int integer(RandomSource &random, int low, int high)
 
 constexpr int owned_particles = 40;
 
-double code(int owner, int index, const PeriodicShift &shift, int round, int entry)
+double code(int owner, int index, int round, int entry)
 {
   double c = owner;
   c = 64.0 * c + index;
-  for (const int s : shift) c = 8.0 * c + (s + 4);
   c = 64.0 * c + round;
   return 16.0 * c + entry;
+}
+
+/// What the receiver adds for an image.
+double code_of_shift(const PeriodicShift &shift)
+{
+  double c = 0.0;
+  for (const int s : shift) c = 8.0 * c + (s + 4);
+  return 1e9 * c;
 }
 
 class CodePacker : public ProxyPacker {
@@ -43,14 +50,19 @@ class CodePacker : public ProxyPacker {
   int width = 1, round = 0;
 
   int stride() const override { return width; }
-  void pack(const int *particles, int count, const PeriodicShift &shift, double *out) override
+  void pack(const int *particles, int count, double *out) override
   {
     for (int k = 0; k < count; k++)
-      for (int e = 0; e < width; e++) *out++ = code(me, particles[k], shift, round, e);
+      for (int e = 0; e < width; e++) *out++ = code(me, particles[k], round, e);
   }
-  void unpack(int first, int count, const double *in) override
+  void unpack(const ProxyRun &run, const int *places, const double *message) override
   {
-    for (int i = first; i < first + count; i++, in += width) state[i].assign(in, in + width);
+    for (int k = 0; k < run.count; k++) {
+      std::vector<double> &proxy = state[run.first + k];
+      const double *in = message + static_cast<std::size_t>(width) * places[k];
+      proxy.insert(proxy.end(), in, in + width);    // once: forget() has been called
+      for (double &entry : proxy) entry += code_of_shift(run.shift);
+    }
   }
 
   void forget()
@@ -63,7 +75,8 @@ class CodePacker : public ProxyPacker {
     for (std::size_t k = 0; k < origins.size(); k++) {
       std::vector<double> expected;
       for (int e = 0; e < width; e++)
-        expected.push_back(code(origins[k].owner, origins[k].index, origins[k].shift, round, e));
+        expected.push_back(code(origins[k].owner, origins[k].index, round, e) +
+                           code_of_shift(origins[k].shift));
       wrong += state[owned_particles + k] != expected;
     }
     for (int i = 0; i < owned_particles; i++) wrong += !state[i].empty();

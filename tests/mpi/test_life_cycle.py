@@ -5,37 +5,21 @@ The restarted half must repeat the first one, and both the session without an in
 
 import math
 import os
-import random
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+import session_scene
+from session_scene import PAIR, START
+from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
 
-LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
-PHYSICS = f"""
-neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
-timestep 0.001
-fix step all nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
-fix floor all large/body plane 0 0 0  0 0 1  contact {LAW}
-fix xlo all large/body plane 0 0 0  1 0 0  contact {LAW}
-fix ylo all large/body rectangle 5 0 5  0 1 0  1 0 0  30 30  contact {LAW}
+PHYSICS = session_scene.PHYSICS.format(ylo=session_scene.RECTANGLE) + """
 compute spin all erotate/sphere
 compute pair all pair gran/penalty
 thermo 50
 thermo_style custom step ke c_spin c_pair[1] pxx pxy f_floor[3] f_xlo[1]
 thermo_modify norm no format float %.17g
 """
-PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
 BEGIN = START + "read_data grains\n" + PAIR + PHYSICS + "run 300\n"
 CHANGES = """
 balance 1.0 shift xz 10 1.0
@@ -45,17 +29,10 @@ AGAIN = "clear\n" + START + "read_restart half\n"
 END = "write_dump all custom {name} id x y z vx vy vz omegax omegay omegaz modify format float %a\n"
 
 
-def grains():
-    draw = random.Random(4)
-    return [Sphere(tuple(1.05 * s + 0.6 + draw.uniform(-0.1, 0.1) for s in (i, j, k)),
-                   diameter=draw.uniform(0.7, 1.2))
-            for i in range(7) for j in range(6) for k in range(8)]
-
-
 class LifeCycle(SceneCase):
 
     def setUp(self):
-        write_sphere_data(self.path("grains"), ((-1, 12), (-1, 10), (-1, 12)), grains())
+        write_sphere_data(self.path("grains"), session_scene.BOX, session_scene.grains(1.2))
 
     def assert_same_rows(self, rows, reference):
         self.assertEqual([row["Step"] for row in rows], [row["Step"] for row in reference])

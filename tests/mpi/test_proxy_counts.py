@@ -4,7 +4,8 @@
 
 Particles at rest: the steps of a long run are those of a short one and more of the same.  What one
 step must send is worked out from the positions: a message to each rank that has at least one proxy of
-ours, of 72 bytes per proxy, or 48 without friction."""
+ours, of 72 bytes, or 48 without friction, for each of our particles with a proxy there: once, however many
+images of it are there."""
 
 import itertools
 import os
@@ -55,7 +56,7 @@ def grains():
 
 
 def expected_proxies(particles, grid, periodic):
-    """{(owner, other rank): number of proxies}, ranks numbered with z fastest as the host does."""
+    """{(owner, other rank): number of particles with proxies there}, ranks numbered with z fastest as the host does."""
     def ranges(d):
         width = BOX[d] / grid[d]
         return [(k * width, (k + 1) * width) for k in range(grid[d])]
@@ -70,10 +71,8 @@ def expected_proxies(particles, grid, periodic):
             along.append([(place, shift) for place, (low, high) in enumerate(ranges(d))
                           for shift in shifts
                           if low - CUT <= p.x[d] + shift * BOX[d] <= high + CUT])
-        for images in itertools.product(*along):
-            place = tuple(image[0] for image in images)
-            if place == tuple(home):
-                continue    # the particle itself, or an image on its own rank
+        places = {tuple(image[0] for image in images) for images in itertools.product(*along)}
+        for place in places - {tuple(home)}:    # nothing is sent to the own rank
             key = tuple(home), place
             counts[key] = counts.get(key, 0) + 1
     def rank(place):

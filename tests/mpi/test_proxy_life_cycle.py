@@ -5,40 +5,24 @@
 A session under the direct exchange must print and dump what the same session prints under the stock one."""
 
 import os
-import random
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+import session_scene
+from session_scene import PAIR, START
+from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
 
-LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-START = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
-PHYSICS = f"""
-neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
-timestep 0.001
-fix step all nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
-fix floor all large/body plane 0 0 0  0 0 1  contact {LAW}
-fix xlo all large/body plane 0 0 0  1 0 0  contact {LAW}
-fix ylo all large/body plane 0 0 0  0 1 0  contact {LAW}
+PHYSICS = session_scene.PHYSICS.format(ylo=session_scene.PLANE) + """
 thermo 20
 thermo_style custom step atoms ke pxx pxy f_floor[3]
 thermo_modify norm no format float %.17g
 """
-PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
 SWAP = {"stock": "", "direct": "comm_proxy yes\ncomm_proxy check yes\n",
         "overlapped": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/proxy\n"}
 DUMP = "write_dump all custom {} id type x y z vx vy vz omegax omegay omegaz modify format float %a\n"
 
-# everything after 'run 60' of a session; {swap} again where the host forgets it, {law}
+# everything after 'run 60' of a session; {swap} again where the host forgets it
 PIECES = {
     "the session of the plan": """
 balance 1.0 shift xz 10 1.0
@@ -81,25 +65,17 @@ run 20
 }
 
 
-def grains():
-    draw = random.Random(4)
-    return [Sphere(tuple(1.05 * s + 0.6 + draw.uniform(-0.1, 0.1) for s in (i, j, k)),
-                   diameter=draw.uniform(0.7, 1.0))
-            for i in range(7) for j in range(6) for k in range(8)]
-
-
 class Session(SceneCase):
 
     def setUp(self):
-        write_sphere_data(self.path("grains"), ((-1, 12), (-1, 10), (-1, 12)), grains())
+        write_sphere_data(self.path("grains"), session_scene.BOX, session_scene.grains(1.0))
 
     def session(self, piece, swap, name):
-        start = START.format(boundary="f f f")
         def filled(text):
-            return text.format(start=start, physics=PHYSICS, swap=SWAP[swap], law=LAW)
+            return text.format(start=START, physics=PHYSICS, swap=SWAP[swap])
         if swap == "stock":
             piece = piece.replace("comm_proxy no\n", "")
-        return (f"log log.{name}\n" + start + "read_data grains\n" + PAIR + PHYSICS + SWAP[swap] +
+        return (f"log log.{name}\n" + START + "read_data grains\n" + PAIR + PHYSICS + SWAP[swap] +
                 "run 60\n" + filled(piece) + DUMP.format("dump." + name) + "clear\n")
 
     def check(self, pieces, ranks):
@@ -123,13 +99,17 @@ class Session(SceneCase):
         frame, expected = (read_dump(self.path("dump." + n))[0] for n in (name, reference))
         self.assertGreater(len(expected.atoms), 100)
         self.assert_same_bits(frame, expected)
-        rows, wanted = (thermo(open(self.path("log." + n)).read()) for n in (name, reference))
+        rows, wanted = (self.rows_of(n) for n in (name, reference))
         self.assertEqual([(row["Step"], row["Atoms"]) for row in rows],
                          [(row["Step"], row["Atoms"]) for row in wanted])
         if wanted[0]["Atoms"] != wanted[-1]["Atoms"]:
             self.changed += 1
         for row, other in zip(rows, wanted):
             self.assertLess(abs(row["KinEng"] - other["KinEng"]), 1e-11 * other["KinEng"] + 1e-300)
+
+    def rows_of(self, name):
+        with open(self.path("log." + name)) as file:
+            return thermo(file.read())
 
     def test_one_rank(self):
         self.check(PIECES, 1)
