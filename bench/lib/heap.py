@@ -29,6 +29,7 @@ def laws():
         "no rolling or spinning resistance": multistep,
         "onestep friction": multistep.replace("multistep", "onestep") + " " + rest,
         "dashpot friction": multistep.replace("multistep NULL", "dashpot") + " " + rest,
+        "no damping": f"{multistep} {rest}".replace(" 0.5 0.3 ", " 1.0 0.3 "),
         "no friction, rolling and spinning": f"{MATERIAL} {rest}",
         "no friction": MATERIAL,
         "with adhesion (5 weights at R_eff)": f"{multistep} {rest} adhesion perko {5 * DENSITY * math.pi / 6 * D**3 * 9.81 / (D / 4):g}",

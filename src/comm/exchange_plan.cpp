@@ -3,6 +3,8 @@
 #include "comm/exchange_plan.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +20,15 @@ constexpr int words_per_run = 4;    // of a request: count, shift in x, y, z
 }
 
 }    // namespace
+
+int Talus::message_length(int stride, std::size_t count)
+{
+  const std::size_t most = std::numeric_limits<int>::max();
+  if (stride > 0 && count > most / stride)
+    throw std::length_error(
+        "a message between two ranks with more than 2^31 numbers: use more ranks");
+  return stride * static_cast<int>(count);
+}
 
 void ExchangePlan::clear()
 {
@@ -96,17 +107,18 @@ void ExchangePlan::accept_request(int rank, const std::vector<int> &message)
 
 void ExchangePlan::take_runs(ExchangeNeighbor &to, const std::vector<int> &message) const
 {
-  const auto size = static_cast<long>(message.size());
-  const long runs = message[0], head = 1 + words_per_run * runs;
+  const auto size = static_cast<std::int64_t>(message.size());
+  const std::int64_t runs = message[0], head = 1 + words_per_run * runs;
   if (runs < 1 || head > size) reject(to.rank, "wrong number of runs");
 
   to.send.clear();
-  long total = 0;
-  for (long r = 0; r < runs; r++) {
+  std::int64_t total = 0;
+  for (std::int64_t r = 0; r < runs; r++) {
     const int *word = &message[1 + words_per_run * r];
     if (word[0] < 1) reject(to.rank, "empty run");
     to.send.push_back({static_cast<int>(total), word[0], {word[1], word[2], word[3]}});
     total += word[0];
+    if (total > size) reject(to.rank, "runs and indices do not match");
   }
   if (head + total != size) reject(to.rank, "runs and indices do not match");
 

@@ -55,7 +55,7 @@ void ProxyExchange::make_plan(int first_proxy, const std::vector<ProxyOrigin> &o
   std::vector<MPI_Request> handle(n, MPI_REQUEST_NULL);
   for (std::size_t c = 0; c < n; c++) {
     request[c] = the_plan.request_for(candidates[c]);
-    MPI_Isend(request[c].data(), static_cast<int>(request[c].size()), MPI_INT, candidates[c],
+    MPI_Isend(request[c].data(), message_length(1, request[c].size()), MPI_INT, candidates[c],
               TAG_REQUEST, comm, &handle[c]);
   }
   std::vector<std::vector<int>> received(n);
@@ -86,8 +86,8 @@ void ProxyExchange::size_buffers(int new_stride)
   for (const ExchangeNeighbor &n : neighbors) {
     send_start.push_back(sent);
     receive_start.push_back(received);
-    sent += static_cast<std::size_t>(stride) * n.send_count();
-    received += static_cast<std::size_t>(stride) * n.receive_count;
+    sent += message_length(stride, n.send_count());
+    received += message_length(stride, n.receive_count);
   }
   send_buffer.resize(sent);
   receive_buffer.resize(received);
@@ -109,7 +109,7 @@ void ProxyExchange::begin(ProxyPacker &with)
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].receive_count)
-      MPI_Irecv(receive_buffer.data() + receive_start[n], stride * neighbors[n].receive_count,
+      MPI_Irecv(receive_buffer.data() + receive_start[n], message_length(stride, neighbors[n].receive_count),
                 MPI_DOUBLE, neighbors[n].rank, TAG_STATE, comm, &receives[n]);
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
@@ -126,7 +126,7 @@ void ProxyExchange::pack_and_send(int n)
   for (const ProxyRun &run : to.send)
     packer->pack(&to.send_index[run.first], run.count, run.shift,
                  buffer + static_cast<std::size_t>(stride) * run.first);
-  const int size = stride * to.send_count();
+  const int size = message_length(stride, to.send_count());
   MPI_Isend(buffer, size, MPI_DOUBLE, to.rank, TAG_STATE, comm, &sends[n]);
   counters.messages++;
   counters.proxies += to.send_count();

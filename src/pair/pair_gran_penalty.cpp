@@ -17,6 +17,7 @@
 #include "timer.h"
 #include "update.h"
 
+#include <stdexcept>
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -321,8 +322,12 @@ void PairGranPenalty::renumber_pairs()
   }
   const auto *exchange = dynamic_cast<PendingExchange *>(comm);
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
-  pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
-                     neighbours());
+  try {
+    pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
+                       neighbours());
+  } catch (const std::length_error &problem) {
+    error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
+  }
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }
