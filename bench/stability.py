@@ -192,7 +192,7 @@ the angle and spin where it is largest. (warned): Talus says so at the start of 
 scatter by up to 2e-3 without any friction; the mean does not grow. Two things gain. The usual update of the tangential displacement is of
 first order (the step in which a contact begins counts whole), and above mu = 1 the limit of friction no longer takes away what is too
 much: a smaller time step or `midpoint` cures it. And the spring of a Hertzian contact that neither slips (mu above 10) nor turns (rolling
-resistance above .2) weakens while it is stretched: that is a property of the law, which no time step cures, and damping does.""")
+resistance above .2) stiffens with the overlap while it is stretched, which adds energy: that is a property of the law, which no time step cures, and damping does.""")
     if silent:
         section.headline("stability: friction gains energy without a word: " + "; ".join(silent) + ".")
 

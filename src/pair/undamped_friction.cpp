@@ -75,7 +75,7 @@ void UndampedFriction::warn(double fraction) const
     error->warning(FLERR,
                    "Pair style gran/penalty: contacts of {} have a coefficient of friction of "
                    "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
-                   "their tangential spring weakens while it is stretched: add damping, or use a "
+                   "their tangential spring stiffens while it is stretched: add damping, or use a "
                    "coefficient of friction of at most {} and rolling resistance of at most {}",
                    worst_spring.who, worst_spring.mu,
                    worst_spring.mu_roll > 0.0

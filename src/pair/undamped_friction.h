@@ -8,11 +8,11 @@
 //               its first step whole. With a coefficient of friction above 1 the limit of Coulomb
 //               no longer takes away what is too much. None with `midpoint`, or below
 //               0.11/mu^(1/3) of the critical time step.
-//   spring      of a Hertzian contact it weakens with the overlap while it is stretched: such
-//               equations do not conserve energy (Walton 1993, Particulate two-phase flow, ed.
-//               Roco, chapter 25; Thornton et al. 2013, Powder Technology 233, 30). Slip and
-//               rotation hide it, unless the coefficient of friction is above 10, or rolling
-//               resistance above .2 keeps the particle from turning. No time step is small enough.
+//   spring      of a Hertzian contact it stiffens with the overlap while it is stretched: over an
+//               impact kt s ds adds up to -1/2 s^2 dkt, and the particles receive 1/2 s^2 dkt.
+//               Slip and rotation hide it, unless the coefficient of friction is above 10, or
+//               rolling resistance above .2 keeps the particle from turning. No time step is
+//               small enough.
 
 #ifndef TALUS_UNDAMPED_FRICTION_H
 #define TALUS_UNDAMPED_FRICTION_H

@@ -89,7 +89,7 @@ class UndampedFriction(SceneCase):
             self.assertEqual(said, "")
             self.assertLess(gain, 1e-3)
 
-    def test_spring_that_weakens(self):
+    def test_spring_that_stiffens(self):
         """The equations themselves gain energy: a time step that is ten times smaller does not help."""
         for words, angle, spin, mu, friction in (("midpoint", 80, 20, 1000, "1000"), ("midpoint rolling 1", 35, 0, 1, "1")):
             gain, said = self.said(self.law(mu, 1.0, words), 0.02, angle=angle, spin=spin)
@@ -98,7 +98,7 @@ class UndampedFriction(SceneCase):
             self.assertEqual((said, who, found, rolling), ("spring", "types 1 and 1", friction, "1" if "rolling" in words else None))
             self.assertGreater(gain, 1e-3)
         linear = f"hooke 7e5 0.0 tangential multistep 2e5 0.0 1000 midpoint"
-        self.assertEqual(self.said(linear, 0.02, angle=80, spin=20)[1], "", "a linear spring does not weaken")
+        self.assertEqual(self.said(linear, 0.02, angle=80, spin=20)[1], "", "a linear spring does not stiffen")
 
     def test_names_what_touches(self):
         good, bad = self.law(0.5), self.law(20)
