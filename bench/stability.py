@@ -148,7 +148,8 @@ bad, and nothing was said. creep: largest way of a particle in the last nine ten
 smallest critical one unless the name says otherwise, the same for both codes. Stock: pair granular with the same law, fix
 wall/gran, fix nve/sphere.""")
     alarms = [scene.name for scene in scenes if found[scene.name][TALUS].warnings and not found[scene.name][TALUS].faults()]
-    section.text("Warnings of Talus in scenes that stayed stable: " + ("; ".join(alarms) if alarms else "none") + ".")
+    section.text("Warnings of Talus in scenes that stayed stable: " + ("; ".join(alarms) if alarms else "none")
+                 + ". (With mu = 1000 and no damping they are about impacts at other angles, see below.)" * any("1000" in name for name in alarms))
     if silent:
         section.headline("stability: scenes that went wrong without a word: " + "; ".join(silent) + ".")
 
@@ -184,14 +185,15 @@ def friction(bench, pool):
                            said=said)
             if code == TALUS and mean > LOUD and not said:
                 silent.append(f"{row[0]}{' midpoint' * midpoint} at {fraction}")
+        rows.append(row)
     section.heading("Friction without damping")
     section.table(["", *(("stock" if code == STOCK else "midpoint" if mid else "Talus") + f", dt {f} critical" for code, f, mid in columns)], rows)
     section.text(f"""Elastic impacts (hertz/material, e = 1) of two spheres at {len(friction_gain.ANGLES)} angles from 0 to {max(friction_gain.ANGLES)}
 degrees and {len(friction_gain.SPINS)} spins: gain of kinetic energy, mean over {phases} moments within a step at which the contact begins, at
 the angle and spin where it is largest. (warned): Talus says so at the start of the run. Single impacts at .2 of the critical time step
 scatter by up to 2e-3 without any friction; the mean does not grow. Two things gain. The usual update of the tangential displacement is of
-first order (the step in which a contact begins counts whole), and above mu = 1 the limit of friction no longer takes away what is too
-much: a smaller time step or `midpoint` cures it. And the spring of a Hertzian contact that neither slips (mu above 10) nor turns (rolling
+first order (the step in which a contact begins counts whole), and above mu = .5 the limit of friction takes away less and less of
+what is too much: a smaller time step or `midpoint` cures it. And the spring of a Hertzian contact that neither slips (mu above 10) nor turns (rolling
 resistance above .2) stiffens with the overlap while it is stretched, which adds energy: that is a property of the law, which no time step cures, and damping does.""")
     if silent:
         section.headline("stability: friction gains energy without a word: " + "; ".join(silent) + ".")

@@ -17,7 +17,7 @@ namespace {
 // damping ratios below which the loss in the normal direction does not outweigh the gain: e = .9,
 // .8
 constexpr double weak_damping = 0.03, moderate_damping = 0.075;
-constexpr double strong_friction = 1.0, gripping_friction = 10.0, strong_resistance = 0.2;
+constexpr double strong_friction = 0.5, gripping_friction = 10.0, strong_resistance = 0.2;
 
 bool is_midpoint(TangentialLaw law)
 {
@@ -55,7 +55,7 @@ void UndampedFriction::consider(const std::string &who, ContactLaw law,
     worst_step = {who, c.mu, c.mu_roll};
 
   const double held = law.resists && !law.delayed ? std::min(c.mu, c.mu_roll) : 0.0;
-  const double enough = held >= strong_friction ? moderate_damping : weak_damping;
+  const double enough = held >= 1.0 ? moderate_damping : weak_damping;
   const bool grips = c.mu > gripping_friction && damping < weak_damping;
   const bool holds = held > strong_resistance && damping < enough;
   if (is_hertzian(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
