@@ -17,10 +17,10 @@
 #include "timer.h"
 #include "update.h"
 
-#include <stdexcept>
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -157,7 +157,7 @@ void PairGranPenalty::init_style()
   create_store();
   watch.start();
   said_time_step = true;    // until the first forces of the run
-  laws_current = false;    // init_one() will mix what is not set
+  laws_current = false;     // init_one() will mix what is not set
 }
 
 void PairGranPenalty::check_host()

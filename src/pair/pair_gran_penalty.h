@@ -100,7 +100,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   LargestRadii radii;
   CriticalTimeStep critical;
   double limit_at_start = 0.0;    // from sizes, of the present run
-  bool said_time_step = true;    // or nothing to say: no run; the same on all ranks
+  bool said_time_step = true;     // or nothing to say: no run; the same on all ranks
   ContactWatch watch;
 
   FixContactStore *store = nullptr;
