@@ -39,7 +39,7 @@ double outweighing(double mu)
 
 double harmless_fraction(double mu)
 {
-  return 0.11 / std::cbrt(mu);
+  return 0.14 / std::cbrt(mu);
 }
 
 }    // namespace
