@@ -3,11 +3,13 @@
 
 import concurrent.futures
 import os
+import re
 
 import beds
 import features
 import heap
 import lammps
+import left_out
 import machine
 import paired
 
@@ -24,6 +26,7 @@ def variants(bench):
     dashpot = STICKS.replace("multistep NULL", "dashpot")
     material = f"hertz/material {beds.YOUNG} 0.5 {beds.NU} tangential multistep NULL NULL {beds.MU}"
     found = {
+        "no friction, no damping": (beds.FRICTIONLESS.replace(str(beds.GN), "0.0"), True, "sphere", "", "f f f"),
         "no friction": (beds.FRICTIONLESS, True, "sphere", "", "f f f"),
         "dashpot friction": (dashpot, True, "sphere", "", "f f f"),
         "onestep friction": (onestep, True, "sphere", "", "f f f"),
@@ -32,6 +35,7 @@ def variants(bench):
         "multistep, material law": (material, True, "sphere", "", "f f f"),
         "multistep, rolling": (STICKS + " rolling 0.02", True, "sphere", "", "f f f"),
         "multistep, rolling, spinning": (STICKS + " rolling 0.02 spinning 0.02", True, "sphere", "", "f f f"),
+        "multistep, limit_damping": (STICKS + " limit_damping", True, "sphere", "", "f f f"),
         "multistep, adhesion": (STICKS + " adhesion perko 0.01", True, "sphere", "", "f f f"),
         "multistep, impact speed and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
                                                                                         f"{beds.NU} 1.0 tang"),
@@ -51,7 +55,7 @@ def script(bench, variant, count, steps):
     return beds.script(data, physics, 100, steps, boundary=boundary)
 
 
-def hybrid(data, physics, style, steps):
+def hybrid(data, physics, style, steps, boundary="f f f", warm=100):
     """The bed in the data format of atom_style hybrid, written once."""
     path = data.replace(".data", ".dipole")
     if not os.path.exists(path):
@@ -65,7 +69,7 @@ def hybrid(data, physics, style, steps):
             file.write("\nVelocities\n\n")
             file.writelines(" ".join(map(repr, v)) + "\n" for v in velocities)
         os.replace(path + ".new", path)
-    return beds.script(path, physics, 100, steps, style=style)
+    return beds.script(path, physics, warm, steps, boundary=boundary, style=style)
 
 
 def times(bench, found, count, steps):
@@ -84,11 +88,23 @@ def bytes_per_particle(bench, variant, sizes):
 
 
 def message(bench, variant):
-    """Bytes of a proxy in each step: position and velocity, spin, dipole; what the host packs."""
-    size = 72 if variant[2] == "sphere" else 96
-    if features.has(bench, "comm_proxy yes") and "tangential" not in variant[0] and "rolling" not in variant[0]:
-        return "72, direct 48"
-    return str(size)
+    """(bytes of a proxy in the host's messages, in those of the direct exchange).
+
+    The host packs position, velocity and spin of every proxy, 9 doubles, and what else the atom style has. comm_proxy info has
+    the bytes and proxies of the direct exchange, which leaves these to the host's own packing if they are more than that."""
+    if not features.has(bench, "comm_proxy yes"):
+        return 72, "-"
+    law, _, style, words, _ = variant
+    data = beds.tile_data(bench)[0]
+    physics = beds.talus(law, walls=False).replace("symplectic start", f"symplectic{words} start")
+    physics += "comm_proxy yes\n"
+    if style != "sphere":
+        text = hybrid(data, physics, style, 20, boundary="p p f", warm=0)
+    else:
+        text = beds.script(data, physics, 0, 20, boundary="p p f")
+    log = lammps.run(bench.workdir, "message", text + "comm_proxy info\n", ranks=2).log
+    sent, proxies = (float(re.search(rf"^ *{what} sent +\S+ +(\S+)", log, re.MULTILINE)[1]) for what in ("bytes", "proxies"))
+    return max(72, round(sent / proxies)), round(sent / proxies)
 
 
 def costs(bench):
@@ -103,14 +119,16 @@ def costs(bench):
         bench.note(f"memory: {name}")
         memory = bytes_per_particle(bench, variant, sizes)
         ratio = paired.ratio(series[name], series[base])
-        rows.append([name, series[name].median, str(ratio), memory, message(bench, variant)])
-        section.record(feature=name, ns=series[name].median, ratio=ratio.median, bytes_per_particle=memory)
+        host, direct = message(bench, variant)
+        rows.append([name, series[name].median, str(ratio), memory, host, direct])
+        section.record(feature=name, ns=series[name].median, ratio=ratio.median, bytes_per_particle=memory, message=host,
+                       direct_message=direct)
     section.heading("Cost")
     section.table(["scene", "ns per particle and step", f"time over that of {base}", "bytes per particle",
-                   "bytes of a proxy in a message"], rows)
+                   "bytes of a proxy in a message", "direct"], rows)
     section.text(f"""Bed of {count} spheres at rest, floor and four walls, one core, {bench.rounds} rounds in turn; memory: slope of the peak
 between {sizes[0]} and {sizes[1]} spheres. The host's exchange sends position, velocity and spin of every proxy in each
-step, needed or not, and the dipole with orientation.""")
+step, needed or not; direct: measured with comm_proxy on two ranks, which leaves out the spin where no force reads it.""")
     exchange(bench)
     if rows:
         section.plot("", "Time over that of multistep friction", lambda plt: draw(plt, rows))
@@ -146,6 +164,28 @@ def draw(plt, rows):
 
 # ---- what is wrong without it -----------------------------------------------------------------
 
+def where_it_matters(bench):
+    section, rows = bench.section, []
+
+    def turned(words):
+        data, _ = beds.bed(bench, bench.size(50000, 12500))
+        physics = beds.talus().replace("symplectic start", f"symplectic{words} start")
+        return hybrid(data, physics, "hybrid sphere dipole", bench.size(300, 100), warm=0)
+    for part in (left_out.slope, left_out.spinning, left_out.damping, left_out.adhesion, left_out.bodies):
+        bench.note(f"left out: {part.__name__}")
+        rows += part(bench)
+    bench.note("left out: orientation, exchange")
+    rows += left_out.orientation(bench, turned)
+    if features.has(bench, "comm_proxy yes"):
+        rows += left_out.exchange(bench)
+    for row in rows:
+        section.record(feature="left out: " + row[0], scene=row[1], quantity=row[2], full=row[3], left_out=row[4])
+    section.heading("What is wrong without it")
+    section.table(["feature", "where it matters", "", "with it", "without"], rows)
+    section.text("""Orientation, and spins in messages of scenes without friction, can be left out for nothing. The others are what the scene
+is about, or can go: friction without memory does not hold anything on a slope, it only slows it down.""")
+
+
 def errors(bench):
     section = bench.section
     laws = heap.laws()
@@ -167,6 +207,8 @@ does not stand.""")
 
 def measure(bench):
     costs(bench)
+    if bench.wants("left out"):
+        where_it_matters(bench)
     if bench.wants("heap"):
         bench.note("heap")
         errors(bench)

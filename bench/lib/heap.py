@@ -29,6 +29,7 @@ def laws():
         "no rolling or spinning resistance": multistep,
         "onestep friction": multistep.replace("multistep", "onestep") + " " + rest,
         "dashpot friction": multistep.replace("multistep NULL", "dashpot") + " " + rest,
+        "no damping": f"{multistep} {rest}".replace(" 0.5 0.3 ", " 1.0 0.3 "),
         "no friction, rolling and spinning": f"{MATERIAL} {rest}",
         "no friction": MATERIAL,
         "with adhesion (5 weights at R_eff)": f"{multistep} {rest} adhesion perko {5 * DENSITY * math.pi / 6 * D**3 * 9.81 / (D / 4):g}",
@@ -46,11 +47,28 @@ def _write(path):
     lammps.write_data(path, ((-0.4, 0.4), (-0.4, 0.4), (-0.01, 0.3)), rows)
 
 
-def collapse(bench, name, law, steps):
-    word = "".join(c if c.isalnum() else "-" for c in name)
-    _write(bench.path(f"{word}.data"))
-    quarter = steps // 4
-    script = f"""units si
+WATCH = 200
+
+
+def watched(bench, steps):
+    """Log of a collapse that prints "step, smallest critical time step, watched"."""
+    _write(bench.path("watched.data"))
+    law = f"{MATERIAL} tangential multistep NULL NULL 0.5"
+    return lammps.run(bench.workdir, "watched", f"""{_head("watched")}{_physics(law)}compute t all timestep/gran
+timestep {DT}
+thermo_style custom step c_t[1]
+thermo {WATCH}
+thermo_modify lost ignore
+run 0 post no
+variable now equal step
+variable least equal c_t[1]
+fix say all print {WATCH} "${{now}} ${{least}} watched"
+run {steps}
+""").log
+
+
+def _head(word):
+    return f"""units si
 atom_style sphere
 atom_modify map array
 newton off
@@ -58,11 +76,22 @@ comm_modify vel yes
 boundary f f f
 read_data {word}.data
 neighbor {0.1 * D} bin
-pair_style gran/penalty
+"""
+
+
+def _physics(law):
+    return f"""pair_style gran/penalty
 pair_coeff * * {law}
 fix move all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 fix floor all large/body plane 0 0 0 0 0 1 contact {law}
-timestep {DT}
+"""
+
+
+def collapse(bench, name, law, steps):
+    word = "".join(c if c.isalnum() else "-" for c in name)
+    _write(bench.path(f"{word}.data"))
+    quarter = steps // 4
+    script = f"""{_head(word)}{_physics(law)}timestep {DT}
 thermo {steps}
 thermo_modify lost ignore
 dump d all custom {quarter} {word}.frames id x y z

@@ -130,6 +130,8 @@ void CommProxy::derive_plan()
 {
   try {
     transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors());
+  } catch (const std::length_error &problem) {
+    error->one(FLERR, "comm_proxy: {}", problem.what());
   } catch (const std::invalid_argument &problem) {
     error->one(FLERR, "comm_proxy: {} (internal error)", problem.what());
   }

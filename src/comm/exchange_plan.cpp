@@ -3,10 +3,21 @@
 #include "comm/exchange_plan.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 using namespace Talus;
+
+int Talus::message_length(int stride, std::size_t count)
+{
+  const std::size_t most = std::numeric_limits<int>::max();
+  if (stride > 0 && count > most / stride)
+    throw std::length_error(
+        "a message between two ranks with more than 2^31 numbers: use more ranks");
+  return stride * static_cast<int>(count);
+}
 
 void ExchangePlan::clear()
 {

@@ -18,6 +18,7 @@
 #define TALUS_COMM_EXCHANGE_PLAN_H
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace Talus {
@@ -53,6 +54,10 @@ struct ExchangeNeighbor {
   int send_count() const { return static_cast<int>(send_index.size()); }
   int receive_count() const { return static_cast<int>(receive_index.size()); }
 };
+
+/// Numbers in a message of `count` particles with `stride` numbers each. MPI counts with an int:
+/// throws std::length_error if they are more.
+int message_length(int stride, std::size_t count);
 
 class ExchangePlan {
  public:

@@ -55,7 +55,7 @@ void ProxyExchange::make_plan(int first_proxy, const std::vector<ProxyOrigin> &o
   std::vector<MPI_Request> handle(n, MPI_REQUEST_NULL);
   for (std::size_t c = 0; c < n; c++) {
     request[c] = the_plan.request_for(candidates[c]);
-    MPI_Isend(request[c].data(), static_cast<int>(request[c].size()), MPI_INT, candidates[c],
+    MPI_Isend(request[c].data(), message_length(1, request[c].size()), MPI_INT, candidates[c],
               TAG_REQUEST, comm, &handle[c]);
   }
   std::vector<std::vector<int>> received(n);
@@ -86,8 +86,8 @@ void ProxyExchange::size_buffers(int new_stride)
   for (const ExchangeNeighbor &n : neighbors) {
     send_start.push_back(sent);
     receive_start.push_back(received);
-    sent += static_cast<std::size_t>(stride) * n.send_count();
-    received += static_cast<std::size_t>(stride) * n.receive_count();
+    sent += message_length(stride, n.send_count());
+    received += message_length(stride, n.receive_count());
   }
   send_buffer.resize(sent);
   receive_buffer.resize(received);
@@ -109,8 +109,9 @@ void ProxyExchange::begin(ProxyPacker &with)
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].receive_count())
-      MPI_Irecv(receive_buffer.data() + receive_start[n], stride * neighbors[n].receive_count(),
-                MPI_DOUBLE, neighbors[n].rank, TAG_STATE, comm, &receives[n]);
+      MPI_Irecv(receive_buffer.data() + receive_start[n],
+                message_length(stride, neighbors[n].receive_count()), MPI_DOUBLE,
+                neighbors[n].rank, TAG_STATE, comm, &receives[n]);
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
   counters.exchanges++;
@@ -124,7 +125,7 @@ void ProxyExchange::pack_and_send(int n)
   const ExchangeNeighbor &to = the_plan.neighbors()[n];
   double *buffer = send_buffer.data() + send_start[n];
   packer->pack(to.send_index.data(), to.send_count(), buffer);
-  const int size = stride * to.send_count();
+  const int size = message_length(stride, to.send_count());
   MPI_Isend(buffer, size, MPI_DOUBLE, to.rank, TAG_STATE, comm, &sends[n]);
   counters.messages++;
   counters.particles += to.send_count();

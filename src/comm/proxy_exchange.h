@@ -44,7 +44,7 @@ class ProxyExchange {
                  const std::vector<int> &candidates);
 
   /// Starts to send the state of our particles. `packer` must live until finish(). Throws
-  /// std::logic_error if an exchange is pending.
+  /// std::logic_error if an exchange is pending, and what message_length() throws.
   void begin(ProxyPacker &packer);
 
   /// Never waits. Unpacks what has arrived.

@@ -22,16 +22,14 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   };
 
   bool all_unit = true;
-  row_start.assign(order.size() + 2, 0);
+  row_start.assign(static_cast<std::size_t>(order.size()) + 2, 0);
   for_each_of_part([&](int, int b, double weight) {
     row_start[b + 2]++;
     all_unit = all_unit && weight == 1.0;
   });
   for (std::size_t s = 2; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
   const std::int64_t count = row_start.back();
-  // contacts are numbered with 32 bits to halve the traffic of the contact list
-  if (count > std::numeric_limits<std::uint32_t>::max() - 8)
-    throw std::length_error("more than 2^32 candidate pairs on one rank");
+  require_countable(count);
 
   renew(first, count);
   renew(second, count);
@@ -49,6 +47,14 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   distant.clear();
   for (std::int64_t c = 0; c < count; c++)
     if (second[c] - first[c] > records_in_cache) distant.push_back(static_cast<std::uint32_t>(c));
+}
+
+/* The narrow phase counts a few further than there are pairs. */
+
+void CandidateList::require_countable(std::int64_t pairs)
+{
+  if (pairs > std::int64_t{std::numeric_limits<std::uint32_t>::max()} - 8)
+    throw std::length_error("more than 2^32 pairs of neighbors on one rank");
 }
 
 /* Rows hold a few pairs, often in order already; those of a sphere much larger than the others may

@@ -22,9 +22,13 @@ namespace Talus {
 class CandidateList {
  public:
   /// At a rebuild, after order.arrange() and order.divide(): the pairs with a member in `part`.
-  /// `order` must live as long as this list. Throws std::length_error beyond 2^32 pairs. May be
+  /// `order` must live as long as this list. Throws what require_countable() throws. May be
   /// called for different parts at the same time.
   void collect(const ParticleOrder &order, const NeighbourView &neighbours, int part);
+
+  /// Contacts are numbered with 32 bits, to halve the traffic of their list: throws
+  /// std::length_error if `pairs` are too many for that.
+  static void require_countable(std::int64_t pairs);
 
   /// Index of the pair of two slots, or -1.
   std::int64_t find(int slot_a, int slot_b) const;

@@ -96,6 +96,14 @@ double tangent_stiffness(ContactLaw law, const ContactCoefficients &c, double ov
   return (is_linear(law.normal) ? 1.0 : 1.5) * k.kn;
 }
 
+double damping_ratio(ContactLaw law, const ContactCoefficients &c, double overlap, double mass_eff,
+                     double radius_eff)
+{
+  const Stiffness<double> k = stiffness_of(law, c, overlap, {mass_eff, radius_eff, c.speed});
+  const double tangent = (is_linear(law.normal) ? 1.0 : 1.5) * k.kn;
+  return tangent > 0.0 ? k.gn / (2.0 * std::sqrt(mass_eff * tangent)) : 0.0;
+}
+
 void EnergyAccount::begin_step(int num_particles)
 {
   elastic_normal = elastic_tangential = 0.0;

@@ -43,6 +43,11 @@ ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficient
 double tangent_stiffness(ContactLaw law, const ContactCoefficients &coefficients, double overlap,
                          double mass_eff, double radius_eff);
 
+/// Normal damping over the critical one of that stiffness, gn/(2 sqrt(m_eff dF_n/d overlap)), 0
+/// without stiffness.
+double damping_ratio(ContactLaw law, const ContactCoefficients &coefficients, double overlap,
+                     double mass_eff, double radius_eff);
+
 /// Running account of the contacts of one rank. Work is that of the time step as the integrator
 /// takes it: force times the mean of the velocities before and after the kick, so that for
 /// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by

@@ -37,9 +37,10 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {
-    const unsigned bits = c + 8 <= end ? touching4(position, first + c, second + c) |
-                                             touching4(position, first + c + 4, second + c + 4) << 4
-                                       : touching_tail(position, first + c, second + c, end - c);
+    const unsigned bits =
+        c + 8 <= end ? touching4(position, first + c, second + c) |
+                           touching4(position, first + c + 4, second + c + 4) << 4
+                     : touching_tail(position, first + c, second + c, static_cast<int>(end - c));
     // store every index, step forward only past the touching ones: no branch to mispredict
     for (unsigned k = 0; k < 8; k++) {
       *out = static_cast<std::uint32_t>(c + k);

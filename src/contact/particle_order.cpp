@@ -2,7 +2,11 @@
 
 #include "contact/particle_order.h"
 
+#include "contact/simd.h"
+
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -21,6 +25,12 @@ struct Entry {
 
 }    // namespace
 
+void ParticleOrder::require_countable(std::size_t particles)
+{
+  if (particles > static_cast<std::size_t>(std::numeric_limits<int>::max()) - lanes)
+    throw std::length_error("more than 2^31 particles and ghosts on one rank");
+}
+
 /* The host's particles are nearly in order already, since the contact store sorts them by key. */
 
 void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key,
@@ -28,6 +38,7 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
 {
   owned = num_owned;
   tag = std::move(tag_of_atom);
+  require_countable(tag.size());
   const int total = static_cast<int>(tag.size());
   parts = 1;
   two_phases = false;

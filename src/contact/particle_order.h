@@ -26,6 +26,10 @@ class ParticleOrder {
   /// 0 ... threads-1) and the others (parts threads ... 2 threads-1). Ghosts are in none.
   void divide(const NeighbourView &neighbours, int threads, bool two_phases);
 
+  /// Slots are counted with an int, like the host's particles: throws std::length_error if there
+  /// are too many.
+  static void require_countable(std::size_t particles);
+
   bool is_owned(int atom) const { return atom < owned; }
   int size() const { return static_cast<int>(atom_of_slot.size()); }
   int num_parts() const { return parts; }

@@ -76,8 +76,8 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
 
 double ParticleRecords::memory_usage() const
 {
-  return static_cast<double>(sizeof(Record)) *
-         (position.capacity() + motion.capacity() + load.capacity() + couple.capacity());
+  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
+                                               load.capacity() + couple.capacity()));
 }
 
 }    // namespace Talus

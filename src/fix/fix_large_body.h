@@ -65,6 +65,10 @@ class FixLargeBody : public Fix {
   /// sqrt(m/k), 0 without stiffness.
   double contact_period(int type, double mass, double radius);
 
+  /// Law and coefficients of contacts of particles of this type with the body.
+  Talus::ContactLaw law_of(int type) const { return specs[type].law; }
+  Talus::ContactCoefficients coefficients_of(int type);
+
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
@@ -84,7 +88,6 @@ class FixLargeBody : public Fix {
   void offer_output();
   void keep_history();
   void set_laws();
-  Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
   void find_region();
   void find_frozen();

@@ -51,12 +51,27 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   double speed;
   MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
 
-  law_period = rayleigh = hertz = 0.0;
-  for (int i = 1; i <= laws.num_types(); i++)
-    for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
+  undamped.clear();
+  looks_at_damping = true;
+  consider_pairs(laws, speed);
   contact = reduce_smallest(contacts.smallest_contact_period());
   if (!(contact > 0.0)) contact = law_period;
   contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));
+}
+
+void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
+{
+  looks_at_damping = false;
+  find_smallest_particles(laws.num_types(), {group});
+  consider_pairs(laws, 0.0);
+  contact = smaller_defined(law_period, smallest_body_period(laws.num_types(), group));
+}
+
+void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
+{
+  law_period = rayleigh = hertz = 0.0;
+  for (int i = 1; i <= laws.num_types(); i++)
+    for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
 }
 
 double CriticalTimeStep::smallest() const
@@ -101,7 +116,11 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
   const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
   const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
 
-  const double k = tangent_stiffness(law, c, 0.01 * std::min(radius[i], radius[j]), m, r);
+  const double overlap = 0.01 * std::min(radius[i], radius[j]);
+  if (looks_at_damping)
+    undamped.consider(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
+
+  const double k = tangent_stiffness(law, c, overlap, m, r);
   if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
   const double modulus = hertzian_modulus(law, c);
   if (modulus > 0.0 && speed > 0.0)
@@ -119,9 +138,14 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
     auto *body = dynamic_cast<FixLargeBody *>(ifix);
     if (!body) continue;
     find_smallest_particles(types, {group, body->groupbit});
-    for (int type = 1; type <= types; type++)
-      if (!std::isinf(radius[type]))
-        smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+    for (int type = 1; type <= types; type++) {
+      if (std::isinf(radius[type])) continue;
+      smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+      if (looks_at_damping)
+        undamped.consider(fmt::format("type {} with fix large/body {}", type, body->id),
+                          body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
+                          mass[type], radius[type]);
+    }
   }
   return smallest;
 }

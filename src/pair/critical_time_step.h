@@ -23,6 +23,7 @@
 
 #include "contact/contact_pipeline.h"
 #include "pair/law_book.h"
+#include "pair/undamped_friction.h"
 #include "pointers.h"
 
 #include <initializer_list>
@@ -32,12 +33,17 @@ namespace LAMMPS_NS {
 
 class CriticalTimeStep : protected Pointers {
  public:
-  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp) {}
+  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp) {}
 
   double contact = 0.0, rayleigh = 0.0, hertz = 0.0;
+  UndampedFriction undamped;    ///< of the laws that compute() has met
 
   /// `group` selects the particles whose sizes count.
   void compute(const LawBook &laws, const Talus::ContactPipeline &contacts, int group);
+
+  /// The same from the sizes of the particles alone: contacts at an overlap of 1 %, no speeds.
+  /// Cheap enough for every rebuild.
+  void compute_from_sizes(const LawBook &laws, int group);
 
   /// Smallest of those that are defined, 0 if none is.
   double smallest() const;
@@ -45,6 +51,7 @@ class CriticalTimeStep : protected Pointers {
  private:
   void find_smallest_particles(int types, std::initializer_list<int> groups);
   double reduce_smallest(double mine) const;
+  void consider_pairs(const LawBook &laws, double speed);
   void consider_pair(const LawBook &laws, int i, int j, double speed);
   double smallest_body_period(int types, int group);
   double rayleigh_of(const ContactSpec &spec, int type) const;
@@ -53,6 +60,7 @@ class CriticalTimeStep : protected Pointers {
   /// there is none.
   std::vector<double> radius, mass;
   double law_period = 0.0;
+  bool looks_at_damping = false;
 };
 
 }    // namespace LAMMPS_NS

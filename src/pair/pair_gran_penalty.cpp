@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -155,7 +156,8 @@ void PairGranPenalty::init_style()
   radii.find(masses.frozen_groups());
   create_store();
   watch.start();
-  laws_current = false;    // init_one() will mix what is not set
+  said_time_step = true;    // until the first forces of the run
+  laws_current = false;     // init_one() will mix what is not set
 }
 
 void PairGranPenalty::check_host()
@@ -246,14 +248,38 @@ void PairGranPenalty::warn_small_periods()
           "xyz"[d]);
 }
 
-/* Once at the start of a run, with the contacts of its first step. */
+/* At the start of a run, with the contacts of its first step. */
 
 void PairGranPenalty::warn_large_time_step()
 {
-  constexpr double advised = 0.2;
   critical.compute(book, pipeline, 1);
+  said_time_step = false;
+  judge_time_step();
+  if (comm->me == 0 && critical.smallest() > 0.0)
+    critical.undamped.warn(update->dt / critical.smallest());
+  critical.compute_from_sizes(book, 1);
+  limit_at_start = critical.smallest();
+}
+
+/* At rebuilds, until something has been said in this run: particles that were added or changed
+   during it may be smaller. */
+
+void PairGranPenalty::look_for_smaller_particles()
+{
+  if (said_time_step) return;
+  critical.compute_from_sizes(book, 1);
   const double limit = critical.smallest();
-  if (comm->me == 0 && limit > 0.0 && update->dt > advised * limit)
+  const bool smaller = limit_at_start > 0.0 ? limit < limit_at_start : limit > 0.0;
+  if (smaller) judge_time_step();
+}
+
+void PairGranPenalty::judge_time_step()
+{
+  constexpr double advised = 0.2;
+  const double limit = critical.smallest();
+  if (!(limit > 0.0) || update->dt <= advised * limit) return;
+  said_time_step = true;
+  if (comm->me == 0)
     error->warning(FLERR,
                    "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
                    "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
@@ -267,6 +293,7 @@ void PairGranPenalty::file_history(PartnerLists &partners)
 {
   // here, because all ranks come here and the pairs are still those of the last step
   watch.look(pipeline, *list);
+  look_for_smaller_particles();
   pipeline.file_history(partners);
 }
 
@@ -295,8 +322,12 @@ void PairGranPenalty::renumber_pairs()
   }
   const auto *exchange = dynamic_cast<PendingExchange *>(comm);
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
-  pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
-                     neighbours());
+  try {
+    pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
+                       neighbours());
+  } catch (const std::length_error &problem) {
+    error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
+  }
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
 }

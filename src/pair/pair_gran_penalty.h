@@ -101,6 +101,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void prepare_laws();
   void warn_small_periods();
   void warn_large_time_step();
+  void look_for_smaller_particles();
+  void judge_time_step();
 
   void finish_exchange();
   Talus::NeighbourView neighbours() const;
@@ -124,6 +126,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   EffectiveMasses masses;
   LargestRadii radii;
   CriticalTimeStep critical;
+  double limit_at_start = 0.0;    // from sizes, of the present run
+  bool said_time_step = true;     // or nothing to say: no run; the same on all ranks
   ContactWatch watch;
 
   FixContactStore *store = nullptr;

@@ -58,9 +58,9 @@ class Convergence(SceneCase):
             ends.append([frame.atoms[tag] for tag in (1, 2)])
         return ends
 
-    def order(self, law, start="half", reference=None):
+    def order(self, law, start="half", reference=None, reference_start=None):
         """(slope of log error of the motion over log dt, finest error) against a run with a very fine step."""
-        runs = [(law, start, k) for k in LEVELS] + [(reference or law, start, REFERENCE)]
+        runs = [(law, start, k) for k in LEVELS] + [(reference or law, reference_start or start, REFERENCE)]
         *coarse, exact = self.motion(runs)
         errors = [max(abs(a - b) for row, other in zip(end, exact) for a, b in zip(row[1:], other[1:]))
                   for end in coarse]
@@ -70,6 +70,19 @@ class Convergence(SceneCase):
         slope = sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx)**2 for a in x)
         print(f"{law}, start {start}: order {slope:.2f}, errors " + " ".join(f"{e:.1e}" for e in errors))
         return slope, errors[-1]
+
+    def test_half_start_is_of_second_order_under_a_force(self):
+        """Spheres that are pressed together are let go: without the half kick the error is of first order."""
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, [
+            Sphere((-0.49, 0, 0), density=1000.0), Sphere((0.49, 0, 0), density=1000.0)])
+        law = f"hertz {HERTZ} 0.0"
+        order, finest = self.order(law)
+        self.assertGreater(order, 1.75)
+        self.assertLess(finest, 1e-4)
+        order, coarse = self.order(law, "plain", reference_start="half")
+        self.assertGreater(order, 0.8)
+        self.assertLess(order, 1.5)        # otherwise the half kick has lost its reason
+        self.assertGreater(coarse, 5 * finest)
 
     def test_sliding_is_of_second_order(self):
         order, finest = self.order(f"hertz {HERTZ} 0.0 {FRICTION} {MINDLIN} 0.0 0.1")

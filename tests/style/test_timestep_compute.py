@@ -185,6 +185,19 @@ class TimestepCompute(SceneCase):
         self.compute("pair_coeff * * hooke 1e6 10", APART, dt=1.0, steps=5)
         self.assertEqual(len(re.findall(WARNING, self.log)), 1)
 
+    def test_particles_that_come_during_a_run(self):
+        """A light particle is inserted; its density is fix deposit's, 1."""
+        heavy = [sphere(0, (-4, -4, -4)), sphere(0, (4, 4, -4))]
+        law, light = "pair_coeff * * hooke 1e6 10", 1.0 * 4 / 3 * math.pi * 0.5**3
+        insert = "region hole block -1 1 -1 1 -1 1\nfix drops all deposit 1 {type} 3 4711 region hole\nneigh_modify check no"
+        dt = 0.15 * math.sqrt(reduced(mass(0), mass(0)) / 1e6)
+        for np in 1, 2:
+            self.compute(law, heavy, dt=dt, steps=8, np=np, more=insert.format(type=1))
+            (fraction, _), = re.findall(WARNING, self.log)
+            self.assertAlmostEqual(float(fraction), dt / math.sqrt(light / 2 / 1e6), delta=0.01)
+        self.compute(law, heavy, dt=dt, steps=8)
+        self.assertEqual(re.findall(WARNING, self.log), [], "nothing has come")
+
     def test_contacts_of_bodies(self):
         """A stiff body alone: no pairs touch, so the law of the particles decides."""
         found = self.compute("pair_coeff * * hooke 1e4 10", [sphere(0, (0, 0, 0.499)), sphere(1, (3, 0, 3))],

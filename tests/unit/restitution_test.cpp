@@ -3,6 +3,7 @@
 // Damping from restitution: every law, with and without limit_damping, gives the restitution that was asked for. Measured
 // by integrating an impact with a Runge-Kutta scheme of its own around the kernels' own normal forces.
 
+#include "contact/contact_energy.h"
 #include "contact/contact_kernel.h"
 #include "contact/restitution.h"
 #include "pair/contact_spec.h"
@@ -130,6 +131,21 @@ TEST(Restitution, ThorntonsFitIsClose)
   }
   std::cout << "largest deviation of Thornton's damping, e from .02 to .9: " << worst << "\n";
   EXPECT_LT(worst, 5e-3);
+}
+
+// gn/(2 sqrt(m k)): of a linear contact the usual one; of hertz/material half its factor, at any overlap, mass and radius.
+TEST(Restitution, DampingRatio)
+{
+  ContactCoefficients c;
+  c.kn = 4.0;
+  c.gn = 0.4;    // 1/time
+  EXPECT_DOUBLE_EQ(damping_ratio({NormalLaw::HOOKE}, c, 0.1, 1.0, 0.5), 0.1);
+  c.gn = hertz_damping_factor(0.9);
+  for (double overlap : {1e-6, 0.1})
+    for (double mass : {1e-3, 10.0})
+      EXPECT_NEAR(damping_ratio({NormalLaw::HERTZ_MATERIAL}, c, overlap, mass, 0.2), 0.5 * c.gn, 1e-14);
+  c.kn = 0.0;
+  EXPECT_EQ(damping_ratio({NormalLaw::HOOKE}, c, 0.1, 1.0, 0.5), 0.0);
 }
 
 }    // namespace

@@ -1,0 +1,143 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Counts of pairs and of bytes near and above 2^31 on one rank. Limits are checked on the counts
+// alone; arrays are above 2^31 bytes (4 GB in all) if TALUS_LARGE_TESTS is set in the environment.
+
+#include "comm/exchange_plan.h"
+#include "contact/big_vector.h"
+#include "contact/candidate_list.h"
+#include "contact/contact_history.h"
+#include "contact/narrow_phase.h"
+#include "contact/partner_lists.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+using namespace Talus;
+
+namespace {
+
+constexpr std::int64_t two31 = std::int64_t{1} << 31, two32 = std::int64_t{1} << 32;
+
+// what counts or numbers pairs, blocks of pairs and entries is 64 bits wide
+static_assert(
+    std::is_same<decltype(std::declval<CandidateList>().num_pairs()), std::int64_t>::value, "");
+static_assert(std::is_same<decltype(std::declval<CandidateList>().find(0, 0)), std::int64_t>::value,
+              "");
+static_assert(std::is_same<decltype(find_contacts(std::declval<CandidateList>(), 0, 0, nullptr,
+                                                  nullptr, nullptr)),
+                           std::int64_t>::value,
+              "");
+static_assert(
+    std::is_invocable<decltype(&ContactHistory::touches), ContactHistory, std::int64_t>::value, "");
+
+TEST(IndexArithmetic, PairsAreCountedUpTo32Bits)
+{
+  for (const std::int64_t n : {std::int64_t{0}, two31 - 1, two31, two31 + 1, two32 - 9})
+    EXPECT_NO_THROW(CandidateList::require_countable(n)) << n;
+  for (const std::int64_t n : {two32 - 8, two32, 3 * two32})
+    EXPECT_THROW(CandidateList::require_countable(n), std::length_error) << n;
+}
+
+TEST(IndexArithmetic, ParticlesAreCountedUpTo31Bits)
+{
+  EXPECT_NO_THROW(ParticleOrder::require_countable(two31 - 100));
+  for (const std::int64_t n : {two31 - 1, two31, two32 + 5})
+    EXPECT_THROW(ParticleOrder::require_countable(n), std::length_error) << n;
+}
+
+TEST(IndexArithmetic, MessagesHaveUpTo31BitsOfNumbers)
+{
+  const std::int64_t most = std::numeric_limits<int>::max();
+  EXPECT_EQ(message_length(9, 1000), 9000);
+  EXPECT_EQ(message_length(1, most), most);
+  EXPECT_EQ(message_length(9, most / 9), most / 9 * 9);
+  EXPECT_THROW(message_length(9, most / 9 + 1), std::length_error);
+  EXPECT_THROW(message_length(1, two31), std::length_error);
+  EXPECT_THROW(message_length(9, two31), std::length_error);
+  EXPECT_EQ(message_length(0, two32), 0);
+}
+
+TEST(IndexArithmetic, RequestsForParticlesBeyondTheLastAreRejected)
+{
+  ExchangePlan plan;
+  plan.build(0, 10, {});
+  const int last = std::numeric_limits<int>::max();
+  EXPECT_THROW(plan.accept_request(1, {3, last}), std::invalid_argument);
+  EXPECT_THROW(plan.accept_request(1, {-last - 1, 3}), std::invalid_argument);
+  EXPECT_NO_THROW(plan.accept_request(1, {3, 4}));
+}
+
+TEST(IndexArithmetic, BigMemoryAbove2GBytesIsReachable)
+{
+  const std::size_t bytes = std::size_t{5}
+                            << 30;    // only the pages that are written become resident
+  auto *memory = static_cast<unsigned char *>(allocate_big(bytes));
+  const std::size_t places[] = {0, std::size_t{1} << 31, std::size_t{1} << 32, bytes - 1};
+  for (std::size_t k = 0; k < 4; k++) memory[places[k]] = static_cast<unsigned char>(k + 1);
+  for (std::size_t k = 0; k < 4; k++) EXPECT_EQ(memory[places[k]], k + 1);
+  release_big(memory);
+}
+
+/// Every pair of n particles is a candidate; only the last few particles touch each other.
+TEST(IndexArithmetic, HistoriesAbove2GBytes)
+{
+  const bool large = std::getenv("TALUS_LARGE_TESTS");
+  const int n = large ? 12000 : 1200, close = 5;    // 7.2e7 pairs, 2.3 GB of records
+  std::vector<int> particle(n), size(n);
+  std::vector<const int *> entries(n);
+  std::iota(particle.begin(), particle.end(), 0);
+  for (int i = 0; i < n; i++) {
+    size[i] = n - 1 - i;
+    entries[i] = particle.data() + i + 1;
+  }
+  const NeighbourView view{n,  particle.data(),     size.data(), entries.data(), ~0,
+                           30, {1.0, 0.0, 0.0, 0.0}};
+  std::vector<std::int64_t> tag(n);
+  std::iota(tag.begin(), tag.end(), 1);
+  ParticleOrder order;
+  order.arrange(n, std::vector<std::uint64_t>(n, 0), tag);
+  order.divide(view, 1, false);
+
+  CandidateList pairs;
+  pairs.collect(order, view, 0);
+  ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
+  ASSERT_EQ(large, pairs.num_pairs() * static_cast<std::int64_t>(sizeof(Record)) > two31);
+  EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
+
+  PartnerLists partners;
+  partners.resize(n);
+  partners.begin();
+  partners.layout();
+  ContactHistory history;
+  history.fetch(pairs, partners, tag);
+  BigVector<Record> position(n);
+  for (int i = 0; i < n; i++)
+    position[i] = {{i < n - close ? 10.0 * i : 10.0 * n + 0.01 * i, 0.0, 0.0, 0.5}};
+  BigVector<std::uint32_t> contacts;
+  renew(contacts, 1000);
+  const std::int64_t end = pairs.num_pairs(), some = 400;
+  const std::int64_t touching =
+      find_contacts(pairs, end / 8 * 8 - some, end, position.data(), &history, contacts.data());
+  ASSERT_EQ(touching, close * (close - 1) / 2);
+  EXPECT_EQ(contacts[touching - 1], end - 1);
+
+  history.records[end - 1] = {{1.0, 2.0, 3.0, 1.0}};
+  partners.begin();
+  history.announce(pairs, partners);
+  partners.layout();
+  history.file(pairs, partners);
+  EXPECT_EQ(partners.size(n - 1), close - 1);
+  history.records[end - 1] = {};
+  history.fetch(pairs, partners, tag);
+  EXPECT_EQ(history.records[end - 1].c[1], 2.0);
+  EXPECT_TRUE(history.touches(end - 1));
+}
+
+}    // namespace
