@@ -8,6 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import body_balance
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
@@ -183,32 +184,14 @@ class Balance(MotionCase):
         body_meshes.write_stl(self.path("vessel.stl"), body_meshes.box((-3, -3, -3), (3, 3, 4), 8, inward=True))
         body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((1.3, 1.1, 2.3), 0.8, 8))
         friction = "contact hooke 1e4 20 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"
-        bodies = ["vessel", "ball", "blade"]
-        sums = []
-        for k in range(3):
-            a, b = (k + 1) % 3, (k + 2) % 3
-            force = "+".join(f"f_{name}[{k + 1}]" for name in bodies)
-            moment = "+".join(f"f_{name}[{k + 4}]+f_{name}[{a + 7}]*f_{name}[{b + 1}]"
-                              f"-f_{name}[{b + 7}]*f_{name}[{a + 1}]" for name in bodies)
-            axis, u, v = "xyz"[k], "xyz"[a], "xyz"[b]
-            sums.append(f"""
-compute tq{axis} all property/atom tq{axis}
-variable moment{axis} atom {u}*f{v}-{v}*f{u}+c_tq{axis}
-compute sum{axis} all reduce sum f{axis} v_moment{axis}
-variable force{axis} equal c_sum{axis}[1]+{force}
-variable torque{axis} equal c_sum{axis}[2]+{moment}""")
         rows = self.simulate(pile((5, 5, 4), (-2.2, -2.2, -2.4), 1.02), f"""
 fix step all nve/sphere/symplectic gravity 5.0 vector 0.3 0 -1
 fix vessel all large/body mesh vessel.stl {friction} move wiggle 0.2 0 0.1 0.8
 fix ball all large/body mesh ball.stl {friction} move free mass 2 inertia 0.5 0.6 0.7 spin 3 1 2 velocity 0 0 -4
 fix blade all large/body cylinder -0.8 0 1.4 0 1 0 0.5 3 outside {friction} move rotate -0.8 0 1.2 0 1 0 1.1
-variable scale atom abs(fx)+abs(fy)+abs(fz)
-compute scale all reduce sum v_scale
-""" + "".join(sums), 300, columns="f_ball[20] f_blade[20] c_scale " +
-                             " ".join(f"v_{what}{k}" for what in ("force", "torque") for k in "xyz"),
+""" + body_balance.script(["vessel", "ball", "blade"]), 300, columns=f"f_ball[20] f_blade[20] {body_balance.COLUMNS}",
                              every=1, np=2)
-        worst = max(abs(row[f"v_{what}{k}"]) / row["c_scale"] for row in rows[20:]
-                    for what in ("force", "torque") for k in "xyz")
+        worst = body_balance.worst(rows[20:])
         print(f"third law: worst sum {worst:.1e} of the forces; ball and blade touch "
               f"{rows[-1]['f_ball[20]']:.0f} and {rows[-1]['f_blade[20]']:.0f} particles")
         self.assertLess(worst, 1e-10)
