@@ -133,6 +133,7 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
   for (int law = 0; law < laws.num_laws(); law++) {
     for (std::size_t c = begin; c < end; c++) {
       if (c + ahead < end) call_ahead(task.view, candidates[c + ahead]);
+      if (!single) call_parts_ahead(shape, task.view, c, end);
       const int type = task.view.type[candidates[c]];
       if (laws.law_index(laws.row(type, type)) != law) continue;
       if (single)
@@ -155,6 +156,22 @@ void BodyContacts::call_ahead(const BodyParticleView &view, int i) const
   for (const double *numbers : {view.radius, view.mass}) __builtin_prefetch(numbers + i);
   __builtin_prefetch(view.type + i);
   if (with_history && single) __builtin_prefetch(&history[i]);
+}
+
+/* First the list of parts, then those that the particle probably touches. */
+
+void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
+                                    std::size_t c, std::size_t end) const
+{
+  if (c + ahead >= end) return;
+  memory.call_ahead(candidates[c + ahead]);
+  __builtin_prefetch(parts.data() + parts_begin[c + ahead]);
+  const std::size_t soon = c + ahead / 2;
+  const double reach = 1.01 * view.radius[candidates[soon]];
+  for (std::size_t p = parts_begin[soon]; p < parts_begin[soon + 1]; p++) {
+    if (parts[p].distance > reach) break;
+    shape.call_ahead(parts[p].part);
+  }
 }
 
 void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,

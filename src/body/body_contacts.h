@@ -75,6 +75,8 @@ class BodyContacts {
   void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                      std::size_t begin, std::size_t end);
   void call_ahead(const BodyParticleView &view, int atom) const;
+  void call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
+                        std::size_t candidate, std::size_t end) const;
   void touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                   std::size_t candidate);
   void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,

@@ -90,6 +90,9 @@ class LargeBodyShape {
     return distance_bound(centre) < reach;
   }
 
+  /// Starts to load into the cache what find_contacts() will read of a part; a hint, no more.
+  virtual void call_ahead(int part) const { (void) part; }
+
   virtual bool thread_safe() const { return true; }
 
   /// For pictures: the surface as triangles; what is infinite ends at `visible`.

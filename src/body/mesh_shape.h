@@ -36,6 +36,7 @@ class MeshShape : public LargeBodyShape {
                     SurfaceContact *found) const override;
   bool is_near(const Vector3<double> &centre, double reach,
                std::vector<NearPart> &parts) const override;
+  void call_ahead(int part) const override { mesh.call_ahead(part); }
   void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
 
  private:

@@ -57,6 +57,13 @@ class TriangleMesh {
   double volume() const { return enclosed; }
   const Vector3<double> &centre() const { return middle; }
 
+  /// Starts to load what nearest() reads.
+  void call_ahead(int t) const
+  {
+    const char *const at = reinterpret_cast<const char *>(&faces[t]);
+    for (std::size_t byte = 0; byte < sizeof(Face); byte += 64) __builtin_prefetch(at + byte);
+  }
+
   NearestPoint nearest(int t, const Vector3<double> &point) const;
 
   /// Is the nearest point of triangle t a point of the whole surface from which the distance grows
@@ -70,7 +77,7 @@ class TriangleMesh {
   struct Corners {
     int vertex[3];
   };
-  struct Face {    // what every step looks at, in one place
+  struct alignas(64) Face {    // what every step looks at, in one place
     Triangle corners;
     Vector3<double> normal;
     // of each edge: an edge is no minimum if the square of the cosine between the normal and the
