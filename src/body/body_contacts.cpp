@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Talus {
 namespace {
@@ -61,12 +62,27 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   }
 }
 
-void BodyContacts::follow(const LargeBodyShape &shape, const BodyFrame &frame,
-                          const BodyParticleView &view, const int *mask, int group, double skin)
+bool BodyContacts::is_stale(const BodyFrame &frame, double skin) const
 {
-  if (!frame.moves) return;
-  if (largest_displacement(listed_frame, frame, listed_reach) <= free_way * skin) return;
-  find_candidates(shape, frame, view, mask, group, skin);
+  return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
+}
+
+Bounds BodyContacts::asked_for(const BodyFrame &frame, const BodyParticleView &view,
+                               const int *mask, int group, double skin)
+{
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Bounds box{{far, far, far}, {-far, -far, -far}};
+  double largest = 0.0;
+  for (int i = 0; i < view.owned; i++) {
+    if (!(mask[i] & group)) continue;
+    const Vector3<double> x = frame.point_to_body(row(view.x, i));
+    box = joined(box, {x, x});
+    largest = std::max(largest, view.radius[i]);
+  }
+  // listed with the margin below; they go half a skin, the body what it may until it is stale
+  const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
+  const Vector3<double> around{reach, reach, reach};
+  return {box.low - around, box.high + around};
 }
 
 void BodyContacts::forget(int i)

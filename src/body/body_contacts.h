@@ -4,7 +4,7 @@
 // kernels as contacts between particles. Knows nothing of the host.
 //
 //   at a rebuild   find_candidates()
-//   every step     follow(), compute()
+//   every step     compute(), after find_candidates() if is_stale()
 
 #ifndef TALUS_BODY_BODY_CONTACTS_H
 #define TALUS_BODY_BODY_CONTACTS_H
@@ -38,9 +38,13 @@ class BodyContacts {
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
                        const BodyParticleView &view, const int *mask, int group, double skin);
 
-  /// In steps without a rebuild: lists anew if the body has moved too far since.
-  void follow(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
-              const int *mask, int group, double skin);
+  /// The body has moved so far that particles must be listed anew.
+  bool is_stale(const BodyFrame &frame, double skin) const;
+
+  /// The box, in the frame of the body, around all that find_candidates() may ask the shape for
+  /// until the next call; low > high without particles.
+  static Bounds asked_for(const BodyFrame &frame, const BodyParticleView &view, const int *mask,
+                          int group, double skin);
 
   /// Adds the contact forces to the particles and returns their reaction.
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
@@ -99,7 +103,7 @@ class BodyContacts {
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
   BodyFrame listed_frame;
   double largest_overlap = 0.0;    // over radius
-  double listed_reach = 0.0;    // largest distance of a particle from the reference point
+  double listed_reach = 0.0;       // largest distance of a particle from the reference point
 
   struct Motion {
     Vector3<double> velocity, spin, place;    // frame of the body; place: in space

@@ -241,7 +241,16 @@ void FixLargeBody::min_post_neighbor()
 void FixLargeBody::post_neighbor()
 {
   masses.update();
-  contacts.find_candidates(*shape, motion.frame(), view(), atom->mask, groupbit, neighbor->skin);
+  list_particles();
+}
+
+void FixLargeBody::list_particles()
+{
+  const BodyParticleView particles = view();
+  if (shape->wants_focus())
+    shape->focus(
+        BodyContacts::asked_for(motion.frame(), particles, atom->mask, groupbit, neighbor->skin));
+  contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin);
 }
 
 void FixLargeBody::setup(int vflag)
@@ -296,7 +305,7 @@ void FixLargeBody::post_force(int vflag)
     virials.assign(6L * atom->nlocal, 0.0);
     particles.virial = virials.data();
   }
-  contacts.follow(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin);
+  if (contacts.is_stale(motion.frame(), neighbor->skin)) list_particles();
   const bool advance = update->setupflag == 0;
   compute_contacts(particles, advance);
   if (evflag) tally_virial();

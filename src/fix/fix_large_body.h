@@ -83,6 +83,7 @@ class FixLargeBody : public Fix {
   void set_laws();
   Talus::ContactCoefficients coefficients_of(int type);
   Talus::BodyParticleView view() const;
+  void list_particles();
   void find_region();
   void find_frozen();
   void clear_frozen();

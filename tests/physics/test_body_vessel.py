@@ -45,6 +45,7 @@ run {shaken}
 pair_coeff * * hertz 4e4 200
 {balance}thermo 1
 thermo_style custom step ke {columns}
+thermo_modify norm no
 run {watched}
 pair_coeff * * hertz 4e4 200 tangential multistep NULL NULL 0.4
 thermo 1000

@@ -291,8 +291,9 @@ TEST(MeshTree, FindsWhatASearchOfAllTrianglesFinds)
   std::vector<Triangle> soup = cut_plane(axes, 1.0, 12, 0.3, random);
   for (Triangle &t : soup)
     for (V &p : t.corner) p.z = 0.2 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y);
-  const TriangleMesh all(soup);
-  const MeshShape mesh(all, true);
+  const TriangleMesh surface(soup);
+  const MeshDetail all(surface, surface.bounds());
+  const MeshShape mesh(surface, true);
   for (int n = 0; n < 300; n++) {
     const V x = talus(random.in_cube(1.3));
     const double reach = random.uniform(0.05, 0.6);
