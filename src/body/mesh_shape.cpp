@@ -126,23 +126,42 @@ int MeshShape::merge(SurfaceContact *raw, int count, double radius, SurfaceConta
 /* Where the foot on a plane is known, the other triangles of this plane add nothing: what else they
    touch has nearly the same normal, is of the same patch and less deep. */
 
-int MeshShape::find_contacts(const Vector3<double> &centre, double radius, NearParts parts,
-                             SurfaceContact *found) const
+template <class Take>
+void MeshShape::each_minimum(const Vector3<double> &centre, double radius, NearParts parts,
+                             Take take) const
 {
-  SurfaceContact raw[max_minima], contact;
-  int count = 0, planes[max_planes], num_planes = 0;
+  SurfaceContact contact;
+  int planes[max_planes], num_planes = 0;
   for (const NearPart *p = parts.begin; p != parts.end; p++) {
     if (std::find(planes, planes + num_planes, p->group) != planes + num_planes) continue;
     double height;
     if (!contact_with(p->part, centre, radius, contact, height)) continue;
-    keep(raw, count, contact);
+    take(contact);
     if (height > TriangleMesh::smooth_cosine * radius && num_planes < max_planes)
       planes[num_planes++] = p->group;
   }
-  if (count < 2) {
-    if (count) found[0] = raw[0];
-    return count;
-  }
+}
+
+int MeshShape::find_contacts(const Vector3<double> &centre, double radius, NearParts parts,
+                             SurfaceContact *found) const
+{
+  int count = 0;
+  each_minimum(centre, radius, parts, [&](const SurfaceContact &contact) {
+    if (count < max_contacts) found[count] = contact;
+    count++;
+  });
+  if (count < 2) return count;
+  if (count <= max_contacts) return merge(found, count, radius, found);
+  return find_many(centre, radius, parts, found);
+}
+
+int MeshShape::find_many(const Vector3<double> &centre, double radius, NearParts parts,
+                         SurfaceContact *found) const
+{
+  SurfaceContact raw[max_minima];
+  int count = 0;
+  each_minimum(centre, radius, parts,
+               [&](const SurfaceContact &contact) { keep(raw, count, contact); });
   return merge(raw, count, radius, found);
 }
 

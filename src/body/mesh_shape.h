@@ -53,6 +53,10 @@ class MeshShape : public LargeBodyShape {
   void look_at(const Bounds &bounds);
   bool contact_with(int t, const Vector3<double> &centre, double radius, SurfaceContact &contact,
                     double &face_height) const;
+  template <class Take>
+  void each_minimum(const Vector3<double> &centre, double radius, NearParts parts, Take take) const;
+  int find_many(const Vector3<double> &centre, double radius, NearParts parts,
+                SurfaceContact *found) const;
   bool same_contact(const SurfaceContact &a, const SurfaceContact &b, double radius) const;
   int merge(SurfaceContact *raw, int count, double radius, SurfaceContact *found) const;
 
