@@ -39,7 +39,7 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin)
 {
   candidates.clear();
-  listed_at.clear();
+  listed.clear();
   parts.clear();
   parts_begin.assign(1, 0);
   listed_frame = frame;
@@ -53,7 +53,8 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
       if (frame.moves) listed_reach = std::max(listed_reach, length(x - frame.origin) + reach);
       near = single ? shape.distance_bound(x) < reach : shape.is_near(x, reach, parts);
       if (near && !single) {
-        listed_at.push_back(x);
+        const bool has_parts = parts.size() > parts_begin.back();
+        listed.push_back({x, has_parts ? parts[parts_begin.back()].distance : 0.0});
         parts_begin.push_back(parts.size());
       }
     }
@@ -83,6 +84,33 @@ Bounds BodyContacts::asked_for(const BodyFrame &frame, const BodyParticleView &v
   const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
   const Vector3<double> around{reach, reach, reach};
   return {box.low - around, box.high + around};
+}
+
+BodyContacts::Worst BodyContacts::worst(const LargeBodyShape &shape, const BodyFrame &frame,
+                                        const BodyParticleView &view) const
+{
+  Worst most;
+  SurfaceContact found[LargeBodyShape::max_contacts];
+  for (std::size_t c = 0; c < candidates.size(); c++) {
+    const int i = candidates[c];
+    const Vector3<double> place = row(view.x, i), x = frame.point_to_body(place);
+    const double radius = view.radius[i];
+    const int count =
+        single ? static_cast<int>(shape.touches(x, radius, *found))
+               : shape.find_contacts(x, radius, parts_near(c, radius + length(x - listed[c].at)),
+                                     found);
+    for (int k = 0; k < count; k++) {
+      if (found[k].overlap / radius <= most.overlap) continue;
+      most.overlap = found[k].overlap / radius;
+      most.deepest = i;
+    }
+    const Vector3<double> v = row(view.v, i);
+    const double speed = length(frame.moves ? v - frame.velocity_at(place) : v) / radius;
+    if (speed <= most.speed) continue;
+    most.speed = speed;
+    most.fastest = i;
+  }
+  return most;
 }
 
 void BodyContacts::forget(int i)
@@ -149,6 +177,7 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
   for (int law = 0; law < laws.num_laws(); law++) {
     for (std::size_t c = begin; c < end; c++) {
       if (c + ahead < end) call_ahead(task.view, candidates[c + ahead]);
+      if (c + 2 * ahead < end) __builtin_prefetch(task.view.radius + candidates[c + 2 * ahead]);
       if (!single) call_parts_ahead(shape, task.view, c, end);
       const int type = task.view.type[candidates[c]];
       if (laws.law_index(laws.row(type, type)) != law) continue;
@@ -180,10 +209,13 @@ void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParti
                                     std::size_t c, std::size_t end) const
 {
   if (c + ahead >= end) return;
-  memory.call_ahead(candidates[c + ahead]);
-  __builtin_prefetch(parts.data() + parts_begin[c + ahead]);
-  const std::size_t soon = c + ahead / 2;
-  const double reach = 1.01 * view.radius[candidates[soon]];
+  const double near = 1.01;    // of the radius
+  const std::size_t first = c + ahead, soon = c + ahead / 2;
+  memory.call_ahead(candidates[first]);
+  if (listed[first].nearest < near * view.radius[candidates[first]])
+    __builtin_prefetch(parts.data() + parts_begin[first]);
+  const double reach = near * view.radius[candidates[soon]];
+  if (listed[soon].nearest >= reach) return;
   for (std::size_t p = parts_begin[soon]; p < parts_begin[soon + 1]; p++) {
     if (parts[p].distance > reach) break;
     shape.call_ahead(parts[p].part);
@@ -203,15 +235,13 @@ void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task,
     forget(i);
 }
 
-/* Only parts that the particle can have reached since they were listed. */
+/* Only parts that the particle can have reached since they were listed; nearest first. */
 
-NearParts BodyContacts::parts_near(std::size_t c, const Vector3<double> &x, double radius) const
+NearParts BodyContacts::parts_near(std::size_t c, double reach) const
 {
   const NearPart *const begin = parts.data() + parts_begin[c];
   const NearPart *const last = parts.data() + parts_begin[c + 1];
-  // a little more than the way that it went: rounding must not hide a part
-  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed_at[c]) + 1.0e-9 * radius;
-  const NearPart *end = begin;    // nearest first
+  const NearPart *end = begin;
   while (end != last && end->distance < reach) end++;
   return {begin, end};
 }
@@ -222,8 +252,11 @@ void BodyContacts::touch_often(const LargeBodyShape &shape, const BodyTask &task
   const int i = candidates[c];
   const Vector3<double> x = task.frame.point_to_body(row(task.view.x, i));
   SurfaceContact found[LargeBodyShape::max_contacts];
-  const int count =
-      shape.find_contacts(x, task.view.radius[i], parts_near(c, x, task.view.radius[i]), found);
+  const double radius = task.view.radius[i];
+  // a little more than the way that it went: rounding must not hide a part
+  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed[c].at) + 1.0e-9 * radius;
+  const bool may_touch = listed[c].nearest < reach;
+  const int count = may_touch ? shape.find_contacts(x, radius, parts_near(c, reach), found) : 0;
   NewList &list = new_lists[c];
   list.first = static_cast<int>(batch.remembered.size());
   list.count = count;
@@ -294,7 +327,7 @@ double BodyContacts::memory_usage() const
 {
   return static_cast<double>((history.capacity() + onset.capacity()) * sizeof(Record) +
                              candidates.capacity() * sizeof(int) +
-                             listed_at.capacity() * sizeof(Vector3<double>) +
+                             listed.capacity() * sizeof(Listed) +
                              parts.capacity() * sizeof(NearPart)) +
          memory.memory_usage();
 }

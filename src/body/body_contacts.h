@@ -46,6 +46,15 @@ class BodyContacts {
   static Bounds asked_for(const BodyFrame &frame, const BodyParticleView &view, const int *mask,
                           int group, double skin);
 
+  /// Of the particles listed: the largest overlap/radius and its particle, the largest speed past
+  /// the body over the radius and its particle. Zero without any.
+  struct Worst {
+    double overlap = 0.0, speed = 0.0;
+    int deepest = 0, fastest = 0;
+  };
+  Worst worst(const LargeBodyShape &shape, const BodyFrame &frame,
+              const BodyParticleView &view) const;
+
   /// Adds the contact forces to the particles and returns their reaction.
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
                    const BodyParticleView &view, const BodyStep &step);
@@ -85,7 +94,7 @@ class BodyContacts {
                   std::size_t candidate);
   void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                    std::size_t candidate);
-  NearParts parts_near(std::size_t candidate, const Vector3<double> &x, double radius) const;
+  NearParts parts_near(std::size_t candidate, double reach) const;
   void renew_memory(int threads);
   void remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
                            EnergyAccount &account);
@@ -93,8 +102,12 @@ class BodyContacts {
   LawTable laws;
   bool with_history = false, with_onset = false, single = true;
   std::vector<int> candidates;
-  std::vector<Vector3<double>> listed_at;    // by candidate, frame of the body
-  std::vector<std::size_t> parts_begin;      // by candidate and one more
+  struct Listed {
+    Vector3<double> at;    // frame of the body
+    double nearest;        // distance of the nearest of its parts, 0 without parts
+  };
+  std::vector<Listed> listed;              // by candidate
+  std::vector<std::size_t> parts_begin;    // by candidate and one more
   std::vector<NearPart> parts;
   struct NewList {
     int first, count, batch;

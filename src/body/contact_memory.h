@@ -49,7 +49,7 @@ class ContactMemory {
   /// different threads may have made.
   void start_step();
   void set_list(int particle, int first, int count) { lists[particle] = {first, count}; }
-  int append(const std::vector<RememberedContact> &piece);
+  int append(std::vector<RememberedContact> &piece);    ///< which is used up
   void end_step();
 
   /// For migration and restart: count, contacts. Returns the number of doubles.
