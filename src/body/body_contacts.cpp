@@ -280,6 +280,7 @@ void BodyContacts::renew_memory(int threads)
 {
   memory.start_step();
   std::vector<int> first;
+  first.reserve(threads);
   for (int t = 0; t < threads; t++) first.push_back(memory.append(batches[t]->remembered));
   for (std::size_t c = 0; c < candidates.size(); c++)
     memory.set_list(candidates[c], first[new_lists[c].batch] + new_lists[c].first,

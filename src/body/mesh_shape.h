@@ -30,6 +30,9 @@ class MeshShape : public LargeBodyShape {
   /// `focused`: nothing is found before focus() has said where.
   MeshShape(TriangleMesh mesh, bool two_sided, bool focused = false);
 
+  MeshShape(const MeshShape &) = delete;    // the detail knows the mesh by its address
+  MeshShape &operator=(const MeshShape &) = delete;
+
   const TriangleMesh &surface() const { return mesh; }
   /// Triangles that may be found here.
   int size_of_detail() const { return detail ? detail->size() : 0; }
