@@ -29,7 +29,7 @@ def arguments():
                         help="1 - speed/(radius * angular velocity)")
     parser.add_argument("--speed", type=float, default=0.2, help="forward speed (m/s)")
     parser.add_argument("--load", type=float, default=0.4, help="load on the wheel (N)")
-    parser.add_argument("--time", type=float, default=0.5, help="time of the drive (s), shared by the slips")
+    parser.add_argument("--time", type=float, default=0.4, help="time of the drive (s), shared by the slips")
     parser.add_argument("--every", type=int, default=5, help="steps between two exchanges")
     parser.add_argument("--pictures", action="store_true", help="pictures of the drive")
     parser.add_argument("--quick", action="store_true", help="a small bed and a short drive, for tests")
