@@ -66,7 +66,9 @@ def _program(code):
 
 
 def _command(code, name, cores, ranks, threads, arguments):
-    command = [_program(code), "-in", f"in.{name}", "-log", f"log.{name}", "-screen", "none", *arguments]
+    # LIGGGHTS crashes where it reads a mesh without a screen
+    screen = f"screen.{name}" if code == LIGGGHTS else "none"
+    command = [_program(code), "-in", f"in.{name}", "-log", f"log.{name}", "-screen", screen, *arguments]
     if threads > 1:
         command += ["-pk", "omp", str(threads)]
     if ranks > 1:

@@ -2,9 +2,10 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """A wheel is driven over a bed of grains (input/in.wheel): this program moves the wheel, Talus the grains.
 
-The wheel goes forward at a given speed, turns with a given slip, and is free to sink under its load: its vertical
-motion is integrated here from the force of the grains.  Sinkage, drawbar pull and driving torque go to wheel.csv, and
-to the plot wheel.svg.
+The wheel is put down, goes forward at a given speed, turns with a given slip, and is free to sink under its load: its
+vertical motion is integrated here from the force of the grains.  With several slips it drives with one after the other,
+for the same time each.  Sinkage, drawbar pull (the force of the grains on the wheel in direction of travel: positive if
+it could pull something) and driving torque go to wheel.csv, and to the plot wheel.svg.
 
   export PYTHONPATH=LAMMPS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
   [mpirun -np 2] python3 examples/cosim/wheel.py [--out DIR] [--quick]"""
@@ -24,10 +25,11 @@ GRAVITY = 9.81
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--slip", type=float, default=0.3, help="1 - speed/(radius * angular velocity)")
+    parser.add_argument("--slip", type=float, nargs="+", default=[0.0, 0.15, 0.3, 0.5],
+                        help="1 - speed/(radius * angular velocity)")
     parser.add_argument("--speed", type=float, default=0.2, help="forward speed (m/s)")
-    parser.add_argument("--load", type=float, default=1.0, help="load on the wheel (N)")
-    parser.add_argument("--time", type=float, default=0.5, help="time of the drive (s)")
+    parser.add_argument("--load", type=float, default=0.4, help="load on the wheel (N)")
+    parser.add_argument("--time", type=float, default=0.4, help="time of the drive (s), shared by the slips")
     parser.add_argument("--every", type=int, default=5, help="steps between two exchanges")
     parser.add_argument("--pictures", action="store_true", help="pictures of the drive")
     parser.add_argument("--quick", action="store_true", help="a small bed and a short drive, for tests")
@@ -45,12 +47,22 @@ def scene(options):
     lmp = lammps(cmdargs=words)
     lmp.file("in.wheel")
     if options.pictures:
-        lmp.command(f"dump p all image 2000 {options.out}/wheel.*.png z diameter fix wheel type 2 3.0e-4 size 1200 600 "
+        lmp.command(f"dump p all image 4000 {options.out}/wheel.*.png z diameter fix wheel type 1 0.0 size 1200 600 "
                     "zoom 2.6 view 75 -70 box no 0.0 shiny 0.2 ssao no 4711 0.6")
         lmp.command("dump_modify p pad 7 backcolor white acolor 1 gray")
     lmp.command("thermo 1000")
     lmp.command("run 0")
     return lmp
+
+
+def surface(lmp, wide):
+    """Mean height of the bed: of the tops of columns as wide as given."""
+    count, tops = lmp.get_natoms(), {}
+    x, radius = lmp.gather_atoms("x", 1, 3), float(lmp.extract_variable("d")) / 2
+    for i in range(count):
+        column = (round(x[3 * i] / wide), round(x[3 * i + 1] / wide))
+        tops[column] = max(tops.get(column, 0.0), x[3 * i + 2] + radius)
+    return sum(tops.values()) / len(tops)
 
 
 class Wheel:
@@ -62,13 +74,14 @@ class Wheel:
         self.mass = options.load / GRAVITY
         self.x0 = self.x
 
-    def advance(self, driven, dt, steps):
-        """One exchange: force of the grains in, state at the end of the next steps out."""
+    def advance(self, slip, dt, steps):
+        """One exchange: force of the grains in, state at the end of the next steps out. slip None: it stands."""
         force = self.body.load
-        speed = self.options.speed if driven else 0.0
-        spin = speed / (self.radius * (1.0 - self.options.slip))
-        # a light dashpot stands for the suspension
-        self.vz += dt * (force[2] / self.mass - GRAVITY - 5.0 * self.vz)
+        speed = 0.0 if slip is None else self.options.speed
+        spin = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
+        # a dashpot stands for the suspension; strong at first, so that the wheel is put down and does not fall
+        damping = 10.0 if speed else 100.0
+        self.vz += dt * (force[2] / self.mass - GRAVITY - damping * self.vz)
         self.x += dt * speed
         self.z += dt * self.vz
         self.angle += dt * spin
@@ -82,44 +95,69 @@ class Wheel:
 
 
 def drive(lmp, options):
-    """Rows (time, way, sinkage, drawbar pull, vertical force, torque), means over 20 exchanges."""
+    """Rows (time, slip, way, sinkage, drawbar pull, vertical force, torque), means over 40 exchanges. The torque is
+    that which drives the wheel; slip -1 stands for a wheel at rest."""
     dt = options.every * lmp.extract_global("dt")
     radius = float(lmp.extract_variable("R"))
-    top = lmp.extract_compute("top", 0, 0) + 0.5 * float(lmp.extract_variable("d"))
-    wheel = Wheel(Body(lmp, "wheel"), options, radius, top)
-    landing, total = 0.06, (0.16 if options.quick else options.time) + 0.06
-    rows, window = [], []
-    for n in range(int(total / dt)):
-        wheel.advance(n * dt > landing, dt, options.every)
+    wheel = Wheel(Body(lmp, "wheel"), options, radius, surface(lmp, 2 * float(lmp.extract_variable("d"))))
+    landing, each = 0.1, (0.16 if options.quick else options.time) / len(options.slip)
+    rows, window, average = [], [], 40
+    for n in range(int((landing + each * len(options.slip)) / dt)):
+        k = math.floor((n * dt - landing) / each)
+        slip = options.slip[min(k, len(options.slip) - 1)] if k >= 0 else None
+        wheel.advance(slip, dt, options.every)
         run(lmp, options.every)
         load = wheel.body.load
-        window.append((load[0], load[2], load[4]))
-        if len(window) == 20:
-            rows.append((n * dt, wheel.x - wheel.x0, wheel.sinkage, *(sum(c) / 20 for c in zip(*window))))
+        window.append((load[0], load[2], -load[4]))
+        if len(window) == average:
+            rows.append((n * dt, -1.0 if slip is None else slip, wheel.x - wheel.x0, wheel.sinkage,
+                         *(sum(c) / average for c in zip(*window))))
             window = []
     return rows
 
 
-def plot(path, rows):
-    """Sinkage and drawbar pull over time."""
+def means(rows, slips):
+    """(slip, sinkage, drawbar pull, vertical force, torque): means over the second half of the time with each slip."""
+    found = []
+    for slip in slips:
+        some = [row for row in rows if row[1] == slip]
+        some = some[len(some) // 2:]
+        found.append((slip, *(sum(row[k] for row in some) / len(some) for k in range(3, 7))))
+    return found
+
+
+def plot(path, rows, slips):
+    """Sinkage and drawbar pull over time; the slip above. Mean of the second half of each slip as a dashed line."""
     width, height, gap = 640, 220, 60
-    curves = (("sinkage (mm)", [1e3 * row[2] for row in rows]), ("drawbar pull (N)", [row[3] for row in rows]))
+    end, average = rows[-1][0], {row[0]: row for row in means(rows, slips)}
+    curves = (("sinkage (mm)", 1e3, 3, 1), ("drawbar pull (N)", 1.0, 4, 2))
     with open(path, "w") as file:
         file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 120}" height="{2 * (height + gap) + 20}" '
                    'font-family="sans-serif" font-size="14">\n<rect width="100%" height="100%" fill="white"/>\n')
-        for k, (name, values) in enumerate(curves):
+        for k, (name, unit, column, of_mean) in enumerate(curves):
+            values = [unit * row[column] for row in rows]
             low, high = min(0.0, *values), max(0.0, *values)
             span = (high - low) or 1.0
             y0 = 30 + k * (height + gap)
-            points = " ".join(f"{80 + width * row[0] / rows[-1][0]:.1f},{y0 + height * (high - v) / span:.1f}"
-                              for row, v in zip(rows, values))
+
+            def place(time, value):
+                return f"{80 + width * time / end:.1f},{y0 + height * (high - value) / span:.1f}"
+
+            points = " ".join(place(row[0], v) for row, v in zip(rows, values))
             zero = y0 + height * high / span
             file.write(f'<rect x="80" y="{y0}" width="{width}" height="{height}" fill="none" stroke="gray"/>\n'
                        f'<line x1="80" x2="{80 + width}" y1="{zero:.1f}" y2="{zero:.1f}" stroke="silver"/>\n'
                        f'<polyline points="{points}" fill="none" stroke="steelblue" stroke-width="2"/>\n'
-                       f'<text x="80" y="{y0 - 8}">{name}</text>\n<text x="8" y="{y0 + 12}">{high:.3g}</text>\n'
+                       f'<text x="8" y="{y0 - 10}">{name}</text>\n<text x="8" y="{y0 + 12}">{high:.3g}</text>\n'
                        f'<text x="8" y="{y0 + height}">{low:.3g}</text>\n')
-        file.write(f'<text x="{width // 2}" y="{2 * (height + gap) + 10}">time 0 ... {rows[-1][0]:.2f} s</text>\n</svg>\n')
+            for slip in slips:
+                times = [row[0] for row in rows if row[1] == slip]
+                mean = unit * average[slip][of_mean]
+                half = times[len(times) // 2]
+                file.write(f'<polyline points="{place(half, mean)} {place(times[-1], mean)}" stroke="black" fill="none" '
+                           f'stroke-dasharray="6 3" stroke-width="2"/>\n<text x="{84 + width * times[0] / end:.1f}" '
+                           f'y="{y0 - 10}">slip {slip:g}: {mean:.2f}</text>\n')
+        file.write(f'<text x="{width // 2}" y="{2 * (height + gap) + 10}">time 0 ... {end:.2f} s</text>\n</svg>\n')
 
 
 def main():
@@ -128,12 +166,12 @@ def main():
     rows = drive(lmp, options)
     if lmp.extract_setting("world_rank") == 0:
         with open(os.path.join(options.out, "wheel.csv"), "w") as file:
-            file.write("time,way,sinkage,drawbar_pull,vertical_force,torque\n")
+            file.write("time,slip,way,sinkage,drawbar_pull,vertical_force,torque\n")
             file.writelines(",".join(map(repr, row)) + "\n" for row in rows)
-        plot(os.path.join(options.out, "wheel.svg"), rows)
-        last = rows[len(rows) // 2:]
-        mean = [sum(row[k] for row in last) / len(last) for k in range(6)]
-        print(f"Result: sinkage {1e3 * mean[2]:.2f} mm, drawbar pull {mean[3]:.3f} N, vertical force {mean[4]:.3f} N")
+        plot(os.path.join(options.out, "wheel.svg"), rows, options.slip)
+        for slip, sinkage, pull, lift, torque in means(rows, options.slip):
+            print(f"Result: slip {slip:g}: sinkage {1e3 * sinkage:.2f} mm, drawbar pull {pull:.3f} N, vertical force "
+                  f"{lift:.3f} N, torque {1e3 * torque:.2f} mN m")
     lmp.finalize()
 
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Talus {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 // A body may go half a skin before its list is made anew; particles may each go half a skin in one
 // direction before the rebuild that the list is made after, and half a skin in the other.
 constexpr double free_way = 0.5;
-constexpr std::size_t ahead = 40;    // candidates whose state is called into the cache
+constexpr std::size_t ahead = 12;    // candidates whose state is called into the cache
 
 double length(const Vector3<double> &v)
 {
@@ -33,7 +34,7 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin)
 {
   candidates.clear();
-  listed_at.clear();
+  listed.clear();
   parts.clear();
   parts_begin.assign(1, 0);
   listed_frame = frame;
@@ -47,7 +48,8 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
       if (frame.moves) listed_reach = std::max(listed_reach, length(x - frame.origin) + reach);
       near = single ? shape.distance_bound(x) < reach : shape.is_near(x, reach, parts);
       if (near && !single) {
-        listed_at.push_back(x);
+        const bool has_parts = parts.size() > parts_begin.back();
+        listed.push_back({x, has_parts ? parts[parts_begin.back()].distance : 0.0});
         parts_begin.push_back(parts.size());
       }
     }
@@ -56,12 +58,54 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   }
 }
 
-void BodyContacts::follow(const LargeBodyShape &shape, const BodyFrame &frame,
-                          const BodyParticleView &view, const int *mask, int group, double skin)
+bool BodyContacts::is_stale(const BodyFrame &frame, double skin) const
 {
-  if (!frame.moves) return;
-  if (largest_displacement(listed_frame, frame, listed_reach) <= free_way * skin) return;
-  find_candidates(shape, frame, view, mask, group, skin);
+  return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
+}
+
+Bounds BodyContacts::asked_for(const BodyFrame &frame, const BodyParticleView &view,
+                               const int *mask, int group, double skin)
+{
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Bounds box{{far, far, far}, {-far, -far, -far}};
+  double largest = 0.0;
+  for (int i = 0; i < view.owned; i++) {
+    if (!(mask[i] & group)) continue;
+    const Vector3<double> x = frame.point_to_body(view.position(i));
+    box = joined(box, {x, x});
+    largest = std::max(largest, view.radius_of(i));
+  }
+  // listed with the margin below; they go half a skin, the body what it may until it is stale
+  const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
+  const Vector3<double> around{reach, reach, reach};
+  return {box.low - around, box.high + around};
+}
+
+BodyContacts::Worst BodyContacts::worst(const LargeBodyShape &shape, const BodyFrame &frame,
+                                        const BodyParticleView &view) const
+{
+  Worst most;
+  SurfaceContact found[LargeBodyShape::max_contacts];
+  for (std::size_t c = 0; c < candidates.size(); c++) {
+    const int i = candidates[c];
+    const Vector3<double> place = view.position(i), x = frame.point_to_body(place);
+    const double radius = view.radius_of(i);
+    const int count =
+        single ? static_cast<int>(shape.touches(x, radius, *found))
+               : shape.find_contacts(x, radius, parts_near(c, radius + length(x - listed[c].at)),
+                                     found);
+    for (int k = 0; k < count; k++) {
+      if (found[k].overlap / radius <= most.overlap) continue;
+      most.overlap = found[k].overlap / radius;
+      most.deepest = i;
+    }
+    const Vector3<double> v = view.velocity(i);
+    const double speed = length(frame.moves ? v - frame.velocity_at(place) : v) / radius;
+    if (speed <= most.speed) continue;
+    most.speed = speed;
+    most.fastest = i;
+  }
+  return most;
 }
 
 void BodyContacts::forget(int i)
@@ -128,6 +172,7 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
   for (int law = 0; law < laws.num_laws(); law++) {
     for (std::size_t c = begin; c < end; c++) {
       if (c + ahead < end) call_ahead(task.view, candidates[c + ahead]);
+      if (!single) call_parts_ahead(shape, task.view, c, end);
       if (laws.law_index(task.row_of(candidates[c])) != law) continue;
       if (single)
         touch_once(shape, task, batch, law, c);
@@ -147,6 +192,25 @@ void BodyContacts::call_ahead(const BodyParticleView &view, int i) const
   if (with_history && single) __builtin_prefetch(&history[i]);
 }
 
+/* First the list of parts, then those that the particle probably touches. */
+
+void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
+                                    std::size_t c, std::size_t end) const
+{
+  if (c + ahead >= end) return;
+  const double near = 1.01;    // of the radius
+  const std::size_t first = c + ahead, soon = c + ahead / 2;
+  memory.call_ahead(candidates[first]);
+  if (listed[first].nearest < near * view.radius_of(candidates[first]))
+    __builtin_prefetch(parts.data() + parts_begin[first]);
+  const double reach = near * view.radius_of(candidates[soon]);
+  if (listed[soon].nearest >= reach) return;
+  for (std::size_t p = parts_begin[soon]; p < parts_begin[soon + 1]; p++) {
+    if (parts[p].distance > reach) break;
+    shape.call_ahead(parts[p].part);
+  }
+}
+
 void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                               int law, std::size_t c)
 {
@@ -160,15 +224,13 @@ void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task,
     forget(i);
 }
 
-/* Only parts that the particle can have reached since they were listed. */
+/* Only parts that the particle can have reached since they were listed; nearest first. */
 
-NearParts BodyContacts::parts_near(std::size_t c, const Vector3<double> &x, double radius) const
+NearParts BodyContacts::parts_near(std::size_t c, double reach) const
 {
   const NearPart *const begin = parts.data() + parts_begin[c];
   const NearPart *const last = parts.data() + parts_begin[c + 1];
-  // a little more than the way that it went: rounding must not hide a part
-  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed_at[c]) + 1.0e-9 * radius;
-  const NearPart *end = begin;    // nearest first
+  const NearPart *end = begin;
   while (end != last && end->distance < reach) end++;
   return {begin, end};
 }
@@ -179,8 +241,11 @@ void BodyContacts::touch_often(const LargeBodyShape &shape, const BodyTask &task
   const int i = candidates[c];
   const Vector3<double> x = task.frame.point_to_body(task.view.position(i));
   SurfaceContact found[LargeBodyShape::max_contacts];
-  const int count =
-      shape.find_contacts(x, task.view.radius_of(i), parts_near(c, x, task.view.radius_of(i)), found);
+  const double radius = task.view.radius_of(i);
+  // a little more than the way that it went: rounding must not hide a part
+  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed[c].at) + 1.0e-9 * radius;
+  const bool may_touch = listed[c].nearest < reach;
+  const int count = may_touch ? shape.find_contacts(x, radius, parts_near(c, reach), found) : 0;
   NewList &list = new_lists[c];
   list.first = static_cast<int>(batch.remembered.size());
   list.count = count;
@@ -204,6 +269,7 @@ void BodyContacts::renew_memory(int threads)
 {
   memory.start_step();
   std::vector<int> first;
+  first.reserve(threads);
   for (int t = 0; t < threads; t++) first.push_back(memory.append(batches[t]->remembered));
   for (std::size_t c = 0; c < candidates.size(); c++)
     memory.set_list(candidates[c], first[new_lists[c].batch] + new_lists[c].first,
@@ -251,7 +317,7 @@ double BodyContacts::memory_usage() const
 {
   return static_cast<double>((history.capacity() + onset.capacity()) * sizeof(Record) +
                              candidates.capacity() * sizeof(int) +
-                             listed_at.capacity() * sizeof(Vector3<double>) +
+                             listed.capacity() * sizeof(Listed) +
                              parts.capacity() * sizeof(NearPart)) +
          memory.memory_usage();
 }

@@ -4,7 +4,7 @@
 // kernels as contacts between particles. Knows nothing of the host.
 //
 //   at a rebuild   find_candidates()
-//   every step     follow(), compute()
+//   every step     compute(), after find_candidates() if is_stale()
 
 #ifndef TALUS_BODY_BODY_CONTACTS_H
 #define TALUS_BODY_BODY_CONTACTS_H
@@ -38,9 +38,22 @@ class BodyContacts {
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
                        const BodyParticleView &view, const int *mask, int group, double skin);
 
-  /// In steps without a rebuild: lists anew if the body has moved too far since.
-  void follow(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
-              const int *mask, int group, double skin);
+  /// The body has moved so far that particles must be listed anew.
+  bool is_stale(const BodyFrame &frame, double skin) const;
+
+  /// The box, in the frame of the body, around all that find_candidates() may ask the shape for
+  /// until the next call; low > high without particles.
+  static Bounds asked_for(const BodyFrame &frame, const BodyParticleView &view, const int *mask,
+                          int group, double skin);
+
+  /// Of the particles listed: the largest overlap/radius and its particle, the largest speed past
+  /// the body over the radius and its particle. Zero without any.
+  struct Worst {
+    double overlap = 0.0, speed = 0.0;
+    int deepest = 0, fastest = 0;
+  };
+  Worst worst(const LargeBodyShape &shape, const BodyFrame &frame,
+              const BodyParticleView &view) const;
 
   /// Adds the contact forces to the particles and returns their reaction.
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
@@ -75,11 +88,13 @@ class BodyContacts {
   void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                      std::size_t begin, std::size_t end);
   void call_ahead(const BodyParticleView &view, int atom) const;
+  void call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
+                        std::size_t candidate, std::size_t end) const;
   void touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                   std::size_t candidate);
   void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                    std::size_t candidate);
-  NearParts parts_near(std::size_t candidate, const Vector3<double> &x, double radius) const;
+  NearParts parts_near(std::size_t candidate, double reach) const;
   void renew_memory(int threads);
   void remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
                            EnergyAccount &account);
@@ -87,8 +102,12 @@ class BodyContacts {
   LawTable laws;
   bool with_history = false, with_onset = false, single = true;
   std::vector<int> candidates;
-  std::vector<Vector3<double>> listed_at;    // by candidate, frame of the body
-  std::vector<std::size_t> parts_begin;      // by candidate and one more
+  struct Listed {
+    Vector3<double> at;    // frame of the body
+    double nearest;        // distance of the nearest of its parts, 0 without parts
+  };
+  std::vector<Listed> listed;              // by candidate
+  std::vector<std::size_t> parts_begin;    // by candidate and one more
   std::vector<NearPart> parts;
   struct NewList {
     int first, count, batch;
@@ -97,7 +116,7 @@ class BodyContacts {
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
   BodyFrame listed_frame;
   double largest_overlap = 0.0;    // over radius
-  double listed_reach = 0.0;    // largest distance of a particle from the reference point
+  double listed_reach = 0.0;       // largest distance of a particle from the reference point
 
   struct Motion {
     Vector3<double> velocity, spin, place;    // frame of the body; place: in space

@@ -2,6 +2,8 @@
 
 #include "body/box_tree.h"
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace Talus {
@@ -12,11 +14,14 @@ double coordinate(const Vector3<double> &v, int axis)
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-Bounds joined(const Bounds &a, const Bounds &b)
+float below(double x)
 {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+  return std::nextafterf(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+
+float above(double x)
+{
+  return std::nextafterf(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
 }    // namespace
@@ -33,7 +38,10 @@ void BoxTree::split(int node, const std::vector<Bounds> &boxes, int begin, int e
 {
   Bounds all = boxes[things[begin]];
   for (int k = begin + 1; k < end; k++) all = joined(all, boxes[things[k]]);
-  nodes[node] = {all, begin, end - begin};
+  nodes[node] = {{below(all.low.x), below(all.low.y), below(all.low.z)},
+                 {above(all.high.x), above(all.high.y), above(all.high.z)},
+                 begin,
+                 end - begin};
   if (end - begin <= leaf_size) return;
 
   const Vector3<double> span = all.high - all.low;

@@ -27,7 +27,7 @@ class BoxTree {
     stack[depth++] = 0;
     while (depth) {
       const Node &node = nodes[stack[--depth]];
-      if (square_distance(point, node.box) >= reach * reach) continue;
+      if (square_distance(point, node) >= reach * reach) continue;
       for (int k = 0; k < node.count; k++) visit(things[node.first + k]);
       if (node.count) continue;
       stack[depth++] = node.first + 1;
@@ -35,24 +35,23 @@ class BoxTree {
     }
   }
 
-  const Bounds &bounds() const { return nodes[0].box; }
   double memory_usage() const;
 
  private:
   static constexpr int max_depth = 128;    // halves at every level: far more than needed
-  static constexpr int leaf_size = 4;
+  static constexpr int leaf_size = 6;
 
   struct Node {
-    Bounds box;
-    int first, count;    // things of a leaf; count 0: children first and first + 1
+    float low[3], high[3];    // rounded outward
+    int first, count;         // things of a leaf; count 0: children first and first + 1
   };
   void split(int node, const std::vector<Bounds> &boxes, int begin, int end);
 
-  static double square_distance(const Vector3<double> &p, const Bounds &b)
+  static double square_distance(const Vector3<double> &p, const Node &b)
   {
-    const double x = std::max({b.low.x - p.x, 0.0, p.x - b.high.x});
-    const double y = std::max({b.low.y - p.y, 0.0, p.y - b.high.y});
-    const double z = std::max({b.low.z - p.z, 0.0, p.z - b.high.z});
+    const double x = std::max({b.low[0] - p.x, 0.0, p.x - b.high[0]});
+    const double y = std::max({b.low[1] - p.y, 0.0, p.y - b.high[1]});
+    const double z = std::max({b.low[2] - p.z, 0.0, p.z - b.high[2]});
     return x * x + y * y + z * z;
   }
 

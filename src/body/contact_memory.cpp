@@ -27,9 +27,13 @@ void ContactMemory::start_step()
   next.clear();
 }
 
-int ContactMemory::append(const std::vector<RememberedContact> &piece)
+int ContactMemory::append(std::vector<RememberedContact> &piece)
 {
   const int first = static_cast<int>(next.size());
+  if (first == 0) {
+    next.swap(piece);
+    return 0;
+  }
   next.insert(next.end(), piece.begin(), piece.end());
   return first;
 }

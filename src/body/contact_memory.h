@@ -35,6 +35,12 @@ class ContactMemory {
     return contacts.data() + lists[particle].first;
   }
 
+  /// Starts to load the list of a particle; without histories there are none.
+  void call_ahead(int particle) const
+  {
+    if (!lists.empty()) __builtin_prefetch(&lists[particle]);
+  }
+
   /// The contact of a particle that continues as one with this normal, out of those not yet `taken`
   /// (bits by index), which receives it. -1 if there is none: the contact is new.
   int find(int particle, const Vector3<double> &normal, unsigned &taken) const;
@@ -43,7 +49,7 @@ class ContactMemory {
   /// different threads may have made.
   void start_step();
   void set_list(int particle, int first, int count) { lists[particle] = {first, count}; }
-  int append(const std::vector<RememberedContact> &piece);
+  int append(std::vector<RememberedContact> &piece);    ///< which is used up
   void end_step();
 
   /// For migration and restart: count, contacts. Returns the number of doubles.

@@ -5,8 +5,8 @@
 //
 // All points are given in the frame of the body, which is that of the input script at the beginning
 // of the run: a body that moves is asked with coordinates turned and shifted back. Lengths are in
-// the units of the caller. No function may change the object, and unless thread_safe() says no, all
-// may be called from several threads.
+// the units of the caller. No function but focus() may change the object, and unless thread_safe()
+// says no, all others may be called from several threads.
 //
 // A shape that touches a sphere at one point at most (one_contact()) implements touches() and
 // distance_bound(). One that may touch it at several points, such as the inside of a box,
@@ -33,6 +33,7 @@ struct SurfaceContact {
 /// A part of a body near some particle, and its distance at the time when it was listed.
 struct NearPart {
   int part;
+  int group;    ///< what the shape wants to know of it without looking
   double distance;
 };
 
@@ -49,6 +50,14 @@ struct Triangle {
 struct Bounds {
   Vector3<double> low, high;
 };
+
+/// The box around both.
+inline Bounds joined(const Bounds &a, const Bounds &b)
+{
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
 
 class LargeBodyShape {
  public:
@@ -88,6 +97,20 @@ class LargeBodyShape {
   {
     (void) parts;
     return distance_bound(centre) < reach;
+  }
+
+  /// Starts to load into the cache what find_contacts() will read of a part; a hint, no more.
+  virtual void call_ahead(int part) const { (void) part; }
+
+  /// Has so many parts that it wants to know which may be asked for.
+  virtual bool wants_focus() const { return false; }
+
+  /// From now on only spheres are asked for that stay within `bounds`, until this is called again:
+  /// parts that were listed before are no longer valid then. Returns whether anything changed.
+  virtual bool focus(const Bounds &bounds)
+  {
+    (void) bounds;
+    return false;
   }
 
   virtual bool thread_safe() const { return true; }

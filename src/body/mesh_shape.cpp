@@ -12,19 +12,24 @@ namespace {
 
 constexpr int max_minima = 64;    // of one sphere, before they are merged
 
-std::vector<Bounds> boxes_of(const TriangleMesh &mesh)
+constexpr int max_planes = 4;    // that are remembered to be touched
+
+// A cover is so much longer than what has to be in it, at each end, so that it need not be made
+// anew soon; old and new are joined if this does not make it larger than so many times the new one.
+constexpr double spare = 0.1;
+constexpr double joins = 4.0;
+
+bool contains(const Bounds &outer, const Bounds &inner)
 {
-  std::vector<Bounds> boxes;
-  for (int t = 0; t < mesh.size(); t++) {
-    const Triangle &tri = mesh.triangle(t);
-    Bounds box{tri.corner[0], tri.corner[0]};
-    for (const Vector3<double> &p : tri.corner) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
-    boxes.push_back(box);
-  }
-  return boxes;
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
+         inner.high.x <= outer.high.x && inner.high.y <= outer.high.y &&
+         inner.high.z <= outer.high.z;
+}
+
+double volume(const Bounds &b)
+{
+  const Vector3<double> span = b.high - b.low;
+  return span.x * span.y * span.z;
 }
 
 /// Keeps the deepest.
@@ -43,24 +48,53 @@ void keep(SurfaceContact *raw, int &count, const SurfaceContact &contact)
 
 }    // namespace
 
-MeshShape::MeshShape(TriangleMesh m, bool both) :
-    mesh(std::move(m)), tree(boxes_of(mesh)), two_sided(both)
+MeshShape::MeshShape(TriangleMesh m, bool both, bool focused) :
+    mesh(std::move(m)), cover(mesh.bounds()), two_sided(both)
 {
+  if (!focused) look_at(mesh.bounds());
 }
 
-bool MeshShape::contact_with(int t, const Vector3<double> &centre, double radius,
-                             SurfaceContact &contact) const
+void MeshShape::look_at(const Bounds &bounds)
 {
-  const NearestPoint nearest = mesh.nearest(t, centre);
+  cover = bounds;
+  covers_all = contains(cover, mesh.bounds());
+  detail.reset();    // both would be a waste of memory
+  detail = std::make_unique<MeshDetail>(mesh, cover);
+}
+
+bool MeshShape::focus(const Bounds &bounds)
+{
+  if (bounds.low.x > bounds.high.x) return false;    // no particles: nothing will be asked
+  if (detail && (covers_all || contains(cover, bounds))) return false;
+  const Vector3<double> more = spare * (bounds.high - bounds.low);
+  Bounds wide{bounds.low - more, bounds.high + more};
+  if (detail && volume(joined(cover, wide)) <= joins * volume(wide)) wide = joined(cover, wide);
+  look_at(wide);
+  return true;
+}
+
+double MeshShape::memory_usage() const
+{
+  return mesh.memory_usage() + (detail ? detail->memory_usage() : 0.0);
+}
+
+/* `face_height`: of a contact with the inside of a triangle. */
+
+bool MeshShape::contact_with(int t, const Vector3<double> &centre, double radius,
+                             SurfaceContact &contact, double &face_height) const
+{
+  const NearestPoint nearest = detail->nearest(t, centre);
   if (nearest.square >= radius * radius) return false;
   double height;
-  if (!mesh.is_local_minimum(t, nearest, height)) return false;
+  if (!detail->is_local_minimum(t, nearest, height)) return false;
   if (height < 0.0 && !two_sided) return false;
   const double distance = std::sqrt(nearest.square);
+  const bool on_face = nearest.feature == NearestPoint::FACE;
+  face_height = on_face ? std::fabs(height) : 0.0;
   contact.overlap = radius - distance;
-  contact.part = t;
-  if (nearest.feature == NearestPoint::FACE || distance == 0.0)
-    contact.normal = height < 0.0 ? -mesh.normal(t) : mesh.normal(t);    // also in the plane
+  contact.part = detail->number(t);
+  if (on_face || distance == 0.0)
+    contact.normal = height < 0.0 ? -detail->normal(t) : detail->normal(t);    // also in the plane
   else
     contact.normal = 1.0 / distance * nearest.away;
   return true;
@@ -89,14 +123,45 @@ int MeshShape::merge(SurfaceContact *raw, int count, double radius, SurfaceConta
   return kept;
 }
 
+/* Where the foot on a plane is known, the other triangles of this plane add nothing: what else they
+   touch has nearly the same normal, is of the same patch and less deep. */
+
+template <class Take>
+void MeshShape::each_minimum(const Vector3<double> &centre, double radius, NearParts parts,
+                             Take take) const
+{
+  SurfaceContact contact;
+  int planes[max_planes], num_planes = 0;
+  for (const NearPart *p = parts.begin; p != parts.end; p++) {
+    if (std::find(planes, planes + num_planes, p->group) != planes + num_planes) continue;
+    double height;
+    if (!contact_with(p->part, centre, radius, contact, height)) continue;
+    take(contact);
+    if (height > TriangleMesh::smooth_cosine * radius && num_planes < max_planes)
+      planes[num_planes++] = p->group;
+  }
+}
+
 int MeshShape::find_contacts(const Vector3<double> &centre, double radius, NearParts parts,
                              SurfaceContact *found) const
 {
-  SurfaceContact raw[max_minima], contact;
   int count = 0;
-  for (const NearPart *p = parts.begin; p != parts.end; p++)
-    if (contact_with(p->part, centre, radius, contact)) keep(raw, count, contact);
-  if (count == 0) return 0;
+  each_minimum(centre, radius, parts, [&](const SurfaceContact &contact) {
+    if (count < max_contacts) found[count] = contact;
+    count++;
+  });
+  if (count < 2) return count;
+  if (count <= max_contacts) return merge(found, count, radius, found);
+  return find_many(centre, radius, parts, found);
+}
+
+int MeshShape::find_many(const Vector3<double> &centre, double radius, NearParts parts,
+                         SurfaceContact *found) const
+{
+  SurfaceContact raw[max_minima];
+  int count = 0;
+  each_minimum(centre, radius, parts,
+               [&](const SurfaceContact &contact) { keep(raw, count, contact); });
   return merge(raw, count, radius, found);
 }
 
@@ -104,9 +169,11 @@ bool MeshShape::is_near(const Vector3<double> &centre, double reach,
                         std::vector<NearPart> &parts) const
 {
   const std::size_t before = parts.size();
-  tree.visit_near(centre, reach, [&](int t) {
-    const double square = mesh.nearest(t, centre).square;
-    if (square < reach * reach) parts.push_back({t, std::sqrt(square)});
+  if (!detail) return false;
+  detail->visit_near(centre, reach, [&](int t) {
+    const double square = detail->nearest(t, centre).square;
+    if (square < reach * reach)
+      parts.push_back({t, mesh.plane_of(detail->number(t)), std::sqrt(square)});
   });
   const auto first = parts.begin() + static_cast<std::ptrdiff_t>(before);
   std::sort(first, parts.end(), [](const NearPart &a, const NearPart &b) {
@@ -129,12 +196,12 @@ bool MeshShape::touches(const Vector3<double> &centre, double radius, SurfaceCon
 double MeshShape::distance_bound(const Vector3<double> &centre) const
 {
   // a first guess that is doubled until something is found
-  const Vector3<double> span = tree.bounds().high - tree.bounds().low;
+  const Vector3<double> span = mesh.bounds().high - mesh.bounds().low;
   double reach = 0.01 * std::sqrt(dot(span, span));
   double least = std::numeric_limits<double>::infinity();
   while (std::isinf(least)) {
-    tree.visit_near(centre, reach,
-                    [&](int t) { least = std::min(least, mesh.nearest(t, centre).square); });
+    detail->visit_near(centre, reach,
+                       [&](int t) { least = std::min(least, detail->nearest(t, centre).square); });
     if (least >= reach * reach) least = std::numeric_limits<double>::infinity();
     reach *= 2.0;
   }

@@ -3,9 +3,11 @@
 #ifndef TALUS_BODY_MESH_SHAPE_H
 #define TALUS_BODY_MESH_SHAPE_H
 
-#include "body/box_tree.h"
 #include "body/large_body_shape.h"
+#include "body/mesh_detail.h"
 #include "body/triangle_mesh.h"
+
+#include <memory>
 
 namespace Talus {
 
@@ -19,13 +21,22 @@ namespace Talus {
 /// TriangleMesh::smooth_angle only the deepest counts, so that the force stays continuous when the
 /// sphere goes from facet to facet.
 ///
+/// All ranks hold the whole surface, but only what MeshDetail has of it is large: this is made for
+/// the neighbourhood of the particles of a rank, and anew when they or the body have gone further.
+///
 /// One-sided, only spheres whose centre is on the side of the normals are touched.
 class MeshShape : public LargeBodyShape {
  public:
-  MeshShape(TriangleMesh mesh, bool two_sided);
+  /// `focused`: nothing is found before focus() has said where.
+  MeshShape(TriangleMesh mesh, bool two_sided, bool focused = false);
+
+  MeshShape(const MeshShape &) = delete;    // the detail knows the mesh by its address
+  MeshShape &operator=(const MeshShape &) = delete;
 
   const TriangleMesh &surface() const { return mesh; }
-  double memory_usage() const { return mesh.memory_usage() + tree.memory_usage(); }
+  /// Triangles that may be found here.
+  int size_of_detail() const { return detail ? detail->size() : 0; }
+  double memory_usage() const;
 
   bool touches(const Vector3<double> &centre, double radius,
                SurfaceContact &contact) const override;
@@ -36,16 +47,26 @@ class MeshShape : public LargeBodyShape {
                     SurfaceContact *found) const override;
   bool is_near(const Vector3<double> &centre, double reach,
                std::vector<NearPart> &parts) const override;
+  void call_ahead(int part) const override { detail->call_ahead(part); }
+  bool wants_focus() const override { return !covers_all; }
+  bool focus(const Bounds &bounds) override;
   void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
 
  private:
-  bool contact_with(int t, const Vector3<double> &centre, double radius,
-                    SurfaceContact &contact) const;
+  void look_at(const Bounds &bounds);
+  bool contact_with(int t, const Vector3<double> &centre, double radius, SurfaceContact &contact,
+                    double &face_height) const;
+  template <class Take>
+  void each_minimum(const Vector3<double> &centre, double radius, NearParts parts, Take take) const;
+  int find_many(const Vector3<double> &centre, double radius, NearParts parts,
+                SurfaceContact *found) const;
   bool same_contact(const SurfaceContact &a, const SurfaceContact &b, double radius) const;
   int merge(SurfaceContact *raw, int count, double radius, SurfaceContact *found) const;
 
   TriangleMesh mesh;
-  BoxTree tree;
+  std::unique_ptr<MeshDetail> detail;
+  Bounds cover;
+  bool covers_all = false;
   bool two_sided;
 };
 

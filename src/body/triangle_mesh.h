@@ -1,13 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Triangles that know their neighbours: the topology of a mesh, and the nearest points on it.
+// The triangles of a mesh as every rank holds them: vertices that triangles share, and a few
+// numbers by triangle. What contacts need to know besides is in MeshDetail.
 
 #ifndef TALUS_BODY_TRIANGLE_MESH_H
 #define TALUS_BODY_TRIANGLE_MESH_H
 
 #include "body/large_body_shape.h"
+#include "body/mesh_edges.h"
 
-#include <string>
 #include <vector>
 
 namespace Talus {
@@ -23,15 +24,6 @@ struct MeshReport {
   bool closed() const { return open_edges + crowded_edges + turned_edges == 0; }
 };
 
-/// The nearest point of one triangle to some point.
-struct NearestPoint {
-  enum Feature : int { FACE, EDGE, CORNER };
-  Vector3<double> away;    ///< from the nearest point to the point
-  double square;           ///< its length squared
-  Feature feature;
-  int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
-};
-
 class TriangleMesh {
  public:
   /// Joins corners that have equal coordinates. The angle between the normals of two triangles
@@ -43,70 +35,50 @@ class TriangleMesh {
   static constexpr double smooth_cosine = 0.8660254;    // its cosine
 
   int size() const { return static_cast<int>(triangles.size()); }
+  int num_vertices() const { return static_cast<int>(vertices.size()); }
   const MeshReport &report() const { return findings; }
-  const Triangle &triangle(int t) const { return faces[t].corners; }
-  const Vector3<double> &normal(int t) const { return faces[t].normal; }
-  double area(int t) const { return areas[t]; }
+  const Corners &corners(int t) const { return triangles[t]; }
+  const Vector3<double> &vertex(int v) const { return vertices[v]; }
+  Triangle triangle(int t) const;
+  double area(int t) const;
+  /// Of the corners as they are; contacts use that of the plane, see plane_of().
+  Vector3<double> normal(int t) const;
   /// Number of the triangle in the file, from 0.
-  int number_in_file(int t) const { return file_numbers[t]; }
+  int number_in_file(int t) const { return file_numbers.empty() ? t : file_numbers[t]; }
   /// Triangles that are connected over smooth edges have the same patch.
   int patch(int t) const { return patches[t]; }
+  /// Triangles that are connected and lie in one plane but for rounding have the same: the first of
+  /// them, whose normal and plane stand for all.
+  int plane_of(int t) const { return planes[t]; }
 
   /// Volume enclosed (negative if normals point inward) and its centre; without enclosed volume the
   /// centre of the area.
   double volume() const { return enclosed; }
   const Vector3<double> &centre() const { return middle; }
-
-  NearestPoint nearest(int t, const Vector3<double> &point) const;
-
-  /// Is the nearest point of triangle t a point of the whole surface from which the distance grows
-  /// in all directions, and is t the triangle that reports it, once for all that share it? `height`
-  /// receives a number whose sign tells on which side of the surface the point is.
-  bool is_local_minimum(int t, const NearestPoint &nearest, double &height) const;
+  const Bounds &bounds() const { return extent; }
 
   double memory_usage() const;
 
  private:
-  struct Corners {
-    int vertex[3];
-  };
-  struct Face {    // what every step looks at, in one place
-    Triangle corners;
-    Vector3<double> normal;
-    // of each edge: an edge is no minimum if the square of the cosine between the normal and the
-    // way to the point is less than this
-    float least_square_cosine[3];
-    unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
-  };
-  struct Edge {
-    int vertex[2];
-    int first_user, num_users;    // range of edge_users
-  };
   void join_corners(const std::vector<Triangle> &soup);
-  void find_edges();
-  void find_patches();
-  void find_rings();
+  void look_at_edges(const MeshEdges &edges);
+  void find_patches(const MeshEdges &edges);
+  void find_planes(const MeshEdges &edges);
+  void spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do);
   void find_volume();
-  void prepare_faces();
-  bool edge_is_minimum(int t, const NearestPoint &nearest, double &height) const;
-  bool corner_is_minimum(int t, const NearestPoint &nearest, double &height) const;
-  int opposite(int t, const Edge &edge) const;
-  bool runs_along(int t, int from, int to) const;
 
   std::vector<Vector3<double>> vertices;
-  std::vector<Face> faces;
-  std::vector<Corners> triangles, edges_of;    // by triangle: corners, edges
-  std::vector<double> areas;
-  std::vector<int> patches, file_numbers;
-  std::vector<Edge> edges;
-  std::vector<int> edge_users;
-  std::vector<int> ring_begin, ring;              // by vertex: vertices joined to it by an edge
-  std::vector<int> first_user;                    // by vertex: its triangle with the lowest number
-  std::vector<Vector3<double>> vertex_normals;    // weighted by angle
+  std::vector<Corners> triangles;
+  std::vector<int> patches, planes;
+  std::vector<int> file_numbers;    // empty: those of the file
   MeshReport findings;
+  Bounds extent{};
   double enclosed = 0.0;
   Vector3<double> middle{0.0, 0.0, 0.0};
 };
+
+/// The box around a triangle.
+Bounds bounds_of(const Triangle &t);
 
 }    // namespace Talus
 

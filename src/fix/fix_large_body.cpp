@@ -27,7 +27,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), masses(lmp)
+    Fix(lmp, narg, arg), motion(lmp), watch(lmp), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -180,6 +180,7 @@ void FixLargeBody::init()
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   if (thermo_energy) keeps_account = true;
   motion.init();
+  watch.start();
   masses.find_fixes();
   find_region();
   find_frozen();
@@ -241,7 +242,27 @@ void FixLargeBody::min_post_neighbor()
 void FixLargeBody::post_neighbor()
 {
   masses.update();
-  contacts.find_candidates(*shape, motion.frame(), view(), atom->mask, groupbit, neighbor->skin);
+  list_particles();
+  look_for_trouble();
+}
+
+void FixLargeBody::post_run()
+{
+  look_for_trouble();
+}
+
+void FixLargeBody::look_for_trouble()
+{
+  watch.look(contacts.worst(*shape, motion.frame(), view()), motion.moves(), id);
+}
+
+void FixLargeBody::list_particles()
+{
+  const BodyParticleView particles = view();
+  if (shape->wants_focus())
+    shape->focus(
+        BodyContacts::asked_for(motion.frame(), particles, atom->mask, groupbit, neighbor->skin));
+  contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin);
 }
 
 void FixLargeBody::setup(int vflag)
@@ -315,7 +336,7 @@ void FixLargeBody::post_force(int vflag)
     virials.assign(6L * atom->nlocal, 0.0);
     particles.virial = virials.data();
   }
-  contacts.follow(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin);
+  if (contacts.is_stale(motion.frame(), neighbor->skin)) list_particles();
   const bool advance = update->setupflag == 0;
   compute_contacts(particles, advance);
   if (evflag) tally_virial();

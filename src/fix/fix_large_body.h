@@ -15,6 +15,7 @@
 #include "fix.h"
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
+#include "fix/large_body_watch.h"
 #include "fix/large_body_words.h"
 #include "pair/contact_command.h"
 #include "pair/effective_masses.h"
@@ -40,6 +41,7 @@ class FixLargeBody : public Fix {
   void post_force(int) override;
   void min_post_force(int) override;
   void end_of_step() override;
+  void post_run() override;
   int modify_param(int, char **) override;
 
   /// Energy stored in and dissipated by the contacts, and that of a free body.
@@ -89,6 +91,8 @@ class FixLargeBody : public Fix {
   void keep_history();
   void set_laws();
   Talus::BodyParticleView view() const;
+  void list_particles();
+  void look_for_trouble();
   void find_region();
   void find_frozen();
   void clear_frozen();
@@ -107,6 +111,7 @@ class FixLargeBody : public Fix {
   std::unique_ptr<Talus::LargeBodyShape> shape;
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
+  LargeBodyWatch watch;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;

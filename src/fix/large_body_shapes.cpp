@@ -170,7 +170,7 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
 
   std::unique_ptr<MeshShape> shape;
   try {
-    shape = std::make_unique<MeshShape>(TriangleMesh(soup), two_sided);
+    shape = std::make_unique<MeshShape>(TriangleMesh(soup), two_sided, true);
   } catch (const std::runtime_error &problem) {
     words.fail(words.next - file_word + 1, "'" + file + "': " + problem.what());
   }
@@ -192,7 +192,9 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   warn(r.duplicate, r.first_duplicate, "triangles that are there already are left out");
   warn(r.crowded_edges, r.first_crowded, "edges belong to more than two triangles");
   if (comm->me == 0)
-    utils::logmesg(lmp, "fix large/body mesh '{}': {} triangles, {}, {:.3g} MB on each rank\n",
+    utils::logmesg(lmp,
+                   "fix large/body mesh '{}': {} triangles, {}, {:.3g} MB on each rank "
+                   "and more where particles are\n",
                    file, surface.size(),
                    r.closed() ? fmt::format("closed, volume {:.6g}", surface.volume())
                               : fmt::format("{} open edges", r.open_edges),

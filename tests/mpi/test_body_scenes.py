@@ -88,10 +88,11 @@ class Scenes(SceneCase):
         self.assertEqual(rows[0], rows[1], "the same bits on 1 and 2 ranks")
         numbers = [list(map(float, line.split(","))) for line in rows[0].splitlines()[1:]]
         last = numbers[len(numbers) // 2:]
-        sinkage, lift = (sum(row[k] for row in last) / len(last) for k in (2, 4))
+        sinkage, lift, torque = (sum(row[k] for row in last) / len(last) for k in (3, 5, 6))
         self.assertGreater(sinkage, 0.0)
         self.assertLess(sinkage, 0.015)
-        self.assertAlmostEqual(lift, 1.0, delta=0.35)    # carries its load
+        self.assertAlmostEqual(lift, 0.4, delta=0.15)    # carries its load
+        self.assertGreater(torque, 0.0, "slip takes torque")
         with open(self.path("wheel.svg")) as file:
             self.assertIn("drawbar pull", file.read())
 

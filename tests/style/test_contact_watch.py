@@ -13,6 +13,9 @@ from talus_testing import SceneCase, Sphere, write_sphere_data
 OVERLAP = r"WARNING: Pair style gran/penalty: particles (\d+) and (\d+) overlap by (\S+) of the smaller radius at step"
 MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its radius in a time step at step"
 
+BODY_OVERLAP = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step"
+BODY_MOVE = r"WARNING: Fix large/body (\S+): particle (\d+) and the body move past each other by (\S+) of its radius"
+
 SCRIPT = """
 units si
 boundary {boundary}
@@ -27,6 +30,7 @@ pair_coeff * * hooke 1000.0 0.0
 fix move all nve/sphere/symplectic
 timestep {dt}
 thermo 1000
+{more}
 run {steps}
 run {steps}
 """
@@ -34,9 +38,9 @@ run {steps}
 
 class Warned(SceneCase):
 
-    def found(self, spheres, pattern, dt=1e-4, steps=10, boundary="f f f", **options):
+    def found(self, spheres, pattern, dt=1e-4, steps=10, boundary="f f f", more="", **options):
         write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
-        return re.findall(pattern, self.run_lammps(SCRIPT.format(dt=dt, steps=steps, boundary=boundary), **options).log)
+        return re.findall(pattern, self.run_lammps(SCRIPT.format(dt=dt, steps=steps, boundary=boundary, more=more), **options).log)
 
     def pair(self, overlap, axis=0, diameter=1.0):
         """Particles 7 and 3, across the middle of the box; others that touch less."""
@@ -85,6 +89,29 @@ class Warned(SceneCase):
             self.assertAlmostEqual(float(ratio), 0.12, delta=1e-3)
             self.assertEqual(len(more), 1, "once for each of the two runs")
         self.assertEqual(self.found(spheres, MOVE, dt=1.5e-3, steps=5), [])
+
+    def test_bodies(self):
+        """Particle 4 is deep in a body, 8 touches it as it should; also one with several contacts, and on any rank."""
+        spheres = [Sphere((-2.0, 0, 0.32), id=4), Sphere((2.0, 0, 0.48), id=8), Sphere((0, 3, 3), id=9)]
+        law = "contact hooke 1000.0 0.0"
+        for np in 1, 2:
+            for shape in "plane 0 0 0 0 0 1", "box 0 0 4 9 9 8 inside":
+                (name, tag, ratio), *more = self.found(spheres, BODY_OVERLAP, more=f"fix floor all large/body {shape} {law}", np=np)
+                self.assertEqual((name, tag), ("floor", "4"))
+                self.assertAlmostEqual(float(ratio), 0.36, delta=0.01)
+                self.assertEqual(len(more), 1, "once for each of the two runs")
+        shallow = self.found(spheres[1:], BODY_OVERLAP, more=f"fix floor all large/body plane 0 0 0 0 0 1 {law}")
+        self.assertEqual(shallow, [])
+
+    def test_bodies_that_move(self):
+        spheres = [Sphere((1.0, 0, 0.49), id=3), Sphere((0, 3, 3), id=9)]
+        belt = "fix belt all large/body plane 0 0 0 0 0 1 contact hooke 1000.0 0.0 move linear 30.0 0 0"
+        for dt, count in ((2e-3, 2), (1.5e-3, 0)):
+            found = self.found(spheres, BODY_MOVE, dt=dt, steps=5, more=belt)
+            self.assertEqual(len(found), count)
+            for name, tag, ratio in found:
+                self.assertEqual((name, tag), ("belt", "3"))
+                self.assertAlmostEqual(float(ratio), 0.12, delta=1e-3)
 
 
 if __name__ == "__main__":

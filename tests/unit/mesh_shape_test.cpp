@@ -291,8 +291,9 @@ TEST(MeshTree, FindsWhatASearchOfAllTrianglesFinds)
   std::vector<Triangle> soup = cut_plane(axes, 1.0, 12, 0.3, random);
   for (Triangle &t : soup)
     for (V &p : t.corner) p.z = 0.2 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y);
-  const TriangleMesh all(soup);
-  const MeshShape mesh(all, true);
+  const TriangleMesh surface(soup);
+  const MeshDetail all(surface, surface.bounds());
+  const MeshShape mesh(surface, true);
   for (int n = 0; n < 300; n++) {
     const V x = talus(random.in_cube(1.3));
     const double reach = random.uniform(0.05, 0.6);
@@ -310,6 +311,55 @@ TEST(MeshTree, FindsWhatASearchOfAllTrianglesFinds)
     ASSERT_EQ(found, expected);
     EXPECT_DOUBLE_EQ(mesh.distance_bound(x), least);
   }
+}
+
+// What a rank holds near its particles gives the same contacts, bit for bit, as the whole mesh.
+TEST(MeshFocus, GivesTheContactsOfTheWhole)
+{
+  RandomSource random(8);
+  const Axes axes{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Triangle> soup = cut_plane(axes, 1.0, 24, 0.0, random);
+  for (Triangle &t : soup)
+    for (V &p : t.corner)    // hills, and beyond them a plane
+      p.z = p.x < 0.3 ? 0.2 * std::sin(7.0 * (p.x - 0.3)) * std::cos(5.0 * p.y) : 0.0;
+  const MeshShape whole(TriangleMesh(soup), true);
+  MeshShape part(TriangleMesh(soup), true, true);
+  EXPECT_EQ(part.size_of_detail(), 0);
+  EXPECT_TRUE(part.wants_focus());
+  int compared = 0;
+  for (const V &corner : {V{-0.8, -0.7, 0}, V{-0.2, 0.1, 0}, V{0.2, -0.4, 0}}) {
+    EXPECT_TRUE(part.focus({corner - V{0, 0, 1}, corner + V{0.4, 0.4, 1}}));
+    EXPECT_FALSE(part.focus({corner, corner + V{0.3, 0.3, 1}})) << "within what there is";
+    EXPECT_LT(part.size_of_detail(), whole.size_of_detail() / 2);
+    EXPECT_LT(part.memory_usage(), 0.7 * whole.memory_usage());
+    for (int n = 0; n < 400; n++) {
+      const double r = random.uniform(0.05, 0.1);
+      const V x{corner.x + random.uniform(r, 0.4 - r), corner.y + random.uniform(r, 0.4 - r),
+                random.uniform(-0.25, 0.25)};
+      std::vector<NearPart> near_whole, near_part;
+      whole.is_near(x, r, near_whole);
+      part.is_near(x, r, near_part);
+      SurfaceContact a[LargeBodyShape::max_contacts], b[LargeBodyShape::max_contacts];
+      const int count =
+          whole.find_contacts(x, r, {near_whole.data(), near_whole.data() + near_whole.size()}, a);
+      ASSERT_EQ(
+          part.find_contacts(x, r, {near_part.data(), near_part.data() + near_part.size()}, b),
+          count);
+      for (int k = 0; k < count; k++, compared++) {
+        EXPECT_EQ(a[k].part, b[k].part);
+        EXPECT_EQ(a[k].overlap, b[k].overlap);
+        EXPECT_EQ(a[k].normal.x, b[k].normal.x);
+        EXPECT_EQ(a[k].normal.y, b[k].normal.y);
+        EXPECT_EQ(a[k].normal.z, b[k].normal.z);
+      }
+    }
+  }
+  EXPECT_GT(compared, 300);
+  constexpr double far = 1.0e9;
+  EXPECT_FALSE(part.focus({{far, far, far}, {-far, -far, -far}})) << "no particles";
+  EXPECT_TRUE(part.focus({{-far, -far, -far}, {far, far, far}}));
+  EXPECT_FALSE(part.wants_focus());
+  EXPECT_EQ(part.size_of_detail(), whole.size_of_detail());
 }
 
 TEST(MeshReportTest, SaysWhatIsWrong)
