@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
@@ -121,10 +122,10 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   for (int i = 0; i < n; i++)
     position[i] = {{i < n - close ? 10.0 * i : 10.0 * n + 0.01 * i, 0.0, 0.0, 0.5}};
   BigVector<std::uint32_t> contacts;
-  renew(contacts, 1000);
-  const std::int64_t end = pairs.num_pairs(), some = 400;
+  const std::int64_t end = pairs.num_pairs(), some = std::int64_t{8} * close * n;    // a few rows
+  renew(contacts, some + 16);
   const std::int64_t touching =
-      find_contacts(pairs, end / 8 * 8 - some, end, position.data(), &history, contacts.data());
+      find_contacts(pairs, std::max<std::int64_t>(0, end / 8 * 8 - some), end, position.data(), &history, contacts.data());
   ASSERT_EQ(touching, close * (close - 1) / 2);
   EXPECT_EQ(contacts[touching - 1], end - 1);
 
