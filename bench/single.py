@@ -16,6 +16,9 @@ QUESTION = """How long does a step take, against other codes with the same physi
 schedule of rebuilds? The whole step is measured: neighbor lists, contacts, walls, gravity, integration."""
 
 REBUILD = 100           # steps between rebuilds of the neighbor lists, in all codes
+# steps in our own records; on two ranks that takes our exchange, and in periodic boxes too
+OWN_STEPS = "run_style verlet/proxy\n"
+OWN_EXCHANGE = "comm_proxy yes\n" + OWN_STEPS
 CHRONO_DEMO, CHRONO_CHUTE = 3640.0, 55.0     # ns per particle and step: Chrono::Distributed, and in.chute beside it
 
 
@@ -46,11 +49,13 @@ def bed_scripts(bench, count, every=REBUILD):
     data, box = beds.bed(bench, count)
     warm, steps = plan(bench, count)
     return {
-        "talus": beds.script(data, beds.talus(), warm, steps, every),
+        "talus": beds.script(data, beds.talus(), warm, steps, every, more=OWN_STEPS),
+        "talus ranks": beds.script(data, beds.talus(), warm, steps, every, more=OWN_EXCHANGE),
+        "talus verlet": beds.script(data, beds.talus(), warm, steps, every),
         "stock": beds.script(data, beds.stock(), warm, steps, every),
-        "talus material": beds.script(data, beds.talus(beds.MATERIAL), warm, steps, every),
+        "talus material": beds.script(data, beds.talus(beds.MATERIAL), warm, steps, every, more=OWN_STEPS),
         "granular": beds.script(data, beds.stock_granular(), warm, steps, every),
-        "frictionless": beds.script(data, beds.talus(beds.FRICTIONLESS), warm, steps, every),
+        "frictionless": beds.script(data, beds.talus(beds.FRICTIONLESS), warm, steps, every, more=OWN_STEPS),
         "liggghts": beds.liggghts_script(data, box, warm, steps, every),
     }
 
@@ -92,6 +97,10 @@ def bed_rows(bench, run):
             yield compare(bench, run, case, f"{count} spheres, gran/hertz/history",
                           {"stock": lambda s=s: run(s["stock"], STOCK), "talus": lambda s=s: run(s["talus"])},
                           *aims[case])
+    if bench.wants("verlet"):
+        s = bed_scripts(bench, size)
+        yield compare(bench, run, "verlet", f"{size} spheres, Talus with run_style verlet",
+                      {"stock": lambda: run(s["stock"], STOCK), "talus": lambda: run(s["talus verlet"])}, 4, 5)
     if bench.wants("checked"):
         s = bed_scripts(bench, size, every=0)
         yield compare(bench, run, "checked", f"{size} spheres, lists rebuilt when particles have moved",
@@ -124,6 +133,7 @@ def chute_scripts(bench):
     ours = re.sub(r"pair_style\s.*\npair_coeff.*", "pair_style gran/penalty\npair_coeff * * hooke 200000.0 50.0 "
                   "tangential multistep NULL 0.0 0.5", text)
     ours = re.sub(r"(?m)^fix\s+1 all gravity.*\n", "", ours)
+    ours = re.sub(r"(?m)^run 100$", OWN_EXCHANGE.replace("proxy\n", "proxy overlap no\n") + "run 100", ours, 1)
     ours = re.sub(r"(?m)^(fix\s+3 active) nve/sphere", r"\1 nve/sphere/symplectic gravity 1.0 chute 26.0", ours)
     return text, ours
 
@@ -154,7 +164,7 @@ def demo_script(bench):
         lammps.run(bench.workdir, "demo", beds.script("lattice.data", physics, 0, 10000, 0, dt=2e-5)
                    + beds.save_state("demo.dump"))
         lammps.write_data(data, box, *beds.state_rows(bench.path("demo.dump"), 4000.0))
-    return beds.script(data, physics, *plan(bench, 32364), REBUILD, dt=2e-5)
+    return beds.script(data, physics, *plan(bench, 32364), REBUILD, dt=2e-5, more=OWN_STEPS)
 
 
 def demo_row(bench, run):
@@ -186,12 +196,13 @@ def two_core_rows(bench, run):
     cores = machine.cores()[-2:]
     size = bench.size(50000, 12500)
     s = bed_scripts(bench, size)
-    both = {"ranks": dict(ranks=2, cores=cores), "threads": dict(threads=2, cores=cores)}
-    for case, options in both.items():
+    both = {"ranks": ("talus ranks", dict(ranks=2, cores=cores)),
+            "threads": ("talus", dict(threads=2, cores=cores))}
+    for case, (script, options) in both.items():
         if bench.wants(case):
             bench.note(case)
             series = paired.measure({"alone": lambda: two_at_once(run, s["talus"], cores),
-                                     "pair": lambda o=options: run(s["talus"], **o)}, bench.rounds)
+                                     "pair": lambda o=options, n=script: run(s[n], **o)}, bench.rounds)
             yield finish(bench, case, f"{size} spheres, 2 {case}; of the throughput of two independent runs",
                          series["alone"], series["pair"], paired.ratio(*series.values()), 0.92, 0.97)
     if bench.wants("omp"):
@@ -212,7 +223,8 @@ def measure(bench):
     section.table(COLUMNS, rows)
     section.text(f"""Times in ns per particle and step. Beds: settled, 15 diameters deep, diameters +- 5 %, Hertz, friction
 with history, floor and four walls, skin .1 diameters; lists are rebuilt every {REBUILD} steps in all codes (in the row
-`checked`, each step asks whether a particle has moved by half the skin). 100 steps before those that count. floor and
+`checked`, each step asks whether a particle has moved by half the skin). Talus uses `run_style verlet/proxy`, but in
+the row `verlet`; with `comm_proxy yes` on two ranks and in the periodic chute. 100 steps before those that count. floor and
 goal are what was aimed at.""")
     section.text("""`demo`: a reference that cannot be run here took 3640 ns per particle and step on a core on which in.chute
 takes 55 ns with the stock style; its time is scaled by in.chute, which ran in turn. `frictionless`: the same positions
