@@ -217,7 +217,8 @@ void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task,
   static const Record none{};
   const int i = candidates[c];
   SurfaceContact contact;
-  if (shape.touches(task.frame.point_to_body(task.view.position(i)), task.view.radius_of(i), contact))
+  if (shape.touches(task.frame.point_to_body(task.view.position(i)), task.view.radius_of(i),
+                    contact))
     batch.add(task, law, i, contact, with_history ? history[i] : none, with_onset ? onset[i] : none,
               i);
   else

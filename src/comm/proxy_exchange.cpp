@@ -110,8 +110,8 @@ void ProxyExchange::begin(ProxyPacker &with)
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].receive_count())
       MPI_Irecv(receive_buffer.data() + receive_start[n],
-                message_length(stride, neighbors[n].receive_count()), MPI_DOUBLE,
-                neighbors[n].rank, TAG_STATE, comm, &receives[n]);
+                message_length(stride, neighbors[n].receive_count()), MPI_DOUBLE, neighbors[n].rank,
+                TAG_STATE, comm, &receives[n]);
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
   counters.exchanges++;

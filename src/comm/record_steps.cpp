@@ -37,7 +37,8 @@ std::string RecordSteps::find_hazard(bool pairs_computed)
 {
   if (!style || !pairs_computed) return "the pair style is not gran/penalty on its own";
   if (const std::string its = style->hazard_of_records(); !its.empty()) return its;
-  if (atom->molecular != Atom::ATOMIC || force->kspace) return "there are bonds or long-range forces";
+  if (atom->molecular != Atom::ATOMIC || force->kspace)
+    return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
   if (neighbor->includegroup || atom->firstgroupname)
@@ -69,8 +70,8 @@ std::string RecordSteps::hazard_of_fix(Fix *fix, int mask) const
   if (dynamic_cast<FixContactStore *>(fix) || std::strcmp(fix->style, "OMP") == 0 ||
       utils::strmatch(fix->style, "^freeze"))
     return "";
-  constexpr int in_every_step = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE |
-                                POST_FORCE | FINAL_INTEGRATE;
+  constexpr int in_every_step =
+      INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
   return mask & in_every_step ? "may look at particles in every step" : "";
 }
 
@@ -86,9 +87,8 @@ bool RecordSteps::may_stay(bigint now, bool tallied)
 bool RecordSteps::is_looked_at(bigint now) const
 {
   if (now >= update->laststep || now >= output->next) return true;
-  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(), [now](const Fix *fix) {
-    return fix->nevery <= 0 || now % fix->nevery == 0;
-  });
+  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(),
+                     [now](const Fix *fix) { return fix->nevery <= 0 || now % fix->nevery == 0; });
 }
 
 PairGranPenalty *RecordSteps::keeper() const

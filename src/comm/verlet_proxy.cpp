@@ -29,7 +29,8 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) : Verlet(lmp, 0, nullptr), lists(lmp), records(lmp)
+VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
+    Verlet(lmp, 0, nullptr), lists(lmp), records(lmp)
 {
   if (narg == 0) return;
   if (std::strcmp(arg[0], "overlap") != 0)

@@ -47,9 +47,9 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
     choose(std::false_type{});
 }
 
-/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending order
-   of the second particle: memory is read straight ahead, and first particles, but for the distant
-   ones, are still in the cache. */
+/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending
+   order of the second particle: memory is read straight ahead, and first particles, but for the
+   distant ones, are still in the cache. */
 
 template <bool friction, bool history_kept, bool screened>
 void ContactPart::compute_all(const Step &step)

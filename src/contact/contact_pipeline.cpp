@@ -117,8 +117,7 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
   in_records = !step.deliver;
   move_pending = false;
   if (step.deliver)
-    in_ranges(order.size(),
-              [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+    in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
 }
 
 /* What several parts read has to be there before any of them begins. */
@@ -155,8 +154,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
     particles.read(order, host, slots);
   } else if (move_pending) {
     slots.marked = flags(is_moved_at_once);
-    travels[part].join(
-        particles.advance(move, role, held.empty() ? nullptr : held.data(), slots));
+    travels[part].join(particles.advance(move, role, held.empty() ? nullptr : held.data(), slots));
   }
 }
 
@@ -165,8 +163,8 @@ void ContactPipeline::start_step(const ContactStep &step)
   if (step.account) step.account->begin_step(order.size());
 }
 
-/* Computes the parts of one phase. Reports and accounts are kept in the order of the parts, so these
-   then run one after the other. */
+/* Computes the parts of one phase. Reports and accounts are kept in the order of the parts, so
+   these then run one after the other. */
 
 void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part)
 {
@@ -210,8 +208,7 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   moved_at_once = order.frontier();
   for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
   std::sort(moved_at_once.begin(), moved_at_once.end());
-  moved_at_once.erase(std::unique(moved_at_once.begin(), moved_at_once.end()),
-                      moved_at_once.end());
+  moved_at_once.erase(std::unique(moved_at_once.begin(), moved_at_once.end()), moved_at_once.end());
   mark(moved_at_once, is_moved_at_once);
 
   renew(held, x_then ? order.size() : 0);
@@ -248,8 +245,7 @@ RecordTravel ContactPipeline::travel() const
   return all;
 }
 
-void ContactPipeline::return_state(double *x, double *v, double *omega, double *f,
-                                   double *torque)
+void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
 {
   if (move_pending)
     in_ranges(order.size(), [&](int begin, int end) {

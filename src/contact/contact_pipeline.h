@@ -151,11 +151,11 @@ class ContactPipeline {
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   RecordStep move{};
-  std::vector<ParticleRecords::Role> role;    ///< by slot; empty if all move
-  std::vector<int> moved_at_once;             ///< slots
+  std::vector<ParticleRecords::Role> role;        ///< by slot; empty if all move
+  std::vector<int> moved_at_once;                 ///< slots
   std::vector<unsigned char> is_moved_at_once;    ///< by slot; empty if none is
-  BigVector<Record> held;                     ///< by slot, or empty
-  std::vector<RecordTravel> travels;          ///< by part, and one more
+  BigVector<Record> held;                         ///< by slot, or empty
+  std::vector<RecordTravel> travels;              ///< by part, and one more
 
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
   int parts_per_phase = 1;

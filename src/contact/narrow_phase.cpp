@@ -48,8 +48,7 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
     }
     if (!history) continue;
     // two records to a line; beyond the end there is nothing to call, and no harm in it
-    for (int k = 0; k < 8; k += 2)
-      __builtin_prefetch(history->records.data() + c + ahead + k, 1);
+    for (int k = 0; k < 8; k += 2) __builtin_prefetch(history->records.data() + c + ahead + k, 1);
     const unsigned separated = history->touching[c / 8] & ~bits;
     if (separated) history->forget(c / 8, separated);
     history->touching[c / 8] = static_cast<std::uint8_t>(bits);

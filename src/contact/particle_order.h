@@ -35,10 +35,7 @@ class ParticleOrder {
   int num_parts() const { return parts; }
   /// Part of a slot; no_part for ghosts, unless there is one part only.
   int part(int slot) const { return parts == 1 ? 0 : part_of_slot[slot]; }
-  const std::uint16_t *part_of_slots() const
-  {
-    return parts == 1 ? nullptr : part_of_slot.data();
-  }
+  const std::uint16_t *part_of_slots() const { return parts == 1 ? nullptr : part_of_slot.data(); }
   /// Slots of a part are within this range, in ascending order; in part 0 alone they are all.
   struct Range {
     int begin, end;

@@ -33,9 +33,9 @@ struct ParticleView {
 /// One step of semi-implicit Euler for spheres: v += kick (F/m) + fall, x += dt v,
 /// omega += kick T/(inertia m r^2).
 struct RecordStep {
-  double dt, kick;      ///< time; kick times the host's force/(mass acceleration)
-  double fall[3];       ///< change of velocity by gravity
-  double inertia;       ///< 2/5 for spheres, 1/2 for discs
+  double dt, kick;    ///< time; kick times the host's force/(mass acceleration)
+  double fall[3];     ///< change of velocity by gravity
+  double inertia;     ///< 2/5 for spheres, 1/2 for discs
 };
 
 /// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
@@ -115,7 +115,8 @@ class ParticleRecords {
   void clear(int begin, int end);
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
-  /// one order whoever adds them up: first those of the contacts, and of these first the lever arms.
+  /// one order whoever adds them up: first those of the contacts, and of these first the lever
+  /// arms.
   Vec4 torque(int slot) const
   {
     const Record *loads = &load[2 * static_cast<std::size_t>(slot)];

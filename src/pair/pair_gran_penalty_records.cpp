@@ -26,8 +26,7 @@ void PairGranPenalty::return_state(bool with_forces)
   if (!pipeline.holds_state()) return;
   const bool any = atom->nlocal > 0;
   pipeline.return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
-                        any ? atom->omega[0] : nullptr,
-                        any && with_forces ? atom->f[0] : nullptr,
+                        any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,
                         any && with_forces ? atom->torque[0] : nullptr);
 }
 

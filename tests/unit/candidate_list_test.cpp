@@ -162,8 +162,7 @@ TEST(ParticleOrder, FrontierIsWhatOtherPartsRead)
       for (int s = 0; s < order.size(); s++) {
         bool read = false;
         for (const auto &[slots, weight] : pairs.by_slots)
-          for (const auto &[mine, other] :
-               {slots, std::pair<int, int>(slots.second, slots.first)})
+          for (const auto &[mine, other] : {slots, std::pair<int, int>(slots.second, slots.first)})
             read = read || (mine == s && order.part(s) != order.part(other) &&
                             order.part(s) != ParticleOrder::no_part &&
                             order.part(other) != ParticleOrder::no_part);

@@ -124,8 +124,8 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   BigVector<std::uint32_t> contacts;
   const std::int64_t end = pairs.num_pairs(), some = std::int64_t{8} * close * n;    // a few rows
   renew(contacts, some + 16);
-  const std::int64_t touching =
-      find_contacts(pairs, std::max<std::int64_t>(0, end / 8 * 8 - some), end, position.data(), &history, contacts.data());
+  const std::int64_t touching = find_contacts(pairs, std::max<std::int64_t>(0, end / 8 * 8 - some),
+                                              end, position.data(), &history, contacts.data());
   ASSERT_EQ(touching, close * (close - 1) / 2);
   EXPECT_EQ(contacts[touching - 1], end - 1);
 

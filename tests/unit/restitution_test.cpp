@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Damping from restitution: every law, with and without limit_damping, gives the restitution that was asked for. Measured
-// by integrating an impact with a Runge-Kutta scheme of its own around the kernels' own normal forces.
+// Damping from restitution: every law, with and without limit_damping, gives the restitution that
+// was asked for. Measured by integrating an impact with a Runge-Kutta scheme of its own around the
+// kernels' own normal forces.
 
 #include "contact/contact_energy.h"
 #include "contact/contact_kernel.h"
@@ -19,7 +20,8 @@ using LAMMPS_NS::ContactSpec;
 
 namespace {
 
-/// Normal force of a law at an overlap and a speed of separation (negative: approach), as queries give it.
+/// Normal force of a law at an overlap and a speed of separation (negative: approach), as queries
+/// give it.
 struct Impact {
   ContactLaw law;
   ContactCoefficients c;
@@ -36,8 +38,8 @@ struct Impact {
     return single_contact(law, c, s, 1e-5, {}, {}).normal;
   }
 
-  /// Speed after an impact over that before. The contact ends at overlap zero; with limit_damping no force acts
-  /// after it has vanished, so what follows may be cut off.
+  /// Speed after an impact over that before. The contact ends at overlap zero; with limit_damping
+  /// no force acts after it has vanished, so what follows may be cut off.
   double restitution(double speed) const
   {
     const double young = c.kn;
@@ -73,7 +75,8 @@ Impact impact_of(NormalLaw normal, double e, bool limited)
   spec.limit_damping = limited;
   spec.given.speed = 0.5;
   Impact i;
-  i.law = {normal, normal == NormalLaw::PLAINCOULOMB_MATERIAL ? TangentialLaw::TANH : TangentialLaw::NONE};
+  i.law = {normal,
+           normal == NormalLaw::PLAINCOULOMB_MATERIAL ? TangentialLaw::TANH : TangentialLaw::NONE};
   i.c = contact_coefficients(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM);
   return i;
 }
@@ -81,10 +84,12 @@ Impact impact_of(NormalLaw normal, double e, bool limited)
 TEST(Restitution, IsTheOneAskedForInAnIndependentIntegration)
 {
   std::cout << "largest |e_out - e|\n" << std::scientific << std::setprecision(1);
-  for (NormalLaw law : {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL, NormalLaw::PLAINCOULOMB_MATERIAL})
+  for (NormalLaw law :
+       {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL, NormalLaw::PLAINCOULOMB_MATERIAL})
     for (bool limited : {false, true}) {
       double worst = 0.0;
-      for (double e : {0.02, 0.05, 0.1, 0.135, 0.136, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0})
+      for (double e :
+           {0.02, 0.05, 0.1, 0.135, 0.136, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0})
         for (double speed : {0.1, 3.0}) {
           const double out = impact_of(law, e, limited).restitution(speed);
           worst = std::max(worst, std::fabs(out - e));
@@ -116,8 +121,8 @@ TEST(Restitution, FactorsAreMonotonic)
   EXPECT_LT(flores_damping_factor(1.0), 1e-15);
 }
 
-// Thornton, Cummins and Cleary 2013 fit the limited Hertzian contact; their damping is 2 beta sqrt(S_n m). The fit
-// loses its digits near e = 1.
+// Thornton, Cummins and Cleary 2013 fit the limited Hertzian contact; their damping is 2 beta
+// sqrt(S_n m). The fit loses its digits near e = 1.
 TEST(Restitution, ThorntonsFitIsClose)
 {
   const double h[] = {-6.918798, -16.41105, 146.8049,  -796.4559, 2928.711,
@@ -133,7 +138,8 @@ TEST(Restitution, ThorntonsFitIsClose)
   EXPECT_LT(worst, 5e-3);
 }
 
-// gn/(2 sqrt(m k)): of a linear contact the usual one; of hertz/material half its factor, at any overlap, mass and radius.
+// gn/(2 sqrt(m k)): of a linear contact the usual one; of hertz/material half its factor, at any
+// overlap, mass and radius.
 TEST(Restitution, DampingRatio)
 {
   ContactCoefficients c;
@@ -143,7 +149,8 @@ TEST(Restitution, DampingRatio)
   c.gn = hertz_damping_factor(0.9);
   for (double overlap : {1e-6, 0.1})
     for (double mass : {1e-3, 10.0})
-      EXPECT_NEAR(damping_ratio({NormalLaw::HERTZ_MATERIAL}, c, overlap, mass, 0.2), 0.5 * c.gn, 1e-14);
+      EXPECT_NEAR(damping_ratio({NormalLaw::HERTZ_MATERIAL}, c, overlap, mass, 0.2), 0.5 * c.gn,
+                  1e-14);
   c.kn = 0.0;
   EXPECT_EQ(damping_ratio({NormalLaw::HOOKE}, c, 0.1, 1.0, 0.5), 0.0);
 }
