@@ -103,7 +103,7 @@ def message(bench, variant):
     else:
         text = beds.script(data, physics, 0, 20, boundary="p p f")
     log = lammps.run(bench.workdir, "message", text + "comm_proxy info\n", ranks=2).log
-    sent, proxies = (float(re.search(rf"^ *{what} sent +\S+ +(\S+)", log, re.MULTILINE)[1]) for what in ("bytes", "proxies"))
+    sent, proxies = (float(re.search(rf"^ *{what} sent +\S+ +(\S+)", log, re.MULTILINE)[1]) for what in ("bytes", "particles"))
     return max(72, round(sent / proxies)), round(sent / proxies)
 
 
