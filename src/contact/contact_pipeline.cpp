@@ -180,6 +180,7 @@ void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &ste
       bring(host, step, first_part + p, begin, end);
     });
   }
+  parts_moved = first_part + count;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -225,6 +226,7 @@ void ContactPipeline::advance(const RecordStep &step)
 {
   move = step;
   move_pending = true;
+  parts_moved = 0;
   travels.assign(travels.size(), RecordTravel{});
   const Record *then = held.empty() ? nullptr : held.data();
   std::vector<RecordTravel> pieces(threads);
@@ -247,12 +249,15 @@ RecordTravel ContactPipeline::travel() const
 
 void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
 {
-  if (move_pending)
-    in_ranges(order.size(), [&](int begin, int end) {
-      SlotChoice slots{begin, end};
-      slots.marked = is_moved_at_once.empty() ? nullptr : is_moved_at_once.data();
-      particles.advance(move, role, nullptr, slots);
+  // an error may have come between the two phases, when the first parts have already moved theirs
+  for (int p = parts_moved; move_pending && p < order.num_parts(); p++) {
+    const ParticleOrder::Range its = order.range(p);
+    in_ranges(its.end - its.begin, [&](int begin, int end) {
+      particles.advance(move, role, nullptr,
+                        {its.begin + begin, its.begin + end, nullptr, order.part_of_slots(), p,
+                         is_moved_at_once.empty() ? nullptr : is_moved_at_once.data()});
     });
+  }
   move_pending = in_records = false;
   write_state(x, v, omega);
   if (f)

@@ -151,6 +151,7 @@ class ContactPipeline {
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   RecordStep move{};
+  int parts_moved = 0;    // by a pending move
   std::vector<ParticleRecords::Role> role;        ///< by slot; empty if all move
   std::vector<int> moved_at_once;                 ///< slots
   std::vector<unsigned char> is_moved_at_once;    ///< by slot; empty if none is

@@ -195,6 +195,22 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
   }
 }
 
+TEST_P(RecordSteps, ReturnTheStateBetweenTheTwoPhases)
+{
+  if (!fast.in_two_phases()) return;
+  ContactStep keep{euler.dt, true};
+  keep.deliver = false;
+  compute(slow, twin, {euler.dt, true});
+  compute(fast, host, keep);
+  host.spoil();
+  advance();
+  twin.step([this](int i) { return moves(i); });
+  keep.read = false;
+  fast.compute_early(host.view(), keep);    // then an error comes
+  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), nullptr, nullptr);
+  EXPECT_TRUE(same_state(host, twin));
+}
+
 TEST_P(RecordSteps, TellHowFarParticlesGo)
 {
   ContactStep keep{euler.dt, true};
