@@ -219,7 +219,7 @@ def vessel(bench):
     bench.section.record(part="vessel", particles=len(rows), lost=len(rows) - int(left), force=force, third_law=worst)
 
 
-SPINNING = """units lj
+ONE_PARTICLE = """units lj
 boundary f f f
 atom_style sphere
 atom_modify map array
@@ -227,7 +227,8 @@ newton off
 comm_modify vel yes
 region box block -5 5 -5 5 -5 5
 create_box 1 box
-create_atoms 1 single 4 4 4
+"""
+SPINNING = ONE_PARTICLE + """create_atoms 1 single 4 4 4
 set type 1 diameter 0.5 density 1.0
 pair_style gran/penalty
 pair_coeff * * hooke 1 0
@@ -274,15 +275,7 @@ def free_rotation(bench):
                        lambda plt: draw_errors(plt, rows, ("energy", None, "angular momentum"), "time step"))
 
 
-COUPLED = """units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-region box block -5 5 -5 5 -5 5
-create_box 1 box
-create_atoms 1 single 0 0 1
+COUPLED = ONE_PARTICLE + """create_atoms 1 single 0 0 1
 set type 1 diameter 1.0 density 1.0
 neighbor 0.3 bin
 pair_style gran/penalty

@@ -7,13 +7,13 @@ schedule are the same (wrapping rounds), so there verlet/proxy is compared with 
 the direct exchange are checked: proxies hold NaN while they are under way."""
 
 import os
-import random
 import re
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
+from tossed_grains import tossed_grains
 
 FRICTION = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 LAWS = {"friction": FRICTION, "frictionless": "hertz 4000.0 40.0",
@@ -73,18 +73,10 @@ def scene(exchange, law="friction", boundary="f f f", grid="* * *", steps=STEPS,
                         walls=WALLS.format(law=law) if boundary == "f f f" else "")
 
 
-def grains():
-    draw = random.Random(4)
-    return [Sphere(tuple(1.15 * s + 0.7 + draw.uniform(-0.1, 0.1) for s in (i, j, k)),
-                   v=tuple(draw.uniform(-2.0, 2.0) for _ in "xyz"),
-                   diameter=draw.uniform(0.7, 1.15))
-            for i in range(8) for j in range(6) for k in range(7)]
-
-
 class Overlap(SceneCase):
 
     def setUp(self):
-        write_sphere_data(self.path("grains"), ((-0.1, 9.6), (-0.1, 7.3), (-0.1, 20)), grains())
+        write_sphere_data(self.path("grains"), ((-0.1, 9.6), (-0.1, 7.3), (-0.1, 20)), tossed_grains(7))
 
     def run_all(self, exchanges, ranks, threads=1, **options):
         """{exchange: (frames, rows, builds, log)} of runs in one process."""
