@@ -93,11 +93,11 @@ void CommProxy::forward_comm(int dummy)
   finish();
 }
 
-void CommProxy::begin()
+void CommProxy::begin(ProxyPacker *packer)
 {
   if (!have_plan) error->all(FLERR, "comm_proxy: no plan yet for an exchange (internal error)");
   finish();
-  transfer.begin(choose_packer());
+  transfer.begin(packer ? *packer : choose_packer());
   if (checks) poison_proxies();
 }
 

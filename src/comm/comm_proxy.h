@@ -61,8 +61,9 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   bool has_plan() const { return have_plan; }
 
   /// Starts the update of all proxies; the caller sees to it that nobody reads them before
-  /// finish(). Collective among neighbours, like forward_comm().
-  void begin();
+  /// finish(). Collective among neighbours, like forward_comm(). `packer`: if states are not in the
+  /// host's arrays, on all ranks.
+  void begin(Talus::ProxyPacker *packer = nullptr);
 
   /// For the run style, at the start of a run: whether it will call begin().
   void set_overlap(bool yes) { overlapped_run = yes; }

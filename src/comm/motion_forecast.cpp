@@ -9,18 +9,15 @@ using namespace Talus;
 MotionForecast Talus::forecast_motion(int n, const double *x, const double *x_then, const double *v,
                                       double dt)
 {
-  double moved = 0.0, next = 0.0, fastest = 0.0;
-#pragma omp simd reduction(max : moved, next, fastest)
+  double moved2 = 0.0, fastest2 = 0.0;
+#pragma omp simd reduction(max : moved2, fastest2)
   for (int i = 0; i < n; i++) {
     const double dx = x[3 * i] - x_then[3 * i], dy = x[3 * i + 1] - x_then[3 * i + 1],
                  dz = x[3 * i + 2] - x_then[3 * i + 2];
     const double vx = v[3 * i], vy = v[3 * i + 1], vz = v[3 * i + 2];
-    const double d = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const double speed = std::sqrt(vx * vx + vy * vy + vz * vz);
-    const double ahead = d + dt * speed;
-    moved = d > moved ? d : moved;
-    next = ahead > next ? ahead : next;
-    fastest = speed > fastest ? speed : fastest;
+    const double way2 = dx * dx + dy * dy + dz * dz, speed2 = vx * vx + vy * vy + vz * vz;
+    moved2 = way2 > moved2 ? way2 : moved2;
+    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
   }
-  return {moved, next, dt * fastest};
+  return {std::sqrt(moved2), dt * std::sqrt(fastest2)};
 }

@@ -53,14 +53,13 @@ void RebuildCheck::ask(const RecordTravel *travel)
   const int n = neighbor->includegroup ? atom->nfirst : atom->nlocal;
   MotionForecast here;
   if (travel)
-    here = {travel->moved, travel->next, update->dt * travel->speed};
+    here = {travel->moved, update->dt * travel->speed};
   else if (n)
     here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
-  lengths->mine[1] = here.next;
-  lengths->mine[2] = here.step;
+  lengths->mine[1] = here.step;
   corners_when_asked = box_corners();
-  MPI_Iallreduce(lengths->mine, lengths->all, 3, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
   asked = true;
 }
 
@@ -79,7 +78,7 @@ bool RebuildCheck::decide()
 
   MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
-  const MotionForecast forecast{lengths->all[0], lengths->all[1], lengths->all[2]};
+  const MotionForecast forecast{lengths->all[0], lengths->all[1]};
   if (!forecast.may_leave(limit())) return false;
   if (forecast.moved > 0.5 * neighbor->skin) {
     late++;

@@ -55,7 +55,7 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   MPI_Request request = MPI_REQUEST_NULL;
   bool asked = false;
   struct Lengths {
-    double mine[3], all[3];    ///< of a MotionForecast, here and everywhere
+    double mine[2], all[2];    ///< of a MotionForecast, here and everywhere
   };
   std::unique_ptr<Lengths> lengths = std::make_unique<Lengths>();    ///< MPI writes here
   LAMMPS_NS::bigint list_step = -1;    ///< when the lists were made, as far as we know

@@ -77,11 +77,11 @@ std::string RecordSteps::hazard_of_fix(Fix *fix, int mask) const
 
 bool RecordSteps::may_stay(bigint now, bool tallied)
 {
+  stays = reason.empty() && !tallied && !is_looked_at(now);
   if (!reason.empty()) return false;
-  const bool may = !tallied && !is_looked_at(now);
-  if (may && !sent_is_known) find_sent_particles();
-  style->keep_state(may);
-  return may;
+  if (stays && !sent_is_known) find_sent_particles();
+  style->keep_state(stays);
+  return stays;
 }
 
 bool RecordSteps::is_looked_at(bigint now) const
@@ -96,9 +96,20 @@ PairGranPenalty *RecordSteps::keeper() const
   return reason.empty() && style->holds_state() ? style : nullptr;
 }
 
-void RecordSteps::show_sent_particles() const
+/* Who looks at a step may look at the host's ghosts; and so do the checks of the exchange. */
+
+ProxyPacker *RecordSteps::prepare_exchange()
 {
-  if (const PairGranPenalty *its = keeper()) its->show_state(sent);
+  PairGranPenalty *its = keeper();
+  if (!its) return nullptr;
+  const auto *proxy = dynamic_cast<CommProxy *>(comm);
+  if (!stays || !proxy || proxy->is_checking()) {
+    its->show_state(sent);
+    return nullptr;
+  }
+  packer.set(its->records(), its->slot_of_atom());
+  its->take_proxies_as_they_are();
+  return &packer;
 }
 
 void RecordSteps::find_sent_particles()

@@ -8,6 +8,8 @@
 #ifndef TALUS_COMM_RECORD_STEPS_H
 #define TALUS_COMM_RECORD_STEPS_H
 
+#include "comm/record_packer.h"
+
 #include "lmptype.h"
 #include "pointers.h"
 
@@ -23,7 +25,7 @@ namespace Talus {
 
 class RecordSteps : protected LAMMPS_NS::Pointers {
  public:
-  explicit RecordSteps(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  explicit RecordSteps(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp), packer(lmp) {}
 
   /// At the start of a run, after setup. Collective; decides the same on all ranks.
   void start(bool pairs_computed);
@@ -39,8 +41,10 @@ class RecordSteps : protected LAMMPS_NS::Pointers {
   /// Of this run, or nullptr.
   LAMMPS_NS::PairGranPenalty *pair() const { return reason.empty() ? style : nullptr; }
 
-  /// Before an exchange: shows it the particles that it sends, if they live in the records.
-  void show_sent_particles() const;
+  /// Before an exchange in a step for which may_stay() has been asked: the packer for an exchange
+  /// from records to records, or nullptr, on all ranks, if it goes through the host's arrays. Those
+  /// then show the particles that are sent, wherever they live.
+  ProxyPacker *prepare_exchange();
   /// There is a new exchange plan.
   void forget_plan() { sent_is_known = false; }
 
@@ -54,7 +58,8 @@ class RecordSteps : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::PairGranPenalty *style = nullptr;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
   std::vector<int> sent;
-  bool sent_is_known = false;
+  bool sent_is_known = false, stays = false;
+  RecordPacker packer;
 };
 
 }    // namespace Talus

@@ -101,6 +101,7 @@ void VerletProxy::run(int n)
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
       update->nsteps = i;
+      bring_back();
       break;
     }
     step();
@@ -131,17 +132,16 @@ void VerletProxy::step()
   if (modify->n_post_integrate) modify->post_integrate();
   timer->stamp(Timer::MODIFY);
 
-  if (lists.decide())    // the host's decide() waits for all ranks
-    rebuild();
-  else
-    update_proxies();    // the host's forward_comm() is complete at its end
+  const bool anew = lists.decide();    // the host's decide() waits for all ranks
+  if (anew) rebuild();
+  // nobody reads the host's forces in a step after which particles stay in the records
+  const bool may_stay = records.may_stay(now, eflag || vflag);
+  if (!anew) update_proxies();    // the host's forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
   const bool in_records = records.keeper();
   if (!in_records) lists.ask(nullptr);
   timer->stamp(Timer::COMM);
 
-  // nobody reads the host's forces in a step after which particles stay in the records
-  const bool may_stay = records.may_stay(now, eflag || vflag);
   if (!may_stay) force_clear();
   timer->stamp();
   compute_forces();
@@ -164,14 +164,27 @@ void VerletProxy::step()
 
 void VerletProxy::update_proxies()
 {
-  records.show_sent_particles();
-  CommProxy *proxy = overlaps ? current() : nullptr;
-  if (proxy && proxy->has_plan()) {
-    proxy->begin();
-    proxy->counters().overlapped++;
+  ProxyPacker *packer = records.prepare_exchange();
+  CommProxy *proxy = current();
+  if (proxy && proxy->has_plan() && (overlaps || packer)) {
+    proxy->begin(packer);
+    if (overlaps)
+      proxy->counters().overlapped++;
+    else
+      proxy->finish();
   } else
     comm->forward_comm();
   timer->stamp(Timer::COMM);
+}
+
+/* Before the end of a run that nobody saw coming, ghosts included. */
+
+void VerletProxy::bring_back()
+{
+  PairGranPenalty *keeper = records.keeper();
+  if (!keeper) return;
+  keeper->return_state(true);
+  comm->forward_comm();
 }
 
 void VerletProxy::rebuild()

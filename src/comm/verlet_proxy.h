@@ -32,6 +32,7 @@ class VerletProxy : public Verlet {
  private:
   void step();
   void update_proxies();
+  void bring_back();
   void rebuild();
   void compute_forces();
   class CommProxy *current() const;

@@ -96,7 +96,7 @@ void ComputePenaltyStats::compute_vector()
   mine[RESISTANCE] = now.resistance - before.resistance;
   mine[CANDIDATES] = pair->contacts().count_candidates();
   mine[CONTACTS] = pair->contacts().count_contacts();
-  double largest = pair->contacts().largest_overlap_ratio();
+  double largest = pair->contacts().deepest_contact().overlap_ratio;
   for (const FixLargeBody *body : bodies()) {
     mine[CONTACTS] += body->contacts_here();
     largest = std::max(largest, body->largest_overlap_ratio());

@@ -3,7 +3,6 @@
 #include "contact/contact_part.h"
 
 #include "contact/narrow_phase.h"
-#include "contact/resistance.h"
 
 #include <algorithm>
 
@@ -148,122 +147,12 @@ int ContactPart::arrange(const ContactScene &scene, const std::uint32_t *contact
   return lane;
 }
 
-/* Geometry and kinematics of the block. The sums of records give everything but the normal. */
-
 namespace {
-constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
-using Lanes = double[3][ContactBatch::width];
-
-/// Four records become lanes k ... k+3 of a vector and of a scalar.
-inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
-{
-  transpose(rows[0], rows[1], rows[2], rows[3]);
-  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
-  if (fourth) store(&fourth[k], rows[3]);
-}
-
-/// r w and 1/r of a spin record, with the position record of the particle.
-inline Vec4 surface_velocity(Vec4 position, const Record &spin)
-{
-  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * load4(spin);
-}
-
-/// Lanes k ... k+3 become four records.
-inline void collect(const Lanes &vector, const double *fourth, int k, Vec4 *rows)
-{
-  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
-  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
-  transpose(rows[0], rows[1], rows[2], rows[3]);
-}
-
-void clear_lanes(Lanes &vector, int begin, int end)
+void clear_lanes(double (&vector)[3][ContactBatch::width], int begin, int end)
 {
   for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
 }
 }    // namespace
-
-template <bool friction, bool history_kept>
-void ContactPart::gather(const ParticleRecords &particles, int end)
-{
-  constexpr std::size_t stride = friction ? 2 : 1;
-  const Record *x = particles.position.data(), *motion = particles.motion.data();
-  const Record *h = history.records.data();
-
-  for (int k = 0; k < end; k += 4) {
-    Vec4 a[4], b[4], c[4], d[4];
-    for (int q = 0; q < 4; q++) {
-      const std::uint32_t pair = pair_of_lane[k + q];
-      const int i = pairs.first[pair], j = pairs.second[pair];
-      const Record *mi = motion + stride * i, *mj = motion + stride * j;
-      const Vec4 xi = load4(x[i]), xj = load4(x[j]);
-      a[q] = xi + difference_and_sum * xj;
-      b[q] = load4(mi[0]) + difference_and_sum * load4(mj[0]);
-      if constexpr (friction) c[q] = surface_velocity(xi, mi[1]) + surface_velocity(xj, mj[1]);
-      if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
-      if constexpr (history_kept) d[q] = load4(h[pair]);
-    }
-    spread(a, batch.normal, batch.overlap, k);
-    spread(b, batch.velocity, batch.inverse_mass, k);
-    if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
-    if constexpr (history_kept) spread(d, batch.displacement, batch.at_limit, k);
-  }
-}
-
-void ContactPart::gather_onsets(int end)
-{
-  for (int k = 0; k < end; k += 4) {
-    Vec4 row[4];
-    for (int q = 0; q < 4; q++) row[q] = load4(history.onsets[pair_of_lane[k + q]]);
-    spread(row, batch.onset, nullptr, k);
-  }
-}
-
-/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the
-   inverse radius still hold the product of the radii. */
-
-void ContactPart::finish_geometry(int end, bool radii_known)
-{
-  const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
-  for (int k = 0; k < end; k += lanes) {
-    const Vector3<Vec8> separation{load8(&batch.normal[0][k]), load8(&batch.normal[1][k]),
-                                   load8(&batch.normal[2][k])};
-    const Vec8 sum_of_radii = load8(&batch.overlap[k]);
-    const Vec8 distance = square_root(dot(separation, separation));
-    const auto apart = distance > zero;    // coincident centres have no normal and get no force
-    const Vec8 inverse = select(apart, one / distance, zero);
-    const Vector3<Vec8> normal = inverse * separation;
-    store(&batch.inverse_distance[k], inverse);
-    store(&batch.normal[0][k], normal.x);
-    store(&batch.normal[1][k], normal.y);
-    store(&batch.normal[2][k], normal.z);
-    store(&batch.overlap[k], select(apart, sum_of_radii - distance, zero));
-    if (!radii_known)
-      store(&batch.inverse_radius[k], sum_of_radii / load8(&batch.inverse_radius[k]));
-  }
-}
-
-/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces
- * intersect. */
-
-void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
-{
-  const Record *x = particles.position.data();
-  for (int k = 0; k < end; k += 4) {
-    Vec4 row[4];
-    for (int q = 0; q < 4; q++) {
-      const std::uint32_t pair = pair_of_lane[k + q];
-      const int i = pairs.first[pair], j = pairs.second[pair];
-      row[q] = load4(particles.spin(i)) - load4(particles.spin(j));
-      batch.circle[k + q] = x[i].c[3];
-      second_radius[k + q] = x[j].c[3];
-    }
-    spread(row, batch.relative_spin, nullptr, k);
-  }
-  for (int k = 0; k < end; k += lanes)
-    store(&batch.circle[k],
-          circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
-                                 load8(&batch.overlap[k])));
-}
 
 void ContactPart::run_kernels(const Step &step)
 {
@@ -277,40 +166,6 @@ void ContactPart::run_kernels(const Step &step)
       clear_lanes(batch.moment, range.begin, range.end);
     if (step.scene.with_resistance && !law.resists)
       clear_lanes(batch.couple, range.begin, range.end);
-  }
-}
-
-/* Copies of a contact hold the same result, so writing them twice does no harm. */
-
-void ContactPart::keep_history(int end)
-{
-  for (int k = 0; k < end; k += 4) {
-    Vec4 row[4];
-    collect(batch.displacement, batch.at_limit, k, row);
-    for (int q = 0; q < 4; q++) store(history.records[pair_of_lane[k + q]], row[q]);
-  }
-}
-
-void ContactPart::keep_onsets(int end)
-{
-  for (int k = 0; k < end; k += 4) {
-    Vec4 row[4];
-    collect(batch.onset, nullptr, k, row);
-    for (int q = 0; q < 4; q++) store(history.onsets[pair_of_lane[k + q]], row[q]);
-  }
-}
-
-template <bool friction> void ContactPart::transpose_results(int end, bool with_resistance)
-{
-  const auto rows_of = [](const Lanes &vector, int k, Record *records) {
-    Vec4 row[4];
-    collect(vector, nullptr, k, row);
-    for (int q = 0; q < 4; q++) store(records[k + q], row[q]);
-  };
-  for (int k = 0; k < end; k += 4) {
-    rows_of(batch.force, k, force_of_lane);
-    if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
-    if (with_resistance) rows_of(batch.couple, k, couple_of_lane);
   }
 }
 

@@ -57,7 +57,7 @@ struct ContactStep {
   std::vector<ReportedContact> *report = nullptr;
   EnergyAccount *account = nullptr;
   const std::function<void()> *meanwhile = nullptr;
-  bool read = true, deliver = true;    ///< see ContactPipeline::compute()
+  bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
 };
 
 class ContactPart {

@@ -92,7 +92,7 @@ void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
   bring_frontier(host, step);
-  if (order.num_parts() > 1 || !step.read) read_ghosts(host);
+  if (step.read_ghosts && (order.num_parts() > 1 || !step.read)) read_ghosts(host);
   for (int p = 0; p < static_cast<int>(parts.size()); p += parts_per_phase)
     run_parts(host, step, p);
   end_step(host, step);
@@ -107,7 +107,7 @@ void ContactPipeline::compute_early(const ParticleView &host, const ContactStep 
 
 void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &step)
 {
-  read_ghosts(host);
+  if (step.read_ghosts) read_ghosts(host);
   run_parts(host, step, parts_per_phase);
   end_step(host, step);
 }
@@ -217,7 +217,7 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
     const int a = order.atom_of_slot[s];
     if (!order.is_owned(a)) continue;
     const double *x = x_then + 3L * a;
-    held[s] = {{x[0], x[1], x[2], 0.0}};
+    held[s] = {{x[0], x[1], x[2], particles.position[s].c[3]}};
   }
   prepared = true;
 }

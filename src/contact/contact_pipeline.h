@@ -23,6 +23,12 @@
 
 namespace Talus {
 
+/// Host's indices of two particles, and their overlap over the smaller radius; 0 without contacts.
+struct DeepestContact {
+  double overlap_ratio = 0.0;
+  int i = 0, j = 0;
+};
+
 class ContactPipeline {
  public:
   ContactPipeline() = default;
@@ -61,7 +67,8 @@ class ContactPipeline {
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
   /// them: until a compute() that delivers, the host's arrays need not be up to date. Whoever adds
   /// other forces does so in records(). With `read` false, owned particles are taken as they are in
-  /// the records: allowed if the last compute() did not deliver, and usual after advance().
+  /// the records: allowed if the last compute() did not deliver, and usual after advance(); and
+  /// with `read_ghosts` false as well, ghosts too, if someone has brought their state there.
   void compute(const ParticleView &host, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first what needs no ghost, and reads none; then
   /// the rest.
@@ -108,9 +115,9 @@ class ContactPipeline {
   /// Share of the owned particles whose forces compute_early() computes.
   double early_share() const;
 
-  /// Largest overlap over the smaller radius among the contacts of the last compute(); 0 without
-  /// contacts.
-  double largest_overlap_ratio() const;
+  /// Of the contacts of the last compute() the one with the largest overlap over the smaller
+  /// radius.
+  DeepestContact deepest_contact() const;
   /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without
   /// contacts.
   double smallest_contact_period() const;
@@ -151,7 +158,7 @@ class ContactPipeline {
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   RecordStep move{};
-  int parts_moved = 0;    // by a pending move
+  int parts_moved = 0;                            // by a pending move
   std::vector<ParticleRecords::Role> role;        ///< by slot; empty if all move
   std::vector<int> moved_at_once;                 ///< slots
   std::vector<unsigned char> is_moved_at_once;    ///< by slot; empty if none is

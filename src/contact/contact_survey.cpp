@@ -63,16 +63,18 @@ double ContactPipeline::overlap_of(int slot_a, int slot_b) const
   return a[3] + b[3] - std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-double ContactPipeline::largest_overlap_ratio() const
+DeepestContact ContactPipeline::deepest_contact() const
 {
-  double largest = 0.0;
+  DeepestContact deepest;
   for (const ContactPart &part : parts)
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair];
       const double smaller = std::min(particles.position[i].c[3], particles.position[j].c[3]);
-      largest = std::max(largest, overlap_of(i, j) / smaller);
+      const double ratio = overlap_of(i, j) / smaller;
+      if (ratio > deepest.overlap_ratio)
+        deepest = {ratio, order.atom_of_slot[i], order.atom_of_slot[j]};
     });
-  return largest;
+  return deepest;
 }
 
 double ContactPipeline::smallest_contact_period() const

@@ -5,13 +5,15 @@
 namespace Talus {
 namespace {
 
-/// One bit for each of four pairs, set if the pair touches.
-inline unsigned touching4(const Record *position, const int *first, const int *second)
+/// One bit for each of eight pairs, set if the pair touches.
+inline unsigned touching8(const Record *position, const int *first, const int *second)
 {
-  constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
-  Vec4 s[4];
-  for (int k = 0; k < 4; k++)
-    s[k] = load4(position[first[k]]) + difference_and_sum * load4(position[second[k]]);
+  constexpr Vec8 difference_and_sum{-1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
+  const auto two = [position](const int *slots, int k) {
+    return join(load4(position[slots[k]]), load4(position[slots[k + 4]]));
+  };
+  Vec8 s[4];
+  for (int k = 0; k < 4; k++) s[k] = two(first, k) + difference_and_sum * two(second, k);
   transpose(s[0], s[1], s[2], s[3]);
   return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
 }
@@ -23,8 +25,7 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
     i[k] = first[k < count ? k : 0];
     j[k] = second[k < count ? k : 0];
   }
-  const unsigned bits = touching4(position, i, j) | touching4(position, i + 4, j + 4) << 4;
-  return bits & ((1U << count) - 1U);
+  return touching8(position, i, j) & ((1U << count) - 1U);
 }
 
 }    // namespace
@@ -38,14 +39,9 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
 
   for (std::int64_t c = begin; c < end; c += 8) {
     const unsigned bits =
-        c + 8 <= end ? touching4(position, first + c, second + c) |
-                           touching4(position, first + c + 4, second + c + 4) << 4
+        c + 8 <= end ? touching8(position, first + c, second + c)
                      : touching_tail(position, first + c, second + c, static_cast<int>(end - c));
-    // store every index, step forward only past the touching ones: no branch to mispredict
-    for (unsigned k = 0; k < 8; k++) {
-      *out = static_cast<std::uint32_t>(c + k);
-      out += bits >> k & 1U;
-    }
+    out += store_places(out, static_cast<std::uint32_t>(c), bits);
     if (!history) continue;
     // two records to a line; beyond the end there is nothing to call, and no harm in it
     for (int k = 0; k < 8; k += 2) __builtin_prefetch(history->records.data() + c + ahead + k, 1);

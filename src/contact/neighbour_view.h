@@ -1,18 +1,18 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The host's half neighbor list as it stands in memory, without its types.
+// A half neighbor list as it stands in memory: the host's, without its types, or that of
+// NeighbourSearch.
 
 #ifndef TALUS_CONTACT_NEIGHBOUR_VIEW_H
 #define TALUS_CONTACT_NEIGHBOUR_VIEW_H
 
 namespace Talus {
 
-/// Rows of owned particles; every pair of which at least one member is owned stands in exactly one
-/// row. Entries are indices of particles in the lower bits and the kind of the pair in the upper
+/// Every pair of which at least one member is owned stands in the row of one of them. Entries are indices of particles in the lower bits and the kind of the pair in the upper
 /// ones; kinds scale the force, and a scale of zero takes the pair out.
 struct NeighbourView {
   int rows = 0;
-  const int *particle = nullptr;          ///< row -> owned particle
+  const int *particle = nullptr;          ///< row -> particle; nullptr: the same
   const int *size = nullptr;              ///< particle -> entries
   const int *const *entries = nullptr;    ///< particle -> entries
   int index_mask = ~0,
@@ -23,7 +23,7 @@ struct NeighbourView {
   template <class Visit> void for_each_pair(Visit visit) const
   {
     for (int r = 0; r < rows; r++) {
-      const int i = particle[r];
+      const int i = particle ? particle[r] : r;
       const int *row = entries[i];
       for (int n = 0; n < size[i]; n++) {
         const double weight = scale[row[n] >> kind_shift & 3];

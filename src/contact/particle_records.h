@@ -51,31 +51,35 @@ struct SlotChoice {
   {
     return (!part_of_slot || part_of_slot[slot] == part) && (!marked || !marked[slot]);
   }
+  template <class Visit> void for_each(Visit visit) const
+  {
+    for (int n = begin; n < end; n++) {
+      const int slot = list ? list[n] : n;
+      if (holds(slot)) visit(static_cast<std::size_t>(slot));
+    }
+  }
   /// visit(slots, count) for groups of up to eight.
   template <class Visit> void in_groups(Visit visit) const
   {
     int group[lanes], count = 0;
-    for (int n = begin; n < end; n++) {
-      const int slot = list ? list[n] : n;
-      if (!holds(slot)) continue;
-      group[count++] = slot;
-      if (count < lanes) continue;
+    for_each([&](std::size_t slot) {
+      group[count++] = static_cast<int>(slot);
+      if (count < lanes) return;
       visit(group, count);
       count = 0;
-    }
+    });
     if (count) visit(group, count);
   }
 };
 
 /// How far particles have gone: maxima over particles of the distance from where they were when
-/// lists were made, of that plus the length of this step, and of the speed (see MotionForecast).
+/// lists were made, and of the speed (see MotionForecast).
 struct RecordTravel {
-  double moved = 0.0, next = 0.0, speed = 0.0;
+  double moved = 0.0, speed = 0.0;
 
   void join(const RecordTravel &other)
   {
     moved = std::max(moved, other.moved);
-    next = std::max(next, other.next);
     speed = std::max(speed, other.speed);
   }
 };
@@ -107,7 +111,7 @@ class ParticleRecords {
   void write_forces(int slot, double *f, double *torque) const;
 
   /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
-  /// `held`: positions when lists were made, or nullptr if nobody asks for the travel.
+  /// `held`: position records when lists were made, or nullptr if nobody asks for the travel.
   enum Role : unsigned char { GHOST, MOVES, RESTS };
   RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
                        const SlotChoice &slots);
@@ -119,10 +123,8 @@ class ParticleRecords {
   /// arms.
   Vec4 torque(int slot) const
   {
-    const Record *loads = &load[2 * static_cast<std::size_t>(slot)];
-    if (loads[0].c[3] != 0.0) return load4(loads[1]);
-    const Vec4 of_forces = Vec4{} - position[slot].c[3] * load4(loads[1]);
-    return couple.empty() ? of_forces : of_forces + load4(couple[slot]);
+    const std::size_t s = slot;
+    return torque_of(s, load4(position[s]), load4(load[2 * s]));
   }
   /// For forces other than contacts between particles: from here on until advance() the second half
   /// of the load is the torque itself, which others may add to.
@@ -136,6 +138,14 @@ class ParticleRecords {
 
   double memory_usage() const;
 
+  /// Calls the state of a slot into the cache, before it is read or set; a hint. (A call that is
+  /// not inlined would be removed: to the compiler it has no effect.)
+  TALUS_INLINE void call(int slot) const
+  {
+    __builtin_prefetch(position.data() + slot, 1);
+    __builtin_prefetch(motion.data() + stride * slot, 1);
+  }
+
   const Record &velocity(int slot) const { return motion[stride * slot]; }
   const Record &spin(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
 
@@ -145,8 +155,21 @@ class ParticleRecords {
  private:
   void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
                   int count);
-  void kick(const RecordStep &step, int slot);
-  void call(int slot, const Record *held) const;
+  struct Kick;
+  struct Moved {
+    Vec4 x, v;    // position and velocity records
+  };
+  template <bool spins> Moved kick(const Kick &with, std::size_t slot);
+  template <bool spins>
+  RecordTravel advance_all(const RecordStep &step, const std::vector<Role> &role,
+                           const Record *held, const SlotChoice &slots);
+  Vec4 torque_of(std::size_t slot, Vec4 its_position, Vec4 its_force) const
+  {
+    const Vec4 its_load = load4(load[2 * slot + 1]);
+    if (its_force[3] != 0.0) return its_load;
+    const Vec4 of_forces = Vec4{} - its_position[3] * its_load;
+    return couple.empty() ? of_forces : of_forces + load4(couple[slot]);
+  }
 };
 
 }    // namespace Talus

@@ -7,33 +7,34 @@
 #include "contact/particle_records.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace Talus {
 namespace {
 
-/// The number in the fourth place of a record, three times, and 0.
-inline Vec4 fourth_of(Vec4 record, double factor)
+/// The number in the fourth place of a record, four times.
+inline Vec4 fourth_of(Vec4 record)
 {
-  return __builtin_shufflevector(record, record, 3, 3, 3, 3) * Vec4{factor, factor, factor, 0.0};
+  return __builtin_shufflevector(record, record, 3, 3, 3, 3);
 }
 
-/// Squared lengths of eight rows of three; the fourth places do not count.
-inline void squares(Vec4 *row, double *to)
+inline Vec4 clear_fourth(Vec4 record)
 {
-  for (int k = 0; k < lanes; k += 4) {
-    transpose(row[k], row[k + 1], row[k + 2], row[k + 3]);
-    store(to + k, row[k] * row[k] + row[k + 1] * row[k + 1] + row[k + 2] * row[k + 2]);
-  }
+  return __builtin_shufflevector(record, Vec4{}, 0, 1, 2, 4);
 }
 
-inline Vec8 larger(Vec8 a, Vec8 b)
+/// The squared length of a row of three, in all places. The fourth must be 0. The sum is that of
+/// forecast_motion(): (x x + y y) + z z.
+inline Vec4 square(Vec4 row)
 {
-  return select(a > b, a, b);
+  const Vec4 squares = row * row;
+  const Vec4 halves = squares + __builtin_shufflevector(squares, squares, 1, 0, 3, 2);
+  return halves + __builtin_shufflevector(halves, halves, 2, 3, 0, 1);
 }
 
-double largest(Vec8 a)
+inline Vec4 larger(Vec4 a, Vec4 b)
 {
-  return *std::max_element(&a[0], &a[0] + lanes);
+  return a > b ? a : b;
 }
 
 }    // namespace
@@ -56,60 +57,64 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
   std::copy(turn.c, turn.c + 3, torque_row);
 }
 
-/* The fourth places, 1/m, r and 1/r, stay as they are: 0 is added to them. */
+/* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they
+   are: 0 is added to them. */
 
-inline void ParticleRecords::kick(const RecordStep &step, int s)
+struct ParticleRecords::Kick {
+  explicit Kick(const RecordStep &step) :
+      kick{step.kick, step.kick, step.kick, 0.0}, dt{step.dt, step.dt, step.dt, 0.0},
+      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, per_inertia(1.0 / step.inertia)
+  {
+  }
+  Vec4 kick, dt, fall;
+  double per_inertia;
+};
+
+template <bool spins>
+inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_t s)
 {
+  constexpr std::size_t stride = spins ? 2 : 1;
   Record *moves = &motion[stride * s];
-  const Record *loads = &load[stride * s];
-  const Vec4 v = load4(moves[0]), per_mass = fourth_of(v, step.kick);
-  const Vec4 fall{step.fall[0], step.fall[1], step.fall[2], 0.0};
-  const Vec4 v_new = v + (per_mass * load4(loads[0]) + fall);
+  const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
+  const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
+  const Vec4 v_new = v + (per_mass * force + with.fall);
+  if constexpr (spins) {
+    const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
+    const Vec4 per_inertia = per_mass * (inverse_radius * inverse_radius) * with.per_inertia;
+    store(moves[1], w + per_inertia * torque_of(s, x, force));
+  }
+  const Vec4 x_new = x + with.dt * v_new;
   store(moves[0], v_new);
-  store(position[s], load4(position[s]) + Vec4{step.dt, step.dt, step.dt, 0.0} * v_new);
-  if (stride == 1) return;
-  const Vec4 w = load4(moves[1]), inverse_radius = fourth_of(w, 1.0);
-  const Vec4 per_inertia = per_mass * (inverse_radius * inverse_radius) * (1.0 / step.inertia);
-  store(moves[1], w + per_inertia * torque(s));
+  store(position[s], x_new);
+  return {x_new, v_new};
 }
 
-/* Calls a slot into the cache; one beyond the last does no harm. */
-
-inline void ParticleRecords::call(int slot, const Record *held) const
+template <bool spins>
+RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vector<Role> &role,
+                                          const Record *held, const SlotChoice &slots)
 {
-  __builtin_prefetch(position.data() + slot, 1);
-  __builtin_prefetch(motion.data() + stride * slot, 1);
-  __builtin_prefetch(load.data() + stride * slot, 1);
-  if (held) __builtin_prefetch(held + slot);
+  constexpr std::size_t its_stride = spins ? 2 : 1;
+  const Kick with(step);
+  const Role *const roles = role.empty() ? nullptr : role.data();
+  Vec4 moved2{}, fastest2{};
+  slots.for_each([&](std::size_t s) {
+    const Role its = roles ? roles[s] : MOVES;
+    const Moved now = its == MOVES ? kick<spins>(with, s)
+                                   : Moved{load4(position[s]), load4(motion[its_stride * s])};
+    for (std::size_t n = 0; n < its_stride; n++) store(load[its_stride * s + n], Vec4{});
+    if (!couple.empty()) store(couple[s], Vec4{});
+    if (!held || its == GHOST) return;
+    moved2 = larger(square(now.x - load4(held[s])), moved2);
+    fastest2 = larger(square(clear_fourth(now.v)), fastest2);
+  });
+  return {std::sqrt(moved2[0]), std::sqrt(fastest2[0])};
 }
 
 RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<Role> &role,
                                       const Record *held, const SlotChoice &slots)
 {
-  constexpr int ahead = 96;
-  Vec8 moved{}, next{}, fastest{};
-  slots.in_groups([&](const int *slot, int count) {
-    Vec4 way[lanes] = {}, speed[lanes] = {};
-    for (int k = 0; k < count; k++) {
-      const int s = slot[k];
-      call(s + ahead, held);
-      const Role its = role.empty() ? MOVES : role[s];
-      if (its == MOVES) kick(step, s);
-      clear_sums(s);
-      if (!held || its == GHOST) continue;
-      way[k] = load4(position[s]) - load4(held[s]);
-      speed[k] = load4(motion[stride * s]);
-    }
-    if (!held) return;
-    alignas(64) double way2[lanes], speed2[lanes];
-    squares(way, way2);
-    squares(speed, speed2);
-    const Vec8 d = square_root(load8(way2)), v = square_root(load8(speed2));
-    moved = larger(d, moved);
-    next = larger(d + splat<Vec8>(step.dt) * v, next);
-    fastest = larger(v, fastest);
-  });
-  return {largest(moved), largest(next), largest(fastest)};
+  return stride == 2 ? advance_all<true>(step, role, held, slots)
+                     : advance_all<false>(step, role, held, slots);
 }
 
 void ParticleRecords::clear(int begin, int end)

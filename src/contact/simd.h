@@ -120,6 +120,50 @@ inline unsigned less_bits(Vec4 a, Vec4 b)
 #endif
 }
 
+/// Two records side by side, and taken apart.
+inline Vec8 join(Vec4 lower, Vec4 upper)
+{
+  return __builtin_shufflevector(lower, upper, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline Vec4 lower_half(Vec8 a)
+{
+  return __builtin_shufflevector(a, a, 0, 1, 2, 3);
+}
+inline Vec4 upper_half(Vec8 a)
+{
+  return __builtin_shufflevector(a, a, 4, 5, 6, 7);
+}
+
+inline unsigned less_bits(Vec8 a, Vec8 b)
+{
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask((__m512d) a, (__m512d) b, _CMP_LT_OQ);
+#else
+  return less_bits(lower_half(a), lower_half(b)) | less_bits(upper_half(a), upper_half(b)) << 4;
+#endif
+}
+
+/// Stores first + k for every bit k of the lower eight, side by side, and returns their number.
+/// Writes eight places in any case: no branch, since nobody could foresee it.
+inline int store_places(std::uint32_t *to, std::uint32_t first, unsigned bits)
+{
+#if defined(__AVX512VL__)
+  const __m256i places = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)),
+                                          _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  // compressed in a register: to compress into memory takes some processors a hundred cycles
+  _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), places));
+  return __builtin_popcount(bits & 0xffU);
+#else
+  int count = 0;
+  for (unsigned k = 0; k < 8; k++) {
+    to[count] = first + k;
+    count += bits >> k & 1U;
+  }
+  return count;
+#endif
+}
+
 /// Transposes the 4 x 4 matrix whose rows are a, b, c, d.
 inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
 {
@@ -131,6 +175,20 @@ inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
   b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+/// The same for two matrices side by side: lane k of the results is from row k of the lower halves,
+/// lane 4 + k from row k of the upper ones.
+inline void transpose(Vec8 &a, Vec8 &b, Vec8 &c, Vec8 &d)
+{
+  const Vec8 ab_low = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Vec8 ab_high = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Vec8 cd_low = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Vec8 cd_high = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 /// Loads and stores; `address` must be aligned to the size of the vector.

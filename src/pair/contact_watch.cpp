@@ -5,7 +5,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "neigh_list.h"
 #include "update.h"
 
 #include <algorithm>
@@ -14,14 +13,18 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-void ContactWatch::look(const ContactPipeline &contacts, const NeighList &list)
+void ContactWatch::look(const ContactPipeline &contacts)
 {
   double worst;
   int rank;
-  if (!said_overlap && exceeds(contacts.largest_overlap_ratio(), largest_overlap, worst, rank)) {
+  const DeepestContact mine = said_overlap ? DeepestContact{} : contacts.deepest_contact();
+  if (!said_overlap && exceeds(mine.overlap_ratio, largest_overlap, worst, rank)) {
     said_overlap = true;
     double tags[2] = {0.0, 0.0};
-    if (comm->me == rank) name_deepest_pair(list, tags);
+    if (comm->me == rank) {
+      tags[0] = static_cast<double>(std::min(atom->tag[mine.i], atom->tag[mine.j]));
+      tags[1] = static_cast<double>(std::max(atom->tag[mine.i], atom->tag[mine.j]));
+    }
     MPI_Bcast(tags, 2, MPI_DOUBLE, rank, world);
     if (comm->me == 0)
       error->warning(
@@ -32,10 +35,10 @@ void ContactWatch::look(const ContactPipeline &contacts, const NeighList &list)
           tags[0], tags[1], worst, update->ntimestep);
   }
   if (said_move) return;
-  const Move mine = largest_own_move();
-  if (exceeds(mine.ratio, largest_move, worst, rank)) {
+  const Move longest = largest_own_move();
+  if (exceeds(longest.ratio, largest_move, worst, rank)) {
     said_move = true;
-    double tag = comm->me == rank ? static_cast<double>(atom->tag[mine.atom]) : 0.0;
+    double tag = comm->me == rank ? static_cast<double>(atom->tag[longest.atom]) : 0.0;
     MPI_Bcast(&tag, 1, MPI_DOUBLE, rank, world);
     if (comm->me == 0)
       error->warning(FLERR,
@@ -70,26 +73,4 @@ ContactWatch::Move ContactWatch::largest_own_move() const
   }
   found.ratio = std::sqrt(found.ratio) * update->dt;
   return found;
-}
-
-/* Owned particles may have moved since the contacts were computed, ghosts have not: good enough to
-   tell which pair it is. */
-
-void ContactWatch::name_deepest_pair(const NeighList &list, double tags[2]) const
-{
-  double deepest = -1.0;
-  for (int ii = 0; ii < list.inum; ii++) {
-    const int i = list.ilist[ii];
-    for (int jj = 0; jj < list.numneigh[i]; jj++) {
-      const int j = list.firstneigh[i][jj] & NEIGHMASK;
-      const double *a = atom->x[i], *b = atom->x[j];
-      const double r = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-      const double overlap =
-          (atom->radius[i] + atom->radius[j] - r) / std::min(atom->radius[i], atom->radius[j]);
-      if (overlap <= deepest) continue;
-      deepest = overlap;
-      tags[0] = static_cast<double>(std::min(atom->tag[i], atom->tag[j]));
-      tags[1] = static_cast<double>(std::max(atom->tag[i], atom->tag[j]));
-    }
-  }
 }

@@ -28,9 +28,8 @@ class ContactWatch : protected Pointers {
   /// A run begins: both may be said again.
   void start() { said_overlap = said_move = false; }
 
-  /// Collective. `contacts` are those of the last compute(); particles are still numbered as then
-  /// and as in `list`, the pair style's.
-  void look(const Talus::ContactPipeline &contacts, const class NeighList &list);
+  /// Collective. `contacts` are those of the last compute(); particles are still numbered as then.
+  void look(const Talus::ContactPipeline &contacts);
 
  private:
   struct Move {
@@ -38,7 +37,6 @@ class ContactWatch : protected Pointers {
     int atom;        ///< host's number; meaningless if the ratio is zero
   };
   Move largest_own_move() const;
-  void name_deepest_pair(const class NeighList &list, double tags[2]) const;
   bool exceeds(double mine, double limit, double &worst, int &rank) const;
 
   bool said_overlap = false, said_move = false;

@@ -34,7 +34,7 @@ constexpr int num_extra = 11;    // svector, see single()
 /* ---------------------------------------------------------------------- */
 
 PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
-    Pair(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
+    Pair(lmp), neighbours(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -151,7 +151,7 @@ void PairGranPenalty::coeff(int narg, char **arg)
 void PairGranPenalty::init_style()
 {
   check_host();
-  neighbor->add_request(this, NeighConst::REQ_SIZE);
+  neighbours.init(this);
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
@@ -292,7 +292,7 @@ void PairGranPenalty::judge_time_step()
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
   // here, because all ranks come here and the pairs are still those of the last step
-  watch.look(pipeline, *list);
+  watch.look(pipeline);
   look_for_smaller_particles();
   pipeline.file_history(partners);
 }
@@ -309,9 +309,13 @@ void PairGranPenalty::velocities_have_moved()
     pipeline.account_for_move(atom->v[0], atom->omega[0], update->dt, account);
 }
 
+/* Called after a rebuild by the host, so that its timer stands at the fixes; the work is that of
+   neighbor lists. */
+
 void PairGranPenalty::renumber_pairs()
 {
   if (!laws_current) prepare_laws();
+  timer->stamp(Timer::MODIFY);
   const int nall = atom->nlocal + atom->nghost;
   std::vector<std::uint64_t> keys(nall);
   std::vector<std::int64_t> tags(nall), filed_tags(nall);
@@ -324,24 +328,14 @@ void PairGranPenalty::renumber_pairs()
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
   try {
     pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
-                       neighbours());
+                       neighbours.find(list));
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
   }
+  neighbours.release();
+  timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
-}
-
-NeighbourView PairGranPenalty::neighbours() const
-{
-  const double *scale = force->special_lj;
-  return {list->inum,
-          list->ilist,
-          list->numneigh,
-          list->firstneigh,
-          NEIGHMASK,
-          SBBITS,
-          {scale[0], scale[1], scale[2], scale[3]}};
 }
 
 int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *)
@@ -380,7 +374,9 @@ void PairGranPenalty::compute(int eflag, int vflag)
   ContactStep step{update->dt, advance, vflag_either ? &reported : nullptr,
                    keeps_account ? &account : nullptr};
   step.read = !pipeline.holds_state();
+  step.read_ghosts = !proxies_are_there;
   step.deliver = !keeps_state;
+  proxies_are_there = false;
   if (pipeline.in_two_phases()) {
     auto *exchange = dynamic_cast<PendingExchange *>(comm);
     const std::function<void()> progress = [exchange] { exchange->progress(); };
@@ -448,7 +444,7 @@ void PairGranPenalty::count_contacts()
 
 double PairGranPenalty::memory_usage()
 {
-  return pipeline.memory_usage() +
+  return pipeline.memory_usage() + neighbours.memory_usage() +
          static_cast<double>(reported.capacity() * sizeof(ReportedContact));
 }
 

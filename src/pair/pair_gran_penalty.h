@@ -20,6 +20,7 @@
 #include "pair/effective_masses.h"
 #include "pair/largest_radii.h"
 #include "pair/law_book.h"
+#include "pair/neighbour_source.h"
 
 #include <string>
 #include <vector>
@@ -71,6 +72,9 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void advance(const Talus::RecordStep &step, int groupbit);
   /// How far they went in the last step.
   Talus::RecordTravel travel() const { return pipeline.travel(); }
+  /// Proxies are in the records already, until the end of the next compute(). Only if
+  /// holds_state().
+  void take_proxies_as_they_are() { proxies_are_there = true; }
   /// Owned particles whose states are exchanged, before compute().
   void set_sent_particles(const std::vector<int> &atoms) { sent = atoms; }
   Talus::ParticleRecords &records() { return pipeline.records(); }
@@ -105,7 +109,6 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void judge_time_step();
 
   void finish_exchange();
-  Talus::NeighbourView neighbours() const;
   Talus::ParticleView view() const;
   void tally(const std::vector<Talus::ReportedContact> &contacts);
   void count_contacts();
@@ -117,12 +120,13 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   Talus::ContactPipeline pipeline;
   std::vector<Talus::ReportedContact> reported;
 
-  bool keeps_state = false;
+  bool keeps_state = false, proxies_are_there = false;
   std::vector<int> sent;
 
   bool keeps_account = false;
   Talus::EnergyAccount account;
 
+  NeighbourSource neighbours;
   EffectiveMasses masses;
   LargestRadii radii;
   CriticalTimeStep critical;

@@ -231,12 +231,11 @@ TEST_P(RecordSteps, TellHowFarParticlesGo)
   for (int i = 0; i < twin.n; i++) {
     const double d = length(&twin.x[3 * i], &twin_then[3 * i]);
     const double speed = length(&twin.v[3 * i], nothing);
-    expected.join({d, d + euler.dt * speed, speed});
+    expected.join({d, speed});
   }
   const RecordTravel travel = fast.travel();
   EXPECT_GT(expected.moved, 0.0);
   EXPECT_EQ(travel.moved, expected.moved);
-  EXPECT_EQ(travel.next, expected.next);
   EXPECT_EQ(travel.speed, expected.speed);
 }
 

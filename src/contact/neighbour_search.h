@@ -1,0 +1,82 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Finds the pairs of spheres that may touch before the next rebuild: all with
+// |x_i - x_j| < r_i + r_j + skin of which at least one is owned, and a few that are slightly
+// further apart. Does the work of the host's neighbor lists for contacts, on all threads.
+//
+// Spheres are sorted into cells as wide as the reach of a usual one. Each looks for the smaller
+// ones around it (of two equal ones for that with the lower index), so that a pair is found once,
+// and a large sphere among many small ones looks into many cells instead of every small one looking
+// far. A row of cells along x stands in one piece of memory and is compared 16 spheres at a time,
+// in single precision: places in cells of the box around all spheres, with a reach that is wider by
+// more than the rounding.
+
+#ifndef TALUS_CONTACT_NEIGHBOUR_SEARCH_H
+#define TALUS_CONTACT_NEIGHBOUR_SEARCH_H
+
+#include "contact/big_vector.h"
+#include "contact/neighbour_view.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace Talus {
+
+class NeighbourSearch {
+ public:
+  /// Host's arrays: rows of three doubles and radii, owned particles first, then ghosts.
+  struct Spheres {
+    int owned, total;
+    const double *x, *radius;
+    double skin;
+  };
+
+  /// `excluded(i, j)`, if given: pairs that are left out; called from all threads. Throws
+  /// std::domain_error if a position is not a number.
+  void find(const Spheres &spheres, int threads, const std::function<bool(int, int)> &excluded);
+
+  /// The pairs of the last find(), each in the row of its larger sphere, which may be a ghost.
+  /// Valid until the next find() or clear().
+  NeighbourView view() const;
+
+  /// Drops the pairs.
+  void clear();
+
+  double memory_usage() const;
+
+ private:
+  struct Grid {
+    double low[3], per_length;    ///< lowest corner of the cells; cells per length
+    int cells[3];
+
+    int cell(double place, int d) const;
+    std::int64_t row(int y, int z) const
+    {
+      return (static_cast<std::int64_t>(z) * cells[1] + y) * cells[0];
+    }
+  };
+  /// What one thread finds: the rows of its particles, one after the other.
+  struct Chunk {
+    BigVector<int> entries;
+    std::size_t count = 0;
+  };
+  static Grid make_grid(const Spheres &spheres);
+  void sort_into_cells(const Spheres &spheres);
+  void find_row(const Spheres &spheres, int particle, Chunk &found) const;
+  void compare(const float *place_and_radius, int particle, int below, std::int64_t begin,
+               std::int64_t end, Chunk &found) const;
+
+  Grid grid{};
+  float slack = 0.0F, skin = 0.0F;     // in cells
+  std::vector<std::int32_t> start;     // of each cell in the arrays below, and one more
+  BigVector<float> x, y, z, radius;    // in cells, sorted by cell
+  BigVector<std::int32_t> index;
+  std::vector<Chunk> chunks;           // by thread
+  std::vector<int> size;               // by particle
+  std::vector<const int *> entries;    // by particle
+};
+
+}    // namespace Talus
+
+#endif
