@@ -1,8 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// From records to the lanes of a batch, and back: eight contacts at a time. Lanes k ... k+7 are
-// those of the contacts k ... k+3 in the lower and k+4 ... k+7 in the upper halves of four vectors,
-// so that each half is a matrix of four records to transpose.
+// From records to the lanes of a batch, and back. Four records of four numbers are a matrix that is
+// transposed.
 
 #include "contact/contact_part.h"
 
@@ -13,31 +12,26 @@
 namespace Talus {
 namespace {
 
-static_assert(lanes == 8, "two matrices of four records");
-constexpr Vec8 difference_and_sum{-1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
-constexpr Vec4 ones{1.0, 1.0, 1.0, 1.0};
+constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
 using Lanes = double[3][ContactBatch::width];
 
-/// Eight records become lanes k ... k+7 of a vector and of a scalar.
-inline void spread(Vec8 *rows, Lanes &vector, double *fourth, int k)
+/// Four records become lanes k ... k+3 of a vector and of a scalar.
+inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
 {
   transpose(rows[0], rows[1], rows[2], rows[3]);
   for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
   if (fourth) store(&fourth[k], rows[3]);
 }
 
-/// Lanes k ... k+7 become the eight records where(0) ... where(7).
+/// Lanes k ... k+3 become the records where(0) ... where(3).
 template <class Where>
 inline void to_records(const Lanes &vector, const double *fourth, int k, Where where)
 {
-  Vec8 rows[4];
-  for (int q = 0; q < 3; q++) rows[q] = load8(&vector[q][k]);
-  rows[3] = fourth ? load8(&fourth[k]) : Vec8{};
+  Vec4 rows[4];
+  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
+  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
   transpose(rows[0], rows[1], rows[2], rows[3]);
-  for (int q = 0; q < 4; q++) {
-    store(where(q), lower_half(rows[q]));
-    store(where(q + 4), upper_half(rows[q]));
-  }
+  for (int q = 0; q < 4; q++) store(where(q), rows[q]);
 }
 
 /// r w and 1/r of a spin record, with the position record of the particle.
@@ -57,31 +51,19 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
   const Record *x = particles.position.data(), *motion = particles.motion.data();
   const Record *h = history.records.data();
 
-  for (int k = 0; k < end; k += lanes) {
-    Vec8 a[4], b[4], c[4], d[4];
+  for (int k = 0; k < end; k += 4) {
+    Vec4 a[4], b[4], c[4], d[4];
     for (int q = 0; q < 4; q++) {
-      const std::uint32_t pair[2] = {pair_of_lane[k + q], pair_of_lane[k + q + 4]};
-      const std::size_t i[2] = {static_cast<std::size_t>(pairs.first[pair[0]]),
-                                static_cast<std::size_t>(pairs.first[pair[1]])};
-      const std::size_t j[2] = {static_cast<std::size_t>(pairs.second[pair[0]]),
-                                static_cast<std::size_t>(pairs.second[pair[1]])};
-      const Vec8 xi = join(load4(x[i[0]]), load4(x[i[1]]));
-      const Vec8 xj = join(load4(x[j[0]]), load4(x[j[1]]));
-      const auto two = [&](const std::size_t *of) {
-        return join(load4(motion[stride * of[0]]), load4(motion[stride * of[1]]));
-      };
+      const std::uint32_t pair = pair_of_lane[k + q];
+      const int i = pairs.first[pair], j = pairs.second[pair];
+      const Record *mi = motion + stride * i, *mj = motion + stride * j;
+      const Vec4 xi = load4(x[i]), xj = load4(x[j]);
       a[q] = xi + difference_and_sum * xj;
-      b[q] = two(i) + difference_and_sum * two(j);
-      if constexpr (friction) {
-        const auto surfaces = [&](const std::size_t *of) {
-          return join(surface_velocity(load4(x[of[0]]), load4(motion[2 * of[0] + 1])),
-                      surface_velocity(load4(x[of[1]]), load4(motion[2 * of[1] + 1])));
-        };
-        c[q] = surfaces(i) + surfaces(j);
-      } else
-        for (int half = 0; half < 2; half++)
-          batch.inverse_radius[k + q + 4 * half] = x[i[half]].c[3] * x[j[half]].c[3];
-      if constexpr (history_kept) d[q] = join(load4(h[pair[0]]), load4(h[pair[1]]));
+      b[q] = load4(mi[0]) + difference_and_sum * load4(mj[0]);
+      if constexpr (friction)
+        c[q] = surface_velocity(xi, load4(mi[1])) + surface_velocity(xj, load4(mj[1]));
+      if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
+      if constexpr (history_kept) d[q] = load4(h[pair]);
     }
     spread(a, batch.normal, batch.overlap, k);
     spread(b, batch.velocity, batch.inverse_mass, k);
@@ -93,9 +75,9 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
 void ContactPart::gather_onsets(int end)
 {
   const auto onset = [this](int lane) { return load4(history.onsets[pair_of_lane[lane]]); };
-  for (int k = 0; k < end; k += lanes) {
-    Vec8 row[4];
-    for (int q = 0; q < 4; q++) row[q] = join(onset(k + q), onset(k + q + 4));
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) row[q] = onset(k + q);
     spread(row, batch.onset, nullptr, k);
   }
 }
@@ -137,28 +119,29 @@ void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
     second_radius[lane] = x[j].c[3];
     return load4(particles.spin(i)) - load4(particles.spin(j));
   };
-  for (int k = 0; k < end; k += lanes) {
-    Vec8 row[4];
-    for (int q = 0; q < 4; q++) row[q] = join(relative_spin(k + q), relative_spin(k + q + 4));
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) row[q] = relative_spin(k + q);
     spread(row, batch.relative_spin, nullptr, k);
+  }
+  for (int k = 0; k < end; k += lanes)
     store(&batch.circle[k],
           circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
                                  load8(&batch.overlap[k])));
-  }
 }
 
 /* Copies of a contact hold the same result, so writing them twice does no harm. */
 
 void ContactPart::keep_history(int end)
 {
-  for (int k = 0; k < end; k += lanes)
+  for (int k = 0; k < end; k += 4)
     to_records(batch.displacement, batch.at_limit, k,
                [this, k](int q) -> Record & { return history.records[pair_of_lane[k + q]]; });
 }
 
 void ContactPart::keep_onsets(int end)
 {
-  for (int k = 0; k < end; k += lanes)
+  for (int k = 0; k < end; k += 4)
     to_records(batch.onset, nullptr, k,
                [this, k](int q) -> Record & { return history.onsets[pair_of_lane[k + q]]; });
 }
@@ -168,7 +151,7 @@ template <bool friction> void ContactPart::transpose_results(int end, bool with_
   const auto rows_of = [](const Lanes &vector, int k, Record *records) {
     to_records(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
   };
-  for (int k = 0; k < end; k += lanes) {
+  for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, k, force_of_lane);
     if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
     if (with_resistance) rows_of(batch.couple, k, couple_of_lane);

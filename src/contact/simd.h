@@ -66,6 +66,22 @@ inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no)
   return mask ? yes : no;
 }
 
+/// Whether a comparison holds in any lane.
+inline bool any(bool mask)
+{
+  return mask;
+}
+inline bool any(Mask8 mask)
+{
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask((__m512i) mask, (__m512i) mask) != 0;
+#else
+  std::int64_t bits = 0;
+  for (int k = 0; k < lanes; k++) bits |= mask[k];
+  return bits != 0;
+#endif
+}
+
 inline double square_root(double a)
 {
   return std::sqrt(a);

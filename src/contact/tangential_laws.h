@@ -59,8 +59,10 @@ template <class Real> struct TangentialInput {
 /// Shortens a trial force to the limit; forces within it pass unchanged.
 template <class Real> inline Vector3<Real> capped(Vector3<Real> trial, Real limit)
 {
-  const Real size = square_root(dot(trial, trial));
-  return select(size > limit, limit / size, splat<Real>(1.0)) * trial;
+  const Real square = dot(trial, trial);
+  const auto exceeds = square > limit * limit;
+  if (!any(exceeds)) return trial;
+  return select(exceeds, limit / square_root(square), splat<Real>(1.0)) * trial;
 }
 
 struct TangentialNone {
@@ -116,18 +118,24 @@ inline Vector3<Real> set_back(const TangentialInput<Real> &in, const Vector3<Rea
 }
 
 /// From the trial displacement to the force: the Coulomb limit, and the displacement that is
-/// stored.
+/// stored. Most vectors of contacts in a bed at rest are within the limit in all lanes: these do
+/// without the roots and quotients of the limit.
 template <bool advance, bool slider, class Real>
 TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d,
                                          bool_of<Real> moved, TangentialHistory<Real> &history)
 {
   const Real zero = splat<Real>(0.0);
+  const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
+  const Real square = dot(trial, trial);
+  const auto exceeds = square > in.limit * in.limit;
+  if (advance && !any(exceeds)) {
+    history = {d, zero};
+    return trial;
+  }
+
   // without overlap kt is zero; so is the limit, and any finite number serves
   const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
-  const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
-  const Real size = square_root(dot(trial, trial));
-  const auto exceeds = size > in.limit;
-
+  const Real size = square_root(square);
   Vector3<Real> reach = d + slide * in.velocity;
   auto at_limit = moved & exceeds;
   if (advance) {

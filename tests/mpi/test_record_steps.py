@@ -156,7 +156,7 @@ class RecordSteps(SceneCase):
         tables = []
         for style in "comm_proxy yes", PROXY, PROXY + " overlap no":
             _, log = self.run_scene(style, np=2, threads=2, boundary="p p f", more=more)
-            tables.append(re.findall(r"^ +\d+ +[1-9]\d* +\S+$", log, re.M))
+            tables.append(re.findall(r"^ +\d+ +[1-9]\d* +\S+ *$", log, re.M))
         self.assertIn(RECORDS, log)
         self.assertEqual(tables[1], tables[0])
         self.assertEqual(tables[2], tables[0])
@@ -164,10 +164,11 @@ class RecordSteps(SceneCase):
 
     def test_proxies_of_a_run_that_ends_before_its_time(self):
         run = ("thermo 1000\nundump all\nrun 50\ntimer timeout 0:00:00 every 10\nrun 37\n"
-               "timer timeout off\ncompute touching all contact/atom\n"
+               "timer timeout off\n"
                "write_dump all custom dump id x c_touching modify format float %a sort id\n")
         frames = [self.run_scene(style, np=2, boundary="p p f", run=run,
-                                 more="neigh_modify every 30 delay 0 check no")[0]
+                                 more="neigh_modify every 30 delay 0 check no\n"
+                                      "compute touching all contact/atom")[0]
                   for style in ("comm_proxy yes", PROXY)]
         self.assertEqual(*frames)
 
