@@ -34,7 +34,7 @@ constexpr int num_extra = 11;    // svector, see single()
 /* ---------------------------------------------------------------------- */
 
 PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
-    Pair(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
+    Pair(lmp), masses(lmp), radii(lmp), watch(lmp), time_step(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -156,8 +156,8 @@ void PairGranPenalty::init_style()
   radii.find(masses.frozen_groups());
   create_store();
   watch.start();
-  said_time_step = true;    // until the first forces of the run
-  laws_current = false;     // init_one() will mix what is not set
+  time_step.start();
+  laws_current = false;    // init_one() will mix what is not set
 }
 
 void PairGranPenalty::check_host()
@@ -248,52 +248,13 @@ void PairGranPenalty::warn_small_periods()
           "xyz"[d]);
 }
 
-/* At the start of a run, with the contacts of its first step. */
-
-void PairGranPenalty::warn_large_time_step()
-{
-  critical.compute(book, pipeline, 1);
-  said_time_step = false;
-  judge_time_step();
-  if (comm->me == 0 && critical.smallest() > 0.0)
-    critical.undamped.warn(update->dt / critical.smallest());
-  critical.compute_from_sizes(book, 1);
-  limit_at_start = critical.smallest();
-}
-
-/* At rebuilds, until something has been said in this run: particles that were added or changed
-   during it may be smaller. */
-
-void PairGranPenalty::look_for_smaller_particles()
-{
-  if (said_time_step) return;
-  critical.compute_from_sizes(book, 1);
-  const double limit = critical.smallest();
-  const bool smaller = limit_at_start > 0.0 ? limit < limit_at_start : limit > 0.0;
-  if (smaller) judge_time_step();
-}
-
-void PairGranPenalty::judge_time_step()
-{
-  constexpr double advised = 0.2;
-  const double limit = critical.smallest();
-  if (!(limit > 0.0) || update->dt <= advised * limit) return;
-  said_time_step = true;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
-                   "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
-                   update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
-                   advised);
-}
-
 /* ---------------------------------------------------------------------- */
 
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
   // here, because all ranks come here and the pairs are still those of the last step
   watch.look(pipeline, *list);
-  look_for_smaller_particles();
+  time_step.look_for_smaller_particles(book);
   pipeline.file_history(partners);
 }
 
@@ -397,7 +358,7 @@ void PairGranPenalty::compute(int eflag, int vflag)
     pipeline.write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
 
-  if (update->setupflag) warn_large_time_step();
+  if (update->setupflag) time_step.judge_start(book, pipeline);
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
 }

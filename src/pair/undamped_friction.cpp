@@ -24,12 +24,6 @@ bool is_midpoint(TangentialLaw law)
   return law == TangentialLaw::MIDPOINT || law == TangentialLaw::SLIDER_MIDPOINT;
 }
 
-/// The stiffness grows with the overlap.
-bool is_hertzian(NormalLaw law)
-{
-  return law != NormalLaw::HOOKE && law != NormalLaw::HOOKE_MATERIAL;
-}
-
 /// Damping ratio that outweighs what the update of the displacement gains: none for mu = 1, e = .95
 /// for mu = 5, .85 for mu above 10.
 double outweighing(double mu)
@@ -58,7 +52,7 @@ void UndampedFriction::consider(const std::string &who, ContactLaw law,
   const double enough = held >= 1.0 ? moderate_damping : weak_damping;
   const bool grips = c.mu > gripping_friction && damping < weak_damping;
   const bool holds = held > strong_resistance && damping < enough;
-  if (is_hertzian(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
+  if (!is_linear(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
     worst_spring = {who, c.mu, law.resists ? c.mu_roll : 0.0};
 }
 

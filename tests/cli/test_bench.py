@@ -138,8 +138,12 @@ class Verdicts(unittest.TestCase):
 
     def test_what_was_said(self):
         deep = lambda f: f.update(x=[-0.47, 0.47])
-        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: ..."]).word(), "warned")
+        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: particles 1 and 2 overlap by .12"]).word(), "warned")
         self.assertEqual(self.judge(deep, ["WARNING: something else"]).word(), "silent")
+        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: the box is periodic"]).word(), "silent")
+        elastic = ["WARNING: Pair style gran/penalty: no contact has damping or friction: at this time step, 0.2 of"]
+        self.assertEqual(self.judge(deep, elastic).word(), "silent", "it says nothing about an overlap")
+        self.assertEqual(self.judge(lambda f: f.update(vx=[-1.001, 1.001]), elastic).word(), "warned")
         self.assertEqual(self.judge(error="ERROR: Lost atoms").word(), "stopped")
         self.assertEqual(self.judge(error="ERROR: no", frames=1).word(), "refused")
 
