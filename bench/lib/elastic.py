@@ -17,22 +17,22 @@ R, MASS = 0.5, 1000 * math.pi / 6
 DEPTH = 0.05       # overlap of the single impacts over the radius: that of the fast ones in the gas
 STIFFNESS = YOUNG / (1 - NU**2) * math.sqrt(R / 2 * 0.01 * R)      # of the Hertzian contact at an overlap of .01 r
 LAWS = {"linear": ("hooke", STIFFNESS, 0.0, 0.0, 0.0, 0.0), "Hertz": ("material", YOUNG, 1.0, NU, 0.0)}
-CRITICAL = math.sqrt(MASS / 2 / STIFFNESS)
+CRITICAL = math.sqrt(MASS / 2 / STIFFNESS) * (1 - 1e-12)       # rounding must not decide whether a limit is kept
 
 
-def gas(name, law, speed, steps, seed=9, fraction=0.2):
+def gas(name, law, speed, steps, seed=9, fraction=0.2, frames=200):
     """64 spheres fly about in a periodic box; speed: standard deviation of a component."""
     draw = random.Random(seed)
     balls = [Ball((1.3 * (k % 4) + 0.6, 1.3 * (k // 4 % 4) + 0.6, 1.3 * (k // 16) + 0.6),
                   tuple(speed * draw.gauss(0, 1) for _ in "xyz")) for k in range(64)]
-    return Extreme(name, balls, law, steps, ((0.0, 5.2),) * 3, periodic="p p p", frames=200, fraction=fraction)
+    return Extreme(name, balls, law, steps, ((0.0, 5.2),) * 3, periodic="p p p", frames=frames, fraction=fraction)
 
 
 @dataclasses.dataclass
 class Errors:
     """Of energies, relative."""
     values: list
-    said: bool = False      # some run had a warning
+    said: bool = False      # some run had the warning about elastic impacts
 
     def spread(self):
         return math.sqrt(statistics.fmean(v * v for v in self.values))
@@ -74,12 +74,12 @@ write_dump all custom {name}.end id vz modify format float %.17g
 
 
 def walk(bench, code, law, fraction, steps, seed):
-    """(growth of the energy of the gas, whether anything was said)."""
+    """(growth of the energy of the gas, whether it was warned about)."""
     folder = tempfile.mkdtemp(prefix="gas-", dir=bench.workdir)
-    scene = gas(f"{law} {fraction}", LAWS[law], math.sqrt(YOUNG / 1e8), steps, seed)
+    scene = gas(f"{law} {fraction}", LAWS[law], math.sqrt(YOUNG / 1e8), steps, seed, frames=100)
     outcome, _ = extreme.run(bench, scene, code, folder, fraction * CRITICAL)
     os.remove(f"{folder}/frames.{code}")
-    return outcome.growth, bool(outcome.warnings)
+    return outcome.growth, any("no contact has damping" in warning for warning in outcome.warnings)
 
 
 def measured(bench, pool, laws, fractions, codes):

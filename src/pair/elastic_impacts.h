@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 class ElasticImpacts : protected Pointers {
  public:
   /// Largest time steps that are advised, over the critical one.
-  static constexpr double advised_linear = 0.05, advised_hertzian = 0.1;
+  static constexpr double advised_linear = 0.03, advised_hertzian = 0.07;
 
   explicit ElasticImpacts(LAMMPS *lmp) : Pointers(lmp) {}
 
