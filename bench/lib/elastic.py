@@ -11,7 +11,6 @@ import tempfile
 import extreme
 import lammps
 from extreme import NU, YOUNG, Ball, Extreme
-from lammps import TALUS
 
 R, MASS = 0.5, 1000 * math.pi / 6
 DEPTH = 0.05       # overlap of the single impacts over the radius: that of the fast ones in the gas

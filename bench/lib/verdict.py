@@ -8,7 +8,7 @@ GROWTH, OVERLAP = 1e-3, 0.1      # above these a run counts as bad
 
 # what a warning must be about to count for a fault: words of it, by the word of faults()
 DEEP = ("overlap", "moves by", "move past", "time step is", "Lost")
-TOLD_BY = {"energy": ("time step", "overlap"), "overlap": DEEP, "lost": DEEP, "not": DEEP}
+TOLD_BY = {"energy": ("time step", "overlap", "Lost"), "overlap": DEEP, "lost": DEEP, "not": DEEP}
 
 
 @dataclasses.dataclass

@@ -39,7 +39,7 @@ class Command(unittest.TestCase):
 class Report(unittest.TestCase):
 
     def write(self, folder, name, sentence, headline=None):
-        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=5, clock=lambda: "1:00")
+        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=3, asked_rounds=3, clock=lambda: "1:00")
         section = report.Section(name, f"Title of {name}", "Question?", bench)
         section.text(sentence)
         section.record(a=1, b=2.5)
@@ -55,6 +55,7 @@ class Report(unittest.TestCase):
             self.write(folder, "single", "first")
             text = self.write(folder, "stability", "new words")
             self.assertNotIn("old words", text)
+            self.assertIn("repeat: `scripts/bench stability --rounds 3`", text)
             self.assertNotIn("a bad thing", text)
             self.assertLess(text.index("first"), text.index("new words"))
             self.assertEqual(text.count("## Title of stability"), 1)
