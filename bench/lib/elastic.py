@@ -81,14 +81,14 @@ def walk(bench, code, law, fraction, steps, seed):
     return outcome.growth, any("no contact has damping" in warning for warning in outcome.warnings)
 
 
-def measured(bench, pool, laws, fractions, codes):
-    """{(law, fraction): Errors of single impacts} and {(law, fraction, code): Errors of the gas, one for each seed}."""
-    steps, seeds = bench.size(100000, 10000), range(bench.size(8, 2))
-    cases = [(law, fraction) for law in laws for fraction in fractions]
-    singles = pool.map(lambda case: single(bench, *case, bench.size(64, 8)), cases)
-    jobs = [(*case, code, seed) for case in cases for code in codes for seed in seeds]
-    found = dict(zip(jobs, pool.map(lambda job: walk(bench, job[2], job[0], job[1], steps, job[3]), jobs)))
-    gases = {(*case, code): Errors([found[(*case, code, seed)][0] for seed in seeds],
-                                   any(found[(*case, code, seed)][1] for seed in seeds))
-             for case in cases for code in codes}
-    return dict(zip(cases, singles)), gases
+def singles(bench, pool, cases):
+    """{(law, fraction): Errors of single impacts}."""
+    return dict(zip(cases, pool.map(lambda case: single(bench, *case, bench.size(64, 8)), cases)))
+
+
+def gases(bench, pool, code, cases, steps):
+    """{(law, fraction): Errors of the gas, one for each seed}."""
+    seeds = range(bench.size(8, 2))
+    jobs = [(law, fraction, seed) for law, fraction in cases for seed in seeds]
+    found = dict(zip(jobs, pool.map(lambda job: walk(bench, code, job[0], job[1], steps, job[2]), jobs)))
+    return {case: Errors([found[(*case, seed)][0] for seed in seeds], any(found[(*case, seed)][1] for seed in seeds)) for case in cases}
