@@ -98,9 +98,11 @@ def draw(plt, scene, names, steps, table, key):
         axes.errorbar([p[0] for p in points], [p[1] for p in points], yerr=[p[2] for p in points], label=name,
                       **plot.style(k))
     axes.set_xscale("log")
+    axes.set_xticks(steps, [f"{dt:.1e}" for dt in steps], fontsize=7)
+    axes.minorticks_off()
     axes.set_xlabel("time step (s)")
     axes.set_ylabel(key)
-    axes.legend()
+    axes.legend(fontsize=7)
 
 
 def measure(bench):

@@ -6,7 +6,7 @@ import math
 
 import lammps
 import verdict
-from lammps import STOCK, TALUS
+from lammps import TALUS
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
 YOUNG, NU = 1.0e7, 0.3

@@ -9,7 +9,7 @@ import itertools
 import math
 
 import lammps
-from lammps import STOCK, TALUS
+from lammps import TALUS
 
 OVERLAP, KICK, GROWTH = 1e-3, 1e-9, 1e4
 DENSITY = 6 / math.pi

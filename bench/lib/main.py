@@ -28,6 +28,7 @@ class Bench:
         self.name = name
         self.quick = options.quick
         self.rounds = options.rounds or (1 if options.quick else 5)
+        self.asked_rounds = options.rounds
         # a name that contains commas can be given alone
         self.cases = [options.cases, *options.cases.split(",")] if options.cases else None
         self.workdir = tempfile.mkdtemp(prefix=f"talus-bench-{name}-")

@@ -86,6 +86,8 @@ class Section:
         words = ["scripts/bench", self.name]
         if self.bench.quick:
             words.append("--quick")
+        if self.bench.asked_rounds:
+            words += ["--rounds", str(self.bench.asked_rounds)]
         if self.bench.cases:
             words += ["--cases", f"'{self.bench.cases[0]}'"]
         return " ".join(words)

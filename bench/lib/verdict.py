@@ -6,6 +6,10 @@ import math
 
 GROWTH, OVERLAP = 1e-3, 0.1      # above these a run counts as bad
 
+# what a warning must be about to count for a fault: words of it, by the word of faults()
+DEEP = ("overlap", "moves by", "move past", "time step is", "Lost")
+TOLD_BY = {"energy": ("time step", "overlap", "Lost"), "overlap": DEEP, "lost": DEEP, "not": DEEP}
+
 
 @dataclasses.dataclass
 class Grains:
@@ -54,13 +58,18 @@ class Outcome:
             found.append(f"overlap {self.overlap:.2f} r")
         return found
 
+    def told(self, fault):
+        """Whether a warning is about a fault."""
+        kind = next(k for k in TOLD_BY if k in fault.split())
+        return any(words in warning for warning in self.warnings for words in TOLD_BY[kind])
+
     def word(self):
-        """stable; or what was said about a run that is not: refused, stopped, warned, silent."""
+        """stable; or what was said about a run that is not: refused, stopped, warned (of every fault), silent."""
         if self.error:
             return "refused" if self.steps == 0 else "stopped"
         if not self.faults():
             return "stable"
-        return "warned" if self.warnings else "silent"
+        return "warned" if all(map(self.told, self.faults())) else "silent"
 
 
 def _pairs(x, grains):

@@ -11,11 +11,6 @@
 namespace Talus {
 namespace {
 
-bool is_linear(NormalLaw law)
-{
-  return law == NormalLaw::HOOKE || law == NormalLaw::HOOKE_MATERIAL;
-}
-
 Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
 {
   return {v[0][k], v[1][k], v[2][k]};

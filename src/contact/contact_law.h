@@ -20,6 +20,12 @@ enum class NormalLaw : int {
   PLAINCOULOMB_MATERIAL
 };
 
+/// The elastic force is proportional to the overlap; with all others the stiffness grows with it.
+inline bool is_linear(NormalLaw law)
+{
+  return law == NormalLaw::HOOKE || law == NormalLaw::HOOKE_MATERIAL;
+}
+
 /// Where the tangential force comes from; see tangential_laws.h.
 ///   NONE       frictionless: no tangential force, no torque, no history
 ///   DASHPOT    no displacement: F_t = gt v_t, capped

@@ -52,6 +52,7 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
 
   undamped.clear();
+  elastic.clear();
   looks_at_damping = true;
   consider_pairs(laws, speed);
   contact = reduce_smallest(contacts.smallest_contact_period());
@@ -118,7 +119,7 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 
   const double overlap = 0.01 * std::min(radius[i], radius[j]);
   if (looks_at_damping)
-    undamped.consider(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
+    consider_damping(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
 
   const double k = tangent_stiffness(law, c, overlap, m, r);
   if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
@@ -127,6 +128,14 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
     hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
   if (i == j && laws.spec(i, i).is_material())
     rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
+}
+
+void CriticalTimeStep::consider_damping(const std::string &who, ContactLaw law,
+                                        const ContactCoefficients &c, double overlap,
+                                        double mass_eff, double radius_eff)
+{
+  undamped.consider(who, law, c, overlap, mass_eff, radius_eff);
+  elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
 }
 
 /* Of particles that a body can touch. Leaves their radii and masses behind. */
@@ -142,9 +151,9 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
       if (std::isinf(radius[type])) continue;
       smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
       if (looks_at_damping)
-        undamped.consider(fmt::format("type {} with fix large/body {}", type, body->id),
-                          body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
-                          mass[type], radius[type]);
+        consider_damping(fmt::format("type {} with fix large/body {}", type, body->id),
+                         body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
+                         mass[type], radius[type]);
     }
   }
   return smallest;

@@ -4,17 +4,14 @@
 // defined):
 //
 //   contact    sqrt(m_eff/k), smallest over the contacts of the moment, k = dF_n/d overlap; without
-//   contacts over
-//              the lightest pair of every pair of types at an overlap of 1 % of the smaller radius;
-//              and over the lightest particle of every type against every large body at 1 % of its
-//              radius
-//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and Ghadiri
-//   2006);
-//              only types with a material law
+//              contacts over the lightest pair of every pair of types at an overlap of 1 % of the
+//              smaller radius; and over the lightest particle of every type against every large
+//              body at 1 % of its radius
+//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and
+//              Ghadiri 2006); only types with a material law
 //   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the
-//   largest
-//              relative speed v of neighboring particles; only laws with Hertzian stiffness, and
-//              only if v > 0
+//              largest relative speed v of neighboring particles; only laws with Hertzian
+//              stiffness, and only if v > 0
 //
 // Collective: all ranks of `world` must call compute().
 
@@ -22,21 +19,25 @@
 #define TALUS_CRITICAL_TIME_STEP_H
 
 #include "contact/contact_pipeline.h"
+#include "pair/elastic_impacts.h"
 #include "pair/law_book.h"
 #include "pair/undamped_friction.h"
 #include "pointers.h"
 
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class CriticalTimeStep : protected Pointers {
  public:
-  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp) {}
+  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp), elastic(lmp) {}
 
   double contact = 0.0, rayleigh = 0.0, hertz = 0.0;
-  UndampedFriction undamped;    ///< of the laws that compute() has met
+  /// Of the laws that compute() has met.
+  UndampedFriction undamped;
+  ElasticImpacts elastic;
 
   /// `group` selects the particles whose sizes count.
   void compute(const LawBook &laws, const Talus::ContactPipeline &contacts, int group);
@@ -53,6 +54,9 @@ class CriticalTimeStep : protected Pointers {
   double reduce_smallest(double mine) const;
   void consider_pairs(const LawBook &laws, double speed);
   void consider_pair(const LawBook &laws, int i, int j, double speed);
+  void consider_damping(const std::string &who, Talus::ContactLaw law,
+                        const Talus::ContactCoefficients &c, double overlap, double mass_eff,
+                        double radius_eff);
   double smallest_body_period(int types, int group);
   double rayleigh_of(const ContactSpec &spec, int type) const;
 

@@ -18,7 +18,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <stdexcept>
 
@@ -34,7 +33,7 @@ constexpr int num_extra = 11;    // svector, see single()
 /* ---------------------------------------------------------------------- */
 
 PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
-    Pair(lmp), neighbours(lmp), masses(lmp), radii(lmp), critical(lmp), watch(lmp)
+    Pair(lmp), neighbours(lmp), masses(lmp), radii(lmp), watch(lmp), time_step(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -87,67 +86,6 @@ void PairGranPenalty::allocate()
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranPenalty::settings(int narg, char **arg)
-{
-  book.mix = FrictionMix::MINIMUM;
-  if (narg == 0) return;
-  if (strcmp(arg[0], "mix") != 0)
-    error->all(FLERR, 1, "pair_style gran/penalty: unknown word '{}', expected mix", arg[0]);
-  if (narg < 2)
-    error->all(FLERR, 1,
-               "pair_style gran/penalty: missing rule after mix: "
-               "min, arithmetic or geometric");
-  if (strcmp(arg[1], "min") == 0)
-    book.mix = FrictionMix::MINIMUM;
-  else if (strcmp(arg[1], "arithmetic") == 0)
-    book.mix = FrictionMix::ARITHMETIC;
-  else if (strcmp(arg[1], "geometric") == 0)
-    book.mix = FrictionMix::GEOMETRIC;
-  else
-    error->all(FLERR, 2,
-               "pair_style gran/penalty: unknown rule '{}' after mix, "
-               "expected min, arithmetic or geometric",
-               arg[1]);
-  if (narg > 2) error->all(FLERR, 3, "pair_style gran/penalty: surplus word '{}'", arg[2]);
-}
-
-void PairGranPenalty::coeff(int narg, char **arg)
-{
-  if (!allocated) allocate();
-  // under pair hybrid the name of the style has been taken out of the words
-  const int shift = utils::strmatch(force->pair_style, "^hybrid") ? 1 : 0;
-  const CommandWords words{lmp, "pair_coeff gran/penalty", narg, arg, shift};
-  if (narg < 3)
-    error->all(FLERR, "pair_coeff gran/penalty: expected two types and a contact law, e.g. "
-                      "'pair_coeff * * hertz kn gn tangential multistep NULL NULL mu'");
-
-  int ilo, ihi, jlo, jhi;
-  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
-  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-
-  int iarg = 2;
-  const ContactSpec parsed = parse_contact(words, iarg);
-  if (iarg < narg)
-    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', expected {}",
-               arg[iarg], contact_keywords);
-
-  int count = 0;
-  for (int i = ilo; i <= ihi; i++)
-    for (int j = std::max(jlo, i); j <= jhi; j++) {
-      book.set(i, j, parsed);
-      setflag[i][j] = 1;
-      count++;
-    }
-  if (count == 0)
-    error->all(FLERR,
-               "pair_coeff gran/penalty: no pair of types in '{} {}', write the lower type "
-               "first",
-               arg[0], arg[1]);
-  laws_current = false;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void PairGranPenalty::init_style()
 {
   check_host();
@@ -156,8 +94,8 @@ void PairGranPenalty::init_style()
   radii.find(masses.frozen_groups());
   create_store();
   watch.start();
-  said_time_step = true;    // until the first forces of the run
-  laws_current = false;     // init_one() will mix what is not set
+  time_step.start();
+  laws_current = false;    // init_one() will mix what is not set
 }
 
 void PairGranPenalty::check_host()
@@ -248,52 +186,13 @@ void PairGranPenalty::warn_small_periods()
           "xyz"[d]);
 }
 
-/* At the start of a run, with the contacts of its first step. */
-
-void PairGranPenalty::warn_large_time_step()
-{
-  critical.compute(book, pipeline, 1);
-  said_time_step = false;
-  judge_time_step();
-  if (comm->me == 0 && critical.smallest() > 0.0)
-    critical.undamped.warn(update->dt / critical.smallest());
-  critical.compute_from_sizes(book, 1);
-  limit_at_start = critical.smallest();
-}
-
-/* At rebuilds, until something has been said in this run: particles that were added or changed
-   during it may be smaller. */
-
-void PairGranPenalty::look_for_smaller_particles()
-{
-  if (said_time_step) return;
-  critical.compute_from_sizes(book, 1);
-  const double limit = critical.smallest();
-  const bool smaller = limit_at_start > 0.0 ? limit < limit_at_start : limit > 0.0;
-  if (smaller) judge_time_step();
-}
-
-void PairGranPenalty::judge_time_step()
-{
-  constexpr double advised = 0.2;
-  const double limit = critical.smallest();
-  if (!(limit > 0.0) || update->dt <= advised * limit) return;
-  said_time_step = true;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
-                   "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
-                   update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
-                   advised);
-}
-
 /* ---------------------------------------------------------------------- */
 
 void PairGranPenalty::file_history(PartnerLists &partners)
 {
   // here, because all ranks come here and the pairs are still those of the last step
   watch.look(pipeline);
-  look_for_smaller_particles();
+  time_step.look_for_smaller_particles(book);
   pipeline.file_history(partners);
 }
 
@@ -393,7 +292,7 @@ void PairGranPenalty::compute(int eflag, int vflag)
     pipeline.write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
 
-  if (update->setupflag) warn_large_time_step();
+  if (update->setupflag) time_step.judge_start(book, pipeline);
   if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
 }

@@ -16,11 +16,11 @@
 #include "pair.h"
 #include "pair/contact_command.h"
 #include "pair/contact_watch.h"
-#include "pair/critical_time_step.h"
 #include "pair/effective_masses.h"
 #include "pair/largest_radii.h"
 #include "pair/law_book.h"
 #include "pair/neighbour_source.h"
+#include "pair/time_step_watch.h"
 
 #include <string>
 #include <vector>
@@ -104,9 +104,6 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void create_store();
   void prepare_laws();
   void warn_small_periods();
-  void warn_large_time_step();
-  void look_for_smaller_particles();
-  void judge_time_step();
 
   void finish_exchange();
   Talus::ParticleView view() const;
@@ -129,10 +126,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   NeighbourSource neighbours;
   EffectiveMasses masses;
   LargestRadii radii;
-  CriticalTimeStep critical;
-  double limit_at_start = 0.0;    // from sizes, of the present run
-  bool said_time_step = true;     // or nothing to say: no run; the same on all ranks
   ContactWatch watch;
+  TimeStepWatch time_step;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

@@ -18,16 +18,12 @@ namespace {
 // .8
 constexpr double weak_damping = 0.03, moderate_damping = 0.075;
 constexpr double strong_friction = 0.5, gripping_friction = 10.0, strong_resistance = 0.2;
+// rolling resistance over friction: it takes away more than the first step of the contact gives
+constexpr double braking_resistance = 0.01;
 
 bool is_midpoint(TangentialLaw law)
 {
   return law == TangentialLaw::MIDPOINT || law == TangentialLaw::SLIDER_MIDPOINT;
-}
-
-/// The stiffness grows with the overlap.
-bool is_hertzian(NormalLaw law)
-{
-  return law != NormalLaw::HOOKE && law != NormalLaw::HOOKE_MATERIAL;
 }
 
 /// Damping ratio that outweighs what the update of the displacement gains: none for mu = 1, e = .95
@@ -50,15 +46,16 @@ void UndampedFriction::consider(const std::string &who, ContactLaw law,
 {
   if (!law.has_history()) return;
   const double damping = damping_ratio(law, c, overlap, mass_eff, radius_eff);
-  if (!is_midpoint(law.tangential) && c.mu > strong_friction && damping < outweighing(c.mu) &&
-      c.mu > worst_step.mu)
+  const double resistance = law.resists && !law.delayed ? c.mu_roll : 0.0;
+  const bool hides = damping >= outweighing(c.mu) || resistance >= braking_resistance * c.mu;
+  if (!is_midpoint(law.tangential) && c.mu > strong_friction && !hides && c.mu > worst_step.mu)
     worst_step = {who, c.mu, c.mu_roll};
 
-  const double held = law.resists && !law.delayed ? std::min(c.mu, c.mu_roll) : 0.0;
+  const double held = std::min(c.mu, resistance);
   const double enough = held >= 1.0 ? moderate_damping : weak_damping;
   const bool grips = c.mu > gripping_friction && damping < weak_damping;
   const bool holds = held > strong_resistance && damping < enough;
-  if (is_hertzian(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
+  if (!is_linear(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
     worst_spring = {who, c.mu, law.resists ? c.mu_roll : 0.0};
 }
 

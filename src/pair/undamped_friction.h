@@ -6,8 +6,8 @@
 //
 //   time step   the usual update of the tangential displacement is of first order: a contact counts
 //               its first step whole. With a coefficient of friction above .5 the limit of Coulomb
-//               takes away less and less of what is too much. None with `midpoint`, or below
-//               0.14/mu^(1/3) of the critical time step.
+//               takes away less and less of what is too much. None with `midpoint`, below
+//               0.14/mu^(1/3) of the critical time step, or with rolling resistance above .01 mu.
 //   spring      of a Hertzian contact it stiffens with the overlap while it is stretched: over an
 //               impact kt s ds adds up to -1/2 s^2 dkt, and the particles receive 1/2 s^2 dkt.
 //               Slip and rotation hide it, unless the coefficient of friction is above 10, or

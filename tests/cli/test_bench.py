@@ -39,7 +39,7 @@ class Command(unittest.TestCase):
 class Report(unittest.TestCase):
 
     def write(self, folder, name, sentence, headline=None):
-        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=5, clock=lambda: "1:00")
+        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=3, asked_rounds=3, clock=lambda: "1:00")
         section = report.Section(name, f"Title of {name}", "Question?", bench)
         section.text(sentence)
         section.record(a=1, b=2.5)
@@ -55,6 +55,7 @@ class Report(unittest.TestCase):
             self.write(folder, "single", "first")
             text = self.write(folder, "stability", "new words")
             self.assertNotIn("old words", text)
+            self.assertIn("repeat: `scripts/bench stability --rounds 3`", text)
             self.assertNotIn("a bad thing", text)
             self.assertLess(text.index("first"), text.index("new words"))
             self.assertEqual(text.count("## Title of stability"), 1)
@@ -138,8 +139,12 @@ class Verdicts(unittest.TestCase):
 
     def test_what_was_said(self):
         deep = lambda f: f.update(x=[-0.47, 0.47])
-        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: ..."]).word(), "warned")
+        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: particles 1 and 2 overlap by .12"]).word(), "warned")
         self.assertEqual(self.judge(deep, ["WARNING: something else"]).word(), "silent")
+        self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: the box is periodic"]).word(), "silent")
+        elastic = ["WARNING: Pair style gran/penalty: no contact has damping or friction: at this time step, 0.2 of"]
+        self.assertEqual(self.judge(deep, elastic).word(), "silent", "it says nothing about an overlap")
+        self.assertEqual(self.judge(lambda f: f.update(vx=[-1.001, 1.001]), elastic).word(), "warned")
         self.assertEqual(self.judge(error="ERROR: Lost atoms").word(), "stopped")
         self.assertEqual(self.judge(error="ERROR: no", frames=1).word(), "refused")
 

@@ -74,7 +74,8 @@ class UndampedFriction(SceneCase):
 
     def test_where_energy_is_gained(self):
         for mu, e, words, fraction, expected in ((10, 1.0, "", 0.19, "step"), (5, 1.0, "", 0.19, "step"), (2, 1.0, "", 0.19, "step"), (1, 1.0, "", 0.199, "step"),
-                                                 (5, 0.97, "", 0.19, "step"), (10, 1.0, "slider", 0.19, "step")):
+                                                 (5, 0.97, "", 0.19, "step"), (10, 1.0, "slider", 0.19, "step"),
+                                                 (10, 1.0, "rolling 0.02", 0.19, "step")):
             gain, said = self.said(self.law(mu, e, words), fraction, angle={1: 10, 2: 0}.get(mu, 30), spin=2.0 if mu == 1 else -2.0)
             print(f"mu {mu}, e {e}, {words or 'stock'}, dt {fraction} critical: gain {gain:+.1e}, warned about {said}")
             self.assertEqual(said, expected)
@@ -83,7 +84,8 @@ class UndampedFriction(SceneCase):
 
     def test_where_it_is_not(self):
         for mu, e, words, fraction in ((10, 1.0, "midpoint", 0.19), (10, 1.0, "", 0.05), (10, 0.8, "", 0.19), (2, 0.97, "", 0.19),
-                                       (0.5, 1.0, "", 0.19), (0.5, 0.5, "rolling 0.1", 0.19)):
+                                       (0.5, 1.0, "", 0.19), (0.5, 0.5, "rolling 0.1", 0.19), (1, 1.0, "rolling 0.01", 0.199),
+                                       (5, 1.0, "rolling 0.1", 0.19)):
             gain, said = self.said(self.law(mu, e, words), fraction)
             print(f"mu {mu}, e {e}, {words}, dt {fraction} critical: gain {gain:+.1e}, {said or 'no warning'}")
             self.assertEqual(said, "")
