@@ -119,8 +119,15 @@ evaluate_contact(const Coefficients<Real> &c, const ContactState<Real> &s, doubl
   const Real normal_velocity = dot(s.velocity, s.normal);
   if constexpr (Model::onset) follow_onset<advance>(onset, normal_velocity, dt);
   const Real speed = Model::onset ? select(onset.speed > c.speed, onset.speed, c.speed) : c.speed;
-  const Real mass_eff = select(s.inverse_mass > zero, one / s.inverse_mass, zero);
-  const Real radius_eff = Model::needs_radius ? one / s.inverse_radius : zero;
+  const auto finite = s.inverse_mass > zero;    // else both bodies are infinitely heavy
+  Real mass_eff, radius_eff = zero;
+  if constexpr (Model::needs_radius) {    // two quotients for the price of one
+    const Real inverse_mass = select(finite, s.inverse_mass, one);
+    const Real inverse = one / (inverse_mass * s.inverse_radius);
+    mass_eff = select(finite, s.inverse_radius * inverse, zero);
+    radius_eff = inverse_mass * inverse;
+  } else
+    mass_eff = select(finite, one / s.inverse_mass, zero);
   const Stiffness<Real> k =
       Normal::stiffness(c, NormalInput<Real>{s.overlap, mass_eff, radius_eff, speed});
 

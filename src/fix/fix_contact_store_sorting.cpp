@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Particles in memory follow the canonical order while a run lasts.
+
+#include "fix/fix_contact_store.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+using namespace LAMMPS_NS;
+
+/* The host sorts particles by place now and then, for the sake of the cache. Sorting them into the
+   canonical order instead serves the same end, and lets the records of src/contact be read and
+   written straight through. Only while a run lasts: init() is called by many commands after which
+   no run follows, and what atom_modify sets between runs must hold. */
+
+void FixContactStore::take_over_sorting()
+{
+  if (host_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
+  host_sorts_every = atom->sortfreq;
+  atom->sortfreq = 0;    // until post_run()
+}
+
+void FixContactStore::sort_particles()
+{
+  if (!host_sorts_every) return;
+  const int n = atom->nlocal;
+  const auto before = [this](int i, int j) {
+    return keys[i] != keys[j] ? keys[i] < keys[j] : atom->tag[i] < atom->tag[j];
+  };
+  std::vector<int> from(n);    // which particle goes to each place
+  std::iota(from.begin(), from.end(), 0);
+  if (std::is_sorted(from.begin(), from.end(), before)) return;
+  std::sort(from.begin(), from.end(), before);
+
+  // every cycle of the permutation turns through one spare place behind the last particle
+  if (n == atom->nmax) atom->avec->grow(0);
+  for (int start = 0; start < n; start++) {
+    if (from[start] == start) continue;
+    atom->avec->copy(start, n, 0);
+    int place = start;
+    while (from[place] != start) {
+      atom->avec->copy(from[place], place, 0);
+      place = std::exchange(from[place], place);
+    }
+    atom->avec->copy(n, place, 0);
+    from[place] = place;
+  }
+}
+
+void FixContactStore::give_sorting_back()
+{
+  if (!host_sorts_every) return;
+  atom->sortfreq = host_sorts_every;
+  atom->nextsort = MAXBIGINT;    // not before the next setup, which makes the bins for it
+  host_sorts_every = 0;
+}
