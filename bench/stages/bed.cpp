@@ -13,7 +13,7 @@ namespace Bench {
 namespace {
 
 // of the lattice, fitted to the pairs of a settled bed
-constexpr double nearest = 0.992, jitter = 0.035;
+constexpr double nearest = 0.995, jitter = 0.03;
 constexpr double edge = 1.1547005383792517 * nearest;    // of the cell of two sites: 2/sqrt(3)
 constexpr double smallest = 0.95, largest = 1.05;        // diameters
 

@@ -43,9 +43,9 @@ struct Bed {
   Talus::ParticleView view();
 };
 
-/// Spheres on a body-centred cubic lattice that fills a cube, at random near their sites: about as
-/// many contacts and candidate pairs as in a settled bed (2.2 and 3.5 per sphere). `spheres` is
-/// rounded down to what fills the cube.
+/// Spheres on a body-centred cubic lattice that fills a cube, at random near their sites, with 2.1
+/// contacts and 4.0 candidate pairs per sphere (a settled bed: 2.2 and 3.5). `spheres` is rounded
+/// down to what fills the cube.
 Bed make_bed(int spheres);
 
 /// The bed on two ranks: what is left and right of its middle, each with the ghosts it needs.

@@ -87,7 +87,8 @@ struct AsListed {
     records.read(order, bed.view(), {0, order.size()});
     held = records.position;
     partners.resize(bed.owned);
-    rebuild();
+    take_pairs();
+    part.start_pairs(scene, partners, bed.tag);
     step();
   }
 
