@@ -4,6 +4,7 @@
 import dataclasses
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -37,7 +38,7 @@ class Result:
     output: str
     returncode: int
     seconds: float      # wall clock of the whole process
-    peak: int           # resident bytes of the process at most; one rank only
+    peak: int           # resident bytes of the process at most; one rank only; see own_peak()
 
     def loops(self):
         return read_loops(self.log)
@@ -59,6 +60,12 @@ class Result:
 
 class Failed(Exception):
     """A run that should have worked did not."""
+
+
+def own_peak():
+    """Resident bytes of this process at most. A process that it starts is a copy of it at first, so that a smaller
+    peak of that cannot be measured."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
 def _program(code):
