@@ -143,7 +143,7 @@ def project(bench, log):
 By geometry: a cube of a bed with {100 * projection.FILL:.0f} % solid volume has {projection.proxies_of_cube(sizes[0])[0]:.0f} proxies around {sizes[0]}
 spheres and {projection.proxies_of_cube(sizes[-1])[0]:.0f} around {sizes[-1]}; contacts across its border are computed on both sides. Stated, not
 measured: {1e6 * projection.LATENCY:g} us for each message, one after the other, {projection.BANDWIDTH / 1e9:g} GB/s for a node that
-{projection.RANKS_PER_NODE} ranks share, a rebuild every {projection.REBUILD} steps with {projection.REBUILD_MESSAGES} times the messages and
+{projection.RANKS_PER_NODE} ranks share, {100 * projection.LEAVING:.0f} % of whose proxies are in other nodes, a rebuild every {projection.REBUILD} steps with {projection.REBUILD_MESSAGES} times the messages and
 {projection.REBUILD_BYTES} times the bytes of a step, a reduction over all ranks in 2 log2(ranks) latencies: in each step with the exchange
 of LAMMPS, at rebuilds with the direct one. Left out: imbalance, and memory bandwidth that the cores of a node share.
 Chrono::Distributed reported {REFERENCE_WEAK[32]:.3f} (weak) and {REFERENCE_STRONG[32]:.3f} (strong) on 32 ranks of 12 cores with 1.236 million

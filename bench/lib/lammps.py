@@ -94,7 +94,9 @@ def _environment(threads, ranks, session):
     env.setdefault("OMPI_MCA_pml", "ob1")                 # others take longer to start
     env.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
     env["OMPI_MCA_odls_base_sigkill_timeout"] = "0"
-    if threads > 1:
+    if ranks * threads > len(machine.cores()):      # who waits must not keep others from working
+        env.update(OMP_WAIT_POLICY="passive", OMPI_MCA_mpi_yield_when_idle="1")
+    elif threads > 1:
         env.update(OMP_PROC_BIND="spread", OMP_PLACES="cores")
     return env
 

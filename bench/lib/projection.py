@@ -14,6 +14,7 @@ import beds
 LATENCY = 2.0e-6            # s for a message between nodes
 BANDWIDTH = 12.5e9          # bytes/s of a node (100 Gbit/s), which its ranks share
 RANKS_PER_NODE = 64
+LEAVING = RANKS_PER_NODE**(-1 / 3)      # of the proxies: ranks of a node form a cube, messages within it cost their packing
 
 REBUILD = 100               # steps between rebuilds
 REBUILD_MESSAGES = 12       # messages of a rebuild over those of a step: migration, borders, their counts, the plan
@@ -55,7 +56,7 @@ def step(count, ranks, exchange, measured):
     alone = 1e-9 * measured.nanoseconds[count] * count
     # a contact across the border is computed on both sides: for each proxy about half the contacts of a particle
     work = alone * (1.0 + 0.5 * measured.forces * proxies / count)
-    per_byte = RANKS_PER_NODE / BANDWIDTH
+    per_byte = LEAVING * RANKS_PER_NODE / BANDWIDTH
     network = exchange.messages * LATENCY + proxies * exchange.bytes * per_byte
     if exchange.overlaps:
         interior = max(0.0, 1.0 - sent / count)
