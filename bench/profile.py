@@ -50,7 +50,8 @@ MPI_LIBRARY = r"libmpi|libopen-|mca_|libucp|libpmix|libevent"
 def stage_of(library, symbol):
     if re.match(MPI_LIBRARY, library):
         return "waiting"
-    return next((name for name, pattern in STAGES.items() if re.search(pattern, symbol)), "other")
+    function = symbol.replace("(anonymous namespace)::", "").split("(")[0]
+    return next((name for name, pattern in STAGES.items() if re.search(pattern, function)), "other")
 
 
 def sampled(bench, script, code, ranks):
