@@ -1,6 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Peak of resident memory per particle, by what is switched on, against other codes."""
 
+import math
+
 import arrays
 import beds
 import lammps
@@ -12,6 +14,7 @@ QUESTION = """How many bytes does a particle take, with which features, and what
 resident memory of one process, which the operating system keeps, for beds of different size: their difference over the
 difference in particles leaves out what does not grow with them."""
 
+NODE, FILLED = 256, 0.8     # GiB; share of it for the run
 STEPS = 120     # with one rebuild of the neighbor lists, which is where the peak is
 
 BODIES, WALLS = 5, 3      # of the bed: large bodies, fixes of the stock style
@@ -97,6 +100,10 @@ def measure(bench):
     section.text(f"Beds of {sizes[0]} and {sizes[1]} spheres, {STEPS} steps with a rebuild, one rank. Differences between the "
                  "rows are what a feature takes; the temporary copies of a rebuild are part of the peak.")
     ours, stock = (per_particle.get(name) for name in COMPARED)
+    if ours:
+        need = ours * 1e9 / 2**30
+        section.text(f"""10^9 particles of the full law with floor and walls need {need:.0f} GiB, without proxies: {math.ceil(need / NODE / FILLED)} nodes
+of {NODE} GiB that are filled to {100 * FILLED:.0f} %.""")
     if ours and stock and ours > stock:
         section.headline(f"memory: Talus takes {ours:.0f} bytes per particle, stock {stock:.0f}.")
     if not bench.quick and bench.wants("large"):

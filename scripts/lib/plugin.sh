@@ -64,9 +64,12 @@ build_directory() {
   printf '%s/%s%s' "$TALUS_ROOT" "$name" "${kind:+-$kind}"
 }
 
-# A host that the scripts build for a portable plugin is portable as well.
+# A host that the scripts build for a portable plugin is portable as well. Errors come before minutes go into it.
 choose_architecture() {
   [[ $1 == portable ]] || return 0
+  [[ $(uname -m) == x86_64 ]] || die "--portable is for x86-64 machines, and this is $(uname -m): drop --portable"
+  "$(host_compiler)" -march=x86-64-v4 -x c++ -E - </dev/null >/dev/null 2>&1 ||
+    die "$(host_compiler) does not know -march=x86-64-v4: --portable needs GCC 11, Clang 12 or newer; set CXX"
   [[ -z ${TALUS_ARCH:-} || $TALUS_ARCH == x86-64 ]] ||
     die "TALUS_ARCH=$TALUS_ARCH is set, but --portable is for any x86-64 machine: unset TALUS_ARCH, or drop --portable"
   TALUS_ARCH=x86-64
@@ -75,8 +78,8 @@ choose_architecture() {
 # build_talus HOST SIZES KIND [DIR]: everything, from the packages on. Sets TALUS_BUILD.
 build_talus() {
   local host=$1 sizes=$2 kind=$3
-  choose_architecture "$kind"
   ensure_packages
+  choose_architecture "$kind"
   prepare_host "$host" "$sizes"
   TALUS_BUILD=${4:-$(build_directory "$host" "$sizes" "$kind")}
   with_lock "$TALUS_BUILD/lock" compile_talus "$TALUS_BUILD" "$sizes" "$kind"
