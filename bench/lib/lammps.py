@@ -38,7 +38,7 @@ class Result:
     output: str
     returncode: int
     seconds: float      # wall clock of the whole process
-    peak: int           # resident bytes of the process at most; one rank only; see own_peak()
+    peak: int           # resident bytes of the process at most; one rank only; see measured_peak()
 
     def loops(self):
         return read_loops(self.log)
@@ -63,9 +63,15 @@ class Failed(Exception):
 
 
 def own_peak():
-    """Resident bytes of this process at most. A process that it starts is a copy of it at first, so that a smaller
-    peak of that cannot be measured."""
+    """Resident bytes of this process at most."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def measured_peak(result):
+    """The peak of a run. A process that is started here is at first a copy of this one: a smaller peak cannot be seen."""
+    if result.peak <= own_peak():
+        raise Failed("a run takes no more memory than the benchmark itself, which hides it")
+    return result.peak
 
 
 def _program(code):

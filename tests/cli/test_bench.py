@@ -161,6 +161,9 @@ class Memory(unittest.TestCase):
         block = b"x" * (64 << 20)
         self.assertGreater(lammps.own_peak() - before, 32 << 20)
         del block
+        self.assertEqual(lammps.measured_peak(types.SimpleNamespace(peak=1 << 40)), 1 << 40)
+        with self.assertRaises(lammps.Failed):
+            lammps.measured_peak(types.SimpleNamespace(peak=32 << 20))
 
 
 class Verdicts(unittest.TestCase):
