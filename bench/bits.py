@@ -16,19 +16,25 @@ number of ranks and threads, with another skin, without sorting, with load balan
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz"
 
-# name: ranks, threads, commands before the run, skin in diameters
+OWN, DIRECT = "run_style verlet/proxy\n", "comm_proxy yes\nrun_style verlet/proxy\n"
+
+# name: ranks, threads, commands before the particles are read, skin in diameters, commands before the run
 WAYS = {
-    "1 rank": (1, 1, "", 0.1),
-    "2 ranks": (2, 1, "processors 2 1 1\n", 0.1),
-    "4 ranks, 1 x 2 x 2": (4, 1, "processors 1 2 2\n", 0.1),
-    "2 threads": (1, 2, "", 0.1),
-    "3 threads": (1, 3, "", 0.1),
-    "2 ranks x 2 threads": (2, 2, "processors 1 2 1\n", 0.1),
-    "skin .02 d": (1, 1, "", 0.02),
-    "skin .3 d, 2 ranks": (2, 1, "processors 2 1 1\n", 0.3),
-    "no sorting": (1, 1, "atom_modify sort 0 0\n", 0.1),
-    "balance, 2 ranks": (2, 1, "balance", 0.1),
-    "restart on 2 ranks": (1, 1, "restart", 0.1),
+    "1 rank": (1, 1, "", 0.1, ""),
+    "2 ranks": (2, 1, "processors 2 1 1\n", 0.1, ""),
+    "4 ranks, 1 x 2 x 2": (4, 1, "processors 1 2 2\n", 0.1, ""),
+    "8 ranks, 2 x 2 x 2": (8, 1, "processors 2 2 2\n", 0.1, DIRECT),
+    "2 threads": (1, 2, "", 0.1, ""),
+    "3 threads": (1, 3, "", 0.1, OWN),
+    "2 ranks x 2 threads": (2, 2, "processors 1 2 1\n", 0.1, ""),
+    "run_style verlet/proxy": (1, 1, "", 0.1, OWN),
+    "2 ranks, direct exchange, overlap": (2, 1, "processors 2 1 1\n", 0.1, DIRECT),
+    "3 ranks x 2 threads, direct exchange, overlap": (3, 2, "processors 3 1 1\n", 0.1, DIRECT),
+    "skin .02 d": (1, 1, "", 0.02, OWN),
+    "skin .3 d, 2 ranks": (2, 1, "processors 2 1 1\n", 0.3, ""),
+    "no sorting": (1, 1, "atom_modify sort 0 0\n", 0.1, OWN),
+    "balance, 2 ranks": (2, 1, "balance", 0.1, DIRECT),
+    "restart on 2 ranks": (1, 1, "restart", 0.1, DIRECT),
 }
 
 
@@ -67,7 +73,7 @@ def digest(path):
 
 
 def run(bench, name, code, physics, steps):
-    ranks, threads, before, skin = WAYS[name]
+    ranks, threads, before, skin, last = WAYS[name]
     options = dict(ranks=ranks, threads=threads, cores=machine.cores())
     after = ""
     if before == "balance":
@@ -75,12 +81,12 @@ def run(bench, name, code, physics, steps):
     if before == "restart":
         half = steps // 2
         lammps.run(bench.workdir, "bits", head("") + "read_data stirred.data\n" + tail(skin, physics)
-                   + f"run {half}\nwrite_restart middle\n", code, **options)
+                   + OWN + f"run {half}\nwrite_restart middle\n", code, **options)
         lammps.run(bench.workdir, "bits", head("") + "read_restart middle\n" + tail(skin, physics)
-                   + f"run {steps - half}\n" + dump("end"), code, **dict(options, ranks=2))
+                   + last + f"run {steps - half}\n" + dump("end"), code, **dict(options, ranks=2))
     else:
         result = lammps.run(bench.workdir, "bits", head(before) + "read_data stirred.data\n" + tail(skin, physics) + after
-                            + f"run {steps}\n" + dump("end"), code, **options)
+                            + last + f"run {steps}\n" + dump("end"), code, **options)
         bench.builds = result.log.count("\n") and result.log.split("Neighbor list builds = ")[-1].split()[0]
     return digest(bench.path("end"))
 

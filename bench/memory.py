@@ -1,6 +1,9 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Peak of resident memory per particle, by what is switched on, against other codes."""
 
+import math
+
+import arrays
 import beds
 import lammps
 import machine
@@ -11,15 +14,17 @@ QUESTION = """How many bytes does a particle take, with which features, and what
 resident memory of one process, which the operating system keeps, for beds of different size: their difference over the
 difference in particles leaves out what does not grow with them."""
 
+NODE, FILLED = 256, 0.8     # GiB; share of it for the run
 STEPS = 120     # with one rebuild of the neighbor lists, which is where the peak is
 
+BODIES, WALLS = 5, 3      # of the bed: large bodies, fixes of the stock style
 COMPARED = ("Talus, multistep friction, floor and walls", "stock gran/hertz/history, floor and walls")
 NOTHING = "pair_style none\ncomm_modify cutoff 3e-3\nfix move all nve/sphere\n"
 STOCK_PLAIN = "gran/hooke 500.0 NULL 50.0 NULL 0.5 1"    # as stiff as the Hertzian contacts of the bed
 
 
 def talus(law, bodies):
-    text = beds.talus(law)
+    text = beds.talus(law) + "run_style verlet/proxy\n"
     return text if bodies else "\n".join(line for line in text.splitlines() if "large/body" not in line) + "\n"
 
 
@@ -52,20 +57,27 @@ def peak(bench, count, code, physics):
         script = beds.liggghts_script(data, box, 0, STEPS)
     else:
         script = beds.script(data, physics, 0, STEPS)
-    return lammps.run(bench.workdir, "memory", script, code).peak
+    return lammps.measured_peak(lammps.run(bench.workdir, "memory", script, code))
 
 
-def arrays():
-    """What the pipeline of Talus holds for each particle (owned and ghost) and each candidate pair, by design."""
-    return [
-        ["particle: place and radius; velocity and 1/mass", "64 B", "always"],
-        ["particle: surface spin and 1/radius", "32 B", "friction or resistance"],
-        ["particle: sum of forces", "32 B", "always"],
-        ["particle: sum of moments", "32 B", "friction or resistance"],
-        ["candidate pair: two indices", "8 B", "always"],
-        ["candidate pair: displacement, whether it slides", "32 B", "multistep"],
-        ["candidate pair: impact speed, age", "32 B", "laws that read them"],
-    ]
+def by_array(bench, measured):
+    """Tables of what stands in memory by design, beside the measured bytes per particle of the compared variants."""
+    contacts, pairs = beds.contacts(bench, bench.size(50000, 12500))
+    rows, sums = arrays.table(contacts, pairs, BODIES, WALLS)
+    section = bench.section
+    section.heading("By array")
+    section.table(["whose", "array", "bytes", "bytes per particle of the bed", "if"], rows)
+    section.text(f"""By design, for {contacts:.2f} contacts and {pairs:.2f} candidate pairs per sphere, each contact filed with both of its
+particles, {BODIES} large bodies with friction or {WALLS} fixes wall/gran; to be compared with what is measured:""")
+    totals = []
+    for name, owner in zip(COMPARED, ("Talus", "stock gran/hertz/history")):
+        total = sums["LAMMPS"] + sums[owner]
+        totals.append([name, total, measured.get(name, float("nan")), measured.get(name, float("nan")) - total])
+        bench.section.record(variant="by array: " + name, bytes_per_particle=total)
+    section.table(["bytes per particle", "sum of the arrays", "measured", "rest"], totals)
+    section.text("""Sum: without what other laws, checks of the lists, threads or ranks need. Rest: arrays that have grown further than
+needed, buffers of messages and of reading the file, what the allocator holds, or less where an array is freed before others
+grow. A proxy takes as much as a particle, without its share of pairs.""")
 
 
 def measure(bench):
@@ -85,14 +97,15 @@ def measure(bench):
     section.text(f"Beds of {sizes[0]} and {sizes[1]} spheres, {STEPS} steps with a rebuild, one rank. Differences between the "
                  "rows are what a feature takes; the temporary copies of a rebuild are part of the peak.")
     ours, stock = (per_particle.get(name) for name in COMPARED)
+    if ours:
+        need = ours * 1e9 / 2**30
+        section.text(f"""10^9 particles of the full law with floor and walls need {need:.0f} GiB, without proxies: {math.ceil(need / NODE / FILLED)} nodes
+of {NODE} GiB that are filled to {100 * FILLED:.0f} %.""")
     if ours and stock and ours > stock:
         section.headline(f"memory: Talus takes {ours:.0f} bytes per particle, stock {stock:.0f}.")
     if not bench.quick and bench.wants("large"):
         large(bench)
-    section.heading("Arrays of Talus")
-    section.table(["array", "bytes", "held if"], arrays())
-    section.text("By design, for comparison with the measured differences. Indices, keys and the lists that carry displacements "
-                 "through a rebuild come on top.")
+    by_array(bench, per_particle)
     if rows:
         section.plot("", "Bytes per particle", lambda plt: draw(plt, rows))
 

@@ -83,7 +83,7 @@ def times(bench, found, count, steps):
 
 def bytes_per_particle(bench, variant, sizes):
     """Slope of the peak of resident memory over the size of the bed, with one rebuild."""
-    peaks = [lammps.run(bench.workdir, "needs", script(bench, variant, n, 20)).peak for n in sizes]
+    peaks = [lammps.measured_peak(lammps.run(bench.workdir, "needs", script(bench, variant, n, 20))) for n in sizes]
     return (peaks[1] - peaks[0]) / (sizes[1] - sizes[0])
 
 

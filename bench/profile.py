@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Where the time of a step goes."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -16,62 +17,78 @@ QUESTION = """What share of a step is broad phase, narrow phase, contact force, 
 own timers tell neighbor lists, pair style, communication and fixes apart; the functions within them are told apart by
 sampling (perf), if that is available."""
 
+# name, code, physics, commands before the run
+VARIANTS = [
+    ("Talus", TALUS, beds.talus, "run_style verlet/proxy\n"),
+    ("Talus, run_style verlet", TALUS, beds.talus, ""),
+    ("stock", STOCK, beds.stock, ""),
+]
 CATEGORIES = ("Pair", "Neigh", "Comm", "Modify", "Output", "Other")
 
-# of Chrono::Distributed: its report, 10 ranks and 1 rank, per cent; and release 8.0.0 on one core of such a machine
-REFERENCE = [
-    ["broad phase", 21.73, 35.58, 26], ["narrow phase", 10.67, 11.32, 11], ["contact forces (solver)", 61.11, 43.14, 33],
-    ["communication", 5.81, float("nan"), float("nan")], ["other collision work", float("nan"), float("nan"), 22],
-]
+# of Chrono::Distributed, per cent: its report, 1 rank and 10 ranks (1.236 million bodies each); release 8.0.0, one core
+REFERENCE = {
+    "broad phase": (35.58, 21.73, 26.0), "narrow phase": (11.32, 10.67, 11.0), "contact force": (43.14, 61.11, 33.0),
+    "exchange": (float("nan"), 5.81, float("nan")), "other": (9.96, 0.68, 30.0),
+}
 
 # first match counts; symbols of the plugin and of the host
-STAGES = [
-    ("waiting and messages", r"opal_|ompi_|mca_|PMPI_|MPI_|pml_|vader|poll"),
-    ("exchange", r"Comm(Brick|Tiled|Proxy)|ProxyExchange|pack_comm|unpack_comm|pack_border|unpack_border|pack_exchange"
-                 r"|unpack_exchange"),
-    ("broad phase", r"NPair|NBin|NStencil|Neighbor|NeighList|CandidateList|order_particles|add_candidate"
-                    r"|PartnerLists|FixContactStore|renumber|start_pairs|file_history|fetch_history|Atom::sort|CanonicalKey"),
-    ("narrow phase", r"narrow_phase|find_contacts|NarrowPhase|find_touching"),
-    ("large bodies", r"BodyContacts|FixLargeBody|FixWallGran|Plane::|Rectangle::"),
-    ("integration", r"FixNVE|Symplectic|FixGravity|force_clear|memset"),
-    ("contact force", r"ContactPipeline|contact_kernel|Kernel|run_law|evaluate|gather|transpose|add_up|ParticleRecords"
-                      r"|Pair|GranSub|Granular|ContactBatch|sqrt|Talus"),
-]
+STAGES = {
+    "waiting": r"opal_|ompi_|mca_|PMPI_|MPI_|pml_|vader|poll",
+    "exchange": r"Comm(Brick|Tiled|Proxy)|ProxyExchange|Packer|pack_comm|unpack_comm|pack_border|unpack_border|pack_exchange"
+                r"|unpack_exchange|RebuildCheck|ExchangePlan|AtomVec::(un)?pack|show_state|write_state",
+    "broad phase": r"NPair|NBin|NStencil|Neighbor|NeighList|CandidateList|ParticleOrder|Entry|PartnerLists|ContactHistory"
+                   r"|FixContactStore|FixNeighHistory|renumber|set_pairs|start_pairs|Atom::sort|AtomVec::copy|find_candidates",
+    "narrow phase": r"find_contacts",
+    "floor and walls": r"BodyContacts|BodyBatch|FixLargeBody|FixWallGran|Plane::|Rectangle::",
+    "integration": r"ParticleRecords::advance|FixNVE|FixGravity|force_clear",
+    "contact force": r"compute_batch|ContactPart|ContactPipeline|ParticleRecords|Pair|GranSub|Granular",
+}
+SHOWN = ("broad phase", "narrow phase", "contact force", "floor and walls", "integration", "exchange", "waiting", "other")
+MPI_LIBRARY = r"libmpi|libopen-|mca_|libucp|libpmix|libevent"
 
 
-def stage_of(symbol):
-    return next((name for name, pattern in STAGES if re.search(pattern, symbol)), "other")
+def stage_of(library, symbol):
+    if re.match(MPI_LIBRARY, library):
+        return "waiting"
+    function = symbol.replace("(anonymous namespace)::", "").split("(")[0]
+    return next((name for name, pattern in STAGES.items() if re.search(pattern, function)), "other")
 
 
 def sampled(bench, script, code, ranks):
-    """{stage: share} by perf, or None where it does not work."""
+    """{stage: share of the samples of the last run command} by perf, or None where it does not work."""
     if not shutil.which("perf"):
         return None
-    data = bench.path("perf.data")
-    record = [shutil.which("perf"), "record", "-q", "-F", "997", "-o", data, "--"]
+    data, control = bench.path("perf.data"), bench.path("perf.control")
+    if not os.path.exists(control):
+        os.mkfifo(control)
+    # perf begins when LAMMPS says so, and ends before LAMMPS does
+    script = re.sub(r"(run \d+\n)$", rf"shell echo enable > {control}\n\1shell echo disable > {control}\n", script)
+    record = [shutil.which("perf"), "record", "-q", "-F", "997", "-D", "-1", "--control", f"fifo:{control}", "-o", data, "--"]
     try:
-        lammps.run(bench.workdir, "perf", script, code, ranks=ranks, cores=None if ranks > 1 else paired.one_core(),
-                   prefix=record)
+        lammps.run(bench.workdir, "perf", script, code, ranks=ranks, cores=cores(ranks), prefix=record, timeout=300)
     except lammps.Failed:
         return None
-    done = subprocess.run(["perf", "report", "-i", data, "--stdio", "--no-children", "-F", "overhead,dso,symbol", "-g", "none"],
-                          capture_output=True, text=True, check=False)
+    done = subprocess.run(["perf", "report", "-i", data, "--comm", "lmp", "--stdio", "--no-children", "-F", "overhead,dso,symbol",
+                           "-g", "none"], capture_output=True, text=True, check=False)
     shares = {}
     for line in done.stdout.splitlines():
         match = re.match(r"\s*([\d.]+)%\s+(\S+)\s+\[(.)\]\s+(.*)", line)
         if match:
-            mpi = re.match(r"libmpi|libopen-|mca_|libucp|libpmix|libevent", match[2])
-            stage = STAGES[0][0] if mpi else "other" if match[3] == "k" else stage_of(match[4])
+            stage = "other" if match[3] == "k" else stage_of(match[2], match[4])
             shares[stage] = shares.get(stage, 0.0) + float(match[1])
-    return shares or None
+    total = sum(shares.values())
+    return {stage: share / total for stage, share in shares.items()} if total else None
+
+
+def cores(ranks):
+    return paired.one_core() if ranks == 1 else machine.cores()[-ranks:]
 
 
 def breakdown(bench, name, script, code, ranks):
-    """Nanoseconds per particle and step by category of the host, medians over the rounds."""
-    cores = paired.one_core() if ranks == 1 else machine.cores()[-2:]
+    """Nanoseconds per particle and step by category of the host, of the round in the middle."""
     rounds = []
     for _ in range(bench.rounds):
-        loop = lammps.run(bench.workdir, "profile", script, code, cores=cores, ranks=ranks).loops()[-1]
+        loop = lammps.run(bench.workdir, "profile", script, code, cores=cores(ranks), ranks=ranks).loops()[-1]
         rounds.append({key: 1e9 * seconds * ranks / (loop.steps * loop.atoms) for key, seconds in loop.breakdown.items()}
                       | {"total": loop.nanoseconds() * ranks})
     middle = sorted(rounds, key=lambda r: r["total"])[len(rounds) // 2]
@@ -83,43 +100,52 @@ def measure(bench):
     section = bench.section
     count = bench.size(50000, 12500)
     data, _ = beds.bed(bench, count)
-    steps = bench.size(1000, 200)
-    physics = {"Talus": (TALUS, beds.talus()), "stock": (STOCK, beds.stock())}
-    runs = {(name, ranks): (code, beds.script(data, text, 100, steps)) for name, (code, text) in physics.items()
-            for ranks in (1, 2) if ranks <= len(machine.cores())}
-    rows, stages = [], {}
-    for (name, ranks), (code, script) in runs.items():
-        bench.note(f"{name}, {ranks} rank(s)")
-        found = breakdown(bench, name, script, code, ranks)
-        rows.append([name, ranks, found["total"], *(found.get(key, 0.0) for key in CATEGORIES)])
-        long = script.replace(f"run {steps}\n", f"run {bench.size(3000, 2000)}\n")      # so that the start counts little
-        stages[f"{name}, {ranks}"] = sampled(bench, long, code, ranks)
+    steps = 1000
+    rows, stages, totals = [], {}, {}
+    for name, code, physics, more in VARIANTS:
+        for ranks in (1, 2):
+            if ranks > len(machine.cores()):
+                continue
+            bench.note(f"{name}, {ranks} rank(s)")
+            commands = more if ranks == 1 else more.replace("run_style", "comm_proxy yes\nrun_style")
+            script = beds.script(data, physics(), 100, steps, more=commands)
+            found = breakdown(bench, name, script, code, ranks)
+            rows.append([name, ranks, found["total"], *(found.get(key, 0.0) for key in CATEGORIES)])
+            stages[name, ranks], totals[name, ranks] = sampled(bench, script, code, ranks), found["total"]
+    sampled_table(bench, stages, totals)
     section.heading("Timers of the host")
     section.table(["", "ranks", "ns per particle and step", *CATEGORIES], rows)
     section.text(f"""Bed of {count} spheres, Hertz, friction with history, floor and walls, lists rebuilt every 100 steps. ns of
-all cores together. Pair: narrow phase and contact forces; Neigh: building of lists; Comm: exchange, ghosts, sorting, and
-what is done when particles migrate; Modify: integration, gravity, floor and walls, storing of displacements.""")
-    sampled_table(bench, stages)
-    section.heading("The reference")
-    section.table(["", "10 ranks (%)", "1 rank (%)", "1 core here (%)"], REFERENCE)
-    section.text("""Chrono::Distributed: the first two columns are those of its technical report (1.236 million bodies per rank), the
-third was measured with release 8.0.0 and its scaling scene on one core of a machine like this one.""")
-    section.plot("", "Time of a step by timer", lambda plt: draw(plt, rows))
+all cores together. Pair: narrow phase and contact forces, and with verlet/proxy the integration, too; Neigh: building of lists;
+Comm: exchange, waiting, ghosts, sorting; Modify: integration, gravity, floor and walls, and what is done with displacements at
+rebuilds.""")
+    section.plot("", "Time of a step by timer of the host", lambda plt: draw(plt, rows))
 
 
-def sampled_table(bench, stages):
+def sampled_table(bench, stages, totals):
     section = bench.section
-    section.heading("Samples")
-    stages = {name: shares for name, shares in stages.items() if shares}
+    section.heading("Stages")
+    stages = {key: shares for key, shares in stages.items() if shares}
     if not stages:
         section.text("perf is not available, or may not sample (kernel.perf_event_paranoid): left out.")
         return
-    names = [name for name, _ in STAGES] + ["other"]
-    section.table(["stage (%)", *stages], [[stage] + [shares.get(stage, 0.0) for shares in stages.values()]
-                                           for stage in names])
-    for name, shares in stages.items():
-        section.record(variant="samples " + name, **shares)
-    section.text("Shares of all samples of the whole process, start included, by the name of the function; columns: code, ranks.")
+    rows, nothing = [], (float("nan"),) * 3
+    for stage in SHOWN:
+        shares = [found.get(stage, 0.0) for found in stages.values()]
+        rows.append([stage, *(f"{share * totals[key]:.1f} ({100 * share:.0f} %)" for key, share in zip(stages, shares)),
+                     *REFERENCE.get(stage, nothing)])
+    rows.append(["whole step", *(f"{totals[key]:.1f}" for key in stages), 100.0, 100.0, 100.0])
+    section.table(["ns per particle and step (share)", *(f"{name}, {ranks} rank{'s' if ranks > 1 else ''}" for name, ranks in stages),
+                   "Chrono::Distributed, 1 rank (%)", "10 ranks (%)", "1 core here (%)"], rows)
+    for (name, ranks), shares in stages.items():
+        section.record(variant="samples, " + name, ranks=ranks, **{key: 100 * value for key, value in shares.items()})
+    section.text("""Samples of the functions that run (perf, about 1000 per second) during the steps, as shares of the measured time; on
+two ranks of both cores together. broad phase: neighbor lists, sorting, and all that is done with pairs and displacements at
+rebuilds; waiting: all time in the MPI library, the moving of data among it; other: the operating system and what could not be
+attributed. The kernel of contacts with floor and walls is the one of contacts between spheres and counts there.
+Chrono::Distributed: its technical report, 1 rank and 10 ranks of 12 cores with 1.236 million bodies each, where contact force is
+its solver and exchange its communication; and release 8.0.0 with its scaling scene on one core of a machine like this one, where
+other is mostly its serial contacts with planes.""")
 
 
 def draw(plt, rows):

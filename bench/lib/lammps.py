@@ -4,6 +4,7 @@
 import dataclasses
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -37,7 +38,7 @@ class Result:
     output: str
     returncode: int
     seconds: float      # wall clock of the whole process
-    peak: int           # resident bytes of the process at most; one rank only
+    peak: int           # resident bytes of the process at most; one rank only; see measured_peak()
 
     def loops(self):
         return read_loops(self.log)
@@ -59,6 +60,18 @@ class Result:
 
 class Failed(Exception):
     """A run that should have worked did not."""
+
+
+def own_peak():
+    """Resident bytes of this process at most."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def measured_peak(result):
+    """The peak of a run. A process that is started here is at first a copy of this one: a smaller peak cannot be seen."""
+    if result.peak <= own_peak():
+        raise Failed("a run takes no more memory than the benchmark itself, which hides it")
+    return result.peak
 
 
 def _program(code):
@@ -87,7 +100,9 @@ def _environment(threads, ranks, session):
     env.setdefault("OMPI_MCA_pml", "ob1")                 # others take longer to start
     env.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
     env["OMPI_MCA_odls_base_sigkill_timeout"] = "0"
-    if threads > 1:
+    if ranks * threads > len(machine.cores()):      # who waits must not keep others from working
+        env.update(OMP_WAIT_POLICY="passive", OMPI_MCA_mpi_yield_when_idle="1")
+    elif threads > 1:
         env.update(OMP_PROC_BIND="spread", OMP_PLACES="cores")
     return env
 

@@ -26,11 +26,14 @@ explain_configure() {
 }
 
 configure_talus() {
-  local dir=$1 sizes=$2 sanitize=$3
+  local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF
+  if [[ $kind == sanitize ]]; then sanitizers='address;undefined'; fi
+  if [[ $kind == portable ]]; then portable=ON; fi
   mkdir -p "$dir"
   cmake -S "$TALUS_ROOT" -B "$dir" -G Ninja \
     -D "LAMMPS_BINARY_DIR=$HOST_BINARY" -D "LAMMPS_SOURCE_DIR=$HOST_SOURCE" \
-    -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitize" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
+    -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitizers" \
+    -D "TALUS_PORTABLE=$portable" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
     -D "CMAKE_CXX_COMPILER=$(host_compiler)" >"$dir/configure.log" 2>&1 ||
     explain_configure "$dir/configure.log"
 }
@@ -44,9 +47,10 @@ compile_talus() {
   }
 }
 
-# build_directory HOST SIZES SANITIZE: build/ belongs to the default, others are told apart.
+# build_directory HOST SIZES KIND: build/ belongs to the default, others are told apart. KIND is empty, sanitize or
+# portable.
 build_directory() {
-  local host=$1 sizes=$2 sanitize=$3 name=build
+  local host=$1 sizes=$2 kind=$3 name=build
   if [[ -n ${TALUS_BUILD_DIR:-} ]]; then
     printf '%s' "$TALUS_BUILD_DIR"
     return
@@ -57,14 +61,26 @@ build_directory() {
   if [[ ${host:-$TALUS_DEFAULT_HOST} != "$TALUS_DEFAULT_HOST" || ${sizes:-smallbig} != smallbig ]]; then
     name+=-${host:-$TALUS_DEFAULT_HOST}-${sizes:-smallbig}
   fi
-  printf '%s/%s%s' "$TALUS_ROOT" "$name" "${sanitize:+-sanitize}"
+  printf '%s/%s%s' "$TALUS_ROOT" "$name" "${kind:+-$kind}"
 }
 
-# build_talus HOST SIZES SANITIZE [DIR]: everything, from the packages on. Sets TALUS_BUILD.
+# A host that the scripts build for a portable plugin is portable as well. Errors come before minutes go into it.
+choose_architecture() {
+  [[ $1 == portable ]] || return 0
+  [[ $(uname -m) == x86_64 ]] || die "--portable is for x86-64 machines, and this is $(uname -m): drop --portable"
+  "$(host_compiler)" -march=x86-64-v4 -x c++ -E - </dev/null >/dev/null 2>&1 ||
+    die "$(host_compiler) does not know -march=x86-64-v4: --portable needs GCC 11, Clang 12 or newer; set CXX"
+  [[ -z ${TALUS_ARCH:-} || $TALUS_ARCH == x86-64 ]] ||
+    die "TALUS_ARCH=$TALUS_ARCH is set, but --portable is for any x86-64 machine: unset TALUS_ARCH, or drop --portable"
+  TALUS_ARCH=x86-64
+}
+
+# build_talus HOST SIZES KIND [DIR]: everything, from the packages on. Sets TALUS_BUILD.
 build_talus() {
-  local host=$1 sizes=$2 sanitize=$3
+  local host=$1 sizes=$2 kind=$3
   ensure_packages
+  choose_architecture "$kind"
   prepare_host "$host" "$sizes"
-  TALUS_BUILD=${4:-$(build_directory "$host" "$sizes" "$sanitize")}
-  with_lock "$TALUS_BUILD/lock" compile_talus "$TALUS_BUILD" "$sizes" "$sanitize"
+  TALUS_BUILD=${4:-$(build_directory "$host" "$sizes" "$kind")}
+  with_lock "$TALUS_BUILD/lock" compile_talus "$TALUS_BUILD" "$sizes" "$kind"
 }

@@ -2,6 +2,9 @@
 
 #include "body/rigid_body.h"
 
+// Eigen's vector code fuses multiplication and addition where the processor can, whatever the
+// compiler was told: the motion would depend on the instruction set.
+#define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
 
 #include <algorithm>

@@ -13,9 +13,12 @@ ROOT = os.environ["TALUS_SOURCE_DIR"]
 os.environ.update(TALUS_ROOT=ROOT, TALUS_BUILD=os.environ["TALUS_BINARY_DIR"], TALUS_BENCH_HOST=os.environ["TALUS_LMP"],
                   TALUS_BENCH_CACHE=os.path.join(tempfile.gettempdir(), "unused"))
 sys.path.insert(0, os.path.join(ROOT, "bench", "lib"))
+import arrays
 import errors
 import lammps
+import main
 import paired
+import projection
 import report
 import verdict
 
@@ -91,6 +94,77 @@ class Numbers(unittest.TestCase):
         first, second = lammps.read_loops(new + old)
         self.assertEqual((first.nanoseconds(), first.breakdown), (1.5e6, {"Pair": 1.2, "Other": 0.3}))
         self.assertEqual((second.seconds, second.breakdown), (3.0, {"Pair": 2.0, "Modify": 0.5}))
+
+
+class Projection(unittest.TestCase):
+
+    FOUND = projection.Measured({n: 50.0 for n in (10**4, 10**6, 10**9)}, 5e-9, 0.8)
+    STOCK, DIRECT, OVERLAPPED = (projection.Exchange(6, 72, True, False), projection.Exchange(26, 72, False, False),
+                                 projection.Exchange(26, 72, False, True))
+
+    def efficiency(self, count, ranks, exchange):
+        return projection.efficiency(count, ranks, exchange, self.FOUND)[2]
+
+    def test_proxies_are_a_shell(self):
+        proxies, sent = projection.proxies_of_cube(10**9)
+        faces = 6 * (10**9 * math.pi * projection.beds.D**3 / (6 * projection.FILL))**(2 / 3)
+        shell = faces * projection.REACH * projection.FILL * 6 / math.pi / projection.beds.D**3
+        self.assertAlmostEqual(proxies / shell, 1.0, places=2)
+        self.assertAlmostEqual(sent / shell, 1.0, places=2)
+
+    def test_large_ranks_are_efficient(self):
+        for exchange in self.STOCK, self.DIRECT, self.OVERLAPPED:
+            values = [self.efficiency(count, 32, exchange) for count in (10**4, 10**6, 10**9)]
+            self.assertEqual(values, sorted(values))
+            self.assertTrue(0.0 < values[0] and 0.97 < values[-1] < 1.0, values)
+
+    def test_what_costs(self):
+        for count in 10**4, 10**6:
+            self.assertLess(self.efficiency(count, 10**5, self.STOCK), self.efficiency(count, 32, self.STOCK))
+            self.assertGreater(self.efficiency(count, 32, self.OVERLAPPED), self.efficiency(count, 32, self.DIRECT))
+
+    def test_less_cannot_be_hidden_than_there_is(self):
+        """A network that takes no time costs nothing but packing and contacts that are computed twice."""
+        free = projection.Exchange(0, 0, False, True)
+        proxies = projection.proxies_of_cube(10**6)[0]
+        expected = 1 / (1 + 0.4 * proxies / 10**6 + 5e-9 * proxies / (50e-9 * 10**6))
+        self.assertAlmostEqual(projection.efficiency(10**6, 1, free, self.FOUND)[2], expected, places=9)
+
+
+class Profile(unittest.TestCase):
+
+    def test_functions_belong_to_stages(self):
+        stage_of = main.load("profile").stage_of
+        for stage, library, symbol in (
+                ("narrow phase", "talusstyles.so", "Talus::find_contacts"),
+                ("integration", "talusstyles.so", "Talus::ParticleRecords::advance(Talus::RecordStep const&)"),
+                ("contact force", "talusstyles.so", "Talus::ParticleRecords::read(Talus::ParticleOrder const&)"),
+                ("contact force", "talusstyles.so", "Talus::ContactPart::gather<true, true>"),
+                ("contact force", "liblammps.so.0", "LAMMPS_NS::PairGranHertzHistory::compute"),
+                ("broad phase", "talusstyles.so", "Talus::CandidateList::collect(Talus::ParticleOrder const&)"),
+                ("broad phase", "liblammps.so.0", "LAMMPS_NS::NPairBin<1, 0, 0, 1, 1>::build"),
+                ("floor and walls", "talusstyles.so", "Talus::BodyBatch::apply"),
+                ("exchange", "talusstyles.so", "Talus::SpherePacker::pack"),
+                ("waiting", "mca_btl_vader.so", "0x0000000000004f94"),
+                ("other", "libc.so.6", "__memset_avx512_unaligned_erms")):
+            self.assertEqual(stage_of(library, symbol), stage, symbol)
+
+
+class Memory(unittest.TestCase):
+
+    def test_sums_hold_what_is_counted(self):
+        rows, sums = arrays.table(2.0, 3.0, 5, 3)
+        self.assertEqual(len(rows), sum(map(len, (arrays.HOST, arrays.TALUS, arrays.STOCK))))
+        self.assertAlmostEqual(sums["stock gran/hertz/history"], 36 + 28 * 3 + 28 * 4 + 24 * 3)
+
+    def test_own_peak(self):
+        before = lammps.own_peak()
+        block = b"x" * (64 << 20)
+        self.assertGreater(lammps.own_peak() - before, 32 << 20)
+        del block
+        self.assertEqual(lammps.measured_peak(types.SimpleNamespace(peak=1 << 40)), 1 << 40)
+        with self.assertRaises(lammps.Failed):
+            lammps.measured_peak(types.SimpleNamespace(peak=32 << 20))
 
 
 class Verdicts(unittest.TestCase):

@@ -119,6 +119,14 @@ class Arguments(ScriptCase):
             with self.subTest(arguments=arguments):
                 self.assertEqual(len(self.assert_message(self.build(*arguments), *parts)), 1)
 
+    def test_portable(self):
+        self.assert_message(self.build("--portable", "--sanitize"), "exclude each other", "--help")
+        self.assert_message(self.build("--portable", TALUS_ARCH="znver4"), "TALUS_ARCH=znver4", "unset TALUS_ARCH")
+        self.command("old-compiler", "exit 1\n")
+        self.assert_message(self.build("--portable", CXX="old-compiler"), "old-compiler does not know", "set CXX")
+        self.command("uname", "echo riscv64\n")
+        self.assert_message(self.build("--portable"), "for x86-64 machines, and this is riscv64")
+
     def test_run_and_test_scripts(self):
         run = os.path.join(ROOT, "scripts", "run")
         table = [

@@ -15,6 +15,8 @@ BUILD = os.environ["TALUS_BINARY_DIR"]
 PLUGIN = os.environ["TALUS_PLUGIN"]
 CXX = os.environ.get("TALUS_CXX", "g++")
 VERSION = os.environ["TALUS_LAMMPS_VERSION"]
+VARIANTS = [f"talusstyles-{word}.so" for word in ("avx2", "avx512", "baseline")
+            if os.environ.get("TALUS_PORTABLE") == "1"]
 
 BOX = """
 atom_style sphere
@@ -169,7 +171,7 @@ class Install(PluginCase):
                         "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
         folder = os.path.join(prefix, "lib", "talus")
         self.assertEqual(sorted(os.listdir(folder)),
-                         ["talus.env", "talusplugin.so", "talusstyles.so"])
+                         ["talus.env", "talusplugin.so", *VARIANTS, "talusstyles.so"])
         for before, expected in (("", folder), ("/else", folder + ":/else")):
             path = subprocess.run(
                 ["sh", "-c", '. "$1"; printf %s "$LAMMPS_PLUGIN_PATH"', "sh",

@@ -1,0 +1,80 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""What stands in memory for each particle, by array: for comparison with what is measured.
+
+Bytes for each particle, candidate pair, contact, end of a contact (two of them), or large body and particle; from the
+sources of Talus and of LAMMPS.  Ghosts take as much as owned particles in the arrays that hold both.
+"""
+
+import dataclasses
+
+ALWAYS = "always"
+
+
+@dataclasses.dataclass
+class Array:
+    what: str
+    bytes: float
+    per: str            # particle, pair, contact, end, body
+    when: str = ALWAYS
+    counted: bool = True    # in the bed that is measured
+
+
+HOST = [
+    Array("positions, velocities, forces, spins, torques", 120, "particle"),
+    Array("radius, mass", 16, "particle"),
+    Array("atom ID, type, groups, periodic image (smallbig)", 16, "particle"),
+    Array("where an atom ID is", 4, "particle", "atom_modify map array"),
+    Array("heads of the neighbor list", 16, "particle"),
+    Array("neighbors", 4, "pair"),
+    Array("bins of the neighbor list and of sorting, about", 60, "particle"),
+    Array("positions when lists were made", 24, "particle", "neigh_modify check yes", False),
+]
+
+TALUS = [
+    Array("records: place and radius; velocity and 1/mass; sum of forces", 96, "particle"),
+    Array("records: spin and 1/radius; sum of moments", 64, "particle", "friction"),
+    Array("records: sum of couples", 32, "particle", "rolling or spinning resistance", False),
+    Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
+    Array("order: key, tag, both numberings", 24, "particle"),
+    Array("name in the filed displacements", 8, "particle"),
+    Array("order: part, and marks of particles that others read, that are sent, that rest", 5, "particle",
+          "threads, ranks", False),
+    Array("pairs: two indices", 8, "pair"),
+    Array("pairs: begin of each row, for each thread", 8, "particle"),
+    Array("pairs: those that touch", 4, "pair"),
+    Array("pairs: displacement, whether it slides; whether it touches", 32.125, "pair", "multistep"),
+    Array("pairs: impact speed, age", 32, "pair", "laws that read them", False),
+    Array("displacements filed by particle: heads", 16, "particle"),
+    Array("displacements filed by particle, with the tag of the partner", 40, "end", "multistep"),
+    Array("contacts with their forces, for the pressure", 72, "contact", "steps that compute the pressure"),
+    Array("large bodies: displacement", 32, "body", "multistep"),
+    Array("rebuild only: keys, tags and names in the old order, and their sorting", 48, "particle"),
+]
+
+STOCK = [
+    Array("heads of the displacements by pair and by particle", 36, "particle"),
+    Array("pairs: displacement, whether it touches", 28, "pair"),
+    Array("displacements filed by particle, with the ID of the partner", 28, "end"),
+    Array("walls: displacement", 24, "body"),
+]
+
+
+def bytes_per_particle(array, contacts, pairs, bodies):
+    return array.bytes * {"particle": 1, "pair": pairs, "contact": contacts, "end": 2 * contacts, "body": bodies}[array.per]
+
+
+def table(contacts, pairs, bodies, stock_walls):
+    """(rows of a table, {code: sum of what the measured bed holds}); bodies and walls: arrays of that kind."""
+    rows, sums = [], {}
+    for owner, arrays, count in (("LAMMPS", HOST, bodies), ("Talus", TALUS, bodies), ("stock gran/hertz/history", STOCK,
+                                                                                    stock_walls)):
+        for array in arrays:
+            size = bytes_per_particle(array, contacts, pairs, count)
+            rows.append([owner, array.what, f"{array.bytes:g} per {NAMES[array.per]}", size, array.when])
+            if array.counted:
+                sums[owner] = sums.get(owner, 0.0) + size
+    return rows, sums
+
+
+NAMES = {"particle": "particle", "pair": "candidate pair", "contact": "contact", "end": "contact and particle",
+         "body": "body and particle"}

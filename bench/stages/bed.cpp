@@ -1,0 +1,242 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "bed.h"
+
+#include "contact/canonical_key.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace Bench {
+namespace {
+
+// of the lattice, fitted to the pairs of a settled bed
+constexpr double nearest = 0.995, jitter = 0.03;
+constexpr double edge = 1.1547005383792517 * nearest;    // of the cell of two sites: 2/sqrt(3)
+constexpr double smallest = 0.95, largest = 1.05;        // diameters
+
+/// Uniform in -1 ... 1, the same on every machine.
+class Random {
+ public:
+  double operator()() { return bits() * (2.0 / 4294967295.0) - 1.0; }
+  double bits() { return static_cast<double>(generator()); }
+
+ private:
+  std::mt19937 generator{5};
+};
+
+void add_sphere(Bed &bed, const double *x, Random &random)
+{
+  const double r = 0.25 * (smallest + largest) + 0.25 * (largest - smallest) * random();
+  for (int d = 0; d < 3; d++) {
+    bed.x.push_back(x[d]);
+    bed.v.push_back(random());
+    bed.omega.push_back(random());
+  }
+  bed.radius.push_back(r);
+  bed.mass.push_back(4.0 * r * r * r);
+  bed.type.push_back(1);
+}
+
+/// Appends sphere i of another bed.
+void copy_sphere(Bed &to, const Bed &from, int i)
+{
+  for (int d = 0; d < 3; d++) {
+    to.x.push_back(from.x[3 * i + d]);
+    to.v.push_back(from.v[3 * i + d]);
+    to.omega.push_back(from.omega[3 * i + d]);
+  }
+  to.radius.push_back(from.radius[i]);
+  to.mass.push_back(from.mass[i]);
+  to.type.push_back(from.type[i]);
+  to.key.push_back(from.key[i]);
+  to.tag.push_back(from.tag[i]);
+}
+
+void complete(Bed &bed)
+{
+  bed.f.assign(bed.x.size(), 0.0);
+  bed.torque.assign(bed.x.size(), 0.0);
+}
+
+bool near(const Bed &bed, int i, int j)
+{
+  double r2 = 0.0;
+  for (int d = 0; d < 3; d++) r2 += std::pow(bed.x[3 * i + d] - bed.x[3 * j + d], 2);
+  return r2 < std::pow(bed.radius[i] + bed.radius[j] + skin, 2);
+}
+
+/// Cells in which neighbors are looked for, wider than the largest distance of a pair.
+class Cells {
+ public:
+  explicit Cells(const Bed &bed)
+  {
+    for (int d = 0; d < 3; d++) {
+      low[d] = high[d] = bed.x[d];
+      for (int i = 0; i < bed.size(); i++) {
+        low[d] = std::min(low[d], bed.x[3 * i + d]);
+        high[d] = std::max(high[d], bed.x[3 * i + d]);
+      }
+      count[d] = 1 + static_cast<int>((high[d] - low[d]) / width);
+    }
+    begin.assign(static_cast<std::size_t>(count[0]) * count[1] * count[2] + 1, 0);
+    for (int i = 0; i < bed.size(); i++) begin[cell(&bed.x[3 * i]) + 1]++;
+    for (std::size_t c = 1; c < begin.size(); c++) begin[c] += begin[c - 1];
+    spheres.resize(bed.size());
+    std::vector<int> next(begin.begin(), begin.end() - 1);
+    for (int i = 0; i < bed.size(); i++) spheres[next[cell(&bed.x[3 * i])]++] = i;
+  }
+
+  /// visit(j) for all spheres in the cells around x.
+  template <class Visit> void around(const double *x, Visit visit) const
+  {
+    int at[3];
+    for (int d = 0; d < 3; d++) at[d] = static_cast<int>((x[d] - low[d]) / width);
+    for (int k = std::max(0, at[2] - 1); k <= std::min(count[2] - 1, at[2] + 1); k++)
+      for (int j = std::max(0, at[1] - 1); j <= std::min(count[1] - 1, at[1] + 1); j++)
+        for (int i = std::max(0, at[0] - 1); i <= std::min(count[0] - 1, at[0] + 1); i++) {
+          const std::size_t c = index(i, j, k);
+          for (int n = begin[c]; n < begin[c + 1]; n++) visit(spheres[n]);
+        }
+  }
+
+ private:
+  static constexpr double width = largest + skin;
+  double low[3], high[3];
+  int count[3];
+  std::vector<int> begin, spheres;
+
+  std::size_t index(int i, int j, int k) const
+  {
+    return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i;
+  }
+  std::size_t cell(const double *x) const
+  {
+    int at[3];
+    for (int d = 0; d < 3; d++) at[d] = static_cast<int>((x[d] - low[d]) / width);
+    return index(at[0], at[1], at[2]);
+  }
+};
+
+/// Rows of owned spheres with the neighbors j for which wanted(i, j).
+template <class Wanted> Lists make_lists(const Bed &bed, const Cells &cells, Wanted wanted)
+{
+  Lists lists;
+  std::vector<std::size_t> begin;
+  for (int i = 0; i < bed.owned; i++) {
+    begin.push_back(lists.entries.size());
+    cells.around(&bed.x[3 * i], [&](int j) {
+      if (i != j && wanted(i, j) && near(bed, i, j)) lists.entries.push_back(j);
+    });
+    lists.row.push_back(i);
+    lists.size.push_back(static_cast<int>(lists.entries.size() - begin.back()));
+  }
+  for (const std::size_t b : begin) lists.begin.push_back(lists.entries.data() + b);
+  return lists;
+}
+
+void list_pairs(Bed &bed)
+{
+  const Cells cells(bed);
+  bed.later = make_lists(bed, cells, [](int i, int j) { return j > i; });
+  if (bed.owned == bed.size())
+    bed.earlier = make_lists(bed, cells, [](int i, int j) { return j < i; });
+}
+
+Bed in_order_of_keys(const Bed &bed)
+{
+  std::vector<int> order(bed.size());
+  for (int i = 0; i < bed.size(); i++) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return bed.key[i] < bed.key[j]; });
+  Bed sorted;
+  for (const int i : order) copy_sphere(sorted, bed, i);
+  sorted.owned = bed.owned;
+  return sorted;
+}
+
+}    // namespace
+
+Talus::NeighbourView Lists::view() const
+{
+  Talus::NeighbourView v;
+  v.rows = static_cast<int>(row.size());
+  v.particle = row.data();
+  v.size = size.data();
+  v.entries = begin.data();
+  return v;
+}
+
+Talus::ParticleView Bed::view()
+{
+  return {x.data(),    v.data(), omega.data(), radius.data(),
+          mass.data(), nullptr,  f.data(),     torque.data()};
+}
+
+Bed make_bed(int spheres)
+{
+  const int across = std::max(2, static_cast<int>(std::cbrt(spheres / 2.0)));
+  Random random;
+  Bed bed;
+  for (int site = 0; site < 2 * across * across * across; site++) {
+    const int cell = site / 2,
+              place[3] = {cell % across, cell / across % across, cell / (across * across)};
+    double x[3];
+    for (int d = 0; d < 3; d++) x[d] = edge * (place[d] + 0.5 * (site % 2)) + jitter * random();
+    add_sphere(bed, x, random);
+    bed.key.push_back(Talus::canonical_key(x, 1.0));
+    bed.tag.push_back(1 + site);
+  }
+  bed.owned = bed.size();
+  bed = in_order_of_keys(bed);
+  complete(bed);
+  list_pairs(bed);
+  return bed;
+}
+
+std::vector<Bed> two_ranks(const Bed &bed)
+{
+  std::vector<double> all;
+  for (int i = 0; i < bed.size(); i++) all.push_back(bed.x[3 * i]);
+  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  const double middle = all[all.size() / 2];
+
+  std::vector<Bed> ranks(2);
+  for (int side = 0; side < 2; side++) {
+    Bed &rank = ranks[side];
+    const auto is_owned = [&](int i) { return (bed.x[3 * i] < middle) == (side == 0); };
+    for (int i = 0; i < bed.size(); i++)
+      if (is_owned(i)) copy_sphere(rank, bed, i);
+    rank.owned = rank.size();
+    for (int i = 0; i < bed.size(); i++)
+      if (!is_owned(i) && std::abs(bed.x[3 * i] - middle) < largest + skin)
+        copy_sphere(rank, bed, i);
+    complete(rank);
+    list_pairs(rank);
+  }
+  return ranks;
+}
+
+Talus::LawTable one_law(Talus::NormalLaw normal, Talus::TangentialLaw tangential)
+{
+  Talus::LawTable table;
+  table.reset(1);
+  table.set(1, 1, {normal, tangential},
+            {1000.0, 10.0, 300.0, 5.0, 0.5, -std::numeric_limits<double>::infinity()});
+  table.finish();
+  return table;
+}
+
+Talus::ContactScene scene_of(const Talus::LawTable &laws)
+{
+  Talus::ContactScene scene;
+  scene.laws = laws;
+  scene.with_friction = laws.has_friction();
+  scene.with_history = laws.has_history();
+  scene.with_onset = laws.has_onset();
+  scene.with_resistance = laws.has_resistance();
+  return scene;
+}
+
+}    // namespace Bench

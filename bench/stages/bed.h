@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// A dense bed of spheres in memory, in the arrays in which a host keeps it, for benchmarks of
+// single stages. Lengths in diameters; no contact forces act, nothing moves.
+
+#ifndef TALUS_BENCH_BED_H
+#define TALUS_BENCH_BED_H
+
+#include "contact/contact_part.h"
+#include "contact/neighbour_view.h"
+#include "contact/particle_records.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace Bench {
+
+inline constexpr double skin = 0.1, dt = 1e-6;
+
+/// Half neighbor lists in one array.
+struct Lists {
+  std::vector<int> row, size, entries;
+  std::vector<const int *> begin;
+
+  Talus::NeighbourView view() const;
+};
+
+/// One rank: owned spheres in the order of their keys, as LAMMPS sorts them for Talus, then ghosts.
+struct Bed {
+  Bed() = default;
+  Bed(Bed &&) = default;    // not copied: lists point into themselves
+  Bed &operator=(Bed &&) = default;
+
+  int owned = 0;
+  std::vector<double> x, v, omega, radius, mass, f, torque;
+  std::vector<std::uint64_t> key;
+  std::vector<std::int64_t> tag;
+  std::vector<int> type;
+  Lists later;      ///< each pair in the row of its member with the lower index, as in LAMMPS
+  Lists earlier;    ///< in the row of the other one; only of beds without ghosts
+
+  int size() const { return static_cast<int>(radius.size()); }
+  Talus::ParticleView view();
+};
+
+/// Spheres on a body-centred cubic lattice that fills a cube, at random near their sites, with 2.1
+/// contacts and 4.0 candidate pairs per sphere (a settled bed: 2.2 and 3.5). `spheres` is rounded
+/// down to what fills the cube.
+Bed make_bed(int spheres);
+
+/// The bed on two ranks: what is left and right of its middle, each with the ghosts it needs.
+std::vector<Bed> two_ranks(const Bed &bed);
+
+/// A table with one law for all.
+Talus::LawTable one_law(Talus::NormalLaw normal, Talus::TangentialLaw tangential);
+
+/// What ContactPipeline makes of it.
+Talus::ContactScene scene_of(const Talus::LawTable &laws);
+
+}    // namespace Bench
+
+#endif

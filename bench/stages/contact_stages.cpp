@@ -1,0 +1,228 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The stages of a step and of a rebuild, one by one, on one thread.
+
+#include "stages.h"
+
+#include "body/body_contacts.h"
+#include "body/plane.h"
+#include "contact/narrow_phase.h"
+
+#include <algorithm>
+
+using namespace Talus;
+
+namespace Bench {
+namespace {
+
+/// A bed in canonical order with its pairs and records.
+struct Prepared {
+  Bed &bed;
+  ContactScene scene;
+  ParticleOrder order;
+  ParticleRecords records;
+  PartnerLists partners;
+  ContactPart part;
+
+  Prepared(Bed &given, NormalLaw normal, TangentialLaw tangential) :
+      bed(given), scene(scene_of(one_law(normal, tangential)))
+  {
+    order.arrange(bed.owned, bed.key, bed.tag);
+    partners.resize(bed.owned);
+    records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
+    collect();
+    start_pairs();
+    records.read(order, bed.view(), all());
+    compute();    // contacts are known now
+  }
+
+  SlotChoice all() const { return {0, order.size()}; }
+  void collect() { part.pairs.collect(order, bed.later.view(), 0); }
+  void start_pairs() { part.start_pairs(scene, partners, bed.tag); }
+  void compute()
+  {
+    part.compute(scene, records, {dt, true}, [](int, int) {});
+  }
+  void file()
+  {
+    partners.begin();
+    part.history.announce(part.pairs, partners);
+    partners.layout();
+    part.history.file(part.pairs, partners);
+  }
+  double contacts() const
+  {
+    double n = 0;
+    part.for_each_contact([&](std::int64_t) { n++; });
+    return n;
+  }
+};
+
+Prepared prepared(const benchmark::State &state, NormalLaw normal = NormalLaw::HERTZ,
+                  TangentialLaw tangential = TangentialLaw::MULTISTEP)
+{
+  return {bed_of(state), normal, tangential};
+}
+
+template <class Work> void repeat(benchmark::State &state, const Prepared &p, Work work)
+{
+  for (auto _ : state) {
+    work();
+    benchmark::ClobberMemory();
+  }
+  count_spheres(state, p.order.size());
+  state.counters["contacts"] = p.contacts() / p.order.size();
+  state.counters["candidates"] = static_cast<double>(p.part.pairs.num_pairs()) / p.order.size();
+}
+
+// ---- a rebuild ----------------------------------------------------------------------------------
+
+void order_particles(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] { p.order.arrange(p.bed.owned, p.bed.key, p.bed.tag); });
+}
+BENCHMARK(order_particles)->Apply(sizes);
+
+void collect_pairs(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] { p.collect(); });
+}
+BENCHMARK(collect_pairs)->Apply(sizes);
+
+void file_history(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] { p.file(); });
+}
+BENCHMARK(file_history)->Apply(sizes);
+
+void fetch_history(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  p.file();
+  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.partners, p.bed.tag); });
+}
+BENCHMARK(fetch_history)->Apply(sizes);
+
+// ---- a step -------------------------------------------------------------------------------------
+
+void read_particles(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] { p.records.read(p.order, p.bed.view(), p.all()); });
+}
+BENCHMARK(read_particles)->Apply(sizes);
+
+void advance_records(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  BigVector<Record> held(p.records.position.begin(), p.records.position.end());
+  const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
+  repeat(state, p,
+         [&] { benchmark::DoNotOptimize(p.records.advance(at_rest, {}, held.data(), p.all())); });
+}
+BENCHMARK(advance_records)->Apply(sizes);
+
+void narrow_phase(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  const std::int64_t pairs = p.part.pairs.num_pairs();
+  std::vector<std::uint32_t> contacts(pairs + lanes);
+  repeat(state, p, [&] {
+    find_contacts(p.part.pairs, 0, pairs, p.records.position.data(), &p.part.history,
+                  contacts.data());
+  });
+}
+BENCHMARK(narrow_phase)->Apply(sizes);
+
+/// Narrow phase, gather, kernel, and sum.
+void contacts(benchmark::State &state, NormalLaw normal, TangentialLaw tangential)
+{
+  Prepared p = prepared(state, normal, tangential);
+  repeat(state, p, [&] { p.compute(); });
+}
+BENCHMARK_CAPTURE(contacts, hooke_frictionless, NormalLaw::HOOKE, TangentialLaw::NONE)
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_frictionless, NormalLaw::HERTZ, TangentialLaw::NONE)
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_onestep, NormalLaw::HERTZ, TangentialLaw::ONESTEP)->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hooke_multistep, NormalLaw::HOOKE, TangentialLaw::MULTISTEP)
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_multistep, NormalLaw::HERTZ, TangentialLaw::MULTISTEP)
+    ->Apply(sizes);
+
+void add_to_host(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] { p.records.add_to(p.order, p.bed.view(), 0, p.order.size()); });
+}
+BENCHMARK(add_to_host)->Apply(sizes);
+
+// ---- a floor under the bed ----------------------------------------------------------------------
+
+/// Contacts with a plane through the lowest layer, of particles in the records.
+struct OnFloor {
+  Prepared p;
+  Plane plane{{0.0, 0.0, -0.48}, {0.0, 0.0, 1.0}, false};
+  BodyContacts contacts;
+  BodyFrame frame;
+  std::vector<int> mask;
+
+  explicit OnFloor(const benchmark::State &state) : p(prepared(state)), mask(p.bed.size(), 1)
+  {
+    contacts.set_laws(p.scene.laws, true);
+    contacts.history.resize(p.bed.owned);
+    frame.origin = plane.reference_point();
+    find();
+  }
+  BodyParticleView view()
+  {
+    const ParticleView v = p.bed.view();
+    return {p.bed.owned,
+            v.x,
+            v.v,
+            v.omega,
+            v.radius,
+            v.mass,
+            nullptr,
+            p.bed.type.data(),
+            v.f,
+            v.torque,
+            nullptr,
+            &p.records,
+            p.order.slot_of_atom.data()};
+  }
+  void find() { contacts.find_candidates(plane, frame, view(), mask.data(), 1, skin); }
+  BodyLoad compute()
+  {
+    BodyStep step;
+    step.dt = dt;
+    return contacts.compute(plane, frame, view(), step);
+  }
+};
+
+void floor_find(benchmark::State &state)
+{
+  OnFloor scene(state);
+  for (auto _ : state) scene.find();
+  count_spheres(state, scene.p.order.size());
+}
+BENCHMARK(floor_find)->Apply(sizes);
+
+/// Per sphere on the floor, not per sphere of the bed.
+void floor_contacts(benchmark::State &state)
+{
+  OnFloor scene(state);
+  const double touching = scene.compute().contacts;
+  for (auto _ : state) benchmark::DoNotOptimize(scene.compute());
+  count_spheres(state, touching);
+  state.counters["contacts"] = touching;
+}
+BENCHMARK(floor_contacts)->Apply(sizes);
+
+}    // namespace
+}    // namespace Bench
+
+BENCHMARK_MAIN();

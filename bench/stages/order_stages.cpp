@@ -1,0 +1,203 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What it costs that every sum is taken in canonical order. The twin takes pairs as the neighbor
+// list gives them, each of them once, through the same narrow phase, kernels and integrator: no
+// keys, no sorting of particles or pairs, and on several threads or ranks nothing is computed
+// twice. Its work on several threads or ranks is therefore that of one, which is less than any real
+// variant can do with: it would have to bring together what several have added to one particle.
+
+#include "stages.h"
+
+#include "contact/contact_pipeline.h"
+
+#include <memory>
+#include <numeric>
+
+using namespace Talus;
+
+namespace Bench {
+namespace {
+
+const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
+const ContactStep in_records{dt, true, nullptr, nullptr, nullptr, false, false};
+
+LawTable law()
+{
+  return one_law(NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+}
+
+/// Talus as it is, on one rank of one or several.
+struct Canonical {
+  Bed &bed;
+  ContactPipeline pipeline;
+  PartnerLists partners;
+
+  Canonical(Bed &given, int threads, bool two_phases) : bed(given)
+  {
+    pipeline.set_laws(law());
+    pipeline.set_work(threads, two_phases);
+    partners.resize(bed.owned);
+    rebuild();
+    run({dt, true, nullptr, nullptr, nullptr, true, false});
+  }
+
+  void rebuild()
+  {
+    pipeline.file_history(partners);
+    pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data(), partners, bed.tag},
+                       bed.later.view());
+  }
+  void run(const ContactStep &how)
+  {
+    if (pipeline.in_two_phases()) {
+      pipeline.compute_early(bed.view(), how);
+      pipeline.compute_late(bed.view(), how);
+    } else {
+      pipeline.compute(bed.view(), how);
+    }
+  }
+  void start()
+  {
+    pipeline.prepare_to_move([](int) { return true; }, {}, bed.x.data());
+  }
+  void step()
+  {
+    pipeline.advance(at_rest);
+    run(in_records);
+  }
+};
+
+/// The same work in whatever order is at hand.
+struct AsListed {
+  Bed &bed;
+  ContactScene scene = scene_of(law());
+  ParticleOrder order;
+  ParticleRecords records;
+  PartnerLists partners;
+  ContactPart part;
+  BigVector<Record> held;
+  std::vector<std::uint64_t> index;
+
+  explicit AsListed(Bed &given) : bed(given), index(bed.size())
+  {
+    std::iota(index.begin(), index.end(), 0);
+    order.arrange(bed.owned, index, bed.tag);
+    part.pairs.collect(order, bed.earlier.view(), 0);    // knows the order from now on
+    records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
+    records.read(order, bed.view(), {0, order.size()});
+    held = records.position;
+    partners.resize(bed.owned);
+    take_pairs();
+    part.start_pairs(scene, partners, bed.tag);
+    step();
+  }
+
+  void rebuild()
+  {
+    partners.begin();
+    part.history.announce(part.pairs, partners);
+    partners.layout();
+    part.history.file(part.pairs, partners);
+    take_pairs();
+    part.start_pairs(scene, partners, bed.tag);
+  }
+
+  /// Rows and entries, one after the other.
+  void take_pairs()
+  {
+    const NeighbourView view = bed.earlier.view();
+    CandidateList &pairs = part.pairs;
+    renew(pairs.first, bed.earlier.entries.size());
+    renew(pairs.second, bed.earlier.entries.size());
+    pairs.distant.clear();
+    std::uint32_t c = 0;
+    view.for_each_pair([&](int i, int j, double) {
+      pairs.first[c] = j;
+      pairs.second[c] = i;
+      if (i - j > 2048) pairs.distant.push_back(c);
+      c++;
+    });
+  }
+
+  void step()
+  {
+    part.compute(scene, records, in_records, [this](int begin, int end) {
+      records.advance(at_rest, {}, held.data(), {begin, end});
+    });
+  }
+};
+
+// ---- one rank -----------------------------------------------------------------------------------
+
+void canonical_step(benchmark::State &state, int threads, bool two_phases)
+{
+  Canonical scene(bed_of(state), threads, two_phases);
+  scene.start();
+  for (auto _ : state) scene.step();
+  count_spheres(state, scene.bed.owned);
+}
+BENCHMARK_CAPTURE(canonical_step, one_part, 1, false)->Apply(sizes);
+BENCHMARK_CAPTURE(canonical_step, two_threads, 2, false)->Apply(sizes);
+
+void canonical_rebuild(benchmark::State &state, int threads, bool two_phases)
+{
+  Canonical scene(bed_of(state), threads, two_phases);
+  for (auto _ : state) scene.rebuild();
+  count_spheres(state, scene.bed.owned);
+}
+BENCHMARK_CAPTURE(canonical_rebuild, one_part, 1, false)->Apply(sizes);
+BENCHMARK_CAPTURE(canonical_rebuild, two_threads, 2, false)->Apply(sizes);
+
+void listed_step(benchmark::State &state)
+{
+  AsListed scene(bed_of(state));
+  for (auto _ : state) scene.step();
+  count_spheres(state, scene.bed.owned);
+}
+BENCHMARK(listed_step)->Apply(sizes);
+
+void listed_rebuild(benchmark::State &state)
+{
+  AsListed scene(bed_of(state));
+  for (auto _ : state) scene.rebuild();
+  count_spheres(state, scene.bed.owned);
+}
+BENCHMARK(listed_rebuild)->Apply(sizes);
+
+// ---- two ranks, one after the other -------------------------------------------------------------
+
+struct TwoRanks {
+  std::vector<Bed> beds;
+  std::vector<std::unique_ptr<Canonical>> ranks;
+
+  TwoRanks(const Bed &bed, bool two_phases) : beds(two_ranks(bed))
+  {
+    for (Bed &half : beds) ranks.push_back(std::make_unique<Canonical>(half, 1, two_phases));
+  }
+};
+
+void ranks_step(benchmark::State &state, bool two_phases)
+{
+  Bed &bed = bed_of(state);
+  TwoRanks scene(bed, two_phases);
+  for (auto &rank : scene.ranks) rank->start();
+  for (auto _ : state)
+    for (auto &rank : scene.ranks) rank->step();
+  count_spheres(state, bed.owned);
+}
+BENCHMARK_CAPTURE(ranks_step, one_phase, false)->Apply(sizes);
+BENCHMARK_CAPTURE(ranks_step, two_phases, true)->Apply(sizes);
+
+void ranks_rebuild(benchmark::State &state, bool two_phases)
+{
+  Bed &bed = bed_of(state);
+  TwoRanks scene(bed, two_phases);
+  for (auto _ : state)
+    for (auto &rank : scene.ranks) rank->rebuild();
+  count_spheres(state, bed.owned);
+}
+BENCHMARK_CAPTURE(ranks_rebuild, one_phase, false)->Apply(sizes);
+BENCHMARK_CAPTURE(ranks_rebuild, two_phases, true)->Apply(sizes);
+
+}    // namespace
+}    // namespace Bench

@@ -1,0 +1,101 @@
+# The plugin: libraries of what needs no LAMMPS, which tests use as well, and the files that LAMMPS opens.
+# Sets talus_variants, the files that only a portable build has.
+
+file(GLOB talus_contact_sources CONFIGURE_DEPENDS src/contact/*.cpp src/body/*.cpp)
+file(GLOB talus_style_sources CONFIGURE_DEPENDS src/pair/*.cpp src/fix/*.cpp src/compute/*.cpp src/comm/*.cpp)
+# The transfer half of src/comm: MPI, but no LAMMPS.
+set(talus_exchange_sources
+  src/comm/exchange_plan.cpp src/comm/motion_forecast.cpp src/comm/proxy_exchange.cpp)
+list(TRANSFORM talus_exchange_sources PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+list(REMOVE_ITEM talus_style_sources ${talus_exchange_sources})
+
+# Counts of pairs and of bytes pass 2^31: where they are used, no 64-bit number becomes an int unseen.
+set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
+foreach(name candidate_list contact_history contact_part contact_part_lanes contact_pipeline contact_survey
+    narrow_phase neighbour_search particle_order particle_records partner_lists)
+  set_source_files_properties(src/contact/${name}.cpp PROPERTIES COMPILE_OPTIONS "${talus_index_flags}")
+endforeach()
+if(TALUS_SANITIZE)
+  # Hundreds of kernels with checks in them: at -O3 the compiler takes a quarter of an hour.
+  set_source_files_properties(src/contact/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O1")
+endif()
+
+# talus_add_code(suffix): libraries talus_contact and talus_exchange with the flags talus_flags, each name with the suffix.
+function(talus_add_code suffix)
+  # Contact laws, batch kernel and geometry: no LAMMPS include, so that tests need no host.
+  set(contact talus_contact${suffix})
+  add_library(${contact} STATIC ${talus_contact_sources})
+  target_link_libraries(${contact} PUBLIC talus_flags${suffix} Eigen3::Eigen)
+
+  # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.
+  set(exchange talus_exchange${suffix})
+  add_library(${exchange} STATIC ${talus_exchange_sources})
+  target_include_directories(${exchange} SYSTEM PUBLIC ${MPI_CXX_INCLUDE_DIRS})
+  target_compile_definitions(${exchange} PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(${exchange} PUBLIC talus_flags${suffix})
+  target_compile_options(${exchange} PRIVATE ${talus_index_flags})
+
+  foreach(library ${contact} ${exchange})
+    set_target_properties(${library} PROPERTIES
+      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    target_include_directories(${library} PUBLIC src)
+  endforeach()
+endfunction()
+
+function(talus_add_module name exported)
+  add_library(${name} MODULE ${ARGN})
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" SUFFIX ".so"
+    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  if(APPLE)
+    target_link_options(${name} PRIVATE "LINKER:-undefined,dynamic_lookup")
+    return()
+  endif()
+  # Visibility alone does not hide what the C++ library instantiates in our objects.
+  set(map "${PROJECT_BINARY_DIR}/${name}.map")
+  file(CONFIGURE OUTPUT "${map}" CONTENT "{ global: ${exported}; local: *; };\n")
+  set_target_properties(${name} PROPERTIES LINK_DEPENDS "${map}")
+  # nodelete: LAMMPS unloads plugins at `clear` while objects of ours (comm) still live.
+  target_link_options(${name} PRIVATE "LINKER:--version-script=${map}" "LINKER:-z,nodelete")
+endfunction()
+
+# talus_add_styles(module suffix): the styles, on top of the code with that suffix.
+function(talus_add_styles module suffix)
+  talus_add_module(${module} "talus_register_*" src/talusstyles.cpp ${talus_style_sources})
+  target_include_directories(${module} PRIVATE src)
+  target_link_libraries(${module} PRIVATE talus_contact${suffix} talus_exchange${suffix} lammps_host)
+endfunction()
+
+# The plugin is two files. LAMMPS opens plugins with all symbols bound at once, so one that uses
+# C++ symbols which another host lacks fails before its first line runs, with a mangled name as
+# the only hint. talusplugin.so therefore uses no symbol of LAMMPS at link time: it asks the host
+# for its version, and only then opens talusstyles.so, which holds everything else.
+talus_add_module(talusplugin lammpsplugin_init src/talusplugin.cpp)
+target_link_libraries(talusplugin PRIVATE lammps_host talus_flags ${CMAKE_DL_LIBS})
+
+# In a portable build, talusstyles.so only chooses between files with the styles, one for each
+# instruction set of src/instruction_sets.h. Tests link the code of the baseline.
+set(talus_variants "")
+talus_add_code("")
+if(TALUS_PORTABLE)
+  talus_add_module(talusstyles "talus_register_*" src/talusdispatch.cpp)
+  target_link_libraries(talusstyles PRIVATE lammps_host talus_flags ${CMAKE_DL_LIBS})
+  talus_add_styles(talusstyles-baseline "")
+  foreach(pair avx2:x86-64-v3 avx512:x86-64-v4)
+    string(REPLACE ":" ";" pair "${pair}")
+    list(GET pair 0 word)
+    list(GET pair 1 arch)
+    talus_add_flags(talus_flags-${word} ${arch})
+    talus_add_code(-${word})
+    talus_add_styles(talusstyles-${word} -${word})
+  endforeach()
+  foreach(word baseline avx2 avx512)
+    list(APPEND talus_variants talusstyles-${word})
+    target_compile_definitions(talusstyles-${word} PRIVATE TALUS_INSTRUCTION_SET=_${word})
+  endforeach()
+  add_dependencies(talusstyles ${talus_variants})
+else()
+  talus_add_styles(talusstyles "")
+endif()
+add_dependencies(talusplugin talusstyles)

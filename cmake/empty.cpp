@@ -1,1 +1,0 @@
-// Keeps a library valid while a source folder is empty.

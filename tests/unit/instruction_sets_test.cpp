@@ -1,0 +1,46 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The choice between the instruction sets of a portable build.
+
+#include "instruction_sets.h"
+
+#include "contact/simd.h"
+
+#include <gtest/gtest.h>
+
+using namespace Talus;
+
+TEST(InstructionSets, WordsAreFound)
+{
+  EXPECT_EQ(find_instruction_set("baseline"), 0);
+  EXPECT_EQ(find_instruction_set("avx2"), 1);
+  EXPECT_EQ(find_instruction_set("avx512"), 2);
+  EXPECT_EQ(find_instruction_set("AVX2"), -1);
+  EXPECT_EQ(find_instruction_set(""), -1);
+}
+
+TEST(InstructionSets, WhatThisTestWasCompiledForIsFound)
+{
+  const std::string compiled = instruction_set();
+  const int least = compiled == "AVX-512" ? 2 : compiled == "AVX2" ? 1 : 0;
+  EXPECT_GE(fastest_instruction_set(), least);
+  EXPECT_LT(fastest_instruction_set(), num_instruction_sets);
+}
+
+TEST(InstructionSets, WhatAllRanksCanRunIsAccepted)
+{
+  for (int fastest = 0; fastest < num_instruction_sets; fastest++)
+    for (int asked = 0; asked <= fastest; asked++)
+      EXPECT_EQ(complaint_about_isa(instruction_sets[asked], fastest), "");
+}
+
+TEST(InstructionSets, ComplaintsNameVariableWordAndCure)
+{
+  EXPECT_EQ(complaint_about_isa("sse2", 2),
+            "the environment variable TALUS_ISA is 'sse2', which is no instruction set of Talus; "
+            "use one of: baseline, avx2, avx512; or unset it, and Talus takes the fastest of them");
+  EXPECT_EQ(complaint_about_isa("avx512", 1),
+            "the environment variable TALUS_ISA is 'avx512', which not all ranks of this run can "
+            "execute; use one of: baseline, avx2; or unset it, and Talus takes the fastest of them");
+  EXPECT_NE(complaint_about_isa("avx2", 0), "");
+}
