@@ -24,9 +24,7 @@ HOST = [
     Array("radius, mass", 16, "particle"),
     Array("atom ID, type, groups, periodic image (smallbig)", 16, "particle"),
     Array("where an atom ID is", 4, "particle", "atom_modify map array"),
-    Array("heads of the neighbor list", 16, "particle"),
-    Array("neighbors", 4, "pair"),
-    Array("bins of the neighbor list and of sorting, about", 60, "particle"),
+    Array("bins of sorting, about", 12, "particle"),
     Array("positions when lists were made", 24, "particle", "neigh_modify check yes", False),
 ]
 
@@ -48,10 +46,15 @@ TALUS = [
     Array("displacements filed by particle, with the tag of the partner", 40, "end", "multistep"),
     Array("contacts with their forces, for the pressure", 72, "contact", "steps that compute the pressure"),
     Array("large bodies: displacement", 32, "body", "multistep"),
+    Array("neighbor search: cells, places in them, rows", 36, "particle"),
+    Array("neighbor search: neighbors, with room to grow, up to", 8, "pair"),
     Array("rebuild only: keys, tags and names in the old order, and their sorting", 48, "particle"),
 ]
 
 STOCK = [
+    Array("heads of the neighbor list", 16, "particle"),
+    Array("neighbors", 4, "pair"),
+    Array("bins of the neighbor list, about", 48, "particle"),
     Array("heads of the displacements by pair and by particle", 36, "particle"),
     Array("pairs: displacement, whether it touches", 28, "pair"),
     Array("displacements filed by particle, with the ID of the partner", 28, "end"),
