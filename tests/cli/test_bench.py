@@ -144,7 +144,9 @@ class Profile(unittest.TestCase):
                 ("broad phase", "talusstyles.so", "Talus::CandidateList::collect(Talus::ParticleOrder const&)"),
                 ("broad phase", "liblammps.so.0", "LAMMPS_NS::NPairBin<1, 0, 0, 1, 1>::build"),
                 ("floor and walls", "talusstyles.so", "Talus::BodyBatch::apply"),
+                ("broad phase", "talusstyles.so", "Talus::NeighbourSearch::compare"),
                 ("exchange", "talusstyles.so", "Talus::SpherePacker::pack"),
+                ("exchange", "talusstyles.so", "Talus::RecordPacker::unpack"),
                 ("waiting", "mca_btl_vader.so", "0x0000000000004f94"),
                 ("other", "libc.so.6", "__memset_avx512_unaligned_erms")):
             self.assertEqual(stage_of(library, symbol), stage, symbol)
@@ -155,7 +157,7 @@ class Memory(unittest.TestCase):
     def test_sums_hold_what_is_counted(self):
         rows, sums = arrays.table(2.0, 3.0, 5, 3)
         self.assertEqual(len(rows), sum(map(len, (arrays.HOST, arrays.TALUS, arrays.STOCK))))
-        self.assertAlmostEqual(sums["stock gran/hertz/history"], 36 + 28 * 3 + 28 * 4 + 24 * 3)
+        self.assertAlmostEqual(sums["stock gran/hertz/history"], 16 + 4 * 3 + 48 + 36 + 28 * 3 + 28 * 4 + 24 * 3)
 
     def test_own_peak(self):
         before = lammps.own_peak()
