@@ -33,7 +33,9 @@ inline Vec8 larger(Vec8 a, Vec8 b)
 
 double largest(Vec8 a)
 {
-  return *std::max_element(&a[0], &a[0] + lanes);
+  alignas(64) double each[lanes];
+  store(each, a);
+  return *std::max_element(each, each + lanes);
 }
 
 }    // namespace
