@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The two vector types of the contact code, written with the vector extension that GCC and Clang
-// share: they lower it to what the machine has, so the same source serves SSE2, AVX2 and AVX-512.
+// share, so that the same source serves SSE2, AVX2 and AVX-512.
 //
 //   Vec4  one Record: the four numbers of one particle
 //   Vec8  one number of eight contacts; laws are templates over Real = double or Vec8
@@ -14,7 +14,7 @@
 
 #include <cmath>
 #include <cstdint>
-#if defined(__AVX__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -25,14 +25,61 @@
 namespace Talus {
 
 typedef double Vec4 __attribute__((vector_size(32)));
-typedef double Vec8 __attribute__((vector_size(64)));
-typedef std::int64_t Mask8 __attribute__((vector_size(64)));
-
-// the same, allowed to overlay arrays of double
-typedef Vec4 Vec4Overlay __attribute__((may_alias));
-typedef Vec8 Vec8Overlay __attribute__((may_alias));
 
 inline constexpr int lanes = 8;
+
+#if defined(__AVX512F__)
+typedef double Vec8 __attribute__((vector_size(64)));
+#else
+/// Two vectors as one of twice the width. Compilers would take a vector that is wider than the
+/// registers, but compare it number by number, with branches.
+template <class Half> struct Twice {
+  Half low, high;
+
+  TALUS_INLINE double operator[](int k) const { return reinterpret_cast<const double *>(this)[k]; }
+  TALUS_INLINE double &operator[](int k) { return reinterpret_cast<double *>(this)[k]; }
+};
+
+#define TALUS_TWICE(op)                                                                            \
+  template <class Half> TALUS_INLINE auto operator op(Twice<Half> a, Twice<Half> b)                \
+  {                                                                                                \
+    return Twice<decltype(a.low op b.low)>{a.low op b.low, a.high op b.high};                      \
+  }
+#define TALUS_TWICE_AND_NUMBER(op)                                                                 \
+  TALUS_TWICE(op)                                                                                  \
+  template <class Half> TALUS_INLINE Twice<Half> operator op(Twice<Half> a, double b)              \
+  {                                                                                                \
+    return {a.low op b, a.high op b};                                                              \
+  }                                                                                                \
+  template <class Half> TALUS_INLINE Twice<Half> operator op(double a, Twice<Half> b)              \
+  {                                                                                                \
+    return {a op b.low, a op b.high};                                                              \
+  }
+TALUS_TWICE_AND_NUMBER(+)
+TALUS_TWICE_AND_NUMBER(-)
+TALUS_TWICE_AND_NUMBER(*)
+TALUS_TWICE_AND_NUMBER(/)
+TALUS_TWICE(<)
+TALUS_TWICE(>)
+TALUS_TWICE(<=)
+TALUS_TWICE(>=)
+TALUS_TWICE(&)
+TALUS_TWICE(|)
+#undef TALUS_TWICE
+#undef TALUS_TWICE_AND_NUMBER
+
+template <class Half> TALUS_INLINE Twice<Half> operator-(Twice<Half> a)
+{
+  return {-a.low, -a.high};
+}
+
+#if defined(__AVX__)
+typedef Twice<Vec4> Vec8;
+#else
+typedef double Vec2 __attribute__((vector_size(16)));
+typedef Twice<Twice<Vec2>> Vec8;
+#endif
+#endif
 
 /// What this build uses of the machine, for the log.
 inline const char *instruction_set()
@@ -61,41 +108,83 @@ inline double select(bool mask, double yes, double no)
 {
   return mask ? yes : no;
 }
-inline Vec8 select(Mask8 mask, Vec8 yes, Vec8 no)
+
+inline double square_root(double a)
+{
+  return std::sqrt(a);
+}
+
+#if defined(__AVX512F__)
+inline Vec8 select(bool_of<Vec8> mask, Vec8 yes, Vec8 no)
 {
   return mask ? yes : no;
 }
+inline Vec8 square_root(Vec8 a)
+{
+  return (Vec8) _mm512_maskz_sqrt_pd(0xff, (__m512d) a);
+}
+#else
+#if defined(__AVX__)
+TALUS_INLINE Vec4 select(bool_of<Vec4> mask, Vec4 yes, Vec4 no)
+{
+  return mask ? yes : no;
+}
+TALUS_INLINE Vec4 square_root(Vec4 a)
+{
+  return (Vec4) _mm256_sqrt_pd((__m256d) a);
+}
+#else
+TALUS_INLINE Vec2 select(bool_of<Vec2> mask, Vec2 yes, Vec2 no)
+{
+  return mask ? yes : no;
+}
+TALUS_INLINE Vec2 square_root(Vec2 a)
+{
+#if defined(__SSE2__)
+  return (Vec2) _mm_sqrt_pd((__m128d) a);
+#else
+  return {std::sqrt(a[0]), std::sqrt(a[1])};
+#endif
+}
+#endif
+template <class Mask, class Half>
+TALUS_INLINE Twice<Half> select(Twice<Mask> mask, Twice<Half> yes, Twice<Half> no)
+{
+  return {select(mask.low, yes.low, no.low), select(mask.high, yes.high, no.high)};
+}
+template <class Half> TALUS_INLINE Twice<Half> square_root(Twice<Half> a)
+{
+  return {square_root(a.low), square_root(a.high)};
+}
+#endif
 
 /// Whether a comparison holds in any lane.
 inline bool any(bool mask)
 {
   return mask;
 }
-inline bool any(Mask8 mask)
-{
 #if defined(__AVX512F__)
+inline bool any(bool_of<Vec8> mask)
+{
   return _mm512_test_epi64_mask((__m512i) mask, (__m512i) mask) != 0;
+}
 #else
-  std::int64_t bits = 0;
-  for (int k = 0; k < lanes; k++) bits |= mask[k];
-  return bits != 0;
-#endif
-}
-
-inline double square_root(double a)
+#if defined(__AVX__)
+TALUS_INLINE bool any(bool_of<Vec4> mask)
 {
-  return std::sqrt(a);
+  return _mm256_movemask_pd((__m256d) mask) != 0;
 }
-inline Vec8 square_root(Vec8 a)
-{
-#if defined(__AVX512F__)
-  return (Vec8) _mm512_maskz_sqrt_pd(0xff, (__m512d) a);
 #else
-  Vec8 root{};
-  for (int k = 0; k < lanes; k++) root[k] = std::sqrt(a[k]);
-  return root;
-#endif
+TALUS_INLINE bool any(bool_of<Vec2> mask)
+{
+  return (mask[0] | mask[1]) != 0;
 }
+#endif
+template <class Mask> TALUS_INLINE bool any(Twice<Mask> mask)
+{
+  return any(mask.low) || any(mask.high);
+}
+#endif
 
 template <class Real> inline Real magnitude(Real a)
 {
@@ -136,28 +225,18 @@ inline unsigned less_bits(Vec4 a, Vec4 b)
 #endif
 }
 
-/// Two records side by side, and taken apart.
+#if defined(__AVX512F__)
+inline unsigned less_bits(Vec8 a, Vec8 b)
+{
+  return _mm512_cmp_pd_mask((__m512d) a, (__m512d) b, _CMP_LT_OQ);
+}
+
+/// Two records side by side.
 inline Vec8 join(Vec4 lower, Vec4 upper)
 {
   return __builtin_shufflevector(lower, upper, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-inline Vec4 lower_half(Vec8 a)
-{
-  return __builtin_shufflevector(a, a, 0, 1, 2, 3);
-}
-inline Vec4 upper_half(Vec8 a)
-{
-  return __builtin_shufflevector(a, a, 4, 5, 6, 7);
-}
-
-inline unsigned less_bits(Vec8 a, Vec8 b)
-{
-#if defined(__AVX512F__)
-  return _mm512_cmp_pd_mask((__m512d) a, (__m512d) b, _CMP_LT_OQ);
-#else
-  return less_bits(lower_half(a), lower_half(b)) | less_bits(upper_half(a), upper_half(b)) << 4;
 #endif
-}
 
 /// Stores first + k for every bit k of the lower eight, side by side, and returns their number.
 /// Writes eight places in any case: no branch, since nobody could foresee it.
@@ -193,6 +272,7 @@ inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
+#if defined(__AVX512F__)
 /// The same for two matrices side by side: lane k of the results is from row k of the lower halves,
 /// lane 4 + k from row k of the upper ones.
 inline void transpose(Vec8 &a, Vec8 &b, Vec8 &c, Vec8 &d)
@@ -206,26 +286,49 @@ inline void transpose(Vec8 &a, Vec8 &b, Vec8 &c, Vec8 &d)
   c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
+#endif
 
-/// Loads and stores; `address` must be aligned to the size of the vector.
+/// Loads and stores; `address` must be aligned to the size of the vector. Vectors of the machine
+/// may overlay arrays of double.
+template <class Vector> struct Memory {
+  typedef Vector Overlay __attribute__((may_alias));
+  TALUS_INLINE static Vector load(const double *a) { return *reinterpret_cast<const Overlay *>(a); }
+  TALUS_INLINE static void store(double *a, Vector v) { *reinterpret_cast<Overlay *>(a) = v; }
+};
+
+#if !defined(__AVX512F__)
+template <class Half> struct Memory<Twice<Half>> {
+  static constexpr int width = sizeof(Half) / sizeof(double);
+  TALUS_INLINE static Twice<Half> load(const double *a)
+  {
+    return {Memory<Half>::load(a), Memory<Half>::load(a + width)};
+  }
+  TALUS_INLINE static void store(double *a, Twice<Half> v)
+  {
+    Memory<Half>::store(a, v.low);
+    Memory<Half>::store(a + width, v.high);
+  }
+};
+#endif
+
 inline Vec4 load4(const double *address)
 {
-  return *reinterpret_cast<const Vec4Overlay *>(address);
+  return Memory<Vec4>::load(address);
 }
 
 inline Vec8 load8(const double *address)
 {
-  return *reinterpret_cast<const Vec8Overlay *>(address);
+  return Memory<Vec8>::load(address);
 }
 
 inline void store(double *address, Vec4 value)
 {
-  *reinterpret_cast<Vec4Overlay *>(address) = value;
+  Memory<Vec4>::store(address, value);
 }
 
 inline void store(double *address, Vec8 value)
 {
-  *reinterpret_cast<Vec8Overlay *>(address) = value;
+  Memory<Vec8>::store(address, value);
 }
 
 }    // namespace Talus
