@@ -100,6 +100,7 @@ def order(bench, series, sizes):
         """A step with its share of a rebuild, round by round."""
         pairs = zip(series[pattern.format("step"), size].values, series[pattern.format("rebuild"), size].values)
         return paired.Series([step + rebuild / REBUILD for step, rebuild in pairs])
+    ratios = {}
     for words, pattern in DIVISIONS.items():
         for size in sizes:
             ours, twin = whole(pattern, size), whole(LISTED + "_{}", size)
@@ -109,9 +110,12 @@ def order(bench, series, sizes):
                          series[LISTED + "_rebuild", size].median, str(ratio)])
             section.record(stage="canonical order: " + words, spheres=size, ns=ours.median, ratio=ratio.median,
                            low=ratio.low, high=ratio.high)
-            if ratio.median > AIM and not bench.quick:
-                section.headline(f"stages: canonical order costs {100 * (ratio.median - 1):.0f} % with {words} of {size} spheres, "
-                                 f"more than the {100 * (AIM - 1):.0f} % that were aimed at.")
+            ratios.setdefault(words, []).append(ratio.median)
+    above = {words: found for words, found in ratios.items() if max(found) > AIM}
+    if above and not bench.quick:
+        costs = "; ".join(f"{words} {100 * (min(found) - 1):.0f} to {100 * (max(found) - 1):.0f} %"
+                          for words, found in above.items())
+        section.headline(f"stages: canonical order costs more than the {100 * (AIM - 1):.0f} % that were aimed at: {costs}.")
     section.heading("What canonical order costs")
     section.table(["", "spheres", "step (ns per sphere)", "as listed", "rebuild (ns per sphere)", "as listed",
                    f"ratio of step + rebuild/{REBUILD}"], rows)
