@@ -77,8 +77,11 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
   constexpr double similar = 1.5, cells_per_sphere = 4.0, least = 4096.0;
   const double mean = sum / s.total;
   double edge = 2.0 * (largest < similar * mean ? largest : mean) + s.skin;
+  if (edge <= 0.0) edge = 1.0;    // points without a skin: any cells do
   double number = 0.0;
-  for (const double most = cells_per_sphere * s.total + least;; edge *= 1.3) {
+  // cells are numbered with 32 bits
+  const double most = std::min(cells_per_sphere * s.total + least, 2.0e9);
+  for (;; edge *= 1.3) {
     number = 1.0;
     for (int d = 0; d < 3; d++) number *= std::floor((high[d] - grid.low[d]) / edge) + 1.0;
     if (number <= most) break;

@@ -167,6 +167,17 @@ TEST(NeighbourSearch, NothingAndOnlyGhosts)
   EXPECT_GT(search.memory_usage(), 0.0);
 }
 
+TEST(NeighbourSearch, PointsWithoutASkin)
+{
+  RandomSource random(24);
+  const double edge[3] = {8, 8, 8};
+  Scene scene = random_scene(300, edge, 0.0, 0.5, 0.5, random);
+  scene.radius.assign(scene.size(), 0.0);
+  scene.skin = 0.0;
+  NeighbourSearch search;
+  expect_all_pairs(find(search, scene, 1), scene, 1.0e-4);
+}
+
 TEST(NeighbourSearch, RefusesWhatIsNotANumber)
 {
   NeighbourSearch search;
