@@ -10,12 +10,12 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
                            const std::vector<std::int64_t> &filed_tag)
 {
   const ParticleOrder &order = pairs.order();
-  const bool with_onsets = partners.num_values() == 8;
-  renew(records, pairs.num_pairs());
-  renew(onsets, with_onsets ? pairs.num_pairs() : 0);
-  std::fill(records.begin(), records.end(), Record{});
-  std::fill(onsets.begin(), onsets.end(), Record{});
+  onset_kept = partners.num_values() == 8;
+  renew(places, pairs.num_pairs());
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
+  records.clear();
+  onsets.clear();
+  vacant.clear();
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
@@ -24,10 +24,45 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
     const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
     if (!v) continue;
     const Record seen{{v[0], v[1], v[2], v[3]}};
-    records[c] = from_first ? seen : mirrored(seen);
-    if (with_onsets) onsets[c] = {{v[4], v[5], v[6], v[7]}};
+    begin(c);
+    record(c) = from_first ? seen : mirrored(seen);
+    if (onset_kept) onset(c) = {{v[4], v[5], v[6], v[7]}};
     touching[c / 8] |= 1U << (c % 8);
   }
+}
+
+/* A little room at a time: twice what is needed, as vectors take it, would be felt. */
+
+void ContactHistory::make_room()
+{
+  constexpr std::size_t least = 64;
+  const std::size_t room = records.size() + records.size() / 8 + least;
+  records.reserve(room);
+  if (onset_kept) onsets.reserve(room);
+}
+
+void ContactHistory::begin(std::int64_t pair)
+{
+  if (vacant.empty()) {
+    if (records.size() == records.capacity()) make_room();
+    places[pair] = static_cast<std::uint32_t>(records.size());
+    records.emplace_back();
+    if (onset_kept) onsets.emplace_back();
+    return;
+  }
+  places[pair] = vacant.back();
+  vacant.pop_back();
+  record(pair) = Record{};
+  if (onset_kept) onset(pair) = Record{};
+}
+
+void ContactHistory::change(std::int64_t block, unsigned bits)
+{
+  for (unsigned rest = touching[block] & ~bits; rest; rest &= rest - 1)
+    vacant.push_back(places[8 * block + __builtin_ctz(rest)]);
+  for (unsigned rest = bits & ~touching[block]; rest; rest &= rest - 1)
+    begin(8 * block + __builtin_ctz(rest));
+  touching[block] = static_cast<std::uint8_t>(bits);
 }
 
 /* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, where owned
@@ -61,9 +96,9 @@ void ContactHistory::file(const CandidateList &pairs, PartnerLists &partners) co
 
 void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_first) const
 {
-  const Record seen = from_first ? records[pair] : mirrored(records[pair]);
+  const Record seen = from_first ? record(pair) : mirrored(record(pair));
   std::copy(std::begin(seen.c), std::end(seen.c), values);
-  if (!onsets.empty()) std::copy(std::begin(onsets[pair].c), std::end(onsets[pair].c), values + 4);
+  if (onset_kept) std::copy(std::begin(onset(pair).c), std::end(onset(pair).c), values + 4);
 }
 
 void ContactHistory::adopt_first_copies(
@@ -85,23 +120,13 @@ void ContactHistory::adopt_first_copies(
 
 void ContactHistory::release()
 {
-  BigVector<Record>().swap(records);
-  BigVector<Record>().swap(onsets);
-  std::vector<std::uint8_t>().swap(touching);
-}
-
-void ContactHistory::forget(std::int64_t block, unsigned separated)
-{
-  for (int bit = 0; bit < 8; bit++) {
-    if (!(separated >> bit & 1U)) continue;
-    records[8 * block + bit] = Record{};
-    if (!onsets.empty()) onsets[8 * block + bit] = Record{};
-  }
+  *this = ContactHistory{};
 }
 
 double ContactHistory::memory_usage() const
 {
   return static_cast<double>((records.capacity() + onsets.capacity()) * sizeof(Record) +
+                             (places.capacity() + vacant.capacity()) * sizeof(std::uint32_t) +
                              touching.capacity());
 }
 

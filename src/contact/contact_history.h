@@ -1,8 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contact history stored by candidate pair during a run: one record for each pair, zero unless the
-// pair touches, seen from the first particle of the pair; and a second one, the onset of the
-// contact, in scenes with a law that needs it.
+// Contact history of the candidate pairs during a run: one record for each pair that touches, seen
+// from the first particle of the pair; and a second one, the onset of the contact, in scenes with a
+// law that needs it. Half of the candidates or more do not touch: the records stand side by side
+// in the order in which the contacts were found, so nearly in that of the pairs, and each pair
+// knows its place.
 
 #ifndef TALUS_CONTACT_CONTACT_HISTORY_H
 #define TALUS_CONTACT_CONTACT_HISTORY_H
@@ -41,19 +43,40 @@ class ContactHistory {
   /// Gives all memory back: for scenes whose laws keep no history.
   void release();
 
-  /// Sets the history of a pair that has separated to zero; `block` is the pair's index / 8.
-  void forget(std::int64_t block, unsigned separated);
+  /// Which of the pairs 8 block ... 8 block + 7 touch from now on, as bits: histories of new
+  /// contacts begin at zero, those of pairs that have separated are forgotten.
+  void set_touching(std::int64_t block, unsigned bits)
+  {
+    if (touching[block] != bits) change(block, bits);
+  }
 
   bool touches(std::int64_t pair) const { return touching[pair / 8] >> (pair % 8) & 1U; }
+  /// Of a pair that touches.
+  Record &record(std::int64_t pair) { return records[places[pair]]; }
+  const Record &record(std::int64_t pair) const { return records[places[pair]]; }
+  Record &onset(std::int64_t pair) { return onsets[places[pair]]; }
+  const Record &onset(std::int64_t pair) const { return onsets[places[pair]]; }
+  bool with_onsets() const { return onset_kept; }
+
+  /// Where the record of a pair that touches stands in all_records(), by pair.
+  const std::uint32_t *all_places() const { return places.data(); }
+  Record *all_records() { return records.data(); }
+  Record *all_onsets() { return onsets.data(); }
+
   double memory_usage() const;
 
-  BigVector<Record> records;             ///< indexed like the candidate pairs
-  BigVector<Record> onsets;              ///< the same, or empty
-  std::vector<std::uint8_t> touching;    ///< one bit for each pair: it touched when last computed
-
  private:
+  void begin(std::int64_t pair);
+  void make_room();
+  void change(std::int64_t block, unsigned bits);
   template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
   void file_entry(double *values, std::int64_t pair, bool from_first) const;
+
+  bool onset_kept = false;
+  std::vector<std::uint8_t> touching;    // one bit for each pair
+  BigVector<std::uint32_t> places;       // by pair, valid if it touches
+  BigVector<Record> records, onsets;     // by place
+  std::vector<std::uint32_t> vacant;     // places of pairs that have separated
 };
 
 }    // namespace Talus

@@ -105,7 +105,10 @@ void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
   if (scene.with_onset && step.advance) keep_onsets(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  add_up<friction, screened>(step.particles, block, count);
+  if constexpr (screened)
+    add_up_screened<friction>(step.particles, block, count);
+  else
+    add_up<friction>(step.particles, block, count);
   if (scene.with_resistance) add_couples<screened>(step.particles, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
@@ -183,13 +186,13 @@ void ContactPart::apply_weights(int end)
 
 /* Forces on particles of other parts go where nobody reads them. */
 
-template <bool friction, bool screened>
-void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
+template <bool friction>
+void ContactPart::add_up_screened(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const std::size_t nowhere = pairs.nowhere();
   const auto target = [&](int slot) {
-    return &particles.load[stride * (!screened || pairs.serves(slot) ? slot : nowhere)];
+    return &particles.load[stride * (pairs.serves(slot) ? slot : nowhere)];
   };
   for (int n = 0; n < count; n++) {
     Record *i = target(pairs.first[block[n]]), *j = target(pairs.second[block[n]]);
@@ -201,6 +204,38 @@ void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block,
       const Vec4 m = load4(moment_of_lane[lane]);
       store(i[1], load4(i[1]) + m);
       store(j[1], load4(j[1]) + m);
+    }
+  }
+}
+
+/* The contacts of one second particle follow each other, and nothing has been added to it before
+   the first of them: its sums stay in registers and are stored again and again, but not loaded. */
+
+template <bool friction>
+void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  const int *first = pairs.first.data(), *second = pairs.second.data();
+  Record *load = particles.load.data();
+  std::size_t last = second[block[0]];    // may have begun in the last block
+  Vec4 force = load4(load[stride * last]), moment{};
+  if constexpr (friction) moment = load4(load[stride * last + 1]);
+
+  for (int n = 0; n < count; n++) {
+    const std::size_t its = second[block[n]];
+    Record *i = load + stride * first[block[n]], *j = load + stride * its;
+    const int lane = lane_of_contact[n];
+    const bool same = its == last;
+    last = its;
+    const Vec4 f = load4(force_of_lane[lane]);
+    store(i[0], load4(i[0]) + f);
+    force = kept_if(same, force) - f;
+    store(j[0], force);
+    if constexpr (friction) {
+      const Vec4 m = load4(moment_of_lane[lane]);
+      store(i[1], load4(i[1]) + m);
+      moment = kept_if(same, moment) + m;
+      store(j[1], moment);
     }
   }
 }

@@ -115,10 +115,14 @@ class ContactPart {
   void run_kernels(const Step &step);
   void keep_history(int end);
   void keep_onsets(int end);
+  void to_histories(const double (&lanes_of)[3][ContactBatch::width], const double *fourth, int end,
+                    Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, bool screened>
+  template <bool friction>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  template <bool friction>
+  void add_up_screened(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   template <bool screened>
   void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);

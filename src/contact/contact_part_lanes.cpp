@@ -34,6 +34,16 @@ inline void to_records(const Lanes &vector, const double *fourth, int k, Where w
   for (int q = 0; q < 4; q++) store(where(q), rows[q]);
 }
 
+/// Histories that are called into the cache while others are gathered. They stand nearly in the
+/// order in which they are wanted; beyond the end there is nothing to call, and no harm in it.
+constexpr std::size_t histories_ahead = 128;
+
+TALUS_INLINE void call_two_lines(const Record *records)
+{
+  __builtin_prefetch(records, 1);
+  __builtin_prefetch(records + 2, 1);
+}
+
 /// r w and 1/r of a spin record, with the position record of the particle.
 inline Vec4 surface_velocity(Vec4 position, Vec4 spin)
 {
@@ -49,7 +59,8 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const Record *x = particles.position.data(), *motion = particles.motion.data();
-  const Record *h = history.records.data();
+  const Record *h = history.all_records();
+  const std::uint32_t *place = history.all_places();
 
   for (int k = 0; k < end; k += 4) {
     Vec4 a[4], b[4], c[4], d[4];
@@ -63,8 +74,9 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
       if constexpr (friction)
         c[q] = surface_velocity(xi, load4(mi[1])) + surface_velocity(xj, load4(mj[1]));
       if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
-      if constexpr (history_kept) d[q] = load4(h[pair]);
+      if constexpr (history_kept) d[q] = load4(h[place[pair]]);
     }
+    if constexpr (history_kept) call_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
     spread(a, batch.normal, batch.overlap, k);
     spread(b, batch.velocity, batch.inverse_mass, k);
     if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
@@ -74,7 +86,7 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
 
 void ContactPart::gather_onsets(int end)
 {
-  const auto onset = [this](int lane) { return load4(history.onsets[pair_of_lane[lane]]); };
+  const auto onset = [this](int lane) { return load4(history.onset(pair_of_lane[lane])); };
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = onset(k + q);
@@ -134,16 +146,21 @@ void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
 
 void ContactPart::keep_history(int end)
 {
-  for (int k = 0; k < end; k += 4)
-    to_records(batch.displacement, batch.at_limit, k,
-               [this, k](int q) -> Record & { return history.records[pair_of_lane[k + q]]; });
+  to_histories(batch.displacement, batch.at_limit, end, history.all_records());
 }
 
 void ContactPart::keep_onsets(int end)
 {
+  to_histories(batch.onset, nullptr, end, history.all_onsets());
+}
+
+void ContactPart::to_histories(const double (&lanes_of)[3][ContactBatch::width],
+                               const double *fourth, int end, Record *records)
+{
+  const std::uint32_t *place = history.all_places();
   for (int k = 0; k < end; k += 4)
-    to_records(batch.onset, nullptr, k,
-               [this, k](int q) -> Record & { return history.onsets[pair_of_lane[k + q]]; });
+    to_records(lanes_of, fourth, k,
+               [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
 }
 
 template <bool friction> void ContactPart::transpose_results(int end, bool with_resistance)

@@ -299,9 +299,9 @@ ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
 TangentialHistory<double> ContactPipeline::history_of(int i, int j) const
 {
   const Place place = place_of(i, j);
-  if (!place.part) return {};
+  if (!place.part || !place.part->history.touches(place.pair)) return {};
   const bool in_order = order.slot_of_atom[i] < order.slot_of_atom[j];
-  const Record &stored = place.part->history.records[place.pair];
+  const Record &stored = place.part->history.record(place.pair);
   const Record h = in_order ? stored : mirrored(stored);
   return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
 }
@@ -309,8 +309,9 @@ TangentialHistory<double> ContactPipeline::history_of(int i, int j) const
 ContactOnset<double> ContactPipeline::onset_of(int i, int j) const
 {
   const Place place = place_of(i, j);
-  if (!place.part || place.part->history.onsets.empty()) return {};
-  const Record &o = place.part->history.onsets[place.pair];
+  if (!place.part || !place.part->history.with_onsets()) return {};
+  if (!place.part->history.touches(place.pair)) return {};
+  const Record &o = place.part->history.onset(place.pair);
   return {o.c[0], o.c[1], o.c[2]};
 }
 

@@ -50,7 +50,6 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
                            const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
   const int *first = pairs.first.data(), *second = pairs.second.data();
-  constexpr std::int64_t ahead = 256;    // pairs whose histories are called into the cache
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {
@@ -58,12 +57,7 @@ std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::
         c + 8 <= end ? touching8(position, first + c, second + c)
                      : touching_tail(position, first + c, second + c, static_cast<int>(end - c));
     out += store_places(out, static_cast<std::uint32_t>(c), bits);
-    if (!history) continue;
-    // two records to a line; beyond the end there is nothing to call, and no harm in it
-    for (int k = 0; k < 8; k += 2) __builtin_prefetch(history->records.data() + c + ahead + k, 1);
-    const unsigned separated = history->touching[c / 8] & ~bits;
-    if (separated) history->forget(c / 8, separated);
-    history->touching[c / 8] = static_cast<std::uint8_t>(bits);
+    if (history) history->set_touching(c / 8, bits);
   }
   return out - contacts;
 }

@@ -259,6 +259,13 @@ inline int store_places(std::uint32_t *to, std::uint32_t first, unsigned bits)
 #endif
 }
 
+/// The vector, or zero: no branch, since nobody could foresee it.
+TALUS_INLINE Vec4 kept_if(bool condition, Vec4 vector)
+{
+  typedef std::int64_t Bits __attribute__((vector_size(32)));
+  return (Vec4) ((Bits) vector & (Bits{} - static_cast<std::int64_t>(condition)));
+}
+
 /// Transposes the 4 x 4 matrix whose rows are a, b, c, d.
 inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
 {

@@ -86,7 +86,7 @@ TEST(IndexArithmetic, BigMemoryAbove2GBytesIsReachable)
   release_big(memory);
 }
 
-/// Every pair of n particles is a candidate; only the last few particles touch each other.
+/// Every pair of n particles is a candidate. All touch, and then the last few particles only.
 TEST(IndexArithmetic, HistoriesAbove2GBytes)
 {
   const bool large = std::getenv("TALUS_LARGE_TESTS");
@@ -109,7 +109,6 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   CandidateList pairs;
   pairs.collect(order, view, 0);
   ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
-  ASSERT_EQ(large, pairs.num_pairs() * static_cast<std::int64_t>(sizeof(Record)) > two31);
   EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
 
   PartnerLists partners;
@@ -119,25 +118,33 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   ContactHistory history;
   history.fetch(pairs, partners, tag);
   BigVector<Record> position(n);
+  for (int i = 0; i < n; i++) position[i] = {{1.0e-5 * i, 0.0, 0.0, 0.5}};
+  const std::int64_t end = pairs.num_pairs();
+  BigVector<std::uint32_t> contacts;
+  renew(contacts, end + 8);
+  ASSERT_EQ(find_contacts(pairs, 0, end, position.data(), &history, contacts.data()), end);
+  const std::int64_t last = reinterpret_cast<const char *>(&history.record(end - 1)) -
+                            reinterpret_cast<const char *>(history.all_records());
+  ASSERT_EQ(last, (end - 1) * static_cast<std::int64_t>(sizeof(Record)));
+  ASSERT_EQ(large, last > two31);
+
+  // all but a few separate
   for (int i = 0; i < n; i++)
     position[i] = {{i < n - close ? 10.0 * i : 10.0 * n + 0.01 * i, 0.0, 0.0, 0.5}};
-  BigVector<std::uint32_t> contacts;
-  const std::int64_t end = pairs.num_pairs(), some = std::int64_t{8} * close * n;    // a few rows
-  renew(contacts, some + 16);
-  const std::int64_t touching = find_contacts(pairs, std::max<std::int64_t>(0, end / 8 * 8 - some),
-                                              end, position.data(), &history, contacts.data());
+  const std::int64_t touching =
+      find_contacts(pairs, 0, end, position.data(), &history, contacts.data());
   ASSERT_EQ(touching, close * (close - 1) / 2);
   EXPECT_EQ(contacts[touching - 1], end - 1);
 
-  history.records[end - 1] = {{1.0, 2.0, 3.0, 1.0}};
+  history.record(end - 1) = {{1.0, 2.0, 3.0, 1.0}};
   partners.begin();
   history.announce(pairs, partners);
   partners.layout();
   history.file(pairs, partners);
   EXPECT_EQ(partners.size(n - 1), close - 1);
-  history.records[end - 1] = {};
+  history.record(end - 1) = {};
   history.fetch(pairs, partners, tag);
-  EXPECT_EQ(history.records[end - 1].c[1], 2.0);
+  EXPECT_EQ(history.record(end - 1).c[1], 2.0);
   EXPECT_TRUE(history.touches(end - 1));
 }
 
