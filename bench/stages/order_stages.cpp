@@ -44,8 +44,9 @@ struct Canonical {
   void rebuild()
   {
     pipeline.file_history(partners);
-    pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data(), partners, bed.tag},
-                       bed.later.view());
+    pipeline.release();
+    pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data()}, bed.later.view());
+    pipeline.start_pairs(partners, bed.tag);
   }
   void run(const ContactStep &how)
   {

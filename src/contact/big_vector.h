@@ -2,12 +2,14 @@
 //
 // std::vector whose storage begins at a cache line, and at a huge page if it is large: contacts
 // touch their partners in no order that the hardware could foresee, and with pages of 4 kB the
-// search for the page costs as much as the load itself.
+// search for the page costs as much as the load itself. New elements of plain types are not set.
 
 #ifndef TALUS_CONTACT_BIG_VECTOR_H
 #define TALUS_CONTACT_BIG_VECTOR_H
 
 #include <cstddef>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -22,19 +24,35 @@ template <class T> struct BigAllocator {
   template <class Other> BigAllocator(const BigAllocator<Other> &) noexcept {}
   T *allocate(std::size_t n) { return static_cast<T *>(allocate_big(n * sizeof(T))); }
   void deallocate(T *memory, std::size_t) noexcept { release_big(memory); }
+  /// Elements that a vector makes by itself, as resize() does, are left as the memory is: most
+  /// arrays are filled right after, by several threads.
+  template <class Element, class... Arguments>
+  void construct(Element *element, Arguments &&...arguments)
+  {
+    if constexpr (sizeof...(Arguments) == 0)
+      ::new (static_cast<void *>(element)) Element;
+    else
+      ::new (static_cast<void *>(element)) Element(std::forward<Arguments>(arguments)...);
+  }
   bool operator==(const BigAllocator &) const { return true; }
   bool operator!=(const BigAllocator &) const { return false; }
 };
 
 template <class T> using BigVector = std::vector<T, BigAllocator<T>>;
 
+/// Gives the memory of a vector back.
+template <class Vector> void release(Vector &v)
+{
+  Vector().swap(v);
+}
+
 /// Gives a vector `n` elements, the old content being of no interest: old and new storage never
-/// stand side by side, so that rebuilds do not double the peak of memory. A little room is left, for
-/// counts of pairs that grow from one rebuild to the next.
+/// stand side by side, so that rebuilds do not double the peak of memory. A little room is left,
+/// for counts of pairs that grow from one rebuild to the next.
 template <class Vector> void renew(Vector &v, std::size_t n)
 {
   if (v.capacity() < n) {
-    Vector().swap(v);
+    release(v);
     v.reserve(n + n / 32);
   }
   v.resize(n);

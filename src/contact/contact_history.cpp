@@ -46,8 +46,8 @@ void ContactHistory::begin(std::int64_t pair)
   if (vacant.empty()) {
     if (records.size() == records.capacity()) make_room();
     places[pair] = static_cast<std::uint32_t>(records.size());
-    records.emplace_back();
-    if (onset_kept) onsets.emplace_back();
+    records.push_back(Record{});
+    if (onset_kept) onsets.push_back(Record{});
     return;
   }
   places[pair] = vacant.back();

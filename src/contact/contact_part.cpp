@@ -266,7 +266,7 @@ void ContactPart::report_block(const Step &step, const std::uint32_t *block, int
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
       out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
     }
-    step.report->push_back(out);
+    (*step.report)(out);
   }
 }
 

@@ -47,14 +47,14 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `report`, if given, receives every contact; `account`, if given, the energies of those that
+/// `report`, if given, is called for every contact; `account`, if given, the energies of those that
 /// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
 /// then, by the first part and so by the first thread: for messages that need someone to look after
 /// them.
 struct ContactStep {
   double dt;
   bool advance;
-  std::vector<ReportedContact> *report = nullptr;
+  const std::function<void(const ReportedContact &)> *report = nullptr;
   EnergyAccount *account = nullptr;
   const std::function<void()> *meanwhile = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()

@@ -43,7 +43,6 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   }
   parts.resize(order.num_parts());
   parts_per_phase = threads;
-  particles.resize(order.size(), order.num_parts(), scene.with_friction, scene.with_resistance);
   late_slots.clear();
   for (int s = 0; two_phases && s < order.size(); s++)
     if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
@@ -57,12 +56,38 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (int p = 0; p < num_parts; p++) try {
       parts[p].pairs.collect(order, neighbours, p);
-      parts[p].start_pairs(scene, given.partners, given.filed_tag);
     } catch (...) {
 #pragma omp critical
       failure = std::current_exception();
     }
   if (failure) std::rethrow_exception(failure);
+}
+
+void ContactPipeline::start_pairs(const PartnerLists &partners,
+                                  const std::vector<std::int64_t> &filed_tag)
+{
+  const int num_parts = order.num_parts();
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (int p = 0; p < num_parts; p++) parts[p].start_pairs(scene, partners, filed_tag);
+  make_room();
+}
+
+void ContactPipeline::make_room()
+{
+  particles.resize(order.size(), order.num_parts(), scene.with_friction, scene.with_resistance);
+}
+
+void ContactPipeline::release_records()
+{
+  in_records = prepared = move_pending = false;
+  particles.release();
+  Talus::release(held);
+}
+
+void ContactPipeline::release()
+{
+  release_records();
+  parts.clear();
 }
 
 void ContactPipeline::file_history(PartnerLists &partners) const
@@ -160,6 +185,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
 
 void ContactPipeline::start_step(const ContactStep &step)
 {
+  if (particles.position.empty()) make_room();
   if (step.account) step.account->begin_step(order.size());
 }
 
@@ -288,7 +314,7 @@ void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, doubl
 
 ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
 {
-  if (!scene.with_history || std::max(i, j) >= order.size()) return {nullptr, -1};
+  if (!scene.with_history || parts.empty() || std::max(i, j) >= order.size()) return {nullptr, -1};
   const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
   const int p = order.part(a) != ParticleOrder::no_part ? order.part(a) : order.part(b);
   if (p == ParticleOrder::no_part) return {nullptr, -1};

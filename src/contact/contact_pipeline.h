@@ -3,7 +3,8 @@
 // The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical
 // order. Knows nothing of the host: the pair style hands arrays over and adds the result.
 //
-//   at a rebuild   file_history() (if the old pairs are still current), set_pairs()
+//   at a rebuild   file_history() (if the old pairs are still current), release(), set_pairs(),
+//                  start_pairs()
 //   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
 //   state
 //
@@ -43,17 +44,24 @@ class ContactPipeline {
   void set_work(int threads, bool two_phases);
 
   /// What a rebuild needs besides the neighbours, in the host's numbering of owned particles and
-  /// ghosts: order and names of particles, their types (not needed if the laws are uniform), and
-  /// the histories that were filed under `filed_tag` (see ContactHistory::fetch()).
+  /// ghosts: order and names of particles, one tag for each of them, and their types (not needed if
+  /// the laws are uniform).
   struct Particles {
     int owned;
     const std::vector<std::uint64_t> &key;
     const std::vector<std::int64_t> &tag;
     const int *type;
-    const PartnerLists &partners;
-    const std::vector<std::int64_t> &filed_tag;
   };
   void set_pairs(const Particles &particles, const NeighbourView &neighbours);
+  /// After set_pairs(), when the neighbours are no longer needed: takes the histories that were
+  /// filed under `filed_tag`, see ContactHistory::fetch().
+  void start_pairs(const PartnerLists &partners, const std::vector<std::int64_t> &filed_tag);
+
+  /// Give memory back, for rebuilds need much for a while: that of the records, which the next
+  /// compute() makes anew and which must be in the host's arrays; and all of it, with pairs and
+  /// histories, which are then unknown until start_pairs().
+  void release_records();
+  void release();
 
   /// Files the current history by particle. Empties the lists in a scene without history.
   void file_history(PartnerLists &partners) const;
@@ -124,7 +132,10 @@ class ContactPipeline {
   /// Largest relative speed of the centres of candidate pairs.
   double largest_relative_speed() const;
 
-  int num_particles() const { return order.size(); }
+  int num_particles() const
+  {
+    return parts.empty() ? 0 : order.size();
+  }    ///< that it has pairs of
   bool in_two_phases() const { return parts_per_phase < static_cast<int>(parts.size()); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
@@ -138,6 +149,7 @@ class ContactPipeline {
   };
   Place place_of(int i, int j) const;
   double overlap_of(int slot_a, int slot_b) const;
+  void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &host, const ContactStep &step);
   void bring_frontier(const ParticleView &host, const ContactStep &step);

@@ -212,8 +212,7 @@ NeighbourView NeighbourSearch::view() const
 
 void NeighbourSearch::clear()
 {
-  size.clear();
-  entries.clear();
+  *this = NeighbourSearch{};
 }
 
 double NeighbourSearch::memory_usage() const

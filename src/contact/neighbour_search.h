@@ -40,7 +40,7 @@ class NeighbourSearch {
   /// Valid until the next find() or clear().
   NeighbourView view() const;
 
-  /// Drops the pairs.
+  /// Drops the pairs and gives all memory back.
   void clear();
 
   double memory_usage() const;

@@ -31,6 +31,11 @@ void ParticleRecords::resize(int n, int spare, bool spins, bool couples)
   couple.resize(couples ? slots : 0);
 }
 
+void ParticleRecords::release()
+{
+  for (BigVector<Record> *records : {&position, &motion, &load, &couple}) Talus::release(*records);
+}
+
 /* Eight particles at a time, for the sake of the divisions. */
 
 void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,

@@ -91,6 +91,9 @@ class ParticleRecords {
   /// `couples`: laws with resistance occur.
   void resize(int n, int spare, bool spins, bool couples);
 
+  /// Gives all memory back.
+  void release();
+
   /// Reads the state of some slots and clears their sums.
   void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
 

@@ -48,6 +48,12 @@ void PartnerLists::begin()
   std::fill(range.begin(), range.end(), Range{});
 }
 
+void PartnerLists::release()
+{
+  begin();
+  Talus::release(pool);
+}
+
 void PartnerLists::layout()
 {
   std::int64_t total = 0;
@@ -94,7 +100,9 @@ int PartnerLists::unpack(int atom, const double *buffer)
 {
   Range &r = range[atom];
   r = {static_cast<std::int64_t>(pool.size()) / stride(), static_cast<int>(buffer[0])};
-  pool.resize(pool.size() + static_cast<std::size_t>(r.size) * stride());
+  const std::size_t needed = pool.size() + static_cast<std::size_t>(r.size) * stride();
+  if (needed > pool.capacity()) pool.reserve(needed + needed / 8);    // not twice
+  pool.resize(needed);
   if (r.size)
     std::memcpy(&pool[r.begin * stride()], buffer + 1, sizeof(double) * r.size * stride());
   return packed_size(atom);

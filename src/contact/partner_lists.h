@@ -30,6 +30,9 @@ class PartnerLists {
   void layout();
   double *append(int atom, std::int64_t tag);
 
+  /// Empties all lists and gives their memory back.
+  void release();
+
   /// Values of `atom` with the partner `tag`, or nullptr. Valid until the next refill or unpack.
   const double *find(int atom, std::int64_t tag) const;
 

@@ -106,7 +106,8 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
-  file();
+  file(true);
+  if (client) client->release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
@@ -143,8 +144,10 @@ void FixContactStore::pre_neighbor()
 
 void FixContactStore::post_neighbor()
 {
-  if (client) client->renumber_pairs();
   current = false;
+  if (!client) return;
+  client->renumber_pairs();
+  pairs_are_current();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -162,15 +165,17 @@ void FixContactStore::setup_post_neighbor()
 
 void FixContactStore::post_run()
 {
-  file();
+  file(true);
   give_sorting_back();
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixContactStore::file()
+void FixContactStore::file(bool release)
 {
   if (client && current) {
+    client->look_at_pairs();
+    if (release) client->release_records();
     client->file_history(partners);
     for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
     if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();
@@ -326,7 +331,7 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 
 void FixContactStore::write_restart(FILE *fp)
 {
-  file();    // all ranks come here before the particles are packed
+  file(false);    // all ranks come here before the particles are packed
   if (comm->me) return;
   const double state[3] = {inverse_cell, static_cast<double>(partners.num_values()),
                            static_cast<double>(atom->natoms)};

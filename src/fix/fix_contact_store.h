@@ -36,12 +36,18 @@ class FixContactStore : public Fix {
   /// What the pair style has to provide.
   class Client {
    public:
+    /// The pairs are still those of the last step: a look at them, on all ranks.
+    virtual void look_at_pairs() = 0;
     /// Files the history of the current pairs by particle.
     virtual void file_history(Talus::PartnerLists &partners) = 0;
     /// Makes both copies of a pair that is computed twice the same: that of its first particle.
     virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
     virtual void renumber_pairs() = 0;
+    /// The state of the last step is not needed any more: its memory is free for others.
+    virtual void release_records() = 0;
+    /// The same for the pairs: histories are filed, and renumber_pairs() will follow.
+    virtual void release_pairs() = 0;
     /// The integrator has moved the velocities, and particles are still numbered as in the last
     /// compute().
     virtual void velocities_have_moved() = 0;
@@ -60,12 +66,17 @@ class FixContactStore : public Fix {
   /// Impact speed and age of contacts are kept as well.
   void keep_onsets(bool yes) { partners.set_values(yes ? 8 : 4); }
   /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
-  /// history.
-  void pairs_are_current() { current = true; }
+  /// history, and the lists need not.
+  void pairs_are_current()
+  {
+    if (!current) partners.release();
+    current = true;
+  }
 
-  /// Key of an owned or ghost particle, and its name in the lists (0: in none).
-  std::uint64_t key(int i) const { return keys[i]; }
-  std::int64_t filed_tag(int i) const { return filed_tags[i]; }
+  /// Keys of owned and ghost particles, and their names in the lists (0: in none); there may be
+  /// more elements than particles.
+  const std::vector<std::uint64_t> &all_keys() const { return keys; }
+  const std::vector<std::int64_t> &all_filed_tags() const { return filed_tags; }
   const Talus::PartnerLists &partner_lists() const { return partners; }
 
   int setmask() override;
@@ -102,7 +113,7 @@ class FixContactStore : public Fix {
   static constexpr int refresh_interval = 1000;
 
  private:
-  void file();
+  void file(bool release);
   void agree_on_shared_pairs();
   void refresh_key(int i);
   void take_over_sorting();

@@ -188,12 +188,20 @@ void PairGranPenalty::warn_small_periods()
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranPenalty::file_history(PartnerLists &partners)
+void PairGranPenalty::look_at_pairs()
 {
-  // here, because all ranks come here and the pairs are still those of the last step
   watch.look(pipeline);
   time_step.look_for_smaller_particles(book);
+}
+
+void PairGranPenalty::file_history(PartnerLists &partners)
+{
   pipeline.file_history(partners);
+}
+
+void PairGranPenalty::release_records()
+{
+  if (!account.waits_for_move()) pipeline.release_records();
 }
 
 void PairGranPenalty::adopt_first_copies(PartnerLists &partners,
@@ -215,23 +223,18 @@ void PairGranPenalty::renumber_pairs()
 {
   if (!laws_current) prepare_laws();
   timer->stamp(Timer::MODIFY);
+  pipeline.release();
   const int nall = atom->nlocal + atom->nghost;
-  std::vector<std::uint64_t> keys(nall);
-  std::vector<std::int64_t> tags(nall), filed_tags(nall);
-  for (int i = 0; i < nall; i++) {
-    keys[i] = store->key(i);
-    tags[i] = atom->tag[i];
-    filed_tags[i] = store->filed_tag(i);
-  }
+  const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   const auto *exchange = dynamic_cast<PendingExchange *>(comm);
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
   try {
-    pipeline.set_pairs({atom->nlocal, keys, tags, atom->type, store->partner_lists(), filed_tags},
-                       neighbours.find(list));
+    pipeline.set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, neighbours.find(list));
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
   }
   neighbours.release();
+  pipeline.start_pairs(store->partner_lists(), store->all_filed_tags());
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
@@ -268,9 +271,11 @@ void PairGranPenalty::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (pipeline.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
 
-  reported.clear();
   const bool advance = update->setupflag == 0;
-  ContactStep step{update->dt, advance, vflag_either ? &reported : nullptr,
+  const std::function<void(const ReportedContact &)> to_host = [this](const ReportedContact &c) {
+    tally(c);
+  };
+  ContactStep step{update->dt, advance, vflag_either ? &to_host : nullptr,
                    keeps_account ? &account : nullptr};
   step.read = !pipeline.holds_state();
   step.read_ghosts = !proxies_are_there;
@@ -293,7 +298,6 @@ void PairGranPenalty::compute(int eflag, int vflag)
   store->pairs_are_current();
 
   if (update->setupflag) time_step.judge_start(book, pipeline);
-  if (vflag_either) tally(reported);
   if (eflag_global) count_contacts();
 }
 
@@ -321,13 +325,11 @@ double PairGranPenalty::share_without_proxies() const
 
 /* To the host, with newton off, an index of a ghost means that nothing is tallied for it. */
 
-void PairGranPenalty::tally(const std::vector<ReportedContact> &contacts)
+void PairGranPenalty::tally(const ReportedContact &c)
 {
   const int nobody = atom->nlocal;
-  for (const ReportedContact &c : contacts)
-    ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, atom->nlocal, 0, 0.0, 0.0,
-                 c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
-                 c.separation[2]);
+  ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, nobody, 0, 0.0, 0.0, c.force[0],
+               c.force[1], c.force[2], c.separation[0], c.separation[1], c.separation[2]);
 }
 
 /* For compute pair: contacts and candidate pairs. One that two ranks compute counts half on each.
@@ -343,8 +345,7 @@ void PairGranPenalty::count_contacts()
 
 double PairGranPenalty::memory_usage()
 {
-  return pipeline.memory_usage() + neighbours.memory_usage() +
-         static_cast<double>(reported.capacity() * sizeof(ReportedContact));
+  return pipeline.memory_usage() + neighbours.memory_usage();
 }
 
 double PairGranPenalty::atom2cut(int i)

@@ -88,10 +88,13 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   std::string hazard_of_records() const;
 
   // FixContactStore::Client
+  void look_at_pairs() override;
   void file_history(Talus::PartnerLists &partners) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
                           const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;
+  void release_records() override;
+  void release_pairs() override { pipeline.release(); }
   void velocities_have_moved() override;
 
   // ProxyReader
@@ -107,7 +110,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   void finish_exchange();
   Talus::ParticleView view() const;
-  void tally(const std::vector<Talus::ReportedContact> &contacts);
+  void tally(const Talus::ReportedContact &contact);
   void count_contacts();
 
   LawBook book;
@@ -115,7 +118,6 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   std::string announced;    // last description of the laws in the log
 
   Talus::ContactPipeline pipeline;
-  std::vector<Talus::ReportedContact> reported;
 
   bool keeps_state = false, proxies_are_there = false;
   std::vector<int> sent;

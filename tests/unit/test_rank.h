@@ -42,6 +42,7 @@ class TestRank {
   {
     if (particle.empty()) return;
     pipeline.file_history(partners);
+    pipeline.release();
     for (int a = 0; a < owned; a++) {
       std::vector<double> &buffer = luggage[particle[a]];
       buffer.resize(partners.packed_size(a));
@@ -92,7 +93,8 @@ class TestRank {
       if (random.chance(0.5)) std::swap(n.i, n.j);
       lists.add(number[n.i], number[n.j], n.weight);
     }
-    pipeline.set_pairs({owned, key, tag, type.data(), partners, filed_tag}, lists.view());
+    pipeline.set_pairs({owned, key, tag, type.data()}, lists.view());
+    pipeline.start_pairs(partners, filed_tag);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -112,7 +114,9 @@ class TestRank {
                                    radius.data(), mass.data(), mass_override.data(),
                                    f.data(),      t.data()};
     report.clear();
-    run(view, {dt, advance, reports ? &report : nullptr});
+    const std::function<void(const Talus::ReportedContact &)> keep =
+        [this](const Talus::ReportedContact &contact) { report.push_back(contact); };
+    run(view, {dt, advance, reports ? &keep : nullptr});
 
     force.assign(p.size(), Vector{});
     torque.assign(p.size(), Vector{});
