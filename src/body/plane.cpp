@@ -2,7 +2,7 @@
 
 #include "body/plane.h"
 
-#include "body/lane_bits.h"
+#include "body/record_lanes.h"
 
 #include <cmath>
 #include <limits>

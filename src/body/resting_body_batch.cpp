@@ -2,7 +2,7 @@
 
 #include "body/resting_body_batch.h"
 
-#include "body/lane_bits.h"
+#include "body/record_lanes.h"
 
 #include <algorithm>
 
@@ -11,15 +11,12 @@ namespace {
 
 using Lanes = double[3][ContactBatch::width];
 constexpr int width = EightSpheres::width;
-constexpr std::size_t ahead = 32;    // candidates whose positions are called into the cache
+constexpr std::size_t ahead = 64;    // candidates whose positions are called into the cache
 static_assert(width == lanes && ahead + width <= SlottedCandidates::spare);
 
-/// Four records become lanes k ... k+3 of a vector and of a scalar.
-inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
+inline void store_at(Lanes &vector, int k, const EightRecords &lane)
 {
-  transpose(rows[0], rows[1], rows[2], rows[3]);
-  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
-  if (fourth) store(&fourth[k], rows[3]);
+  for (int d = 0; d < 3; d++) store(&vector[d][k], lane.number[d]);
 }
 
 inline Vector3<Vec8> vector_at(const Lanes &v, int k)
@@ -27,12 +24,12 @@ inline Vector3<Vec8> vector_at(const Lanes &v, int k)
   return {load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k])};
 }
 
-inline void add_to(double *sum, Vec8 value)
+inline EightRecords lanes_of(const Lanes &v, int k)
 {
-  store(sum, load8(sum) + value);
+  return {{load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k]), Vec8{}}};
 }
 
-inline double sum_of(const double *lane)
+inline double sum_of(Vec8 lane)
 {
   double sum = 0.0;
   for (int k = 0; k < lanes; k++) sum += lane[k];
@@ -56,7 +53,7 @@ void RestingBodyBatch::compute(const LargeBodyShape &its_shape, const BodyTask &
   candidates = &its_candidates;
   history = &its_history;
   touching = 0.0;
-  for (auto &sum : sums) std::fill(sum, sum + lanes, 0.0);
+  load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
     for (std::size_t c = begin; c < last; c += width)
@@ -85,13 +82,15 @@ void RestingBodyBatch::look_at(std::size_t first, int count)
   const Record *const positions = task->view.records->position.data();
   const int *const slot = &candidates->slots[first];
   for (int k = 0; k < width; k++) __builtin_prefetch(positions + slot[ahead + k]);
-  for (int k = 0; k < width; k += 4) {
-    Vec4 rows[4];
-    for (int q = 0; q < 4; q++) rows[q] = load4(positions[slot[k + q]]);
-    transpose(rows[0], rows[1], rows[2], rows[3]);
-    for (int q = 0; q < 3; q++) store(&spheres.centre[q][k], rows[q]);
-    store(&spheres.radius[k], rows[3]);
+  const ParticleRecords &records = *task->view.records;
+  for (unsigned rest = history->touched((first + ahead) / width); rest; rest &= rest - 1U) {
+    const std::size_t at = records.stride * slot[ahead + __builtin_ctz(rest)];
+    __builtin_prefetch(&records.motion[at]);
+    __builtin_prefetch(&records.load[at], 1);
   }
+  const EightRecords state = to_lanes([=](int k) -> const Record & { return positions[slot[k]]; });
+  for (int d = 0; d < 3; d++) store(spheres.centre[d], state.number[d]);
+  store(spheres.radius, state.number[3]);
   const unsigned asked = bits_of_law(first, count);
   const unsigned bits = shape->touches_eight(spheres, count, contacts) & asked;
   if (task->with_history) history->set_touching(first / width, asked, bits);
@@ -102,12 +101,6 @@ void RestingBodyBatch::look_at(std::size_t first, int count)
 
 void RestingBodyBatch::take(std::size_t first, unsigned bits)
 {
-  const ParticleRecords &records = *task->view.records;
-  for (unsigned rest = bits; rest; rest &= rest - 1U) {
-    const std::size_t at = records.stride * candidates->slots[first + __builtin_ctz(rest)];
-    __builtin_prefetch(&records.motion[at]);
-    __builtin_prefetch(&records.load[at], 1);
-  }
   for (int d = 0; d < 3; d++) {
     pack_lanes(&place[d][filled], spheres.centre[d], bits);
     pack_lanes(&batch.normal[d][filled], contacts.normal[d], bits);
@@ -139,38 +132,41 @@ void RestingBodyBatch::flush()
 void RestingBodyBatch::gather()
 {
   const ParticleRecords &records = *task->view.records;
-  for (int k = 0; k < end; k += 4) {
-    int slot[4];
-    Vec4 rows[4];
-    for (int q = 0; q < 4; q++) {
-      slot[q] = candidates->slots[candidate_of_lane[k + q]];
-      rows[q] = load4(records.velocity(slot[q]));
-    }
-    spread(rows, batch.velocity, batch.inverse_mass, k);
+  for (int k = 0; k < end; k += lanes) {
+    int slot[lanes];
+    for (int q = 0; q < lanes; q++) slot[q] = candidates->slots[candidate_of_lane[k + q]];
+    const EightRecords motion =
+        to_lanes([&](int q) -> const Record & { return records.velocity(slot[q]); });
+    store_at(batch.velocity, k, motion);
+    store(&batch.inverse_mass[k], motion.number[3]);
     if (law.has_friction())
       gather_spins(k, slot);
     else
-      store(&batch.inverse_radius[k], Vec4{1.0, 1.0, 1.0, 1.0} / load4(&radius[k]));
+      store(&batch.inverse_radius[k], splat<Vec8>(1.0) / load8(&radius[k]));
     if (task->with_history) gather_histories(k);
   }
 }
 
 void RestingBodyBatch::gather_spins(int k, const int *slot)
 {
-  Vec4 rows[4];
-  for (int q = 0; q < 4; q++) rows[q] = load4(task->view.records->spin(slot[q]));
-  spread(rows, batch.relative_spin, batch.inverse_radius, k);
-  for (int d = 0; d < 3; d++) store(&batch.spin[d][k], load4(&radius[k]) * rows[d]);
+  const ParticleRecords &records = *task->view.records;
+  EightRecords spin = to_lanes([&](int q) -> const Record & { return records.spin(slot[q]); });
+  if (law.resists) store_at(batch.relative_spin, k, spin);
+  for (int d = 0; d < 3; d++) spin.number[d] = load8(&radius[k]) * spin.number[d];
+  store_at(batch.spin, k, spin);
+  store(&batch.inverse_radius[k], spin.number[3]);
 }
 
 void RestingBodyBatch::gather_histories(int k)
 {
-  Vec4 rows[4];
-  for (int q = 0; q < 4; q++) rows[q] = load4(history->record(candidate_of_lane[k + q]));
-  spread(rows, batch.displacement, batch.at_limit, k);
-  if (!task->with_onset) return;
-  for (int q = 0; q < 4; q++) rows[q] = load4(history->onset(candidate_of_lane[k + q]));
-  spread(rows, batch.onset, nullptr, k);
+  const std::uint32_t *const which = &candidate_of_lane[k];
+  const EightRecords its =
+      to_lanes([&](int q) -> const Record & { return history->record(which[q]); });
+  store_at(batch.displacement, k, its);
+  store(&batch.at_limit[k], its.number[3]);
+  if (task->with_onset)
+    store_at(batch.onset, k,
+             to_lanes([&](int q) -> const Record & { return history->onset(which[q]); }));
 }
 
 /* The body is flat on the scale of the contact: the circle in which it cuts the sphere. */
@@ -197,42 +193,41 @@ void RestingBodyBatch::add_forces()
 {
   ParticleRecords &records = *task->view.records;
   const bool turns = law.has_friction();
-  for (int k = 0; k < filled; k += 4) {
-    Vec4 force[4], torque[4];
-    for (int d = 0; d < 3; d++) {
-      force[d] = load4(&batch.force[d][k]);
-      if (!turns) continue;
-      torque[d] = -load4(&radius[k]) * load4(&batch.moment[d][k]);
-      if (law.resists) torque[d] = load4(&batch.couple[d][k]) + torque[d];
-    }
-    force[3] = torque[3] = Vec4{};
-    transpose(force[0], force[1], force[2], force[3]);
-    if (turns) transpose(torque[0], torque[1], torque[2], torque[3]);
-    for (int q = 0; q < std::min(4, filled - k); q++) {
+  for (int k = 0; k < filled; k += lanes) {
+    Record force[lanes], torque[lanes];
+    to_records(lanes_of(batch.force, k), force);
+    if (turns) to_records(torques(k), torque);
+    for (int q = 0; q < std::min(lanes, filled - k); q++) {
       const int slot = candidates->slots[candidate_of_lane[k + q]];
       if (turns) records.settle_torque(slot);
       Record *const load = &records.load[records.stride * slot];
-      store(load[0], load4(load[0]) + force[q]);
-      if (turns) store(load[1], load4(load[1]) + torque[q]);
+      store(load[0], load4(load[0]) + load4(force[q]));
+      if (turns) store(load[1], load4(load[1]) + load4(torque[q]));
     }
   }
 }
 
+EightRecords RestingBodyBatch::torques(int k) const
+{
+  EightRecords torque = lanes_of(batch.moment, k);
+  for (int d = 0; d < 3; d++) {
+    torque.number[d] = -load8(&radius[k]) * torque.number[d];
+    if (law.resists) torque.number[d] = load8(&batch.couple[d][k]) + torque.number[d];
+  }
+  return torque;
+}
+
 void RestingBodyBatch::keep_histories()
 {
-  for (int k = 0; k < filled; k += 4) {
-    Vec4 row[4], onset[4];
-    for (int d = 0; d < 3; d++) {
-      row[d] = load4(&batch.displacement[d][k]);
-      onset[d] = load4(&batch.onset[d][k]);
-    }
-    row[3] = load4(&batch.at_limit[k]);
-    onset[3] = Vec4{};
-    transpose(row[0], row[1], row[2], row[3]);
-    if (task->with_onset) transpose(onset[0], onset[1], onset[2], onset[3]);
-    for (int q = 0; q < std::min(4, filled - k); q++) {
-      store(history->record(candidate_of_lane[k + q]), row[q]);
-      if (task->with_onset) store(history->onset(candidate_of_lane[k + q]), onset[q]);
+  for (int k = 0; k < filled; k += lanes) {
+    Record its[lanes], onset[lanes];
+    EightRecords displacement = lanes_of(batch.displacement, k);
+    displacement.number[3] = load8(&batch.at_limit[k]);
+    to_records(displacement, its);
+    if (task->with_onset) to_records(lanes_of(batch.onset, k), onset);
+    for (int q = 0; q < std::min(lanes, filled - k); q++) {
+      history->record(candidate_of_lane[k + q]) = its[q];
+      if (task->with_onset) history->onset(candidate_of_lane[k + q]) = onset[q];
     }
   }
 }
@@ -245,27 +240,27 @@ void RestingBodyBatch::add_load()
     for (int d = 0; d < 3; d++) std::fill(vector[d] + filled, vector[d] + end, 0.0);
   const Vector3<double> &o = task->frame.origin;
   const Vector3<Vec8> about{splat<Vec8>(o.x), splat<Vec8>(o.y), splat<Vec8>(o.z)};
+  Vector3<Vec8> force_sum = load_of_lanes[0], torque_sum = load_of_lanes[1];
   for (int k = 0; k < end; k += lanes) {
     const Vec8 r = load8(&radius[k]);
     const Vector3<Vec8> force = vector_at(batch.force, k), normal = vector_at(batch.normal, k);
-    Vector3<Vec8> torque = cross(vector_at(place, k) - r * normal - about, force);
+    const Vector3<Vec8> arm = vector_at(place, k) - r * normal - about;
+    force_sum = force_sum - force;
+    torque_sum = torque_sum - cross(arm, force);
     if (law.resists)
-      torque = torque + vector_at(batch.couple, k) -
-               r * (vector_at(batch.moment, k) - cross(normal, force));
-    add_to(sums[0], -force.x);
-    add_to(sums[1], -force.y);
-    add_to(sums[2], -force.z);
-    add_to(sums[3], -torque.x);
-    add_to(sums[4], -torque.y);
-    add_to(sums[5], -torque.z);
+      torque_sum = torque_sum - (vector_at(batch.couple, k) -
+                                 r * (vector_at(batch.moment, k) - cross(normal, force)));
   }
+  load_of_lanes[0] = force_sum;
+  load_of_lanes[1] = torque_sum;
 }
 
 void RestingBodyBatch::sum_up()
 {
-  load.force = {sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2])};
-  load.torque = {sum_of(sums[3]), sum_of(sums[4]), sum_of(sums[5])};
-  load.contacts = touching;
+  const auto sum = [](const Vector3<Vec8> &lane) {
+    return Vector3<double>{sum_of(lane.x), sum_of(lane.y), sum_of(lane.z)};
+  };
+  load = {sum(load_of_lanes[0]), sum(load_of_lanes[1]), touching};
 }
 
 }    // namespace Talus

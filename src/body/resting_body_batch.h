@@ -8,6 +8,7 @@
 #define TALUS_BODY_RESTING_BODY_BATCH_H
 
 #include "body/body_batch.h"
+#include "body/record_lanes.h"
 #include "body/sparse_history.h"
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace Talus {
 struct SlottedCandidates {
   const std::vector<int> &atoms;    ///< host's indices
   const std::vector<int> &slots;    ///< at least `spare` more than atoms, any that exist
-  static constexpr int spare = 64;
+  static constexpr int spare = 128;
 };
 
 class RestingBodyBatch {
@@ -44,6 +45,7 @@ class RestingBodyBatch {
   void flush();
   void gather();
   void gather_spins(int lane, const int *slot);
+  EightRecords torques(int lane) const;
   void gather_histories(int lane);
   void gather_resistance();
   void gather_coefficients();
@@ -64,7 +66,7 @@ class RestingBodyBatch {
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
   std::uint32_t candidate_of_lane[ContactBatch::width];
   alignas(64) double place[3][ContactBatch::width], radius[ContactBatch::width];
-  alignas(64) double sums[6][lanes];    // force and torque on the body, by lane
+  Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
   EightSpheres spheres{};
   EightContacts contacts{};

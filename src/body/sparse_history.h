@@ -53,6 +53,12 @@ class SparseHistory {
     touching[block] = static_cast<std::uint8_t>((before & ~asked) | bits);
   }
 
+  /// Bits of the candidates of a block that touched when last looked at; 0 beyond the end.
+  unsigned touched(std::size_t block) const
+  {
+    return block < touching.size() ? touching[block] : 0;
+  }
+
   /// Of a particle; zero if it has none.
   Record of_particle(int particle) const;
 
