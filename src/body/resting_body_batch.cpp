@@ -29,6 +29,12 @@ inline EightRecords lanes_of(const Lanes &v, int k)
   return {{load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k]), Vec8{}}};
 }
 
+/// A force record whose particle has a settled torque, see ParticleRecords::settle_torque().
+inline Vec4 settled(Vec4 force)
+{
+  return __builtin_shufflevector(force, Vec4{1.0, 1.0, 1.0, 1.0}, 0, 1, 2, 4);
+}
+
 inline double sum_of(Vec8 lane)
 {
   double sum = 0.0;
@@ -187,7 +193,8 @@ void RestingBodyBatch::gather_coefficients()
     batch.coefficients[k] = task->row_of(candidates->atoms[candidate_of_lane[k]]);
 }
 
-/* Force, and torque couple - r moment. */
+/* Force, and torque couple - r moment. The mark of settle_torque() is set together with the force:
+   a record that is read whole right after one number of it was written is late. */
 
 void RestingBodyBatch::add_forces()
 {
@@ -199,10 +206,10 @@ void RestingBodyBatch::add_forces()
     if (turns) to_records(torques(k), torque);
     for (int q = 0; q < std::min(lanes, filled - k); q++) {
       const int slot = candidates->slots[candidate_of_lane[k + q]];
-      if (turns) records.settle_torque(slot);
       Record *const load = &records.load[records.stride * slot];
-      store(load[0], load4(load[0]) + load4(force[q]));
-      if (turns) store(load[1], load4(load[1]) + load4(torque[q]));
+      const Vec4 sum = load4(load[0]) + load4(force[q]);
+      if (turns) store(load[1], records.torque(slot) + load4(torque[q]));
+      store(load[0], turns ? settled(sum) : sum);
     }
   }
 }
