@@ -88,12 +88,7 @@ void RestingBodyBatch::look_at(std::size_t first, int count)
   const Record *const positions = task->view.records->position.data();
   const int *const slot = &candidates->slots[first];
   for (int k = 0; k < width; k++) __builtin_prefetch(positions + slot[ahead + k]);
-  const ParticleRecords &records = *task->view.records;
-  for (unsigned rest = history->touched((first + ahead) / width); rest; rest &= rest - 1U) {
-    const std::size_t at = records.stride * slot[ahead + __builtin_ctz(rest)];
-    __builtin_prefetch(&records.motion[at]);
-    __builtin_prefetch(&records.load[at], 1);
-  }
+  if (task->with_history) call(first + ahead, history->touched((first + ahead) / width));
   const EightRecords state = to_lanes([=](int k) -> const Record & { return positions[slot[k]]; });
   for (int d = 0; d < 3; d++) store(spheres.centre[d], state.number[d]);
   store(spheres.radius, state.number[3]);
@@ -103,10 +98,22 @@ void RestingBodyBatch::look_at(std::size_t first, int count)
   if (bits) take(first, bits);
 }
 
-/* What the batch needs of these particles besides is called into the cache until it is full. */
+/* What the batch needs of particles besides their positions is called into the cache, of those that
+   probably touch: where histories are kept, of those that did in the step before. */
+
+void RestingBodyBatch::call(std::size_t first, unsigned bits) const
+{
+  const ParticleRecords &records = *task->view.records;
+  for (; bits; bits &= bits - 1U) {
+    const std::size_t at = records.stride * candidates->slots[first + __builtin_ctz(bits)];
+    __builtin_prefetch(&records.motion[at]);
+    __builtin_prefetch(&records.load[at], 1);
+  }
+}
 
 void RestingBodyBatch::take(std::size_t first, unsigned bits)
 {
+  if (!task->with_history) call(first, bits);
   for (int d = 0; d < 3; d++) {
     pack_lanes(&place[d][filled], spheres.centre[d], bits);
     pack_lanes(&batch.normal[d][filled], contacts.normal[d], bits);

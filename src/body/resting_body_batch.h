@@ -41,7 +41,8 @@ class RestingBodyBatch {
  private:
   unsigned bits_of_law(std::size_t first, int count) const;
   void look_at(std::size_t first, int count);
-  void take(std::size_t first, unsigned touching);
+  void call(std::size_t first, unsigned bits) const;
+  void take(std::size_t first, unsigned bits);
   void flush();
   void gather();
   void gather_spins(int lane, const int *slot);
@@ -64,8 +65,8 @@ class RestingBodyBatch {
 
   ContactBatch batch;
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
-  std::uint32_t candidate_of_lane[ContactBatch::width];
-  alignas(64) double place[3][ContactBatch::width], radius[ContactBatch::width];
+  std::uint32_t candidate_of_lane[ContactBatch::width] = {};
+  alignas(64) double place[3][ContactBatch::width] = {}, radius[ContactBatch::width] = {};
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
   EightSpheres spheres{};
