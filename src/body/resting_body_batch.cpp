@@ -44,6 +44,14 @@ inline double sum_of(Vec8 lane)
 
 }    // namespace
 
+/* No lane may ever hold what is not finite. */
+
+RestingBodyBatch::RestingBodyBatch()
+{
+  batch.clear();
+  std::fill(radius, radius + ContactBatch::width, 1.0);
+}
+
 bool RestingBodyBatch::serves(const BodyTask &task)
 {
   return task.view.records && !task.frame.moves && !task.exact && !task.record_parts &&

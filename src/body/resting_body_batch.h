@@ -25,7 +25,7 @@ struct SlottedCandidates {
 
 class RestingBodyBatch {
  public:
-  RestingBodyBatch() { batch.clear(); }
+  RestingBodyBatch();
 
   /// Whether these are such contacts, of a shape with one_contact().
   static bool serves(const BodyTask &task);
@@ -66,7 +66,7 @@ class RestingBodyBatch {
   ContactBatch batch;
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
   std::uint32_t candidate_of_lane[ContactBatch::width] = {};
-  alignas(64) double place[3][ContactBatch::width] = {}, radius[ContactBatch::width] = {};
+  alignas(64) double place[3][ContactBatch::width] = {}, radius[ContactBatch::width];
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
   EightSpheres spheres{};
