@@ -57,7 +57,8 @@ class BodyContacts {
   Worst worst(const LargeBodyShape &shape, const BodyFrame &frame,
               const BodyParticleView &view) const;
 
-  /// Adds the contact forces to the particles and returns their reaction.
+  /// Adds the contact forces to the particles and returns their reaction. The slots of particles in
+  /// the records may change only before find_candidates(), as they do at a rebuild.
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
                    const BodyParticleView &view, const BodyStep &step);
 
