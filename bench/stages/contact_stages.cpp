@@ -173,7 +173,7 @@ struct OnFloor {
   explicit OnFloor(const benchmark::State &state) : p(prepared(state)), mask(p.bed.size(), 1)
   {
     contacts.set_laws(p.scene.laws, true);
-    contacts.history.resize(p.bed.owned);
+    contacts.history.grow(p.bed.owned);
     frame.origin = plane.reference_point();
     find();
   }

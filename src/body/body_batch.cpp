@@ -105,9 +105,9 @@ void BodyBatch::keep_history(int lane, bool with_onset)
   const int slot = slot_of_lane[lane];
   const Vector3<double> d = lane_of(batch.displacement, lane), o = lane_of(batch.onset, lane);
   const Record history{{d.x, d.y, d.z, batch.at_limit[lane]}}, onset{{o.x, o.y, o.z, 0.0}};
-  if (flat_history) {
-    (*flat_history)[slot] = history;
-    if (with_onset) (*flat_onset)[slot] = onset;
+  if (sparse) {
+    sparse->record(slot) = history;
+    if (with_onset) sparse->onset(slot) = onset;
     return;
   }
   remembered[slot].history = history;

@@ -12,6 +12,7 @@
 #include "body/body_state.h"
 #include "body/contact_memory.h"
 #include "body/large_body_shape.h"
+#include "body/sparse_history.h"
 #include "contact/contact_batch.h"
 #include "contact/contact_energy.h"
 #include "contact/law_table.h"
@@ -54,15 +55,16 @@ class BodyBatch {
 
   void start(bool exact);
 
-  /// Adds a contact of a particle, with the history and onset that it continues. `slot`: index in
-  /// kept() where the new ones go. The batch is computed when it is full.
+  /// Adds a contact of a particle, with the history and onset that it continues. `slot`: where the
+  /// new ones go: the candidate in `sparse`, or the index in `remembered`. The batch is computed
+  /// when it is full.
   void add(const BodyTask &task, int law, int atom, const SurfaceContact &contact,
            const Record &history, const Record &onset, int slot);
   /// Computes what is left of this law. Call before contacts of another one are added.
   void flush(const BodyTask &task, int law);
 
-  /// Where histories go: a flat array by particle, or lists of this batch.
-  std::vector<Record> *flat_history = nullptr, *flat_onset = nullptr;
+  /// Where histories go: records by candidate, or lists of this batch.
+  SparseHistory *sparse = nullptr;
   std::vector<RememberedContact> remembered;
 
   BodyLoad load;

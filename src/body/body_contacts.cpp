@@ -34,6 +34,7 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin)
 {
   candidates.clear();
+  slots.clear();
   listed.clear();
   parts.clear();
   parts_begin.assign(1, 0);
@@ -54,8 +55,21 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
       }
     }
     if (near) candidates.push_back(i);
-    if (!near) forget(i);
+    if (!near && keeps_lists()) memory.forget(i);
   }
+  if (with_history && single) history.follow(candidates);
+}
+
+/* So that a step goes through the records from their beginning to their end. */
+
+void BodyContacts::sort_by_slot(const int *slot_of_atom)
+{
+  std::sort(candidates.begin(), candidates.end(),
+            [slot_of_atom](int a, int b) { return slot_of_atom[a] < slot_of_atom[b]; });
+  if (with_history) history.follow(candidates);
+  if (candidates.empty()) return;
+  for (const int i : candidates) slots.push_back(slot_of_atom[i]);
+  slots.resize(slots.size() + SlottedCandidates::spare, slots.back());
 }
 
 bool BodyContacts::is_stale(const BodyFrame &frame, double skin) const
@@ -108,24 +122,11 @@ BodyContacts::Worst BodyContacts::worst(const LargeBodyShape &shape, const BodyF
   return most;
 }
 
-void BodyContacts::forget(int i)
-{
-  if (!with_history) return;
-  if (!single) {
-    memory.forget(i);
-    return;
-  }
-  history[i] = Record{};
-  if (with_onset) onset[i] = Record{};
-}
-
 BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &frame,
                                const BodyParticleView &view, const BodyStep &step)
 {
   const bool many = step.threads > 1 && !step.account && shape.thread_safe();
   const int threads = many ? step.threads : 1;
-  while (static_cast<int>(batches.size()) < threads)
-    batches.push_back(std::make_unique<BodyBatch>());
   if (step.account) remember_velocities(frame, view, *step.account);
   const BodyTask task{laws,
                       frame,
@@ -138,19 +139,14 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
                       with_history,
                       with_onset,
                       laws.has_resistance()};
-  new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
-
-  const std::size_t n = candidates.size();
-#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++) {
-    batches[t]->start(task.exact);
-    for (std::size_t c = n * t / threads; c < n * (t + 1) / threads && !single; c++)
-      new_lists[c].batch = t;
-    compute_range(shape, task, *batches[t], n * t / threads, n * (t + 1) / threads);
+  largest_overlap = 0.0;
+  if (single && view.records) {
+    if (slots.empty()) sort_by_slot(view.slot_of_atom);
+    if (RestingBodyBatch::serves(task)) return compute_at_rest(shape, task, threads);
   }
+  compute_batches(shape, task, threads);
 
   BodyLoad load;
-  largest_overlap = 0.0;
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
   for (int t = 0; t < threads; t++) {
@@ -164,14 +160,50 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   return load;
 }
 
+/* Blocks of eight candidates stay together: they share a byte of the history. */
+
+std::size_t BodyContacts::first_of(int thread, int threads) const
+{
+  const std::size_t n = candidates.size();
+  return std::min((n + 7) / 8 * thread / threads * 8, n);
+}
+
+BodyLoad BodyContacts::compute_at_rest(const LargeBodyShape &shape, const BodyTask &task,
+                                       int threads)
+{
+  while (static_cast<int>(resting_batches.size()) < threads)
+    resting_batches.push_back(std::make_unique<RestingBodyBatch>());
+  const SlottedCandidates slotted{candidates, slots};
+#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
+  for (int t = 0; t < threads; t++)
+    resting_batches[t]->compute(shape, task, slotted, history, first_of(t, threads),
+                                first_of(t + 1, threads));
+  BodyLoad load;
+  for (int t = 0; t < threads; t++) load.add(resting_batches[t]->load);
+  return load;
+}
+
+void BodyContacts::compute_batches(const LargeBodyShape &shape, const BodyTask &task, int threads)
+{
+  while (static_cast<int>(batches.size()) < threads)
+    batches.push_back(std::make_unique<BodyBatch>());
+  new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
+#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
+  for (int t = 0; t < threads; t++) {
+    const std::size_t begin = first_of(t, threads), end = first_of(t + 1, threads);
+    batches[t]->start(task.exact);
+    for (std::size_t c = begin; c < end && !single; c++) new_lists[c].batch = t;
+    compute_range(shape, task, *batches[t], begin, end);
+  }
+}
+
 void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &task,
                                  BodyBatch &batch, std::size_t begin, std::size_t end)
 {
-  batch.flat_history = single ? &history : nullptr;
-  batch.flat_onset = single ? &onset : nullptr;
+  batch.sparse = single ? &history : nullptr;
   for (int law = 0; law < laws.num_laws(); law++) {
     for (std::size_t c = begin; c < end; c++) {
-      if (c + ahead < end) call_ahead(task.view, candidates[c + ahead]);
+      if (c + ahead < end) task.view.call(candidates[c + ahead]);
       if (!single) call_parts_ahead(shape, task.view, c, end);
       if (laws.law_index(task.row_of(candidates[c])) != law) continue;
       if (single)
@@ -186,13 +218,8 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
 /* Candidates stand far from each other in memory: what one needs is called into the cache a while
    before. */
 
-void BodyContacts::call_ahead(const BodyParticleView &view, int i) const
-{
-  view.call(i);
-  if (with_history && single) __builtin_prefetch(&history[i]);
-}
-
-/* First the list of parts, then those that the particle probably touches. */
+/* Candidates stand far from each other in memory: what one needs is called into the cache a while
+   before. First the list of parts, then those that the particle probably touches. */
 
 void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
                                     std::size_t c, std::size_t end) const
@@ -214,15 +241,15 @@ void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParti
 void BodyContacts::touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                               int law, std::size_t c)
 {
-  static const Record none{};
   const int i = candidates[c];
   SurfaceContact contact;
-  if (shape.touches(task.frame.point_to_body(task.view.position(i)), task.view.radius_of(i),
-                    contact))
-    batch.add(task, law, i, contact, with_history ? history[i] : none, with_onset ? onset[i] : none,
-              i);
-  else
-    forget(i);
+  const bool touches = shape.touches(task.frame.point_to_body(task.view.position(i)),
+                                     task.view.radius_of(i), contact);
+  if (with_history) history.set_touching(c / 8, 1U << c % 8, (touches ? 1U : 0U) << c % 8);
+  if (!touches) return;
+  const Record none{};
+  batch.add(task, law, i, contact, with_history ? history.record(c) : none,
+            with_onset ? history.onset(c) : none, static_cast<int>(c));
 }
 
 /* Only parts that the particle can have reached since they were listed; nearest first. */
@@ -316,11 +343,10 @@ void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleVi
 
 double BodyContacts::memory_usage() const
 {
-  return static_cast<double>((history.capacity() + onset.capacity()) * sizeof(Record) +
-                             candidates.capacity() * sizeof(int) +
+  return static_cast<double>((candidates.capacity() + slots.capacity()) * sizeof(int) +
                              listed.capacity() * sizeof(Listed) +
                              parts.capacity() * sizeof(NearPart)) +
-         memory.memory_usage();
+         history.memory_usage() + memory.memory_usage();
 }
 
 }    // namespace Talus

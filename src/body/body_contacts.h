@@ -11,6 +11,8 @@
 
 #include "body/body_batch.h"
 #include "body/contact_memory.h"
+#include "body/resting_body_batch.h"
+#include "body/sparse_history.h"
 
 #include <memory>
 #include <vector>
@@ -55,7 +57,8 @@ class BodyContacts {
   Worst worst(const LargeBodyShape &shape, const BodyFrame &frame,
               const BodyParticleView &view) const;
 
-  /// Adds the contact forces to the particles and returns their reaction.
+  /// Adds the contact forces to the particles and returns their reaction. The slots of particles in
+  /// the records may change only before find_candidates(), as they do at a rebuild.
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
                    const BodyParticleView &view, const BodyStep &step);
 
@@ -76,18 +79,18 @@ class BodyContacts {
   bool keeps_lists() const { return with_history && !single; }
   double memory_usage() const;
 
-  /// One record for each particle (host's index), zero without contact; empty if no law keeps
-  /// history or if there may be more than one contact. The owner resizes, moves and saves them with
-  /// the particles.
-  std::vector<Record> history;
-  std::vector<Record> onset;    ///< the same, for laws that need to know how the contact began
-  ContactMemory memory;         ///< the same, if there may be more than one contact
+  /// By particle (host's index), in scenes whose laws keep history. The owner grows, moves and
+  /// saves them with the particles.
+  SparseHistory history;    ///< if there is one contact at most
+  ContactMemory memory;     ///< if there may be more than one contact
 
  private:
-  void forget(int atom);
+  void sort_by_slot(const int *slot_of_atom);
+  std::size_t first_of(int thread, int threads) const;
+  BodyLoad compute_at_rest(const LargeBodyShape &shape, const BodyTask &task, int threads);
+  void compute_batches(const LargeBodyShape &shape, const BodyTask &task, int threads);
   void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                      std::size_t begin, std::size_t end);
-  void call_ahead(const BodyParticleView &view, int atom) const;
   void call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
                         std::size_t candidate, std::size_t end) const;
   void touch_once(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
@@ -101,7 +104,8 @@ class BodyContacts {
 
   LawTable laws;
   bool with_history = false, with_onset = false, single = true;
-  std::vector<int> candidates;
+  std::vector<int> candidates;    // in the order of slots as soon as it is known, if single
+  std::vector<int> slots;         // of candidates, and some more; empty until it is known
   struct Listed {
     Vector3<double> at;    // frame of the body
     double nearest;        // distance of the nearest of its parts, 0 without parts
@@ -114,6 +118,7 @@ class BodyContacts {
   };
   std::vector<NewList> new_lists;                     // by candidate
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
+  std::vector<std::unique_ptr<RestingBodyBatch>> resting_batches;
   BodyFrame listed_frame;
   double largest_overlap = 0.0;    // over radius
   double listed_reach = 0.0;       // largest distance of a particle from the reference point

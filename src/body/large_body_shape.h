@@ -9,9 +9,9 @@
 // says no, all others may be called from several threads.
 //
 // A shape that touches a sphere at one point at most (one_contact()) implements touches() and
-// distance_bound(). One that may touch it at several points, such as the inside of a box,
-// implements find_contacts() as well, and is_near() if it wants to remember which parts of it are
-// near.
+// distance_bound(), and touches_eight() if it is to be fast. One that may touch it at several
+// points, such as the inside of a box, implements find_contacts() as well, and is_near() if it
+// wants to remember which parts of it are near.
 
 #ifndef TALUS_BODY_LARGE_BODY_SHAPE_H
 #define TALUS_BODY_LARGE_BODY_SHAPE_H
@@ -28,6 +28,17 @@ struct SurfaceContact {
   Vector3<double> normal;    ///< unit vector from the body to the centre of the sphere
   double overlap;            ///< radius minus distance of the centre from the surface, > 0
   int part = 0;              ///< the part that is touched; of a mesh, a triangle
+};
+
+/// Eight spheres, or less, side by side: `centre` by component.
+struct EightSpheres {
+  static constexpr int width = 8;
+  alignas(64) double centre[3][width], radius[width];
+};
+
+/// Where they touch a body; see SurfaceContact.
+struct EightContacts {
+  alignas(64) double normal[3][EightSpheres::width], overlap[EightSpheres::width];
 };
 
 /// A part of a body near some particle, and its distance at the time when it was listed.
@@ -120,6 +131,26 @@ class LargeBodyShape {
   {
     (void) visible;
     (void) triangles;
+  }
+
+  /// touches() for the first `count` of eight spheres: returns one bit for each, and fills the
+  /// contacts whose bits are set. Called instead of touches() where a body is at rest, so it must
+  /// yield the same bits. To implement it pays for a shape that is computed in a few nanoseconds.
+  virtual unsigned touches_eight(const EightSpheres &spheres, int count,
+                                 EightContacts &contacts) const
+  {
+    unsigned touching = 0;
+    for (int k = 0; k < count; k++) {
+      SurfaceContact one;
+      const auto &x = spheres.centre;
+      if (!touches({x[0][k], x[1][k], x[2][k]}, spheres.radius[k], one)) continue;
+      touching |= 1U << k;
+      contacts.normal[0][k] = one.normal.x;
+      contacts.normal[1][k] = one.normal.y;
+      contacts.normal[2][k] = one.normal.z;
+      contacts.overlap[k] = one.overlap;
+    }
+    return touching;
   }
 };
 

@@ -2,10 +2,15 @@
 
 #include "body/plane.h"
 
+#include "body/record_lanes.h"
+
 #include <cmath>
+#include <limits>
 
 namespace Talus {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The part of a convex polygon where inward . x >= least.
 std::vector<Vector3<double>> clipped(const std::vector<Vector3<double>> &polygon,
@@ -37,6 +42,27 @@ bool Plane::touches(const Vector3<double> &centre, double radius, SurfaceContact
   contact.normal = flip ? -normal : normal;
   contact.overlap = radius - (flip ? -height : height);
   return true;
+}
+
+/* The same operations in the same order as for one. */
+
+unsigned Plane::touches_eight(const EightSpheres &spheres, int count, EightContacts &contacts) const
+{
+  const auto all = [](const Vector3<double> &v) {
+    return Vector3<Vec8>{splat<Vec8>(v.x), splat<Vec8>(v.y), splat<Vec8>(v.z)};
+  };
+  const Vector3<Vec8> centre{load8(spheres.centre[0]), load8(spheres.centre[1]),
+                             load8(spheres.centre[2])};
+  const Vector3<Vec8> n = all(normal);
+  const Vec8 height = dot(centre - all(point), n), radius = load8(spheres.radius);
+  const Vec8 away = magnitude(height);
+  const bool_of<Vec8> flip = height < splat<Vec8>(two_sided ? 0.0 : -infinity);
+  const Vector3<Vec8> outward = select(flip, -n, n);
+  store(contacts.normal[0], outward.x);
+  store(contacts.normal[1], outward.y);
+  store(contacts.normal[2], outward.z);
+  store(contacts.overlap, radius - select(flip, -height, height));
+  return bits_of_less(away, radius) & ((1U << count) - 1U);
 }
 
 double Plane::distance_bound(const Vector3<double> &centre) const

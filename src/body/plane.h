@@ -18,6 +18,8 @@ class Plane : public LargeBodyShape {
 
   bool touches(const Vector3<double> &centre, double radius,
                SurfaceContact &contact) const override;
+  unsigned touches_eight(const EightSpheres &spheres, int count,
+                         EightContacts &contacts) const override;
   double distance_bound(const Vector3<double> &centre) const override;
   Vector3<double> reference_point() const override { return point; }
   void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;

@@ -103,7 +103,6 @@ class FixLargeBody : public Fix {
   void finish_reduction();
   void reduce_load();
   void reduce_exactly();
-  int size_packed() const;
   int max_packed() const;
 
   bool two_sided = false;

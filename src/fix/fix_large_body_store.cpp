@@ -15,15 +15,12 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-namespace {
-constexpr int size_record = 4;
-}
-
 void FixLargeBody::keep_history()
 {
   if (!with_history) return;
   restart_peratom = 1;
   create_attribute = 1;
+  contacts.history.keep_onsets(with_onset);
   maxexchange = max_packed();
   FixLargeBody::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -31,61 +28,43 @@ void FixLargeBody::keep_history()
   for (int i = 0; i < atom->nlocal; i++) FixLargeBody::set_arrays(i);
 }
 
-int FixLargeBody::size_packed() const
-{
-  return with_onset ? 2 * size_record : size_record;
-}
-
 int FixLargeBody::max_packed() const
 {
-  return shape->one_contact() ? size_packed() : ContactMemory::max_packed;
+  return shape->one_contact() ? contacts.history.size_packed() : ContactMemory::max_packed;
 }
 
 void FixLargeBody::grow_arrays(int nmax)
 {
-  if (!shape->one_contact()) {
+  if (shape->one_contact())
+    contacts.history.grow(nmax);
+  else
     contacts.memory.grow(nmax);
-    return;
-  }
-  contacts.history.resize(nmax);
-  if (with_onset) contacts.onset.resize(nmax);
 }
 
 void FixLargeBody::copy_arrays(int i, int j, int /*delflag*/)
 {
-  if (!shape->one_contact()) {
+  if (shape->one_contact())
+    contacts.history.copy(i, j);
+  else
     contacts.memory.copy(i, j);
-    return;
-  }
-  contacts.history[j] = contacts.history[i];
-  if (with_onset) contacts.onset[j] = contacts.onset[i];
 }
 
 void FixLargeBody::set_arrays(int i)
 {
-  if (!shape->one_contact()) {
+  if (shape->one_contact())
+    contacts.history.forget(i);
+  else
     contacts.memory.forget(i);
-    return;
-  }
-  contacts.history[i] = Record{};
-  if (with_onset) contacts.onset[i] = Record{};
 }
 
 int FixLargeBody::pack_exchange(int i, double *buf)
 {
-  if (!shape->one_contact()) return contacts.memory.pack(i, buf);
-  std::copy(contacts.history[i].c, contacts.history[i].c + size_record, buf);
-  if (with_onset)
-    std::copy(contacts.onset[i].c, contacts.onset[i].c + size_record, buf + size_record);
-  return size_packed();
+  return shape->one_contact() ? contacts.history.pack(i, buf) : contacts.memory.pack(i, buf);
 }
 
 int FixLargeBody::unpack_exchange(int i, double *buf)
 {
-  if (!shape->one_contact()) return contacts.memory.unpack(i, buf);
-  std::copy(buf, buf + size_record, contacts.history[i].c);
-  if (with_onset) std::copy(buf + size_record, buf + 2 * size_record, contacts.onset[i].c);
-  return size_packed();
+  return shape->one_contact() ? contacts.history.unpack(i, buf) : contacts.memory.unpack(i, buf);
 }
 
 /* Number of particles; motion; what triangles have borne. The host does not move what it has read
@@ -148,7 +127,7 @@ void FixLargeBody::unpack_restart(int i, int nth)
 
 int FixLargeBody::size_restart(int i)
 {
-  return 1 + (shape->one_contact() ? size_packed() : contacts.memory.size_packed(i));
+  return 1 + (shape->one_contact() ? max_packed() : contacts.memory.size_packed(i));
 }
 
 int FixLargeBody::maxsize_restart()

@@ -35,7 +35,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
                : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
     contacts.set_laws(laws, true);
     frame.origin = shape->reference_point();
-    if (contacts.keeps_history()) contacts.history.resize(p.size());
+    if (contacts.keeps_history()) contacts.history.grow(p.size());
     mask.assign(p.size(), 1);
   }
 
@@ -131,7 +131,7 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
       displacement[i] = expected.history;
       at_limit[i] = expected.at_limit;
       if (contacts.keeps_history()) {
-        const Record &h = contacts.history[i];
+        const Record h = contacts.history.of_particle(i);
         const Vector found{h.c[0], h.c[1], h.c[2]};
         ASSERT_LE(norm(axpy(-1.0, displacement[i], found)), 1e-12 * norm(displacement[i]) + 1e-15);
       }
@@ -169,13 +169,15 @@ TEST_P(BodyContactsTest, WithoutAdvanceTheHistoryStays)
 {
   find();
   for (int step = 0; step < 3; step++) compute(true);
-  const std::vector<Record> history = contacts.history;
+  const SparseHistory history = contacts.history;
   const std::vector<Vector> before = force;
   for (int repeat = 0; repeat < 2; repeat++) {
     compute(false);
     EXPECT_EQ(force, before);
-    for (std::size_t i = 0; i < history.size(); i++)
-      ASSERT_TRUE(std::equal(history[i].c, history[i].c + 4, contacts.history[i].c));
+    for (int i = 0; i < p.size() && contacts.keeps_history(); i++) {
+      const Record was = history.of_particle(i), is = contacts.history.of_particle(i);
+      ASSERT_TRUE(std::equal(was.c, was.c + 4, is.c));
+    }
   }
 }
 
@@ -184,7 +186,7 @@ TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
   ASSERT_TRUE(contacts.keeps_history());
   find();
   compute(true);
-  const auto has_history = [this](int i) { return contacts.history[i].c[0] != 0.0; };
+  const auto has_history = [this](int i) { return contacts.history.of_particle(i).c[0] != 0.0; };
   std::vector<int> touching;
   for (int i = 0; i < p.size(); i++)
     if (has_history(i)) touching.push_back(i);

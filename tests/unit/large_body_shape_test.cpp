@@ -105,6 +105,46 @@ TEST(Plane, AgreesWithItsEquation)
     }
 }
 
+/// Eight spheres around the shape, some of which just reach it or have their centre in it.
+EightSpheres spheres_around(const Placed &p, RandomSource &random)
+{
+  EightSpheres spheres{};
+  for (int k = 0; k < EightSpheres::width; k++) {
+    const double radius = random.uniform(0.1, 1.5);
+    const double heights[] = {radius, -radius, 0.0, random.uniform(-2.0, 2.0)};
+    const Vector x =
+        p.point(random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), heights[random.below(4)]);
+    for (int d = 0; d < 3; d++) spheres.centre[d][k] = x[d];
+    spheres.radius[k] = radius;
+  }
+  return spheres;
+}
+
+TEST(LargeBodyShape, EightAtATimeHaveTheBitsOfOne)
+{
+  RandomSource random(11);
+  int touching = 0;
+  for (int n = 0; n < 4000; n++) {
+    const Placed p = placed(random, n % 4 == 0, n % 3 == 0);
+    const EightSpheres spheres = spheres_around(p, random);
+    const int count = 1 + random.below(8);
+    EightContacts contacts{};
+    const unsigned bits = p.shape->touches_eight(spheres, count, contacts);
+    ASSERT_EQ(bits >> count, 0U);
+    for (int k = 0; k < count; k++) {
+      SurfaceContact c;
+      const auto &x = spheres.centre;
+      const bool expected = p.shape->touches({x[0][k], x[1][k], x[2][k]}, spheres.radius[k], c);
+      ASSERT_EQ(bits >> k & 1U, expected ? 1U : 0U);
+      if (!expected) continue;
+      touching++;
+      ASSERT_EQ(contacts.overlap[k], c.overlap);
+      for (int d = 0; d < 3; d++) ASSERT_EQ(contacts.normal[d][k], plain(c.normal)[d]);
+    }
+  }
+  EXPECT_GT(touching, 3000);
+}
+
 TEST(Plane, ReferencePointIsItsPoint)
 {
   const Plane plane({1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}, false);

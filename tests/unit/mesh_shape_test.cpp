@@ -102,7 +102,7 @@ class Roller {
   {
     contacts.set_laws(sliding_law(), shape.one_contact());
     if (shape.one_contact())
-      contacts.history.resize(1);
+      contacts.history.grow(1);
     else
       contacts.memory.grow(1);
     frame.origin = shape.reference_point();
