@@ -16,6 +16,9 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   records.clear();
   onsets.clear();
   vacant.clear();
+  // addresses for all, that nothing has to move later; only what is written takes memory
+  records.reserve(pairs.num_pairs());
+  if (onset_kept) onsets.reserve(pairs.num_pairs());
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
@@ -31,20 +34,9 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   }
 }
 
-/* A little room at a time: twice what is needed, as vectors take it, would be felt. */
-
-void ContactHistory::make_room()
-{
-  constexpr std::size_t least = 64;
-  const std::size_t room = records.size() + records.size() / 8 + least;
-  records.reserve(room);
-  if (onset_kept) onsets.reserve(room);
-}
-
 void ContactHistory::begin(std::int64_t pair)
 {
   if (vacant.empty()) {
-    if (records.size() == records.capacity()) make_room();
     places[pair] = static_cast<std::uint32_t>(records.size());
     records.push_back(Record{});
     if (onset_kept) onsets.push_back(Record{});

@@ -67,7 +67,6 @@ class ContactHistory {
 
  private:
   void begin(std::int64_t pair);
-  void make_room();
   void change(std::int64_t block, unsigned bits);
   template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
   void file_entry(double *values, std::int64_t pair, bool from_first) const;

@@ -14,6 +14,7 @@ namespace Talus {
 namespace {
 
 constexpr int width = 16;
+constexpr std::size_t usual = 16;    // neighbors in the row of a sphere, or less
 typedef float Floats __attribute__((vector_size(64)));
 typedef float FloatsOverlay __attribute__((vector_size(64), aligned(4), may_alias));
 typedef std::int32_t Ints __attribute__((vector_size(64)));
@@ -145,6 +146,8 @@ void NeighbourSearch::find(const Spheres &s, int threads,
     const int end = static_cast<int>(static_cast<std::int64_t>(s.total) * (t + 1) / threads);
     Chunk &mine = chunks[t];
     mine.count = 0;
+    // addresses for more than most scenes need: only what is written takes memory
+    mine.entries.resize(usual * (end - begin));
     for (int a = begin; a < end; a++) {
       const std::size_t before = mine.count;
       find_row(s, a, mine);

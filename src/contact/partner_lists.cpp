@@ -2,8 +2,6 @@
 
 #include "contact/partner_lists.h"
 
-#include "contact/big_vector.h"
-
 #include <algorithm>
 #include <cstring>
 
@@ -30,7 +28,7 @@ void PartnerLists::set_values(int n)
 {
   if (n == values) return;
   const std::size_t entries = pool.size() / stride();
-  std::vector<double> converted(entries * (1 + n), 0.0);
+  BigVector<double> converted(entries * (1 + n), 0.0);
   for (std::size_t e = 0; e < entries; e++)
     std::memcpy(&converted[e * (1 + n)], &pool[e * stride()],
                 sizeof(double) * (1 + std::min(n, values)));

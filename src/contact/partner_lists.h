@@ -8,6 +8,8 @@
 #ifndef TALUS_CONTACT_PARTNER_LISTS_H
 #define TALUS_CONTACT_PARTNER_LISTS_H
 
+#include "contact/big_vector.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -64,7 +66,7 @@ class PartnerLists {
   };
   int values = 4;
   std::vector<Range> range;
-  std::vector<double> pool;
+  BigVector<double> pool;
 };
 
 }    // namespace Talus
