@@ -43,7 +43,7 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   row_start.pop_back();
   for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
 
-  constexpr int records_in_cache = 2048;
+  constexpr int records_in_cache = 4096;
   distant.clear();
   for (std::int64_t c = 0; c < count; c++)
     if (second[c] - first[c] > records_in_cache) distant.push_back(static_cast<std::uint32_t>(c));

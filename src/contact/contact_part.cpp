@@ -86,7 +86,7 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
     const std::size_t i = pairs.first[pairs.distant[next]];
     __builtin_prefetch(&particles.position[i]);
     __builtin_prefetch(&particles.motion[particles.stride * i]);
-    __builtin_prefetch(&particles.load[particles.stride * i], 1);
+    __builtin_prefetch(&particles.load[particles.stride * i]);
   }
 }
 
