@@ -9,6 +9,10 @@ import dataclasses
 
 ALWAYS = "always"
 
+# when an array stands: in steps, while displacements are filed by particle, while new lists are made
+STEPS, FILING, LISTING = "steps", "filing", "listing"
+PHASES = (STEPS, FILING, LISTING)
+
 
 @dataclasses.dataclass
 class Array:
@@ -17,6 +21,7 @@ class Array:
     per: str            # particle, pair, contact, end, body
     when: str = ALWAYS
     counted: bool = True    # in the bed that is measured
+    phases: tuple = PHASES
 
 
 HOST = [
@@ -29,9 +34,9 @@ HOST = [
 ]
 
 TALUS = [
-    Array("records: place and radius; velocity and 1/mass; sum of forces", 96, "particle"),
-    Array("records: spin and 1/radius; sum of moments", 64, "particle", "friction"),
-    Array("records: sum of couples", 32, "particle", "rolling or spinning resistance", False),
+    Array("records: place and radius; velocity and 1/mass; sum of forces", 96, "particle", "steps", True, (STEPS,)),
+    Array("records: spin and 1/radius; sum of moments", 64, "particle", "steps, friction", True, (STEPS,)),
+    Array("records: sum of couples", 32, "particle", "steps, rolling or spinning resistance", False),
     Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
     Array("order: key, tag, both numberings", 24, "particle"),
     Array("name in the filed displacements", 8, "particle"),
@@ -39,16 +44,17 @@ TALUS = [
           "threads, ranks", False),
     Array("pairs: two indices", 8, "pair"),
     Array("pairs: begin of each row, for each thread", 8, "particle"),
-    Array("pairs: those that touch", 4, "pair"),
-    Array("pairs: displacement, whether it slides; whether it touches", 32.125, "pair", "multistep"),
-    Array("pairs: impact speed, age", 32, "pair", "laws that read them", False),
+    Array("pairs: those that touch", 4, "contact", "steps", True, (STEPS, FILING)),
+    Array("pairs: displacement, whether it slides", 32, "contact", "multistep", True, (STEPS, FILING)),
+    Array("pairs: place of the displacement; whether it touches", 4.125, "pair", "multistep", True, (STEPS, FILING)),
+    Array("pairs: impact speed, age", 32, "contact", "laws that read them", False),
     Array("displacements filed by particle: heads", 16, "particle"),
-    Array("displacements filed by particle, with the tag of the partner", 40, "end", "multistep"),
-    Array("contacts with their forces, for the pressure", 72, "contact", "steps that compute the pressure"),
-    Array("large bodies: displacement", 32, "body", "multistep"),
-    Array("neighbor search: cells, places in them, rows", 36, "particle"),
-    Array("neighbor search: neighbors, with room to grow, up to", 8, "pair"),
-    Array("rebuild only: keys, tags and names in the old order, and their sorting", 48, "particle"),
+    Array("displacements filed by particle, with the tag of the partner", 40, "end", "rebuild, multistep", True,
+          (FILING, LISTING)),
+    Array("large bodies: where the displacement is", 4, "body", "multistep"),
+    Array("neighbor search: cells, places in them, rows", 36, "particle", "rebuild", True, (LISTING,)),
+    Array("neighbor search: neighbors", 4, "pair", "rebuild", True, (LISTING,)),
+    Array("keys and tags in the old order, and their sorting", 32, "particle", "rebuild", True, (LISTING,)),
 ]
 
 STOCK = [
@@ -67,15 +73,16 @@ def bytes_per_particle(array, contacts, pairs, bodies):
 
 
 def table(contacts, pairs, bodies, stock_walls):
-    """(rows of a table, {code: sum of what the measured bed holds}); bodies and walls: arrays of that kind."""
+    """(rows of a table, {code: {phase: sum of what the measured bed holds}}); bodies and walls: arrays of that kind."""
     rows, sums = [], {}
     for owner, arrays, count in (("LAMMPS", HOST, bodies), ("Talus", TALUS, bodies), ("stock gran/hertz/history", STOCK,
                                                                                     stock_walls)):
+        sums[owner] = dict.fromkeys(PHASES, 0.0)
         for array in arrays:
             size = bytes_per_particle(array, contacts, pairs, count)
             rows.append([owner, array.what, f"{array.bytes:g} per {NAMES[array.per]}", size, array.when])
-            if array.counted:
-                sums[owner] = sums.get(owner, 0.0) + size
+            for phase in array.phases if array.counted else ():
+                sums[owner][phase] += size
     return rows, sums
 
 

@@ -216,9 +216,6 @@ void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &ta
 }
 
 /* Candidates stand far from each other in memory: what one needs is called into the cache a while
-   before. */
-
-/* Candidates stand far from each other in memory: what one needs is called into the cache a while
    before. First the list of parts, then those that the particle probably touches. */
 
 void BodyContacts::call_parts_ahead(const LargeBodyShape &shape, const BodyParticleView &view,
