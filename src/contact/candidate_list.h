@@ -46,8 +46,39 @@ class CandidateList {
   /// Forces on particles that other parts serve must be kept off their sums.
   bool screened() const { return shared() && !particles->runs_alone_first(part); }
 
-  /// Slot behind the last particle for forces that this part does not want; every part has its own.
+  /// Where forces on a slot are added: there, or if this part does not want them behind the last
+  /// particle, where every part has a slot of its own.
   std::size_t nowhere() const { return static_cast<std::size_t>(particles->size()) + part; }
+  struct ToAll {
+    std::size_t operator()(int slot) const { return slot; }
+  };
+  struct ToRange {
+    int begin;
+    unsigned size;
+    std::size_t nowhere;
+    std::size_t operator()(int slot) const
+    {
+      return static_cast<unsigned>(slot - begin) < size ? static_cast<std::size_t>(slot) : nowhere;
+    }
+  };
+  struct ToPart {
+    const std::uint16_t *part_of_slot;
+    int part;
+    std::size_t nowhere;
+    std::size_t operator()(int slot) const
+    {
+      return part_of_slot[slot] == part ? static_cast<std::size_t>(slot) : nowhere;
+    }
+  };
+  /// Calls work(target) with the cheapest of these that will do.
+  template <class Work> void with_target(Work work) const
+  {
+    if (!screened()) return work(ToAll{});
+    const ParticleOrder::Range its = slots();
+    if (particles->may_fill_range(part))
+      return work(ToRange{its.begin, static_cast<unsigned>(its.end - its.begin), nowhere()});
+    work(ToPart{particles->part_of_slots(), part, nowhere()});
+  }
 
   /// Where the slots of this part are.
   ParticleOrder::Range slots() const { return particles->range(part); }

@@ -31,27 +31,22 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
                           const ContactStep &how, const Bring &bring)
 {
   const Step step{how, scene, particles, bring};
-  const auto choose = [&](auto screened) {
-    constexpr bool is_screened = decltype(screened)::value;
+  pairs.with_target([&](auto target) {
     if (scene.with_history)
-      compute_all<true, true, is_screened>(step);
+      compute_all<true, true>(step, target);
     else if (scene.with_friction)
-      compute_all<true, false, is_screened>(step);
+      compute_all<true, false>(step, target);
     else
-      compute_all<false, false, is_screened>(step);
-  };
-  if (pairs.screened())
-    choose(std::true_type{});
-  else
-    choose(std::false_type{});
+      compute_all<false, false>(step, target);
+  });
 }
 
 /* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending
    order of the second particle: memory is read straight ahead, and first particles, but for the
    distant ones, are still in the cache. */
 
-template <bool friction, bool history_kept, bool screened>
-void ContactPart::compute_all(const Step &step)
+template <bool friction, bool history_kept, class Target>
+void ContactPart::compute_all(const Step &step, Target target)
 {
   constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
   const std::int64_t candidates = pairs.num_pairs();
@@ -70,10 +65,10 @@ void ContactPart::compute_all(const Step &step)
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= block_size; done += block_size)
-      compute_block<friction, history_kept, screened>(step, done, block_size);
+      compute_block<friction, history_kept>(step, target, done, block_size);
   }
   if (done < touching)
-    compute_block<friction, history_kept, screened>(step, done, static_cast<int>(touching - done));
+    compute_block<friction, history_kept>(step, target, done, static_cast<int>(touching - done));
   if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
 }
 
@@ -90,8 +85,8 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
   }
 }
 
-template <bool friction, bool history_kept, bool screened>
-void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
+template <bool friction, bool history_kept, class Target>
+void ContactPart::compute_block(const Step &step, Target target, std::int64_t begin, int count)
 {
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
@@ -105,11 +100,8 @@ void ContactPart::compute_block(const Step &step, std::int64_t begin, int count)
   if (scene.with_onset && step.advance) keep_onsets(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  if constexpr (screened)
-    add_up_screened<friction>(step.particles, block, count);
-  else
-    add_up<friction>(step.particles, block, count);
-  if (scene.with_resistance) add_couples<screened>(step.particles, block, count);
+  add_up<friction>(step.particles, target, block, count);
+  if (scene.with_resistance) add_couples(step.particles, target, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
@@ -184,46 +176,24 @@ void ContactPart::apply_weights(int end)
   }
 }
 
-/* Forces on particles of other parts go where nobody reads them. */
-
-template <bool friction>
-void ContactPart::add_up_screened(ParticleRecords &particles, const std::uint32_t *block, int count)
-{
-  constexpr std::size_t stride = friction ? 2 : 1;
-  const std::size_t nowhere = pairs.nowhere();
-  const auto target = [&](int slot) {
-    return &particles.load[stride * (pairs.serves(slot) ? slot : nowhere)];
-  };
-  for (int n = 0; n < count; n++) {
-    Record *i = target(pairs.first[block[n]]), *j = target(pairs.second[block[n]]);
-    const int lane = lane_of_contact[n];
-    const Vec4 f = load4(force_of_lane[lane]);
-    store(i[0], load4(i[0]) + f);
-    store(j[0], load4(j[0]) - f);
-    if constexpr (friction) {
-      const Vec4 m = load4(moment_of_lane[lane]);
-      store(i[1], load4(i[1]) + m);
-      store(j[1], load4(j[1]) + m);
-    }
-  }
-}
-
 /* The contacts of one second particle follow each other, and nothing has been added to it before
    the first of them: its sums stay in registers and are stored again and again, but not loaded. */
 
-template <bool friction>
-void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
+template <bool friction, class Target>
+void ContactPart::add_up(ParticleRecords &particles, Target target, const std::uint32_t *block,
+                         int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const int *first = pairs.first.data(), *second = pairs.second.data();
   Record *load = particles.load.data();
-  std::size_t last = second[block[0]];    // may have begun in the last block
-  Vec4 force = load4(load[stride * last]), moment{};
-  if constexpr (friction) moment = load4(load[stride * last + 1]);
+  int last = second[block[0]];    // may have begun in the last block
+  const Record *begun = load + stride * target(last);
+  Vec4 force = load4(begun[0]), moment{};
+  if constexpr (friction) moment = load4(begun[1]);
 
   for (int n = 0; n < count; n++) {
-    const std::size_t its = second[block[n]];
-    Record *i = load + stride * first[block[n]], *j = load + stride * its;
+    const int its = second[block[n]];
+    Record *i = load + stride * target(first[block[n]]), *j = load + stride * target(its);
     const int lane = lane_of_contact[n];
     const bool same = its == last;
     last = its;
@@ -240,15 +210,13 @@ void ContactPart::add_up(ParticleRecords &particles, const std::uint32_t *block,
   }
 }
 
-template <bool screened>
-void ContactPart::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
+template <class Target>
+void ContactPart::add_couples(ParticleRecords &particles, Target target, const std::uint32_t *block,
+                              int count)
 {
-  const std::size_t nowhere = pairs.nowhere();
-  const auto target = [&](int slot) -> Record & {
-    return particles.couple[!screened || pairs.serves(slot) ? slot : nowhere];
-  };
   for (int n = 0; n < count; n++) {
-    Record &i = target(pairs.first[block[n]]), &j = target(pairs.second[block[n]]);
+    Record &i = particles.couple[target(pairs.first[block[n]])];
+    Record &j = particles.couple[target(pairs.second[block[n]])];
     const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
     store(i, load4(i) + c);
     store(j, load4(j) - c);

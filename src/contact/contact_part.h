@@ -101,9 +101,10 @@ class ContactPart {
     ParticleRecords &particles;
     const Bring &bring;
   };
-  template <bool friction, bool history_kept, bool screened> void compute_all(const Step &step);
-  template <bool friction, bool history_kept, bool screened>
-  void compute_block(const Step &step, std::int64_t begin, int count);
+  template <bool friction, bool history_kept, class Target>
+  void compute_all(const Step &step, Target target);
+  template <bool friction, bool history_kept, class Target>
+  void compute_block(const Step &step, Target target, std::int64_t begin, int count);
   void call_distant(const ParticleRecords &particles, std::size_t &next, std::int64_t end) const;
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
   void place(std::uint32_t contact, int position, int lane);
@@ -119,12 +120,11 @@ class ContactPart {
                     Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction>
-  void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  template <bool friction>
-  void add_up_screened(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  template <bool screened>
-  void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  template <bool friction, class Target>
+  void add_up(ParticleRecords &particles, Target target, const std::uint32_t *contacts, int count);
+  template <class Target>
+  void add_couples(ParticleRecords &particles, Target target, const std::uint32_t *contacts,
+                   int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
 

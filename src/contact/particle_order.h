@@ -52,6 +52,10 @@ class ParticleOrder {
   /// The only part that runs before the others: what it adds to their particles is cleared before
   /// they start, see ContactPipeline.
   bool runs_alone_first(int part) const { return two_phases && parts == 2 && part == 0; }
+  /// Forces that a part adds to slots of its range which are not its own do no harm: they are
+  /// ghosts, or of a part that runs later and is cleared before. Those of no other part of the same
+  /// phase are within it.
+  bool may_fill_range(int part) const { return !two_phases || part < parts / 2; }
   double memory_usage() const;
 
   static constexpr int no_part = 0xffff, max_threads = 0x7fff;

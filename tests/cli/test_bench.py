@@ -144,6 +144,7 @@ class Profile(unittest.TestCase):
                 ("broad phase", "talusstyles.so", "Talus::CandidateList::collect(Talus::ParticleOrder const&)"),
                 ("broad phase", "liblammps.so.0", "LAMMPS_NS::NPairBin<1, 0, 0, 1, 1>::build"),
                 ("floor and walls", "talusstyles.so", "Talus::BodyBatch::apply"),
+                ("floor and walls", "talusstyles.so", "Talus::RestingBodyBatch::gather"),
                 ("broad phase", "talusstyles.so", "Talus::NeighbourSearch::compare"),
                 ("exchange", "talusstyles.so", "Talus::SpherePacker::pack"),
                 ("exchange", "talusstyles.so", "Talus::RecordPacker::unpack"),
@@ -157,7 +158,14 @@ class Memory(unittest.TestCase):
     def test_sums_hold_what_is_counted(self):
         rows, sums = arrays.table(2.0, 3.0, 5, 3)
         self.assertEqual(len(rows), sum(map(len, (arrays.HOST, arrays.TALUS, arrays.STOCK))))
-        self.assertAlmostEqual(sums["stock gran/hertz/history"], 16 + 4 * 3 + 48 + 36 + 28 * 3 + 28 * 4 + 24 * 3)
+        stock = 16 + 4 * 3 + 48 + 36 + 28 * 3 + 28 * 4 + 24 * 3
+        for phase in arrays.PHASES:
+            self.assertAlmostEqual(sums["stock gran/hertz/history"][phase], stock)
+        ours, always, pairs = sums["Talus"], 24 + 8 + 16 + 4 * 5, 8 * 3 + 8
+        of_contacts, filed = 4 * 2 + 32 * 2 + 4.125 * 3, 40 * 4
+        self.assertAlmostEqual(ours[arrays.STEPS], always + pairs + of_contacts + 96 + 64)
+        self.assertAlmostEqual(ours[arrays.FILING], always + pairs + of_contacts + filed)
+        self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + filed + 36 + 4 * 3 + 32)
 
     def test_own_peak(self):
         before = lammps.own_peak()

@@ -143,7 +143,7 @@ TEST(CandidateList, NamesDistantPairs)
   list.collect(order, lists.view(), 0);
   std::vector<std::uint32_t> expected;
   for (std::int64_t c = 0; c < list.num_pairs(); c++)
-    if (list.second[c] - list.first[c] > 2048) expected.push_back(static_cast<std::uint32_t>(c));
+    if (list.second[c] - list.first[c] > 4096) expected.push_back(static_cast<std::uint32_t>(c));
   EXPECT_GT(expected.size(), 100U);
   EXPECT_EQ(list.distant, expected);
 }
