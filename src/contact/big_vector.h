@@ -40,6 +40,10 @@ template <class T> struct BigAllocator {
 
 template <class T> using BigVector = std::vector<T, BigAllocator<T>>;
 
+/// Memory that is needed again and again is given back in between only if it is more than this
+/// (bytes): the system zeroes what it hands out anew, which is felt where lists are made often.
+constexpr double worth_giving_back = 64 << 20;
+
 /// Gives the memory of a vector back.
 template <class Vector> void release(Vector &v)
 {

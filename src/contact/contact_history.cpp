@@ -13,12 +13,12 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   onset_kept = partners.num_values() == 8;
   renew(places, pairs.num_pairs());
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
-  records.clear();
-  onsets.clear();
   vacant.clear();
   // addresses for all, that nothing has to move later; only what is written takes memory
-  records.reserve(pairs.num_pairs());
-  if (onset_kept) onsets.reserve(pairs.num_pairs());
+  for (BigVector<Record> *each : {&records, &onsets}) {
+    renew(*each, each == &records || onset_kept ? pairs.num_pairs() : 0);
+    each->clear();
+  }
 
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];

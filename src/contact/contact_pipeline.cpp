@@ -2,8 +2,9 @@
 
 #include "contact/contact_pipeline.h"
 
+#include "contact/in_parallel.h"
+
 #include <algorithm>
-#include <exception>
 
 namespace Talus {
 
@@ -50,25 +51,16 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
 
   mark(order.frontier(), at_frontier);
 
-  const int num_parts = order.num_parts();
-  travels.assign(num_parts + 1, RecordTravel{});
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int p = 0; p < num_parts; p++) try {
-      parts[p].pairs.collect(order, neighbours, p);
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  if (failure) std::rethrow_exception(failure);
+  travels.assign(order.num_parts() + 1, RecordTravel{});
+  in_parallel(order.num_parts(), threads,
+              [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
 }
 
 void ContactPipeline::start_pairs(const PartnerLists &partners,
                                   const std::vector<std::int64_t> &filed_tag)
 {
-  const int num_parts = order.num_parts();
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int p = 0; p < num_parts; p++) parts[p].start_pairs(scene, partners, filed_tag);
+  in_parallel(order.num_parts(), threads,
+              [&](int p) { parts[p].start_pairs(scene, partners, filed_tag); });
   make_room();
 }
 
@@ -80,14 +72,16 @@ void ContactPipeline::make_room()
 void ContactPipeline::release_records()
 {
   in_records = prepared = move_pending = false;
+  if (memory_usage() < worth_giving_back) return;
   particles.release();
   Talus::release(held);
 }
 
 void ContactPipeline::release()
 {
+  const bool much = memory_usage() > worth_giving_back;
   release_records();
-  parts.clear();
+  if (much) parts.clear();
 }
 
 void ContactPipeline::file_history(PartnerLists &partners) const

@@ -57,9 +57,9 @@ class ContactPipeline {
   /// filed under `filed_tag`, see ContactHistory::fetch().
   void start_pairs(const PartnerLists &partners, const std::vector<std::int64_t> &filed_tag);
 
-  /// Give memory back, for rebuilds need much for a while: that of the records, which the next
-  /// compute() makes anew and which must be in the host's arrays; and all of it, with pairs and
-  /// histories, which are then unknown until start_pairs().
+  /// Give memory back if it is much, for rebuilds need as much for a while: that of the records,
+  /// which the next compute() makes anew and whose state must be in the host's arrays; and all of
+  /// it, with pairs and histories, which are then unknown until start_pairs().
   void release_records();
   void release();
 

@@ -2,6 +2,7 @@
 
 #include "contact/neighbour_search.h"
 
+#include "contact/in_parallel.h"
 #include "contact/simd.h"
 
 #include <algorithm>
@@ -140,25 +141,30 @@ void NeighbourSearch::find(const Spheres &s, int threads,
   size.assign(s.total, 0);
   entries.assign(s.total, nullptr);
   chunks.resize(threads);
-#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++) {
-    const int begin = static_cast<int>(static_cast<std::int64_t>(s.total) * t / threads);
-    const int end = static_cast<int>(static_cast<std::int64_t>(s.total) * (t + 1) / threads);
-    Chunk &mine = chunks[t];
-    mine.count = 0;
-    // addresses for more than most scenes need: only what is written takes memory
-    mine.entries.resize(usual * (end - begin));
-    for (int a = begin; a < end; a++) {
-      const std::size_t before = mine.count;
-      find_row(s, a, mine);
-      int *const row = mine.entries.data() + before, *last = mine.entries.data() + mine.count;
-      if (excluded) last = std::remove_if(row, last, [&](int b) { return excluded(a, b); });
-      size[a] = static_cast<int>(last - row);
-      mine.count = before + size[a];
-    }
-    const int *row = mine.entries.data();    // which moves no more
-    for (int a = begin; a < end; row += size[a++]) entries[a] = row;
+  in_parallel(threads, threads, [&](int t) { find_rows(s, t, threads, excluded); });
+}
+
+/* The rows of one thread. */
+
+void NeighbourSearch::find_rows(const Spheres &s, int t, int threads,
+                                const std::function<bool(int, int)> &excluded)
+{
+  const int begin = static_cast<int>(static_cast<std::int64_t>(s.total) * t / threads);
+  const int end = static_cast<int>(static_cast<std::int64_t>(s.total) * (t + 1) / threads);
+  Chunk &mine = chunks[t];
+  mine.count = 0;
+  // addresses for more than most scenes need: only what is written takes memory
+  if (mine.entries.empty()) mine.entries.resize(usual * (end - begin));
+  for (int a = begin; a < end; a++) {
+    const std::size_t before = mine.count;
+    find_row(s, a, mine);
+    int *const row = mine.entries.data() + before, *last = mine.entries.data() + mine.count;
+    if (excluded) last = std::remove_if(row, last, [&](int b) { return excluded(a, b); });
+    size[a] = static_cast<int>(last - row);
+    mine.count = before + size[a];
   }
+  const int *row = mine.entries.data();    // which moves no more
+  for (int a = begin; a < end; row += size[a++]) entries[a] = row;
 }
 
 /* Rows of cells that the sphere reaches. */
@@ -215,7 +221,9 @@ NeighbourView NeighbourSearch::view() const
 
 void NeighbourSearch::clear()
 {
-  *this = NeighbourSearch{};
+  size.clear();
+  entries.clear();
+  if (memory_usage() > worth_giving_back) *this = NeighbourSearch{};
 }
 
 double NeighbourSearch::memory_usage() const

@@ -40,7 +40,7 @@ class NeighbourSearch {
   /// Valid until the next find() or clear().
   NeighbourView view() const;
 
-  /// Drops the pairs and gives all memory back.
+  /// Drops the pairs, and gives all memory back if it is much.
   void clear();
 
   double memory_usage() const;
@@ -63,6 +63,8 @@ class NeighbourSearch {
   };
   static Grid make_grid(const Spheres &spheres);
   void sort_into_cells(const Spheres &spheres);
+  void find_rows(const Spheres &spheres, int thread, int threads,
+                 const std::function<bool(int, int)> &excluded);
   void find_row(const Spheres &spheres, int particle, Chunk &found) const;
   void compare(const float *place_and_radius, int particle, int below, std::int64_t begin,
                std::int64_t end, Chunk &found) const;

@@ -49,7 +49,7 @@ void PartnerLists::begin()
 void PartnerLists::release()
 {
   begin();
-  Talus::release(pool);
+  if (memory_usage() > worth_giving_back) Talus::release(pool);
 }
 
 void PartnerLists::layout()

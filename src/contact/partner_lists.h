@@ -32,7 +32,7 @@ class PartnerLists {
   void layout();
   double *append(int atom, std::int64_t tag);
 
-  /// Empties all lists and gives their memory back.
+  /// Empties all lists, and gives their memory back if it is much.
   void release();
 
   /// Values of `atom` with the partner `tag`, or nullptr. Valid until the next refill or unpack.

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <new>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
@@ -230,11 +231,16 @@ void PairGranPenalty::renumber_pairs()
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
   try {
     pipeline.set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, neighbours.find(list));
+    neighbours.release();
+    pipeline.start_pairs(store->partner_lists(), store->all_filed_tags());
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
+  } catch (const std::bad_alloc &) {
+    error->one(FLERR,
+               "Pair style gran/penalty: not enough memory for the pairs of {} particles and {} "
+               "ghosts of a rank: use more machines",
+               atom->nlocal, atom->nghost);
   }
-  neighbours.release();
-  pipeline.start_pairs(store->partner_lists(), store->all_filed_tags());
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
