@@ -30,7 +30,7 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
     begin(c);
     record(c) = from_first ? seen : mirrored(seen);
     if (onset_kept) onset(c) = {{v[4], v[5], v[6], v[7]}};
-    touching[c / 8] |= 1U << (c % 8);
+    touching[c / 8] = static_cast<std::uint8_t>(touching[c / 8] | 1U << (c % 8));
   }
 }
 
