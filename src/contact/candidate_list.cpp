@@ -22,7 +22,8 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   };
 
   bool all_unit = true;
-  row_start.assign(static_cast<std::size_t>(order.size()) + 2, 0);
+  // pairs with second s: row_start[s] ... row_start[s+1]-1
+  std::vector<std::int64_t> row_start(static_cast<std::size_t>(order.size()) + 2, 0);
   for_each_of_part([&](int, int b, double weight) {
     row_start[b + 2]++;
     all_unit = all_unit && weight == 1.0;
@@ -84,7 +85,9 @@ void CandidateList::sort_row(std::int64_t begin, std::int64_t end)
 std::int64_t CandidateList::find(int slot_a, int slot_b) const
 {
   const int a = std::min(slot_a, slot_b), b = std::max(slot_a, slot_b);
-  const auto begin = first.begin() + row_start[b], end = first.begin() + row_start[b + 1];
+  const auto row = std::equal_range(second.begin(), second.end(), b);
+  const auto begin = first.begin() + (row.first - second.begin());
+  const auto end = first.begin() + (row.second - second.begin());
   const auto found = std::lower_bound(begin, end, a);
   return found != end && *found == a ? found - first.begin() : -1;
 }
@@ -92,7 +95,6 @@ std::int64_t CandidateList::find(int slot_a, int slot_b) const
 double CandidateList::memory_usage() const
 {
   return static_cast<double>(sizeof(int) * (first.capacity() + second.capacity()) +
-                             sizeof(std::int64_t) * row_start.capacity() +
                              sizeof(double) * weights.capacity() +
                              sizeof(std::uint32_t) * distant.capacity());
 }

@@ -99,8 +99,6 @@ class CandidateList {
 
   const ParticleOrder *particles = nullptr;
   int part = 0;
-  std::vector<std::int64_t>
-      row_start;    ///< pairs with second s: row_start[s] ... row_start[s+1]-1
 };
 
 }    // namespace Talus

@@ -24,13 +24,20 @@ void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &par
   else
     history.release();
   touching = 0;
-  renew(contacts, pairs.num_pairs() + lanes);    // the narrow phase stores a few entries ahead
+}
+
+void ContactPart::forget_contacts()
+{
+  touching = 0;
+  release(contacts);
 }
 
 void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
                           const ContactStep &how, const Bring &bring)
 {
   const Step step{how, scene, particles, bring};
+  const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
+  if (contacts.size() != room) renew(contacts, room);
   pairs.with_target([&](auto target) {
     if (scene.with_history)
       compute_all<true, true>(step, target);

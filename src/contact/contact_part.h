@@ -72,6 +72,10 @@ class ContactPart {
   void start_pairs(const ContactScene &scene, const PartnerLists &partners,
                    const std::vector<std::int64_t> &filed_tag);
 
+  /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
+  /// ask.
+  void forget_contacts();
+
   /// Computes all contacts of this part and adds their forces to the sums of its particles. All of
   /// its slots are brought on the way, a while before they are needed, so that they pass through
   /// the cache once; slots of other parts must be there from the beginning.

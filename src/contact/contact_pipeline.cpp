@@ -75,6 +75,7 @@ void ContactPipeline::release_records()
   if (memory_usage() < worth_giving_back) return;
   particles.release();
   Talus::release(held);
+  for (ContactPart &part : parts) part.forget_contacts();
 }
 
 void ContactPipeline::release()
