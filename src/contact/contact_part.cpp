@@ -55,7 +55,7 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
 template <bool friction, bool history_kept, class Target>
 void ContactPart::compute_all(const Step &step, Target target)
 {
-  constexpr std::int64_t stretch = 8 * ContactBatch::width, between_calls = 16 * stretch;
+  constexpr std::int64_t stretch = 8L * ContactBatch::width, between_calls = 16 * stretch;
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
   ParticleOrder::Range to_bring = pairs.slots();
