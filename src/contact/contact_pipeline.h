@@ -132,10 +132,8 @@ class ContactPipeline {
   /// Largest relative speed of the centres of candidate pairs.
   double largest_relative_speed() const;
 
-  int num_particles() const
-  {
-    return parts.empty() ? 0 : order.size();
-  }    ///< that it has pairs of
+  /// That it has pairs of: none after release().
+  int num_particles() const { return parts.empty() ? 0 : order.size(); }
   bool in_two_phases() const { return parts_per_phase < static_cast<int>(parts.size()); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
