@@ -47,7 +47,7 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   constexpr int records_in_cache = 4096;
   distant.clear();
   for (std::int64_t c = 0; c < count; c++)
-    if (second[c] - first[c] > records_in_cache) distant.push_back(static_cast<std::uint32_t>(c));
+    if (second[c] - first[c] > records_in_cache) distant.push_back({static_cast<std::uint32_t>(c), first[c]});
 }
 
 /* The narrow phase counts a few further than there are pairs. */
@@ -96,7 +96,7 @@ double CandidateList::memory_usage() const
 {
   return static_cast<double>(sizeof(int) * (first.capacity() + second.capacity()) +
                              sizeof(double) * weights.capacity() +
-                             sizeof(std::uint32_t) * distant.capacity());
+                             sizeof(Distant) * distant.capacity());
 }
 
 }    // namespace Talus

@@ -92,7 +92,11 @@ class CandidateList {
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
   /// Pairs, in ascending order, whose first particle will have left a cache of 1 MB when the second
   /// one comes.
-  std::vector<std::uint32_t> distant;
+  struct Distant {
+    std::uint32_t pair;
+    int first;
+  };
+  std::vector<Distant> distant;
 
  private:
   void sort_row(std::int64_t begin, std::int64_t end);

@@ -5,6 +5,8 @@
 #include "contact/narrow_phase.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 namespace Talus {
 
@@ -17,6 +19,7 @@ void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &par
                               const std::vector<std::int64_t> &filed_tag)
 {
   // the contacts of each law fill whole vectors of the batch: leave room for the gaps
+  std::iota(std::begin(lane_of_contact), std::end(lane_of_contact), 0);
   const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
   if (scene.with_history)
@@ -84,8 +87,8 @@ void ContactPart::compute_all(const Step &step, Target target)
 void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &next,
                                std::int64_t end) const
 {
-  for (; next < pairs.distant.size() && pairs.distant[next] < end; next++) {
-    const std::size_t i = pairs.first[pairs.distant[next]];
+  for (; next < pairs.distant.size() && pairs.distant[next].pair < end; next++) {
+    const std::size_t i = pairs.distant[next].first;
     __builtin_prefetch(&particles.position[i]);
     __builtin_prefetch(&particles.motion[particles.stride * i]);
     __builtin_prefetch(&particles.load[particles.stride * i]);
@@ -133,9 +136,11 @@ int ContactPart::arrange(const ContactScene &scene, const std::uint32_t *contact
     if (lane > begin) ranges.push_back({law, begin, lane});
   };
 
-  if (laws.num_laws() == 1)
-    for (int k = 0; k < count; k++) place(contacts[k], k, lane++);
-  if (laws.num_laws() == 1) close_range(0, 0);
+  if (laws.num_laws() == 1) {    // lanes are those of start_pairs()
+    std::copy(contacts, contacts + count, pair_of_lane);
+    lane = count;
+    close_range(0, 0);
+  }
 
   for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
     const int begin = lane;
