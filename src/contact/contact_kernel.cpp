@@ -8,82 +8,100 @@ namespace Talus {
 namespace {
 
 using Lanes = double[3][ContactBatch::width];
+using Wide = Twice<Vec8>;
 
-inline Vector3<Vec8> load_lanes(const Lanes &v, int k)
+template <class Real> inline Vector3<Real> load_lanes(const Lanes &v, int k)
 {
-  return {load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k])};
+  using In = Memory<Real>;
+  return {In::load(&v[0][k]), In::load(&v[1][k]), In::load(&v[2][k])};
 }
 
-inline void store_lanes(Lanes &v, int k, const Vector3<Vec8> &value)
+template <class Real> inline void store_lanes(Lanes &v, int k, const Vector3<Real> &value)
 {
-  store(&v[0][k], value.x);
-  store(&v[1][k], value.y);
-  store(&v[2][k], value.z);
+  Memory<Real>::store(&v[0][k], value.x);
+  Memory<Real>::store(&v[1][k], value.y);
+  Memory<Real>::store(&v[2][k], value.z);
 }
 
-// Coefficients<Real> is a row of Reals: the same numbers, one or eight contacts wide
+// Coefficients<Real> is a row of Reals: the same numbers, one or several contacts wide
 constexpr int num_coefficients = sizeof(ContactCoefficients) / sizeof(double);
 static_assert(sizeof(Coefficients<Vec8>) == num_coefficients * sizeof(Vec8));
 
-Coefficients<Vec8> collect(const ContactCoefficients *table, const int *row)
+template <class Real> Coefficients<Real> collect(const ContactCoefficients *table, const int *row)
 {
-  Coefficients<Vec8> c;
+  constexpr int width = sizeof(Real) / sizeof(double);
+  Coefficients<Real> c;
   auto *wide = reinterpret_cast<double *>(&c);
-  for (int lane = 0; lane < lanes; lane++) {
+  for (int lane = 0; lane < width; lane++) {
     const auto *one = reinterpret_cast<const double *>(&table[row[lane]]);
-    for (int n = 0; n < num_coefficients; n++) wide[n * lanes + lane] = one[n];
+    for (int n = 0; n < num_coefficients; n++) wide[n * width + lane] = one[n];
   }
   return c;
 }
 
-Coefficients<Vec8> spread(const ContactCoefficients &c)
+template <class Real> Coefficients<Real> spread(const ContactCoefficients &c)
 {
-  const int same[lanes] = {};
-  return collect(&c, same);
+  const int same[sizeof(Real) / sizeof(double)] = {};
+  return collect<Real>(&c, same);
 }
 
-template <class Model> TALUS_INLINE ContactState<Vec8> load_state(const ContactBatch &b, int k)
+template <class Model, class Real>
+TALUS_INLINE ContactState<Real> load_state(const ContactBatch &b, int k)
 {
-  ContactState<Vec8> s{};
-  s.normal = load_lanes(b.normal, k);
-  s.overlap = load8(&b.overlap[k]);
-  s.velocity = load_lanes(b.velocity, k);
-  s.inverse_mass = load8(&b.inverse_mass[k]);
-  if constexpr (Model::needs_radius) s.inverse_radius = load8(&b.inverse_radius[k]);
-  if constexpr (Model::rotates) s.spin = load_lanes(b.spin, k);
-  if constexpr (Model::midpoint) s.inverse_distance = load8(&b.inverse_distance[k]);
+  using In = Memory<Real>;
+  ContactState<Real> s{};
+  s.normal = load_lanes<Real>(b.normal, k);
+  s.overlap = In::load(&b.overlap[k]);
+  s.velocity = load_lanes<Real>(b.velocity, k);
+  s.inverse_mass = In::load(&b.inverse_mass[k]);
+  if constexpr (Model::needs_radius) s.inverse_radius = In::load(&b.inverse_radius[k]);
+  if constexpr (Model::rotates) s.spin = load_lanes<Real>(b.spin, k);
+  if constexpr (Model::midpoint) s.inverse_distance = In::load(&b.inverse_distance[k]);
   if constexpr (Model::resists) {
-    s.relative_spin = load_lanes(b.relative_spin, k);
-    s.circle = load8(&b.circle[k]);
+    s.relative_spin = load_lanes<Real>(b.relative_spin, k);
+    s.circle = In::load(&b.circle[k]);
   }
   return s;
+}
+
+template <class Model, bool advance, class Real>
+TALUS_INLINE void compute_lanes(ContactBatch &b, int k, const Coefficients<Real> &c, double dt)
+{
+  using InOut = Memory<Real>;
+  TangentialHistory<Real> history;
+  ContactOnset<Real> onset;
+  if constexpr (Model::history)
+    history = {load_lanes<Real>(b.displacement, k), InOut::load(&b.at_limit[k])};
+  if constexpr (Model::onset)
+    onset = {InOut::load(&b.onset[0][k]), InOut::load(&b.onset[1][k]), InOut::load(&b.onset[2][k])};
+
+  const auto out =
+      evaluate_contact<Model, advance>(c, load_state<Model, Real>(b, k), dt, history, onset);
+
+  store_lanes(b.force, k, out.force);
+  if constexpr (Model::rotates) store_lanes(b.moment, k, out.moment);
+  if constexpr (Model::resists) store_lanes(b.couple, k, out.couple);
+  if constexpr (Model::history && advance) {
+    store_lanes(b.displacement, k, history.displacement);
+    InOut::store(&b.at_limit[k], history.at_limit);
+  }
+  if constexpr (Model::onset && advance)
+    store_lanes<Real>(b.onset, k, {onset.speed, onset.age, onset.begun});
 }
 
 template <class Model, bool uniform, bool advance>
 void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficients *table, double dt)
 {
-  const Coefficients<Vec8> common = spread(table[0]);
-  for (int k = begin; k < end; k += lanes) {
-    TangentialHistory<Vec8> history;
-    ContactOnset<Vec8> onset;
-    if constexpr (Model::history) history = {load_lanes(b.displacement, k), load8(&b.at_limit[k])};
-    if constexpr (Model::onset)
-      onset = {load8(&b.onset[0][k]), load8(&b.onset[1][k]), load8(&b.onset[2][k])};
-
-    const auto out =
-        evaluate_contact<Model, advance>(uniform ? common : collect(table, &b.coefficients[k]),
-                                         load_state<Model>(b, k), dt, history, onset);
-
-    store_lanes(b.force, k, out.force);
-    if constexpr (Model::rotates) store_lanes(b.moment, k, out.moment);
-    if constexpr (Model::resists) store_lanes(b.couple, k, out.couple);
-    if constexpr (Model::history && advance) {
-      store_lanes(b.displacement, k, history.displacement);
-      store(&b.at_limit[k], history.at_limit);
-    }
-    if constexpr (Model::onset && advance)
-      store_lanes(b.onset, k, {onset.speed, onset.age, onset.begun});
+  int k = begin;
+  if constexpr (uniform) {
+    const Coefficients<Wide> common = spread<Wide>(table[0]);
+    for (; k + 2 * lanes <= end; k += 2 * lanes)
+      compute_lanes<Model, advance, Wide>(b, k, common, dt);
   }
+  const Coefficients<Vec8> common = spread<Vec8>(table[0]);
+  for (; k < end; k += lanes)
+    compute_lanes<Model, advance, Vec8>(
+        b, k, uniform ? common : collect<Vec8>(table, &b.coefficients[k]), dt);
 }
 
 template <class Model> ContactKernel pick(bool uniform, bool advance)

@@ -28,9 +28,6 @@ typedef double Vec4 __attribute__((vector_size(32)));
 
 inline constexpr int lanes = 8;
 
-#if defined(__AVX512F__)
-typedef double Vec8 __attribute__((vector_size(64)));
-#else
 /// Two vectors as one of twice the width. Compilers would take a vector that is wider than the
 /// registers, but compare it number by number, with branches.
 template <class Half> struct Twice {
@@ -73,12 +70,13 @@ template <class Half> TALUS_INLINE Twice<Half> operator-(Twice<Half> a)
   return {-a.low, -a.high};
 }
 
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+typedef double Vec8 __attribute__((vector_size(64)));
+#elif defined(__AVX__)
 typedef Twice<Vec4> Vec8;
 #else
 typedef double Vec2 __attribute__((vector_size(16)));
 typedef Twice<Twice<Vec2>> Vec8;
-#endif
 #endif
 
 /// What this build uses of the machine, for the log.
@@ -123,8 +121,7 @@ inline Vec8 square_root(Vec8 a)
 {
   return (Vec8) _mm512_maskz_sqrt_pd(0xff, (__m512d) a);
 }
-#else
-#if defined(__AVX__)
+#elif defined(__AVX__)
 TALUS_INLINE Vec4 select(bool_of<Vec4> mask, Vec4 yes, Vec4 no)
 {
   return mask ? yes : no;
@@ -156,7 +153,6 @@ template <class Half> TALUS_INLINE Twice<Half> square_root(Twice<Half> a)
 {
   return {square_root(a.low), square_root(a.high)};
 }
-#endif
 
 /// Whether a comparison holds in any lane.
 inline bool any(bool mask)
@@ -168,8 +164,7 @@ inline bool any(bool_of<Vec8> mask)
 {
   return _mm512_test_epi64_mask((__m512i) mask, (__m512i) mask) != 0;
 }
-#else
-#if defined(__AVX__)
+#elif defined(__AVX__)
 TALUS_INLINE bool any(bool_of<Vec4> mask)
 {
   return _mm256_movemask_pd((__m256d) mask) != 0;
@@ -184,7 +179,6 @@ template <class Mask> TALUS_INLINE bool any(Twice<Mask> mask)
 {
   return any(mask.low) || any(mask.high);
 }
-#endif
 
 template <class Real> inline Real magnitude(Real a)
 {
@@ -202,6 +196,11 @@ inline Vec8 hyperbolic_tangent(Vec8 a)
   return a;
 }
 
+template <class Half> Twice<Half> hyperbolic_tangent(Twice<Half> a)
+{
+  return {hyperbolic_tangent(a.low), hyperbolic_tangent(a.high)};
+}
+
 /// Fifth root of a number >= 0, to two units in the last place.
 inline double fifth_root(double a)
 {
@@ -211,6 +210,11 @@ inline Vec8 fifth_root(Vec8 a)
 {
   for (int k = 0; k < lanes; k++) a[k] = fifth_root(a[k]);
   return a;
+}
+
+template <class Half> Twice<Half> fifth_root(Twice<Half> a)
+{
+  return {fifth_root(a.low), fifth_root(a.high)};
 }
 
 /// One bit for each lane: set where a < b.
@@ -303,7 +307,6 @@ template <class Vector> struct Memory {
   TALUS_INLINE static void store(double *a, Vector v) { *reinterpret_cast<Overlay *>(a) = v; }
 };
 
-#if !defined(__AVX512F__)
 template <class Half> struct Memory<Twice<Half>> {
   static constexpr int width = sizeof(Half) / sizeof(double);
   TALUS_INLINE static Twice<Half> load(const double *a)
@@ -316,7 +319,6 @@ template <class Half> struct Memory<Twice<Half>> {
     Memory<Half>::store(a + width, v.high);
   }
 };
-#endif
 
 inline Vec4 load4(const double *address)
 {

@@ -23,11 +23,11 @@
 //            0.
 //
 // In both, kt d_t + gt v_t of the new d_t is along F and not shorter than it. The force of a
-// contact at its limit is taken along (d_t + gt/kt v_t) of the *stored* displacement, with the
-// length of the limit: so the force is a function of positions, velocities and stored history
-// alone, and a restart or a new run reproduces it bit for bit without advancing the history. (If
-// other velocities have come in between, as with fix nve/sphere, and the force is clearly below the
-// limit with them, then it is not at the limit.)
+// contact at its limit is computed from the *stored* displacement, as the force of spring and
+// dashpot (stock) or along it with the length of the limit (slider): so the force is a function of
+// positions, velocities and stored history alone, and a restart or a new run reproduces it bit for
+// bit without advancing the history. (If other velocities have come in between, as with fix
+// nve/sphere, then the limit applies to them.)
 
 #ifndef TALUS_CONTACT_TANGENTIAL_LAWS_H
 #define TALUS_CONTACT_TANGENTIAL_LAWS_H
@@ -101,61 +101,102 @@ struct TangentialTanh {
   }
 };
 
-/// The displacement that is stored at the limit; share = limit/|trial force|, slide = gt/kt, reach
-/// = d + slide v_t with the trial displacement d.
-template <bool slider, class Real>
-inline Vector3<Real> set_back(const TangentialInput<Real> &in, const Vector3<Real> &d, Real share,
-                              Real slide, const Vector3<Real> &reach)
+/// A trial displacement d and its force T, with what stands between it and the Coulomb limit.
+template <class Real> struct Trial {
+  Vector3<Real> displacement, force;
+  Real square;              ///< |T|^2
+  bool_of<Real> exceeds;    ///< |T| > L
+  bool_of<Real> moved;      ///< whether there is a displacement at all
+};
+
+/// kt |d| + gt |v_t| + L: what a force at the limit consists of, and its rounding errors.
+template <class Real> inline Real parts_of(const TangentialInput<Real> &in, const Vector3<Real> &d)
 {
-  if constexpr (slider) {
-    const Real time = in.dt + slide, zero = splat<Real>(0.0);
-    const auto takes_time = time > zero;    // else a spring alone
-    const Real fresh = select(takes_time, in.dt / time, splat<Real>(1.0));
-    const Vector3<Real> before = d - in.dt * in.velocity;
-    return (fresh * share) * reach + select(takes_time, slide / time, zero) * before;
+  return in.k.kt * square_root(dot(d, d)) + in.k.gt * square_root(dot(in.velocity, in.velocity)) +
+         in.limit;
+}
+
+/// The limit of `stock`. The force is that of the displacement that is stored, which has the length
+/// of the limit but for rounding; without a spring, or if the limit is zero, it is L T/|T| itself.
+template <bool advance, class Real>
+TALUS_INLINE Vector3<Real> stock_limit(const TangentialInput<Real> &in, const Trial<Real> &trial,
+                                       TangentialHistory<Real> &history)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const Vector3<Real> none{zero, zero, zero};
+  const auto with_spring = in.k.kt > zero;
+  const Real kt = select(with_spring, in.k.kt, one), size = square_root(trial.square);
+  const Real inverse = one / (size * kt);    // two quotients for the price of one
+  const Real share = in.limit * kt * inverse;
+  const Vector3<Real> capped = share * trial.force;
+  const auto by_spring = with_spring & (in.limit > zero);
+  if (advance) {
+    const Vector3<Real> slide = select(with_spring, in.k.gt * size * inverse, zero) * in.velocity;
+    const auto at_limit = trial.exceeds & trial.moved;
+    const Vector3<Real> d =
+        select(at_limit, share * (trial.displacement + slide) - slide, trial.displacement);
+    history = {d, select(at_limit, one, zero)};
+    const Vector3<Real> force = select(by_spring, -(in.k.kt * d + in.k.gt * in.velocity), capped);
+    return select(trial.exceeds, select(trial.moved, force, none), trial.force);
   }
-  return share * reach - slide * in.velocity;
+  // the flag counts as long as spring and dashpot do not exceed the limit but for rounding: not
+  // with other velocities or coefficients
+  const Real rounding = 1.0e-12 * parts_of(in, trial.displacement);
+  const auto stays = (history.at_limit > zero) & by_spring & (size <= in.limit + rounding);
+  return select(stays, trial.force,
+                select(trial.exceeds, select(trial.moved, capped, none), trial.force));
+}
+
+/// The limit of `slider`. The force is taken along d + gt/kt v_t of the displacement that is
+/// stored.
+template <bool advance, class Real>
+TALUS_INLINE Vector3<Real> slider_limit(const TangentialInput<Real> &in, const Trial<Real> &trial,
+                                        TangentialHistory<Real> &history)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  // without overlap kt is zero; so is the limit, and any finite number serves
+  const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
+  const Real size = square_root(trial.square);
+  Vector3<Real> d = trial.displacement, reach = d + slide * in.velocity;
+  auto at_limit = trial.moved & trial.exceeds;
+  if (advance) {
+    const Real time = in.dt + slide;
+    const auto takes_time = time > zero;    // else a spring alone
+    const Real fresh = select(takes_time, in.dt / time, one);
+    const Vector3<Real> before = d - in.dt * in.velocity;
+    const Vector3<Real> set_back =
+        (fresh * (in.limit / size)) * reach + select(takes_time, slide / time, zero) * before;
+    d = select(at_limit, set_back, d);
+    reach = d + slide * in.velocity;
+    history = {d, select(at_limit, one, zero)};
+  } else {
+    // as with stock
+    at_limit =
+        at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts_of(in, d) >= in.limit));
+  }
+  const Real length = square_root(dot(reach, reach));
+  const Real pull = select(length > zero, -in.limit / length, zero);
+  const Vector3<Real> within = select(trial.exceeds, Vector3<Real>{zero, zero, zero}, trial.force);
+  return select(at_limit, pull * reach, within);
 }
 
 /// From the trial displacement to the force: the Coulomb limit, and the displacement that is
-/// stored. Most vectors of contacts in a bed at rest are within the limit in all lanes: these do
-/// without the roots and quotients of the limit.
+/// stored. Where all lanes are within the limit, its roots and quotients are left out. Beyond the
+/// limit without any displacement (first force of a run) there is none, as in the stock styles.
 template <bool advance, bool slider, class Real>
-TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, Vector3<Real> d,
+TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, const Vector3<Real> &d,
                                          bool_of<Real> moved, TangentialHistory<Real> &history)
 {
-  const Real zero = splat<Real>(0.0);
-  const Vector3<Real> trial = -(in.k.kt * d + in.k.gt * in.velocity);
-  const Real square = dot(trial, trial);
+  const Vector3<Real> force = -(in.k.kt * d + in.k.gt * in.velocity);
+  const Real square = dot(force, force);
   const auto exceeds = square > in.limit * in.limit;
-  if (advance && !any(exceeds)) {
-    history = {d, zero};
-    return trial;
+  if (slider && advance && !any(exceeds)) {
+    history = {d, splat<Real>(0.0)};
+    return force;
   }
-
-  // without overlap kt is zero; so is the limit, and any finite number serves
-  const Real slide = select(in.k.kt > zero, in.k.gt / in.k.kt, zero);
-  const Real size = square_root(square);
-  Vector3<Real> reach = d + slide * in.velocity;
-  auto at_limit = moved & exceeds;
-  if (advance) {
-    d = select(at_limit, set_back<slider>(in, d, in.limit / size, slide, reach), d);
-    reach = d + slide * in.velocity;
-    history.displacement = d;
-    history.at_limit = select(at_limit, splat<Real>(1.0), zero);
-  } else {
-    // the flag counts as long as spring and dashpot reach the limit but for rounding: not with
-    // other velocities or coefficients
-    const Real parts = in.k.kt * square_root(dot(d, d)) +
-                       in.k.gt * square_root(dot(in.velocity, in.velocity)) + in.limit;
-    at_limit = at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts >= in.limit));
-  }
-
-  const Real length = square_root(dot(reach, reach));
-  const Real pull = select(length > zero, -in.limit / length, zero);
-  // beyond the limit without any displacement (first force of a run): none, as the stock styles
-  const Vector3<Real> within = select(exceeds, Vector3<Real>{zero, zero, zero}, trial);
-  return select(at_limit, pull * reach, within);
+  const Trial<Real> trial{d, force, square, exceeds, moved};
+  return slider ? slider_limit<advance>(in, trial, history)
+                : stock_limit<advance>(in, trial, history);
 }
 
 /// d in the plane normal to n, with its length.
