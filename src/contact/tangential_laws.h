@@ -104,16 +104,18 @@ struct TangentialTanh {
 /// A trial displacement d and its force T, with what stands between it and the Coulomb limit.
 template <class Real> struct Trial {
   Vector3<Real> displacement, force;
+  Vector3<Real> drag;       ///< gt v_t
   Real square;              ///< |T|^2
   bool_of<Real> exceeds;    ///< |T| > L
   bool_of<Real> moved;      ///< whether there is a displacement at all
 };
 
 /// kt |d| + gt |v_t| + L: what a force at the limit consists of, and its rounding errors.
-template <class Real> inline Real parts_of(const TangentialInput<Real> &in, const Vector3<Real> &d)
+template <class Real>
+inline Real parts_of(const TangentialInput<Real> &in, const Trial<Real> &trial)
 {
-  return in.k.kt * square_root(dot(d, d)) + in.k.gt * square_root(dot(in.velocity, in.velocity)) +
-         in.limit;
+  return in.k.kt * square_root(dot(trial.displacement, trial.displacement)) +
+         square_root(dot(trial.drag, trial.drag)) + in.limit;
 }
 
 /// The limit of `stock`. The force is that of the displacement that is stored, which has the length
@@ -123,28 +125,26 @@ TALUS_INLINE Vector3<Real> stock_limit(const TangentialInput<Real> &in, const Tr
                                        TangentialHistory<Real> &history)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const Vector3<Real> none{zero, zero, zero};
   const auto with_spring = in.k.kt > zero;
   const Real kt = select(with_spring, in.k.kt, one), size = square_root(trial.square);
   const Real inverse = one / (size * kt);    // two quotients for the price of one
-  const Real share = in.limit * kt * inverse;
-  const Vector3<Real> capped = share * trial.force;
+  const Vector3<Real> capped = (in.limit * kt * inverse) * trial.force;
   const auto by_spring = with_spring & (in.limit > zero);
-  if (advance) {
-    const Vector3<Real> slide = select(with_spring, in.k.gt * size * inverse, zero) * in.velocity;
-    const auto at_limit = trial.exceeds & trial.moved;
-    const Vector3<Real> d =
-        select(at_limit, share * (trial.displacement + slide) - slide, trial.displacement);
-    history = {d, select(at_limit, one, zero)};
-    const Vector3<Real> force = select(by_spring, -(in.k.kt * d + in.k.gt * in.velocity), capped);
-    return select(trial.exceeds, select(trial.moved, force, none), trial.force);
+  if constexpr (advance) {
+    const Vector3<Real> set_back = -(size * inverse) * (capped + trial.drag);
+    const Vector3<Real> d = select(trial.exceeds & with_spring, set_back, trial.displacement);
+    history = {d, select(trial.exceeds, one, zero)};
+    const Vector3<Real> at_limit = select(by_spring, -(in.k.kt * d + trial.drag), capped);
+    return select(trial.exceeds, at_limit, trial.force);
   }
   // the flag counts as long as spring and dashpot do not exceed the limit but for rounding: not
   // with other velocities or coefficients
-  const Real rounding = 1.0e-12 * parts_of(in, trial.displacement);
-  const auto stays = (history.at_limit > zero) & by_spring & (size <= in.limit + rounding);
-  return select(stays, trial.force,
-                select(trial.exceeds, select(trial.moved, capped, none), trial.force));
+  const Real rounding = 1.0e-12 * parts_of(in, trial);
+  const auto was_there = history.at_limit > zero;
+  const auto stays = was_there & by_spring & (size <= in.limit + rounding);
+  const Vector3<Real> beyond =
+      select(trial.moved | was_there, capped, Vector3<Real>{zero, zero, zero});
+  return select(stays, trial.force, select(trial.exceeds, beyond, trial.force));
 }
 
 /// The limit of `slider`. The force is taken along d + gt/kt v_t of the displacement that is
@@ -172,7 +172,7 @@ TALUS_INLINE Vector3<Real> slider_limit(const TangentialInput<Real> &in, const T
   } else {
     // as with stock
     at_limit =
-        at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts_of(in, d) >= in.limit));
+        at_limit | ((history.at_limit > zero) & (size + 1.0e-12 * parts_of(in, trial) >= in.limit));
   }
   const Real length = square_root(dot(reach, reach));
   const Real pull = select(length > zero, -in.limit / length, zero);
@@ -181,20 +181,19 @@ TALUS_INLINE Vector3<Real> slider_limit(const TangentialInput<Real> &in, const T
 }
 
 /// From the trial displacement to the force: the Coulomb limit, and the displacement that is
-/// stored. Where all lanes are within the limit, its roots and quotients are left out. Beyond the
-/// limit without any displacement (first force of a run) there is none, as in the stock styles.
+/// stored. Beyond the limit without any displacement (first force of a run) there is none, as in
+/// the stock styles.
 template <bool advance, bool slider, class Real>
 TALUS_INLINE Vector3<Real> limited_force(const TangentialInput<Real> &in, const Vector3<Real> &d,
                                          bool_of<Real> moved, TangentialHistory<Real> &history)
 {
-  const Vector3<Real> force = -(in.k.kt * d + in.k.gt * in.velocity);
+  const Vector3<Real> drag = in.k.gt * in.velocity, force = -(in.k.kt * d + drag);
   const Real square = dot(force, force);
-  const auto exceeds = square > in.limit * in.limit;
-  if (slider && advance && !any(exceeds)) {
+  const Trial<Real> trial{d, force, drag, square, square > in.limit * in.limit, moved};
+  if (slider && advance && !any(trial.exceeds)) {    // spares many roots and quotients
     history = {d, splat<Real>(0.0)};
     return force;
   }
-  const Trial<Real> trial{d, force, square, exceeds, moved};
   return slider ? slider_limit<advance>(in, trial, history)
                 : stock_limit<advance>(in, trial, history);
 }
