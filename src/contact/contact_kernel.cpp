@@ -39,10 +39,14 @@ template <class Real> Coefficients<Real> collect(const ContactCoefficients *tabl
   return c;
 }
 
-template <class Real> Coefficients<Real> spread(const ContactCoefficients &c)
+/// The same coefficients in every lane. What a model does not use costs nothing.
+template <class Real> TALUS_INLINE Coefficients<Real> spread(const ContactCoefficients &c)
 {
-  const int same[sizeof(Real) / sizeof(double)] = {};
-  return collect<Real>(&c, same);
+  const auto all = splat<Real>;
+  return {all(c.kn),       all(c.gn),          all(c.kt),           all(c.gt),
+          all(c.mu),       all(c.force_floor), all(c.speed),        all(c.mu_roll),
+          all(c.mu_spin),  all(c.adhesion),    all(c.adhesion_dmt), all(c.adhesion_perko),
+          all(c.slip_min), all(c.roll_min),    all(c.spin_min)};
 }
 
 template <class Model, class Real>

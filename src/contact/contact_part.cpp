@@ -110,7 +110,10 @@ void ContactPart::compute_block(const Step &step, Target target, std::int64_t be
   if (scene.with_onset && step.advance) keep_onsets(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  add_up<friction>(step.particles, target, block, count);
+  if (scene.laws.num_laws() == 1)
+    add_up<friction, true>(step.particles, target, block, count);
+  else
+    add_up<friction, false>(step.particles, target, block, count);
   if (scene.with_resistance) add_couples(step.particles, target, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
@@ -191,7 +194,7 @@ void ContactPart::apply_weights(int end)
 /* The contacts of one second particle follow each other, and nothing has been added to it before
    the first of them: its sums stay in registers and are stored again and again, but not loaded. */
 
-template <bool friction, class Target>
+template <bool friction, bool one_law, class Target>
 void ContactPart::add_up(ParticleRecords &particles, Target target, const std::uint32_t *block,
                          int count)
 {
@@ -204,9 +207,10 @@ void ContactPart::add_up(ParticleRecords &particles, Target target, const std::u
   if constexpr (friction) moment = load4(begun[1]);
 
   for (int n = 0; n < count; n++) {
-    const int its = second[block[n]];
-    Record *i = load + stride * target(first[block[n]]), *j = load + stride * target(its);
-    const int lane = lane_of_contact[n];
+    const std::uint32_t pair = block[n];
+    const int its = second[pair];
+    Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
+    const int lane = one_law ? n : lane_of_contact[n];
     const bool same = its == last;
     last = its;
     const Vec4 f = load4(force_of_lane[lane]);

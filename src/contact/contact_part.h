@@ -124,7 +124,7 @@ class ContactPart {
                     Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, class Target>
+  template <bool friction, bool one_law, class Target>
   void add_up(ParticleRecords &particles, Target target, const std::uint32_t *contacts, int count);
   template <class Target>
   void add_couples(ParticleRecords &particles, Target target, const std::uint32_t *contacts,

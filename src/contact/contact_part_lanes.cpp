@@ -62,11 +62,13 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
   const Record *h = history.all_records();
   const std::uint32_t *place = history.all_places();
 
+  const int *first = pairs.first.data(), *second = pairs.second.data();
+
   for (int k = 0; k < end; k += 4) {
     Vec4 a[4], b[4], c[4], d[4];
     for (int q = 0; q < 4; q++) {
       const std::uint32_t pair = pair_of_lane[k + q];
-      const int i = pairs.first[pair], j = pairs.second[pair];
+      const int i = first[pair], j = second[pair];
       const Record *mi = motion + stride * i, *mj = motion + stride * j;
       const Vec4 xi = load4(x[i]), xj = load4(x[j]);
       a[q] = xi + difference_and_sum * xj;

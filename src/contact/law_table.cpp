@@ -35,11 +35,12 @@ void LawTable::finish()
     one_row = one_row && laws[r] == laws[0] &&
               std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
   }
-}
-
-ContactKernel LawTable::kernel(int law_index, bool advance) const
-{
-  return contact_kernel(distinct[law_index], one_row, advance);
+  advancing.clear();
+  reading.clear();
+  for (const ContactLaw law : distinct) {
+    advancing.push_back(contact_kernel(law, one_row, true));
+    reading.push_back(contact_kernel(law, one_row, false));
+  }
 }
 
 template <class Predicate> bool LawTable::any(Predicate holds) const

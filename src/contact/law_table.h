@@ -31,7 +31,10 @@ class LawTable {
   /// Number of different laws, and the one that a row uses (0 ... count-1).
   int num_laws() const { return static_cast<int>(distinct.size()); }
   int law_index(int row) const { return index_of_row[row]; }
-  ContactKernel kernel(int law_index, bool advance) const;
+  ContactKernel kernel(int law_index, bool advance) const
+  {
+    return advance ? advancing[law_index] : reading[law_index];
+  }
   ContactLaw distinct_law(int law_index) const { return distinct[law_index]; }
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
@@ -50,6 +53,7 @@ class LawTable {
   std::vector<ContactLaw> laws;
   std::vector<int> index_of_row;
   std::vector<ContactLaw> distinct;
+  std::vector<ContactKernel> advancing, reading;    // by law
 };
 
 }    // namespace Talus

@@ -96,7 +96,7 @@ inline const char *instruction_set()
 /// The same number in every lane.
 template <class Real> inline Real splat(double value)
 {
-  return Real{} + value;
+  return value - Real{};    // not +, which would turn -0 into 0 and stay in the code
 }
 
 /// What a comparison of Reals yields.
