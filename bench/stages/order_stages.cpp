@@ -115,7 +115,7 @@ struct AsListed {
     view.for_each_pair([&](int i, int j, double) {
       pairs.first[c] = j;
       pairs.second[c] = i;
-      if (i - j > 4096) pairs.distant.push_back({c, j});
+      if (i - j > 2048) pairs.distant.push_back({c, j});
       c++;
     });
   }

@@ -44,10 +44,11 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   row_start.pop_back();
   for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
 
-  constexpr int records_in_cache = 4096;
+  constexpr int records_in_cache = 2048;
   distant.clear();
   for (std::int64_t c = 0; c < count; c++)
-    if (second[c] - first[c] > records_in_cache) distant.push_back({static_cast<std::uint32_t>(c), first[c]});
+    if (second[c] - first[c] > records_in_cache)
+      distant.push_back({static_cast<std::uint32_t>(c), first[c]});
 }
 
 /* The narrow phase counts a few further than there are pairs. */

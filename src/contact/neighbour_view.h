@@ -8,8 +8,9 @@
 
 namespace Talus {
 
-/// Every pair of which at least one member is owned stands in the row of one of them. Entries are indices of particles in the lower bits and the kind of the pair in the upper
-/// ones; kinds scale the force, and a scale of zero takes the pair out.
+/// Every pair of which at least one member is owned stands in the row of one of them. Entries are
+/// indices of particles in the lower bits and the kind of the pair in the upper ones; kinds scale
+/// the force, and a scale of zero takes the pair out.
 struct NeighbourView {
   int rows = 0;
   const int *particle = nullptr;          ///< row -> particle; nullptr: the same

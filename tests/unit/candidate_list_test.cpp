@@ -143,7 +143,7 @@ TEST(CandidateList, NamesDistantPairs)
   list.collect(order, lists.view(), 0);
   std::size_t found = 0;
   for (std::int64_t c = 0; c < list.num_pairs(); c++) {
-    if (list.second[c] - list.first[c] <= 4096) continue;
+    if (list.second[c] - list.first[c] <= 2048) continue;
     ASSERT_LT(found, list.distant.size());
     EXPECT_EQ(list.distant[found].pair, c);
     EXPECT_EQ(list.distant[found].first, list.first[c]);
