@@ -20,15 +20,24 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
     each->clear();
   }
 
+  const bool under_one_end = !partners.has_both_ends();
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
     const bool from_first = order.is_owned(a);
     const int owner = from_first ? a : b, partner = from_first ? b : a;
-    const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
+    const auto filed = [&](int under, int with) {
+      return filed_tag[with] ? partners.find(under, filed_tag[with]) : nullptr;
+    };
+    const double *v = filed(owner, partner);
+    bool seen_by_first = from_first;
+    if (!v && under_one_end) {
+      v = filed(partner, owner);
+      seen_by_first = !from_first;
+    }
     if (!v) continue;
     const Record seen{{v[0], v[1], v[2], v[3]}};
     begin(c);
-    record(c) = from_first ? seen : mirrored(seen);
+    record(c) = seen_by_first ? seen : mirrored(seen);
     if (onset_kept) onset(c) = {{v[4], v[5], v[6], v[7]}};
     touching[c / 8] = static_cast<std::uint8_t>(touching[c / 8] | 1U << (c % 8));
   }
@@ -57,11 +66,11 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   touching[block] = static_cast<std::uint8_t>(bits);
 }
 
-/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, where owned
-   and served. */
+/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, or only the
+   first, where owned and served. */
 
 template <class Visit>
-void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
+void ContactHistory::for_each_end(const CandidateList &pairs, bool both_ends, Visit visit) const
 {
   const ParticleOrder &order = pairs.order();
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
@@ -69,21 +78,23 @@ void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
     const int first = pairs.first[c], second = pairs.second[c];
     const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
     if (order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
-    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
+    if (both_ends && order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
   }
 }
 
 void ContactHistory::announce(const CandidateList &pairs, PartnerLists &partners) const
 {
-  for_each_end(pairs, [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
+  for_each_end(pairs, partners.has_both_ends(),
+               [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
 }
 
 void ContactHistory::file(const CandidateList &pairs, PartnerLists &partners) const
 {
   const std::vector<std::int64_t> &tag = pairs.order().tag;
-  for_each_end(pairs, [&](std::int64_t c, int atom, int partner, bool is_first) {
-    file_entry(partners.append(atom, tag[partner]), c, is_first);
-  });
+  for_each_end(pairs, partners.has_both_ends(),
+               [&](std::int64_t c, int atom, int partner, bool is_first) {
+                 file_entry(partners.append(atom, tag[partner]), c, is_first);
+               });
 }
 
 void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_first) const

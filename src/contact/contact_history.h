@@ -29,7 +29,7 @@ class ContactHistory {
              const std::vector<std::int64_t> &filed_tag);
 
   /// Before particles are renumbered: the history of every touching pair is filed under each of its
-  /// owned particles that the list serves. First announce(), then PartnerLists::layout(), then
+  /// owned particles that the list serves, or only the first one of them (see PartnerLists). First announce(), then PartnerLists::layout(), then
   /// file(); each may run for different parts of a rank at the same time.
   void announce(const CandidateList &pairs, PartnerLists &partners) const;
   void file(const CandidateList &pairs, PartnerLists &partners) const;
@@ -68,7 +68,8 @@ class ContactHistory {
  private:
   void begin(std::int64_t pair);
   void change(std::int64_t block, unsigned bits);
-  template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
+  template <class Visit>
+  void for_each_end(const CandidateList &pairs, bool both_ends, Visit visit) const;
   void file_entry(double *values, std::int64_t pair, bool from_first) const;
 
   bool onset_kept = false;

@@ -85,9 +85,9 @@ void ContactPipeline::release()
   if (much) parts.clear();
 }
 
-void ContactPipeline::file_history(PartnerLists &partners) const
+void ContactPipeline::file_history(PartnerLists &partners, PartnerLists::Filing filing) const
 {
-  partners.begin();
+  partners.begin(filing);
   if (!scene.with_history) return;
   const int num_parts = static_cast<int>(parts.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)

@@ -64,7 +64,8 @@ class ContactPipeline {
   void release();
 
   /// Files the current history by particle. Empties the lists in a scene without history.
-  void file_history(PartnerLists &partners) const;
+  void file_history(PartnerLists &partners,
+                    PartnerLists::Filing filing = PartnerLists::Filing::BOTH_ENDS) const;
   /// See ContactHistory::adopt_first_copies(). Call after file_history().
   void
   adopt_first_copies(PartnerLists &partners,

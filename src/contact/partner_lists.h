@@ -17,6 +17,10 @@ namespace Talus {
 
 class PartnerLists {
  public:
+  /// Where pairs are filed. Under one end, and so in half the memory, they serve as long as both
+  /// ends of every pair are owned by one rank; complete() makes both ends of it.
+  enum class Filing { BOTH_ENDS, FIRST_END };
+
   /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed
   /// already is converted: new numbers are zero, surplus ones are dropped.
   void set_values(int n);
@@ -27,10 +31,15 @@ class PartnerLists {
 
   /// Refills all lists: begin(), then count() once for every entry, then layout(), then append()
   /// for the same entries; append() returns where to write the values of the entry.
-  void begin();
+  void begin(Filing filing = Filing::BOTH_ENDS);
   void count(int atom) { range[atom].size++; }
   void layout();
   double *append(int atom, std::int64_t tag);
+
+  bool has_both_ends() const { return its_filing == Filing::BOTH_ENDS; }
+  /// Files what has been filed under one end under the other as well, as that sees it. `tag`: the
+  /// names of particles 0 ... n-1, 0 for none. Partners that are gone by now are left out.
+  void complete(const std::int64_t *tag, int n);
 
   /// Empties all lists, and gives their memory back if it is much.
   void release();
@@ -65,6 +74,7 @@ class PartnerLists {
     int size = 0;
   };
   int values = 4;
+  Filing its_filing = Filing::BOTH_ENDS;
   std::vector<Range> range;
   BigVector<double> pool;
 };

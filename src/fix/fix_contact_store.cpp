@@ -146,6 +146,8 @@ void FixContactStore::post_neighbor()
 {
   current = false;
   if (!client) return;
+  // the box may have changed
+  if (!owns_all_particles()) partners.complete(filed_tags.data(), atom->nlocal);
   client->renumber_pairs();
   pairs_are_current();
 }
@@ -171,12 +173,21 @@ void FixContactStore::post_run()
 
 /* ---------------------------------------------------------------------- */
 
-void FixContactStore::file(bool release)
+bool FixContactStore::owns_all_particles() const
 {
+  return comm->nprocs == 1 && !domain->xperiodic && !domain->yperiodic && !domain->zperiodic;
+}
+
+/* `between_steps`: the pairs are not needed any more, and what is filed stays in this process. */
+
+void FixContactStore::file(bool between_steps)
+{
+  using Filing = Talus::PartnerLists::Filing;
   if (client && current) {
     client->look_at_pairs();
-    if (release) client->release_records();
-    client->file_history(partners);
+    if (between_steps) client->release_records();
+    client->file_history(partners, between_steps && owns_all_particles() ? Filing::FIRST_END
+                                                                         : Filing::BOTH_ENDS);
     for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
     if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();
   }
@@ -332,6 +343,7 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 void FixContactStore::write_restart(FILE *fp)
 {
   file(false);    // all ranks come here before the particles are packed
+  partners.complete(filed_tags.data(), atom->nlocal);
   if (comm->me) return;
   const double state[3] = {inverse_cell, static_cast<double>(partners.num_values()),
                            static_cast<double>(atom->natoms)};

@@ -39,7 +39,8 @@ class FixContactStore : public Fix {
     /// The pairs are still those of the last step: a look at them, on all ranks.
     virtual void look_at_pairs() = 0;
     /// Files the history of the current pairs by particle.
-    virtual void file_history(Talus::PartnerLists &partners) = 0;
+    virtual void file_history(Talus::PartnerLists &partners,
+                              Talus::PartnerLists::Filing filing) = 0;
     /// Makes both copies of a pair that is computed twice the same: that of its first particle.
     virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
@@ -113,7 +114,8 @@ class FixContactStore : public Fix {
   static constexpr int refresh_interval = 1000;
 
  private:
-  void file(bool release);
+  void file(bool between_steps);
+  bool owns_all_particles() const;
   void agree_on_shared_pairs();
   void refresh_key(int i);
   void take_over_sorting();

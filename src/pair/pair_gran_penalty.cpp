@@ -195,9 +195,9 @@ void PairGranPenalty::look_at_pairs()
   time_step.look_for_smaller_particles(book);
 }
 
-void PairGranPenalty::file_history(PartnerLists &partners)
+void PairGranPenalty::file_history(PartnerLists &partners, PartnerLists::Filing filing)
 {
-  pipeline.file_history(partners);
+  pipeline.file_history(partners, filing);
 }
 
 void PairGranPenalty::release_records()

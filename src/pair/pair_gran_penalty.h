@@ -89,7 +89,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   // FixContactStore::Client
   void look_at_pairs() override;
-  void file_history(Talus::PartnerLists &partners) override;
+  void file_history(Talus::PartnerLists &partners, Talus::PartnerLists::Filing filing) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
                           const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;

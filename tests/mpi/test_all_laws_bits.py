@@ -133,10 +133,10 @@ class AllLaws(SceneCase):
             self.assertEqual(len(set(frames[0].column("proc").values())), np)
             self.assert_all_same(once, frames, f"{np} ranks against 1")
 
-        self.simulate("half", 2, self.from_data(150), more="write_restart middle.{n}\n")
-        for np, again in (1, True), (4, False):
+        for wrote, np, again in (2, 1, True), (1, 4, False):
+            self.simulate("half", wrote, self.from_data(150), more="write_restart middle.{n}\n")
             frames = self.simulate(f"restarted{np}", np, self.from_restart(150, again))
-            self.assert_all_same(once, frames, f"restarted on {np} ranks")
+            self.assert_all_same(once, frames, f"written by {wrote} ranks, restarted on {np}")
         print(f"\n{len(LAWS)} laws: same bits on 1, 2, 4 ranks and after restarts on 1 and 4 ranks")
 
     def assert_laws_act(self, frames):

@@ -62,6 +62,34 @@ TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
   }
 }
 
+TEST(ContactHistory, SurvivesFilingUnderOneEnd)
+{
+  RandomSource random(7);
+  Packing p = random_packing(200, random);
+  for (const int threads : {1, 3}) {
+    TestRank in_place(history_laws()), moving(history_laws());
+    in_place.divide(threads, false);
+    rebuild(in_place, p, 0.5, random);
+    rebuild(moving, p, 0.5, random);
+    for (int round = 0; round < 4; round++) {
+      for (int step = 0; step < 3; step++)
+        for (TestRank *rank : {&in_place, &moving}) rank->compute(p, dt, true);
+      for (std::uint64_t &key : p.key)
+        if (random.chance(0.5)) key = ~key;
+      in_place.rebuild_in_place(p, candidates(p, 0.5, false), random);
+      rebuild(moving, p, 0.5, random);
+      int found = 0;
+      for (int i = 0; i < p.size(); i++)
+        for (int j = 0; j < i; j++) {
+          const Record history = moving.history_of(i, j);
+          ASSERT_TRUE(same(in_place.history_of(i, j), history));
+          found += !is_zero(history);
+        }
+      EXPECT_GT(found, 100);
+    }
+  }
+}
+
 TEST(ContactHistory, FollowsParticlesThatGetOtherTags)
 {
   RandomSource random(8);

@@ -76,25 +76,18 @@ class TestRank {
       if (found != luggage.end()) partners.unpack(a, found->second.data());
     }
 
-    std::vector<std::uint64_t> key;
-    std::vector<std::int64_t> tag, filed_tag;
-    std::vector<int> type;
-    for (const int i : particle) {
-      key.push_back(p.key[i]);
-      tag.push_back(p.tag[i]);
-      filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
-      type.push_back(p.type[i]);
-    }
-    slow::NeighbourLists lists(owned);
-    std::vector<Neighbours> shuffled = near;
-    random.shuffle(shuffled);
-    for (Neighbours n : shuffled) {
-      if (!is_mine(n.i) && !is_mine(n.j)) continue;
-      if (random.chance(0.5)) std::swap(n.i, n.j);
-      lists.add(number[n.i], number[n.j], n.weight);
-    }
-    pipeline.set_pairs({owned, key, tag, type.data()}, lists.view());
-    pipeline.start_pairs(partners, filed_tag);
+    start(p, near, number, random, old_tag);
+  }
+
+  /// A rebuild in which no particle moves elsewhere: all are owned, and histories are filed under
+  /// one end of each pair.
+  void rebuild_in_place(const Packing &p, const std::vector<Neighbours> &near, RandomSource &random)
+  {
+    pipeline.file_history(partners, Talus::PartnerLists::Filing::FIRST_END);
+    pipeline.release();
+    std::vector<int> number(p.size(), -1);
+    for (int a = 0; a < owned; a++) number[particle[a]] = a;
+    start(p, near, number, random, nullptr);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -139,6 +132,31 @@ class TestRank {
   }
 
  private:
+  void start(const Packing &p, const std::vector<Neighbours> &near, const std::vector<int> &number,
+             RandomSource &random, const std::vector<std::int64_t> *old_tag)
+  {
+    const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
+    std::vector<std::uint64_t> key;
+    std::vector<std::int64_t> tag, filed_tag;
+    std::vector<int> type;
+    for (const int i : particle) {
+      key.push_back(p.key[i]);
+      tag.push_back(p.tag[i]);
+      filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
+      type.push_back(p.type[i]);
+    }
+    slow::NeighbourLists lists(owned);
+    std::vector<Neighbours> shuffled = near;
+    random.shuffle(shuffled);
+    for (Neighbours n : shuffled) {
+      if (!is_mine(n.i) && !is_mine(n.j)) continue;
+      if (random.chance(0.5)) std::swap(n.i, n.j);
+      lists.add(number[n.i], number[n.j], n.weight);
+    }
+    pipeline.set_pairs({owned, key, tag, type.data()}, lists.view());
+    pipeline.start_pairs(partners, filed_tag);
+  }
+
   void run(const Talus::ParticleView &view, const Talus::ContactStep &step)
   {
     if (!pipeline.in_two_phases()) {
