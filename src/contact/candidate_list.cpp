@@ -14,10 +14,11 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
 {
   particles = &order;
   part = which_part;
+  const bool all = !shared();
   const auto for_each_of_part = [&](auto visit) {
     neighbours.for_each_pair([&](int i, int j, double weight) {
       const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-      if (serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
+      if (all || serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
     });
   };
 

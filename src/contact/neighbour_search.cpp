@@ -15,6 +15,9 @@ namespace Talus {
 namespace {
 
 constexpr int width = 16;
+/// Cells per unit of place. What lies side by side along x is one piece of the sorted spheres:
+/// short cells there leave out more, and thick ones across make few pieces that fill vectors.
+constexpr double cells_per_place[3] = {2.0, 0.5, 0.5};
 constexpr std::size_t usual = 16;    // neighbors in the row of a sphere, or less
 typedef float Floats __attribute__((vector_size(64)));
 typedef float FloatsOverlay __attribute__((vector_size(64), aligned(4), may_alias));
@@ -56,7 +59,7 @@ inline int append(Ints mask, Ints values, std::int32_t *to)
 
 int NeighbourSearch::Grid::cell(double place, int d) const
 {
-  return std::clamp(static_cast<int>(std::floor(place)), 0, cells[d] - 1);
+  return std::clamp(static_cast<int>(std::floor(place * cells_per_place[d])), 0, cells[d] - 1);
 }
 
 /* As wide as the reach of a sphere of the mean radius, or of all if they differ little; wider if
@@ -85,12 +88,14 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
   const double most = std::min(cells_per_sphere * s.total + least, 2.0e9);
   for (;; edge *= 1.3) {
     number = 1.0;
-    for (int d = 0; d < 3; d++) number *= std::floor((high[d] - grid.low[d]) / edge) + 1.0;
+    for (int d = 0; d < 3; d++)
+      number *= std::floor((high[d] - grid.low[d]) / edge * cells_per_place[d]) + 1.0;
     if (number <= most) break;
   }
   grid.per_length = 1.0 / edge;
   for (int d = 0; d < 3; d++)
-    grid.cells[d] = 1 + static_cast<int>((high[d] - grid.low[d]) * grid.per_length);
+    grid.cells[d] =
+        1 + static_cast<int>((high[d] - grid.low[d]) * grid.per_length * cells_per_place[d]);
   return grid;
 }
 
@@ -127,7 +132,8 @@ void NeighbourSearch::sort_into_cells(const Spheres &s)
   // places and sums of lengths are rounded by less than this part of the longest length
   constexpr float rounding = 1.0e-6F;
   skin = static_cast<float>(s.skin * grid.per_length);
-  const int extent = std::max({grid.cells[0], grid.cells[1], grid.cells[2]});
+  double extent = 0.0;
+  for (int d = 0; d < 3; d++) extent = std::max(extent, grid.cells[d] / cells_per_place[d]);
   slack = rounding * (static_cast<float>(extent) +
                       2.0F * static_cast<float>(largest * grid.per_length) + skin);
 }
