@@ -128,7 +128,10 @@ void RestingBodyBatch::take(std::size_t first, unsigned bits)
   }
   pack_lanes(&radius[filled], spheres.radius, bits);
   pack_lanes(&batch.overlap[filled], contacts.overlap, bits);
+  const int before = filled;
   filled += store_places(&candidate_of_lane[filled], static_cast<std::uint32_t>(first), bits);
+  for (int k = before; k < filled; k++)
+    task->view.records->call_for_contact(candidates->slots[candidate_of_lane[k]]);
   if (filled > ContactBatch::width - width) flush();    // no room for eight more
 }
 

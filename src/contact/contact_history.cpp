@@ -23,21 +23,13 @@ void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partn
   const bool under_one_end = !partners.has_both_ends();
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
-    const bool from_first = order.is_owned(a);
+    const bool from_first = under_one_end ? filed_tag[a] < filed_tag[b] : order.is_owned(a);
     const int owner = from_first ? a : b, partner = from_first ? b : a;
-    const auto filed = [&](int under, int with) {
-      return filed_tag[with] ? partners.find(under, filed_tag[with]) : nullptr;
-    };
-    const double *v = filed(owner, partner);
-    bool seen_by_first = from_first;
-    if (!v && under_one_end) {
-      v = filed(partner, owner);
-      seen_by_first = !from_first;
-    }
+    const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
     if (!v) continue;
     const Record seen{{v[0], v[1], v[2], v[3]}};
     begin(c);
-    record(c) = seen_by_first ? seen : mirrored(seen);
+    record(c) = from_first ? seen : mirrored(seen);
     if (onset_kept) onset(c) = {{v[4], v[5], v[6], v[7]}};
     touching[c / 8] = static_cast<std::uint8_t>(touching[c / 8] | 1U << (c % 8));
   }
@@ -66,8 +58,8 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   touching[block] = static_cast<std::uint8_t>(bits);
 }
 
-/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, or only the
-   first, where owned and served. */
+/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, or only that
+   with the lower tag, where owned and served. */
 
 template <class Visit>
 void ContactHistory::for_each_end(const CandidateList &pairs, bool both_ends, Visit visit) const
@@ -77,8 +69,10 @@ void ContactHistory::for_each_end(const CandidateList &pairs, bool both_ends, Vi
     if (!touches(c)) continue;
     const int first = pairs.first[c], second = pairs.second[c];
     const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
-    if (both_ends && order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
+    const bool under_first = both_ends || order.tag[a] < order.tag[b];
+    const bool under_second = both_ends || !under_first;
+    if (under_first && order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
+    if (under_second && order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
   }
 }
 

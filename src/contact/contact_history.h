@@ -29,8 +29,9 @@ class ContactHistory {
              const std::vector<std::int64_t> &filed_tag);
 
   /// Before particles are renumbered: the history of every touching pair is filed under each of its
-  /// owned particles that the list serves, or only the first one of them (see PartnerLists). First announce(), then PartnerLists::layout(), then
-  /// file(); each may run for different parts of a rank at the same time.
+  /// owned particles that the list serves, or only that with the lower tag (see PartnerLists).
+  /// First announce(), then PartnerLists::layout(), then file(); each may run for different parts
+  /// of a rank at the same time.
   void announce(const CandidateList &pairs, PartnerLists &partners) const;
   void file(const CandidateList &pairs, PartnerLists &partners) const;
 

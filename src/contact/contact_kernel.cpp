@@ -8,7 +8,15 @@ namespace Talus {
 namespace {
 
 using Lanes = double[3][ContactBatch::width];
+
+// A contact is a long chain of operations that wait for each other, too long for a processor to
+// look beyond it to the next one. So kernels compute two vectors of the machine at a time.
+#if defined(__AVX512F__)
 using Wide = Twice<Vec8>;
+#else
+using Wide = Vec8;
+#endif
+constexpr int wide_lanes = sizeof(Wide) / sizeof(double);
 
 template <class Real> inline Vector3<Real> load_lanes(const Lanes &v, int k)
 {
@@ -68,6 +76,7 @@ TALUS_INLINE ContactState<Real> load_state(const ContactBatch &b, int k)
   return s;
 }
 
+/// The contacts from lane k on, as many as a Real is wide.
 template <class Model, bool advance, class Real>
 TALUS_INLINE void compute_lanes(ContactBatch &b, int k, const Coefficients<Real> &c, double dt)
 {
@@ -99,7 +108,7 @@ void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficient
   int k = begin;
   if constexpr (uniform) {
     const Coefficients<Wide> common = spread<Wide>(table[0]);
-    for (; k + 2 * lanes <= end; k += 2 * lanes)
+    for (; k + wide_lanes <= end; k += wide_lanes)
       compute_lanes<Model, advance, Wide>(b, k, common, dt);
   }
   const Coefficients<Vec8> common = spread<Vec8>(table[0]);

@@ -201,8 +201,8 @@ void NeighbourSearch::find_row(const Spheres &s, int a, Chunk &found) const
 
 /* Appends those of a piece of the sorted spheres that are near and smaller. */
 
-void NeighbourSearch::compare(const float *own, int a, int below, std::int64_t begin,
-                              std::int64_t end, Chunk &found) const
+TALUS_INLINE void NeighbourSearch::compare(const float *own, int a, int below, std::int64_t begin,
+                                           std::int64_t end, Chunk &found) const
 {
   constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const float wide = own[3] + skin + slack;

@@ -149,6 +149,13 @@ class ParticleRecords {
     __builtin_prefetch(motion.data() + stride * slot, 1);
   }
 
+  /// The same for what a contact reads and adds to, once its position is known.
+  TALUS_INLINE void call_for_contact(int slot) const
+  {
+    __builtin_prefetch(motion.data() + stride * slot);
+    __builtin_prefetch(load.data() + stride * slot, 1);
+  }
+
   const Record &velocity(int slot) const { return motion[stride * slot]; }
   const Record &spin(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
 

@@ -17,9 +17,9 @@ namespace Talus {
 
 class PartnerLists {
  public:
-  /// Where pairs are filed. Under one end, and so in half the memory, they serve as long as both
-  /// ends of every pair are owned by one rank; complete() makes both ends of it.
-  enum class Filing { BOTH_ENDS, FIRST_END };
+  /// Where pairs are filed. Under the end with the lower tag, and so in half the memory, they serve
+  /// as long as both ends of every pair are owned by one rank; complete() makes both ends of it.
+  enum class Filing { BOTH_ENDS, LOWER_TAG };
 
   /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed
   /// already is converted: new numbers are zero, surplus ones are dropped.

@@ -186,7 +186,7 @@ void FixContactStore::file(bool between_steps)
   if (client && current) {
     client->look_at_pairs();
     if (between_steps) client->release_records();
-    client->file_history(partners, between_steps && owns_all_particles() ? Filing::FIRST_END
+    client->file_history(partners, between_steps && owns_all_particles() ? Filing::LOWER_TAG
                                                                          : Filing::BOTH_ENDS);
     for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
     if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();

@@ -83,7 +83,7 @@ class TestRank {
   /// one end of each pair.
   void rebuild_in_place(const Packing &p, const std::vector<Neighbours> &near, RandomSource &random)
   {
-    pipeline.file_history(partners, Talus::PartnerLists::Filing::FIRST_END);
+    pipeline.file_history(partners, Talus::PartnerLists::Filing::LOWER_TAG);
     pipeline.release();
     std::vector<int> number(p.size(), -1);
     for (int a = 0; a < owned; a++) number[particle[a]] = a;
