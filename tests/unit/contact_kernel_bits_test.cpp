@@ -4,6 +4,7 @@
 // lane or on the path (kernel, query), none on which body comes first, none on a restart.
 
 #include "random_contact.h"
+#include "same_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -27,16 +28,6 @@ struct Result {
 bool same_bits(const Result &a, const Result &b)
 {
   return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-/// The same numbers; a zero that only differs in sign adds the same to any sum.
-bool same_numbers(const Result &a, const Result &b)
-{
-  constexpr std::size_t count = sizeof(Result) / sizeof(double);
-  double of_a[count], of_b[count];
-  std::memcpy(of_a, &a, sizeof a);
-  std::memcpy(of_b, &b, sizeof b);
-  return std::equal(of_a, of_a + count, of_b);
 }
 
 Result result_of(const ContactBatch &batch, int lane)
