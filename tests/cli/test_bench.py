@@ -162,7 +162,7 @@ class Memory(unittest.TestCase):
         for phase in arrays.PHASES:
             self.assertAlmostEqual(sums["stock gran/hertz/history"][phase], stock)
         ours, always, pairs = sums["Talus"], 24 + 8 + 16 + 4 * 5, 8 * 3
-        histories, filed = 32 * 2 + 4.125 * 3, 40 * 4
+        histories, filed = 32 * 2 + 4.125 * 3, 40 * 2
         self.assertAlmostEqual(ours[arrays.STEPS], always + pairs + histories + 4 * 2 + 96 + 64)
         self.assertAlmostEqual(ours[arrays.FILING], always + pairs + histories + filed)
         self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + 8 + filed + 36 + 4 * 3 + 32)
