@@ -67,8 +67,8 @@ def by_array(bench, measured):
     section = bench.section
     section.heading("By array")
     section.table(["whose", "array", "bytes", "bytes per particle of the bed", "if"], rows)
-    section.text(f"""By design, for {contacts:.2f} contacts and {pairs:.2f} candidate pairs per sphere, each contact filed with one of its
-particles (stock: with both), {BODIES} large bodies with friction or {WALLS} fixes wall/gran; to be compared with what is measured:""")
+    section.text(f"""By design, for {contacts:.2f} contacts and {pairs:.2f} candidate pairs per sphere,
+{BODIES} large bodies with friction or {WALLS} fixes wall/gran; to be compared with what is measured:""")
     totals = []
     for name, owner in zip(COMPARED, ("Talus", "stock gran/hertz/history")):
         total = max(sums["LAMMPS"][phase] + sums[owner][phase] for phase in arrays.PHASES)

@@ -9,6 +9,7 @@
 #include "contact/narrow_phase.h"
 
 #include <algorithm>
+#include <numeric>
 
 using namespace Talus;
 
@@ -20,14 +21,18 @@ struct Prepared {
   Bed &bed;
   ContactScene scene;
   ParticleOrder order;
+  std::vector<int> slots;
   ParticleRecords records;
   PartnerLists partners;
+  KeptContacts kept;
   ContactPart part;
 
   Prepared(Bed &given, NormalLaw normal, TangentialLaw tangential) :
       bed(given), scene(scene_of(one_law(normal, tangential)))
   {
     order.arrange(bed.owned, bed.key, bed.tag);
+    slots.resize(order.size());
+    std::iota(slots.begin(), slots.end(), 0);
     partners.resize(bed.owned);
     records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
     collect();
@@ -38,7 +43,8 @@ struct Prepared {
 
   SlotChoice all() const { return {0, order.size()}; }
   void collect() { part.pairs.collect(order, bed.later.view(), 0); }
-  void start_pairs() { part.start_pairs(scene, partners, bed.tag); }
+  FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
+  void start_pairs() { part.start_pairs(scene, filed()); }
   void compute()
   {
     part.compute(scene, records, {dt, true}, [](int, int) {});
@@ -102,9 +108,20 @@ void fetch_history(benchmark::State &state)
 {
   Prepared p = prepared(state);
   p.file();
-  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.partners, p.bed.tag); });
+  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.filed()); });
 }
 BENCHMARK(fetch_history)->Apply(sizes);
+
+void keep_history(benchmark::State &state)
+{
+  Prepared p = prepared(state);
+  repeat(state, p, [&] {
+    p.kept.begin(p.order, false);
+    p.part.history.keep(p.part.pairs, p.kept.part(0));
+    p.part.history.fetch(p.part.pairs, p.filed());
+  });
+}
+BENCHMARK(keep_history)->Apply(sizes);
 
 // ---- a step -------------------------------------------------------------------------------------
 

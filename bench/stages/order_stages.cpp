@@ -31,6 +31,8 @@ struct Canonical {
   Bed &bed;
   ContactPipeline pipeline;
   PartnerLists partners;
+  KeptContacts kept;
+  std::vector<int> kept_slot;
 
   Canonical(Bed &given, int threads, bool two_phases) : bed(given)
   {
@@ -43,10 +45,11 @@ struct Canonical {
 
   void rebuild()
   {
-    pipeline.file_history(partners);
+    if (pipeline.num_particles()) pipeline.keep_history(kept, bed.size() > bed.owned);
+    kept_slot = pipeline.particle_order().slot_of_atom;
     pipeline.release();
     pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data()}, bed.later.view());
-    pipeline.start_pairs(partners, bed.tag);
+    pipeline.start_pairs({partners, bed.tag, kept, kept_slot});
   }
   void run(const ContactStep &how)
   {
@@ -75,6 +78,7 @@ struct AsListed {
   ParticleOrder order;
   ParticleRecords records;
   PartnerLists partners;
+  KeptContacts kept;
   ContactPart part;
   BigVector<Record> held;
   std::vector<std::uint64_t> index;
@@ -89,19 +93,18 @@ struct AsListed {
     held = records.position;
     partners.resize(bed.owned);
     take_pairs();
-    part.start_pairs(scene, partners, bed.tag);
+    start_pairs();
     step();
   }
 
   void rebuild()
   {
-    partners.begin();
-    part.history.announce(part.pairs, partners);
-    partners.layout();
-    part.history.file(part.pairs, partners);
+    kept.begin(order, false);
+    part.history.keep(part.pairs, kept.part(0));
     take_pairs();
-    part.start_pairs(scene, partners, bed.tag);
+    start_pairs();
   }
+  void start_pairs() { part.start_pairs(scene, {partners, bed.tag, kept, order.slot_of_atom}); }
 
   /// Rows and entries, one after the other.
   void take_pairs()

@@ -3,36 +3,114 @@
 #include "contact/contact_history.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace Talus {
 
-void ContactHistory::fetch(const CandidateList &pairs, const PartnerLists &partners,
-                           const std::vector<std::int64_t> &filed_tag)
+namespace {
+
+constexpr Record nothing{};
+
+/// What was filed of one pair: its history as one of its particles sees it. If nothing was, there
+/// are some numbers to read all the same.
+struct Filed {
+  bool known = false, by_first = true;
+  const double *history = nothing.c, *onset = nothing.c;
+};
+
+/// Lists of the owned particles of a pair: either, since who stayed may have none.
+Filed in_lists(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
 {
-  const ParticleOrder &order = pairs.order();
-  onset_kept = partners.num_values() == 8;
-  renew(places, pairs.num_pairs());
-  touching.assign((pairs.num_pairs() + 7) / 8, 0);
+  const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
+  for (const auto &[owner, partner] : {std::pair(a, b), std::pair(b, a)}) {
+    if (!order.is_owned(owner) || !filed.name[partner]) continue;
+    const double *values = filed.partners.find(owner, filed.name[partner]);
+    if (values)
+      return {true, owner == a, values, filed.partners.num_values() == 8 ? values + 4 : nothing.c};
+  }
+  return {};
+}
+
+Filed in_kept(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
+{
+  int a = filed.kept_slot[first], b = filed.kept_slot[second];
+  if ((a | b) < 0) {    // not both were owned here
+    if (a < 0 && b < 0) return in_lists(filed, order, first, second);
+    if (a == KeptContacts::unknown || b == KeptContacts::unknown) return {};
+    (a < 0 ? a : b) = KeptContacts::was_ghost(a < 0 ? a : b);
+  }
+  const KeptContacts::Found found = filed.kept.find(a, b);
+  return {found.known, a < b, found.record->c, found.onset->c};
+}
+
+}    // namespace
+
+/* What `find` finds of each pair of slots. Whether it finds anything nobody can foresee: so a
+   record is written in any case, and overwritten by the next one if it does not count. */
+
+template <class Find> void ContactHistory::fill(const CandidateList &pairs, Find find)
+{
+  const std::int64_t n = pairs.num_pairs();
+  renew(places, n);
+  touching.assign((n + 7) / 8, 0);
   vacant.clear();
   // addresses for all, that nothing has to move later; only what is written takes memory
-  for (BigVector<Record> *each : {&records, &onsets}) {
-    renew(*each, each == &records || onset_kept ? pairs.num_pairs() : 0);
-    each->clear();
+  renew(records, n);
+  renew(onsets, onset_kept ? n : 0);
+  std::uint32_t found = 0;
+  for (std::int64_t block = 0; block < n; block += 8) {
+    unsigned bits = 0;
+    for (std::int64_t c = block; c < std::min(block + 8, n); c++) {
+      const Filed its = find(pairs.first[c], pairs.second[c]);
+      std::memcpy(&records[found], its.history, sizeof(Record));
+      if (!its.by_first) records[found] = mirrored(records[found]);
+      if (onset_kept) std::memcpy(&onsets[found], its.onset, sizeof(Record));
+      places[c] = found;
+      found += its.known;
+      bits |= static_cast<unsigned>(its.known) << (c - block);
+    }
+    touching[block / 8] = static_cast<std::uint8_t>(bits);
   }
+  records.resize(found);
+  onsets.resize(onset_kept ? found : 0);
+}
 
-  const bool under_one_end = !partners.has_both_ends();
-  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
-    const bool from_first = under_one_end ? filed_tag[a] < filed_tag[b] : order.is_owned(a);
-    const int owner = from_first ? a : b, partner = from_first ? b : a;
-    const double *v = filed_tag[partner] ? partners.find(owner, filed_tag[partner]) : nullptr;
-    if (!v) continue;
-    const Record seen{{v[0], v[1], v[2], v[3]}};
-    begin(c);
-    record(c) = from_first ? seen : mirrored(seen);
-    if (onset_kept) onset(c) = {{v[4], v[5], v[6], v[7]}};
-    touching[c / 8] = static_cast<std::uint8_t>(touching[c / 8] | 1U << (c % 8));
+void ContactHistory::fetch(const CandidateList &pairs, const FiledHistories &filed)
+{
+  const ParticleOrder &order = pairs.order();
+  onset_kept = filed.partners.num_values() == 8;
+  if (filed.kept.empty())
+    fill(pairs, [&](int first, int second) { return in_lists(filed, order, first, second); });
+  else
+    fill(pairs, [&](int first, int second) { return in_kept(filed, order, first, second); });
+}
+
+void ContactHistory::keep(const CandidateList &pairs, KeptContacts::Part &part)
+{
+  constexpr std::size_t ahead = 8;
+  const std::int64_t n = pairs.num_pairs();
+  part.first_row = n ? pairs.second[0] : 0;
+  part.rows.assign(n ? pairs.second[n - 1] - part.first_row + 2 : 1, 0);
+  renew(part.first, records.size() + 2 * ahead);
+  renew(part.place, records.size() + 2 * ahead);
+  std::uint32_t count = 0;
+  for (std::size_t block = 0; block < touching.size(); block++) {
+    std::uint32_t found[8];
+    const int its = store_places(found, static_cast<std::uint32_t>(8 * block), touching[block]);
+    for (int k = 0; k < its; k++) {
+      part.first[count] = pairs.first[found[k]];
+      part.place[count] = places[found[k]];
+      part.rows[pairs.second[found[k]] - part.first_row + 1] = ++count;
+    }
   }
+  // rows without a pair end where they begin
+  for (std::size_t row = 1; row < part.rows.size(); row++)
+    part.rows[row] = std::max(part.rows[row], part.rows[row - 1]);
+  std::fill(part.first.begin() + count, part.first.end(), -1);
+  std::fill(part.place.begin() + count, part.place.end(), 0);
+  part.records.swap(records);
+  part.onsets.swap(onsets);
+  std::fill(touching.begin(), touching.end(), 0);
 }
 
 void ContactHistory::begin(std::int64_t pair)
@@ -58,37 +136,33 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   touching[block] = static_cast<std::uint8_t>(bits);
 }
 
-/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, or only that
-   with the lower tag, where owned and served. */
+/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, where owned
+   and served. */
 
 template <class Visit>
-void ContactHistory::for_each_end(const CandidateList &pairs, bool both_ends, Visit visit) const
+void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
 {
   const ParticleOrder &order = pairs.order();
   for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
     if (!touches(c)) continue;
     const int first = pairs.first[c], second = pairs.second[c];
     const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-    const bool under_first = both_ends || order.tag[a] < order.tag[b];
-    const bool under_second = both_ends || !under_first;
-    if (under_first && order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
-    if (under_second && order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
+    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
+    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
   }
 }
 
 void ContactHistory::announce(const CandidateList &pairs, PartnerLists &partners) const
 {
-  for_each_end(pairs, partners.has_both_ends(),
-               [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
+  for_each_end(pairs, [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
 }
 
 void ContactHistory::file(const CandidateList &pairs, PartnerLists &partners) const
 {
   const std::vector<std::int64_t> &tag = pairs.order().tag;
-  for_each_end(pairs, partners.has_both_ends(),
-               [&](std::int64_t c, int atom, int partner, bool is_first) {
-                 file_entry(partners.append(atom, tag[partner]), c, is_first);
-               });
+  for_each_end(pairs, [&](std::int64_t c, int atom, int partner, bool is_first) {
+    file_entry(partners.append(atom, tag[partner]), c, is_first);
+  });
 }
 
 void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_first) const

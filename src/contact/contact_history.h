@@ -10,6 +10,7 @@
 #define TALUS_CONTACT_CONTACT_HISTORY_H
 
 #include "contact/candidate_list.h"
+#include "contact/kept_contacts.h"
 #include "contact/partner_lists.h"
 #include "contact/record.h"
 
@@ -19,19 +20,31 @@
 
 namespace Talus {
 
+/// Where histories are while pairs are numbered anew. `partners` are the lists of owned particles,
+/// and `name` (by host's index) is how these lists call each particle, 0 if it is in none: it
+/// differs from the tag if IDs were renumbered since. `kept`, if not empty, is asked first;
+/// `kept_slot` (by slot) says which slot each particle had then, see KeptContacts::slot_named().
+struct FiledHistories {
+  const PartnerLists &partners;
+  const std::vector<std::int64_t> &name;
+  const KeptContacts &kept;
+  const std::vector<int> &kept_slot;
+};
+
 class ContactHistory {
  public:
-  /// After a rebuild: takes the history of each pair from the lists of whichever of its particles
-  /// is owned. `filed_tag` is the name of each particle (host's index) in the lists, 0 if it is in
-  /// none; it differs from the tag if IDs were renumbered since. Pairs without history start at
-  /// zero. Onsets are kept if the lists have 8 values.
-  void fetch(const CandidateList &pairs, const PartnerLists &partners,
-             const std::vector<std::int64_t> &filed_tag);
+  /// After a rebuild: takes the history of each pair from wherever it is. Pairs without history
+  /// start at zero. Onsets are kept if the lists have 8 values.
+  void fetch(const CandidateList &pairs, const FiledHistories &filed);
+
+  /// Before pairs are numbered anew: hands all histories over, and has none until fetch(). May run
+  /// for different parts of a rank at the same time.
+  void keep(const CandidateList &pairs, KeptContacts::Part &part);
 
   /// Before particles are renumbered: the history of every touching pair is filed under each of its
-  /// owned particles that the list serves, or only that with the lower tag (see PartnerLists).
-  /// First announce(), then PartnerLists::layout(), then file(); each may run for different parts
-  /// of a rank at the same time.
+  /// owned particles that the list serves (see PartnerLists). First announce(), then
+  /// PartnerLists::layout(), then file(); each may run for different parts of a rank at the same
+  /// time.
   void announce(const CandidateList &pairs, PartnerLists &partners) const;
   void file(const CandidateList &pairs, PartnerLists &partners) const;
 
@@ -67,10 +80,10 @@ class ContactHistory {
   double memory_usage() const;
 
  private:
+  template <class Find> void fill(const CandidateList &pairs, Find find);
   void begin(std::int64_t pair);
   void change(std::int64_t block, unsigned bits);
-  template <class Visit>
-  void for_each_end(const CandidateList &pairs, bool both_ends, Visit visit) const;
+  template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
   void file_entry(double *values, std::int64_t pair, bool from_first) const;
 
   bool onset_kept = false;

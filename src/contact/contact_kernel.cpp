@@ -35,14 +35,13 @@ template <class Real> inline void store_lanes(Lanes &v, int k, const Vector3<Rea
 constexpr int num_coefficients = sizeof(ContactCoefficients) / sizeof(double);
 static_assert(sizeof(Coefficients<Vec8>) == num_coefficients * sizeof(Vec8));
 
-template <class Real> Coefficients<Real> collect(const ContactCoefficients *table, const int *row)
+Coefficients<Vec8> collect(const ContactCoefficients *table, const int *row)
 {
-  constexpr int width = sizeof(Real) / sizeof(double);
-  Coefficients<Real> c;
+  Coefficients<Vec8> c;
   auto *wide = reinterpret_cast<double *>(&c);
-  for (int lane = 0; lane < width; lane++) {
+  for (int lane = 0; lane < lanes; lane++) {
     const auto *one = reinterpret_cast<const double *>(&table[row[lane]]);
-    for (int n = 0; n < num_coefficients; n++) wide[n * width + lane] = one[n];
+    for (int n = 0; n < num_coefficients; n++) wide[n * lanes + lane] = one[n];
   }
   return c;
 }
@@ -114,7 +113,7 @@ void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficient
   const Coefficients<Vec8> common = spread<Vec8>(table[0]);
   for (; k < end; k += lanes)
     compute_lanes<Model, advance, Vec8>(
-        b, k, uniform ? common : collect<Vec8>(table, &b.coefficients[k]), dt);
+        b, k, uniform ? common : collect(table, &b.coefficients[k]), dt);
 }
 
 template <class Model> ContactKernel pick(bool uniform, bool advance)

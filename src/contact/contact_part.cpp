@@ -15,15 +15,14 @@ ContactPart::ContactPart()
   batch.clear();
 }
 
-void ContactPart::start_pairs(const ContactScene &scene, const PartnerLists &partners,
-                              const std::vector<std::int64_t> &filed_tag)
+void ContactPart::start_pairs(const ContactScene &scene, const FiledHistories &filed)
 {
   // the contacts of each law fill whole vectors of the batch: leave room for the gaps
   std::iota(std::begin(lane_of_contact), std::end(lane_of_contact), 0);
   const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
   if (scene.with_history)
-    history.fetch(pairs, partners, filed_tag);
+    history.fetch(pairs, filed);
   else
     history.release();
   touching = 0;

@@ -69,8 +69,7 @@ class ContactPart {
   ContactPart();
 
   /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
-  void start_pairs(const ContactScene &scene, const PartnerLists &partners,
-                   const std::vector<std::int64_t> &filed_tag);
+  void start_pairs(const ContactScene &scene, const FiledHistories &filed);
 
   /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
   /// ask.

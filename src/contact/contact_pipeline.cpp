@@ -56,12 +56,28 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
               [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
 }
 
-void ContactPipeline::start_pairs(const PartnerLists &partners,
-                                  const std::vector<std::int64_t> &filed_tag)
+void ContactPipeline::start_pairs(const Histories &histories)
 {
-  in_parallel(order.num_parts(), threads,
-              [&](int p) { parts[p].start_pairs(scene, partners, filed_tag); });
+  const std::vector<int> kept_slot = slots_then(histories);
+  const FiledHistories filed{histories.partners, histories.name, histories.kept, kept_slot};
+  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].start_pairs(scene, filed); });
   make_room();
+}
+
+/* By present slot: that of the last lists. */
+
+std::vector<int> ContactPipeline::slots_then(const Histories &histories) const
+{
+  if (histories.kept.empty()) return {};
+  std::vector<int> slots(order.size());
+  in_ranges(order.size(), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      const int atom = order.atom_of_slot[s];
+      slots[s] = order.is_owned(atom) ? histories.kept_slot[atom] : KeptContacts::unknown;
+      if (slots[s] < 0) slots[s] = histories.kept.slot_named(histories.name[atom]);
+    }
+  });
+  return slots;
 }
 
 void ContactPipeline::make_room()
@@ -85,9 +101,19 @@ void ContactPipeline::release()
   if (much) parts.clear();
 }
 
-void ContactPipeline::file_history(PartnerLists &partners, PartnerLists::Filing filing) const
+void ContactPipeline::keep_history(KeptContacts &to, bool particles_may_leave)
 {
-  partners.begin(filing);
+  to.clear();
+  if (!scene.with_history) return;
+  to.begin(order, particles_may_leave);
+  in_parallel(order.num_parts(), threads,
+              [&](int p) { parts[p].history.keep(parts[p].pairs, to.part(p)); });
+  to.finish(threads);
+}
+
+void ContactPipeline::file_history(PartnerLists &partners) const
+{
+  partners.begin();
   if (!scene.with_history) return;
   const int num_parts = static_cast<int>(parts.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)

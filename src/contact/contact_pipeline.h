@@ -3,8 +3,8 @@
 // The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical
 // order. Knows nothing of the host: the pair style hands arrays over and adds the result.
 //
-//   at a rebuild   file_history() (if the old pairs are still current), release(), set_pairs(),
-//                  start_pairs()
+//   at a rebuild   keep_history() or file_history() (if the old pairs are still current),
+//                  release(), set_pairs(), start_pairs()
 //   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
 //   state
 //
@@ -53,9 +53,16 @@ class ContactPipeline {
     const int *type;
   };
   void set_pairs(const Particles &particles, const NeighbourView &neighbours);
-  /// After set_pairs(), when the neighbours are no longer needed: takes the histories that were
-  /// filed under `filed_tag`, see ContactHistory::fetch().
-  void start_pairs(const PartnerLists &partners, const std::vector<std::int64_t> &filed_tag);
+  /// Where histories are found. `name` and `kept_slot` by host's index, see FiledHistories; slots
+  /// of ghosts and of particles that came from elsewhere are looked up by name.
+  struct Histories {
+    const PartnerLists &partners;
+    const std::vector<std::int64_t> &name;
+    const KeptContacts &kept;
+    const std::vector<int> &kept_slot;
+  };
+  /// After set_pairs(), when the neighbours are no longer needed.
+  void start_pairs(const Histories &histories);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the records,
   /// which the next compute() makes anew and whose state must be in the host's arrays; and all of
@@ -63,9 +70,11 @@ class ContactPipeline {
   void release_records();
   void release();
 
+  /// Hands the current history over as it stands; the pairs have none until start_pairs(). Clears
+  /// `to` in a scene without history.
+  void keep_history(KeptContacts &to, bool particles_may_leave);
   /// Files the current history by particle. Empties the lists in a scene without history.
-  void file_history(PartnerLists &partners,
-                    PartnerLists::Filing filing = PartnerLists::Filing::BOTH_ENDS) const;
+  void file_history(PartnerLists &partners) const;
   /// See ContactHistory::adopt_first_copies(). Call after file_history().
   void
   adopt_first_copies(PartnerLists &partners,
@@ -156,6 +165,7 @@ class ContactPipeline {
   void run_parts(const ParticleView &host, const ContactStep &step, int first_part);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
+  std::vector<int> slots_then(const Histories &histories) const;
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
 
   ContactScene scene;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <unordered_map>
 
 namespace Talus {
 namespace {
@@ -42,10 +41,10 @@ void PartnerLists::resize(int capacity)
   range.resize(capacity);
 }
 
-void PartnerLists::begin(Filing filing)
+void PartnerLists::begin()
 {
-  its_filing = filing;
   std::fill(range.begin(), range.end(), Range{});
+  pool.clear();
 }
 
 void PartnerLists::release()
@@ -73,36 +72,6 @@ double *PartnerLists::append(int atom, std::int64_t tag)
   return entry + 1;
 }
 
-void PartnerLists::complete(const std::int64_t *tag, int n)
-{
-  if (has_both_ends()) return;
-  const PartnerLists half = *this;
-  std::unordered_map<std::int64_t, int> particle;
-  for (int a = 0; a < n; a++)
-    if (tag[a]) particle[tag[a]] = a;
-
-  const auto for_each_pair = [&](auto visit) {
-    for (int a = 0; a < n; a++)
-      for (int k = 0; tag[a] && k < half.size(a); k++) {
-        const double *entry = &half.pool[(half.range[a].begin + k) * stride()];
-        const auto partner = particle.find(tag_of(entry));
-        if (partner != particle.end()) visit(a, partner->second, entry);
-      }
-  };
-  begin();
-  for_each_pair([&](int a, int b, const double *) {
-    count(a);
-    count(b);
-  });
-  layout();
-  for_each_pair([&](int a, int b, const double *entry) {
-    std::copy(entry + 1, entry + stride(), append(a, tag[b]));
-    double *other = append(b, tag[a]);
-    std::copy(entry + 1, entry + stride(), other);
-    for (int d = 0; d < 3; d++) other[d] = -other[d];    // see mirrored()
-  });
-}
-
 const double *PartnerLists::find(int atom, std::int64_t tag) const
 {
   const double *entry = pool.data() + range[atom].begin * stride();
@@ -124,6 +93,13 @@ int PartnerLists::pack(int atom, double *buffer) const
   // tags are bit patterns: copied as memory, never as numbers
   if (r.size) std::memcpy(buffer + 1, begin, sizeof(double) * r.size * stride());
   return packed_size(atom);
+}
+
+double *PartnerLists::write_entry(double *to, std::int64_t tag, const double *values,
+                                  int num_values)
+{
+  set_tag(to, tag);
+  return std::copy(values, values + num_values, to + 1);
 }
 
 int PartnerLists::unpack(int atom, const double *buffer)

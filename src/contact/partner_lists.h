@@ -17,10 +17,6 @@ namespace Talus {
 
 class PartnerLists {
  public:
-  /// Where pairs are filed. Under the end with the lower tag, and so in half the memory, they serve
-  /// as long as both ends of every pair are owned by one rank; complete() makes both ends of it.
-  enum class Filing { BOTH_ENDS, LOWER_TAG };
-
   /// Numbers kept for each partner: 4 (history record), or 8 (and onset record). What is filed
   /// already is converted: new numbers are zero, surplus ones are dropped.
   void set_values(int n);
@@ -31,15 +27,13 @@ class PartnerLists {
 
   /// Refills all lists: begin(), then count() once for every entry, then layout(), then append()
   /// for the same entries; append() returns where to write the values of the entry.
-  void begin(Filing filing = Filing::BOTH_ENDS);
+  void begin();
   void count(int atom) { range[atom].size++; }
   void layout();
   double *append(int atom, std::int64_t tag);
 
-  bool has_both_ends() const { return its_filing == Filing::BOTH_ENDS; }
-  /// Files what has been filed under one end under the other as well, as that sees it. `tag`: the
-  /// names of particles 0 ... n-1, 0 for none. Partners that are gone by now are left out.
-  void complete(const std::int64_t *tag, int n);
+  /// No particle has a partner.
+  bool empty() const { return pool.empty(); }
 
   /// Empties all lists, and gives their memory back if it is much.
   void release();
@@ -62,7 +56,10 @@ class PartnerLists {
   /// Packing for messages and restart files: returns the number of doubles, packed_size(atom).
   int pack(int atom, double *buffer) const;
   int unpack(int atom, const double *buffer);
-  int packed_size(int atom) const { return 1 + stride() * range[atom].size; }
+  int packed_size(int atom) const { return packed_size_of(size(atom)); }
+  int packed_size_of(int entries) const { return 1 + stride() * entries; }
+  /// One packed entry; returns where the next one goes.
+  static double *write_entry(double *to, std::int64_t tag, const double *values, int num_values);
 
   double memory_usage() const;
 
@@ -74,7 +71,6 @@ class PartnerLists {
     int size = 0;
   };
   int values = 4;
-  Filing its_filing = Filing::BOTH_ENDS;
   std::vector<Range> range;
   BigVector<double> pool;
 };

@@ -270,6 +270,21 @@ TALUS_INLINE Vec4 kept_if(bool condition, Vec4 vector)
   return (Vec4) ((Bits) vector & (Bits{} - static_cast<std::int64_t>(condition)));
 }
 
+/// Which of eight integers is the wanted one; the first of them, or 8 if none is.
+inline int find_of_eight(const std::int32_t *values, std::int32_t wanted)
+{
+#if defined(__AVX2__)
+  const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(values));
+  const __m256i equal = _mm256_cmpeq_epi32(eight, _mm256_set1_epi32(wanted));
+  unsigned bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 8; k++) bits |= static_cast<unsigned>(values[k] == wanted) << k;
+#endif
+  bits |= 1U << 8;
+  return __builtin_ctz(bits);
+}
+
 /// Transposes the 4 x 4 matrix whose rows are a, b, c, d.
 inline void transpose(Vec4 &a, Vec4 &b, Vec4 &c, Vec4 &d)
 {

@@ -118,8 +118,16 @@ inline Real parts_of(const TangentialInput<Real> &in, const Trial<Real> &trial)
          square_root(dot(trial.drag, trial.drag)) + in.limit;
 }
 
+/// The same numbers, zeros without a sign.
+template <class Real> TALUS_INLINE Vector3<Real> unsigned_zeros(const Vector3<Real> &v)
+{
+  const Real zero = splat<Real>(0.0);
+  return v + Vector3<Real>{zero, zero, zero};
+}
+
 /// The limit of `stock`. The force is that of the displacement that is stored, which has the length
-/// of the limit but for rounding; without a spring, or if the limit is zero, it is L T/|T| itself.
+/// of the limit but for rounding; without a spring, or if the limit is zero, it is L T/|T| itself:
+/// then a zero would have the sign of T, which is not the same in a step and in a later set-up.
 template <bool advance, class Real>
 TALUS_INLINE Vector3<Real> stock_limit(const TangentialInput<Real> &in, const Trial<Real> &trial,
                                        TangentialHistory<Real> &history)
@@ -135,7 +143,7 @@ TALUS_INLINE Vector3<Real> stock_limit(const TangentialInput<Real> &in, const Tr
     const Vector3<Real> d = select(trial.exceeds & with_spring, set_back, trial.displacement);
     history = {d, select(trial.exceeds, one, zero)};
     const Vector3<Real> at_limit = select(by_spring, -(in.k.kt * d + trial.drag), capped);
-    return select(trial.exceeds, at_limit, trial.force);
+    return unsigned_zeros(select(trial.exceeds, at_limit, trial.force));
   }
   // the flag counts as long as spring and dashpot do not exceed the limit but for rounding: not
   // with other velocities or coefficients
@@ -144,7 +152,7 @@ TALUS_INLINE Vector3<Real> stock_limit(const TangentialInput<Real> &in, const Tr
   const auto stays = was_there & by_spring & (size <= in.limit + rounding);
   const Vector3<Real> beyond =
       select(trial.moved | was_there, capped, Vector3<Real>{zero, zero, zero});
-  return select(stays, trial.force, select(trial.exceeds, beyond, trial.force));
+  return unsigned_zeros(select(stays, trial.force, select(trial.exceeds, beyond, trial.force)));
 }
 
 /// The limit of `slider`. The force is taken along d + gt/kt v_t of the displacement that is

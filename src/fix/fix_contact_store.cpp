@@ -94,6 +94,7 @@ void FixContactStore::init()
   next_reneighbor = next_refresh(update->ntimestep);
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
+  find_maxexchange();    // of lists from a restart file
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -106,7 +107,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
-  file(true);
+  store_histories(Occasion::REBUILD);
   if (client) client->release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
@@ -146,9 +147,8 @@ void FixContactStore::post_neighbor()
 {
   current = false;
   if (!client) return;
-  // the box may have changed
-  if (!owns_all_particles()) partners.complete(filed_tags.data(), atom->nlocal);
   client->renumber_pairs();
+  kept.clear();
   pairs_are_current();
 }
 
@@ -167,35 +167,42 @@ void FixContactStore::setup_post_neighbor()
 
 void FixContactStore::post_run()
 {
-  file(true);
+  store_histories(Occasion::END_OF_RUN);
   give_sorting_back();
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool FixContactStore::owns_all_particles() const
+bool FixContactStore::in_periodic_box() const
 {
-  return comm->nprocs == 1 && !domain->xperiodic && !domain->yperiodic && !domain->zperiodic;
+  return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* `between_steps`: the pairs are not needed any more, and what is filed stays in this process. */
+/* Across a periodic border a particle meets images of others, which only lists can tell apart. */
 
-void FixContactStore::file(bool between_steps)
+void FixContactStore::store_histories(Occasion occasion)
 {
-  using Filing = Talus::PartnerLists::Filing;
-  if (client && current) {
-    client->look_at_pairs();
-    if (between_steps) client->release_records();
-    client->file_history(partners, between_steps && owns_all_particles() ? Filing::LOWER_TAG
-                                                                         : Filing::BOTH_ENDS);
-    for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
-    if (domain->xperiodic || domain->yperiodic || domain->zperiodic) agree_on_shared_pairs();
-  }
+  if (!client || !current) return;
+  client->look_at_pairs();
+  if (occasion != Occasion::RESTART_FILE) client->release_records();
+  if (occasion == Occasion::REBUILD && !in_periodic_box())
+    client->keep_history(kept, kept_slots);
+  else
+    client->file_history(partners);
+  for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
+  if (in_periodic_box()) agree_on_shared_pairs();
   current = false;
-  maxexchange = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    maxexchange = std::max(maxexchange, partners.packed_size(i));
-  maxexchange += 5;
+  find_maxexchange();
+}
+
+/* What pack_exchange() may have to write, on this rank or on one that a particle passes through. */
+
+void FixContactStore::find_maxexchange()
+{
+  int mine = kept.most_contacts(), most = 0;
+  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
+  maxexchange = 5 + partners.packed_size_of(most);
 }
 
 /* Across a periodic border both sides compute a pair, from positions that were shifted and rounded
@@ -282,6 +289,7 @@ void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
   filed_tags.resize(nmax);
+  kept_slots.resize(nmax, -1);
   if (guards_positions) positions.resize(3 * nmax);
   partners.resize(nmax);
 }
@@ -290,6 +298,7 @@ void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
   filed_tags[j] = filed_tags[i];
+  kept_slots[j] = kept_slots[i];
   if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   partners.copy(i, j);
 }
@@ -298,6 +307,7 @@ void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
   filed_tags[i] = 0;
+  kept_slots[i] = -1;
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   partners.clear(i);
 }
@@ -326,7 +336,8 @@ int FixContactStore::pack_exchange(int i, double *buf)
   buf[m++] = as_double(keys[i]);
   buf[m++] = as_double(filed_tags[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
-  return m + partners.pack(i, buf + m);
+  if (kept.empty() || kept_slots[i] < 0) return m + partners.pack(i, buf + m);
+  return m + kept.pack(kept_slots[i], partners.num_values(), buf + m);
 }
 
 int FixContactStore::unpack_exchange(int i, double *buf)
@@ -334,6 +345,7 @@ int FixContactStore::unpack_exchange(int i, double *buf)
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   filed_tags[i] = from_double<std::int64_t>(buf[m++]);
+  kept_slots[i] = -1;
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
   return m + partners.unpack(i, buf + m);
 }
@@ -342,8 +354,7 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 
 void FixContactStore::write_restart(FILE *fp)
 {
-  file(false);    // all ranks come here before the particles are packed
-  partners.complete(filed_tags.data(), atom->nlocal);
+  store_histories(Occasion::RESTART_FILE);    // on all ranks, before particles are packed
   if (comm->me) return;
   const double state[3] = {inverse_cell, static_cast<double>(partners.num_values()),
                            static_cast<double>(atom->natoms)};
@@ -389,6 +400,7 @@ void FixContactStore::unpack_restart(int i, int nth)
         FLERR,
         "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
         "the first run, so that contact history cannot be assigned: put 'run 0' in between");
+  kept_slots[i] = -1;
   partners.unpack(i, extra + m + 4);
 }
 
@@ -408,6 +420,7 @@ int FixContactStore::maxsize_restart()
 double FixContactStore::memory_usage()
 {
   return static_cast<double>((keys.capacity() + filed_tags.capacity()) * sizeof(std::uint64_t) +
-                             positions.capacity() * sizeof(double)) +
-         partners.memory_usage();
+                             positions.capacity() * sizeof(double) +
+                             kept_slots.capacity() * sizeof(int)) +
+         partners.memory_usage() + kept.memory_usage();
 }

@@ -4,9 +4,10 @@
 //
 //   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart
 //   files;
-//   * the contact history filed by particle (see contact/partner_lists.h) whenever pairs are
-//   renumbered, and the
-//     tag under which the lists of others know this particle: IDs may be renumbered between runs;
+//   * the contact history: filed by particle (see contact/partner_lists.h) between runs, in restart
+//     files and in periodic boxes, and the tag under which the lists of others know this particle,
+//     for IDs may be renumbered between runs; in the rebuilds of a run as it stands (see
+//     contact/kept_contacts.h), and the slot that each particle had;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
 //   and back
 //     for that, which moves every particle by a rounding error. The positions are put back, so that
@@ -19,7 +20,7 @@
 #ifndef LMP_FIX_CONTACT_STORE_H
 #define LMP_FIX_CONTACT_STORE_H
 
-#include "contact/partner_lists.h"
+#include "contact/contact_pipeline.h"
 #include "fix.h"
 
 #include <cstdint>
@@ -38,16 +39,18 @@ class FixContactStore : public Fix {
    public:
     /// The pairs are still those of the last step: a look at them, on all ranks.
     virtual void look_at_pairs() = 0;
+    /// Hands the history of the current pairs over until renumber_pairs(), and says which slot each
+    /// owned particle has, -1 for none.
+    virtual void keep_history(Talus::KeptContacts &kept, std::vector<int> &kept_slot) = 0;
     /// Files the history of the current pairs by particle.
-    virtual void file_history(Talus::PartnerLists &partners,
-                              Talus::PartnerLists::Filing filing) = 0;
+    virtual void file_history(Talus::PartnerLists &partners) = 0;
     /// Makes both copies of a pair that is computed twice the same: that of its first particle.
     virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
     /// A new neighbor list exists: number the pairs anew and fetch their history.
     virtual void renumber_pairs() = 0;
     /// The state of the last step is not needed any more: its memory is free for others.
     virtual void release_records() = 0;
-    /// The same for the pairs: histories are filed, and renumber_pairs() will follow.
+    /// The same for the pairs: histories are elsewhere, and renumber_pairs() will follow.
     virtual void release_pairs() = 0;
     /// The integrator has moved the velocities, and particles are still numbered as in the last
     /// compute().
@@ -74,11 +77,12 @@ class FixContactStore : public Fix {
     current = true;
   }
 
-  /// Keys of owned and ghost particles, and their names in the lists (0: in none); there may be
-  /// more elements than particles.
+  /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
-  const std::vector<std::int64_t> &all_filed_tags() const { return filed_tags; }
-  const Talus::PartnerLists &partner_lists() const { return partners; }
+  Talus::ContactPipeline::Histories histories() const
+  {
+    return {partners, filed_tags, kept, kept_slots};
+  }
 
   int setmask() override;
   void init() override;
@@ -114,8 +118,10 @@ class FixContactStore : public Fix {
   static constexpr int refresh_interval = 1000;
 
  private:
-  void file(bool between_steps);
-  bool owns_all_particles() const;
+  enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
+  void store_histories(Occasion occasion);
+  void find_maxexchange();
+  bool in_periodic_box() const;
   void agree_on_shared_pairs();
   void refresh_key(int i);
   void take_over_sorting();
@@ -130,8 +136,10 @@ class FixContactStore : public Fix {
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
-  std::vector<std::int64_t> filed_tags;
+  std::vector<std::int64_t> filed_tags;    // 0: in no list
   Talus::PartnerLists partners;
+  std::vector<int> kept_slots;    // of owned particles
+  Talus::KeptContacts kept;
 
   int host_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead
 

@@ -195,9 +195,19 @@ void PairGranPenalty::look_at_pairs()
   time_step.look_for_smaller_particles(book);
 }
 
-void PairGranPenalty::file_history(PartnerLists &partners, PartnerLists::Filing filing)
+/* Particles that some fix has added since have no slot. */
+
+void PairGranPenalty::keep_history(KeptContacts &kept, std::vector<int> &kept_slot)
 {
-  pipeline.file_history(partners, filing);
+  pipeline.keep_history(kept, comm->nprocs > 1);
+  const ParticleOrder &order = pipeline.particle_order();
+  for (int i = 0; i < atom->nlocal; i++)
+    kept_slot[i] = order.is_owned(i) ? order.slot_of_atom[i] : -1;
+}
+
+void PairGranPenalty::file_history(PartnerLists &partners)
+{
+  pipeline.file_history(partners);
 }
 
 void PairGranPenalty::release_records()
@@ -232,7 +242,7 @@ void PairGranPenalty::renumber_pairs()
   try {
     pipeline.set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, neighbours.find(list));
     neighbours.release();
-    pipeline.start_pairs(store->partner_lists(), store->all_filed_tags());
+    pipeline.start_pairs(store->histories());
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
   } catch (const std::bad_alloc &) {

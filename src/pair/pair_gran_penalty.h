@@ -89,7 +89,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   // FixContactStore::Client
   void look_at_pairs() override;
-  void file_history(Talus::PartnerLists &partners, Talus::PartnerLists::Filing filing) override;
+  void keep_history(Talus::KeptContacts &kept, std::vector<int> &kept_slot) override;
+  void file_history(Talus::PartnerLists &partners) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
                           const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;

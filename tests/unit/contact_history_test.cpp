@@ -62,7 +62,7 @@ TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
   }
 }
 
-TEST(ContactHistory, SurvivesFilingUnderOneEnd)
+TEST(ContactHistory, SurvivesInPlace)
 {
   RandomSource random(7);
   Packing p = random_packing(200, random);
@@ -76,7 +76,10 @@ TEST(ContactHistory, SurvivesFilingUnderOneEnd)
         for (TestRank *rank : {&in_place, &moving}) rank->compute(p, dt, true);
       for (std::uint64_t &key : p.key)
         if (random.chance(0.5)) key = ~key;
-      in_place.rebuild_in_place(p, candidates(p, 0.5, false), random);
+      Luggage none;
+      in_place.depart_and_keep(none, [](int) { return true; });
+      EXPECT_TRUE(none.empty());
+      in_place.rebuild(p, everyone(p), candidates(p, 0.5, false), none, random);
       rebuild(moving, p, 0.5, random);
       int found = 0;
       for (int i = 0; i < p.size(); i++)

@@ -165,7 +165,7 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   NeighbourLists lists(2);
   lists.add(1, 0, 1.0);
   pipeline.set_pairs({2, {0, 0}, {1, 2}, nullptr}, lists.view());
-  pipeline.start_pairs(PartnerLists(), {1, 2});
+  pipeline.start_pairs({PartnerLists(), {1, 2}, KeptContacts(), {}});
   double f[6] = {10.0, 20.0, 30.0, 40.0, 50.0, 60.0};    // forces are added
   pipeline.compute({x, v, nullptr, radius, mass, nullptr, f, nullptr}, {dt, true});
   const double push = 800.0 * 0.5 + 1.0 * 3.0 * 1.0;    // kn overlap + m_eff gn (approach)

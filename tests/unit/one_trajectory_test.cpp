@@ -40,19 +40,27 @@ class Machine {
     }
   }
 
-  /// Distributes the particles anew, at random or in slabs, and rebuilds all pairs.
-  void rebuild(const Packing &p, bool slabs)
+  /// Distributes the particles anew, at random, in slabs or so that most of them stay, and rebuilds
+  /// all pairs. With `keep`, histories of those that stay are kept as they stand.
+  enum Way { AT_RANDOM, SLABS, MOST_STAY };
+  void rebuild(const Packing &p, Way way, bool keep = false)
   {
-    Luggage luggage;
-    for (TestRank &rank : ranks) rank.depart(luggage);
     const int n = static_cast<int>(ranks.size());
-    std::vector<std::vector<int>> owned(n);
+    std::vector<int> goes_to(p.size());
     for (int i = 0; i < p.size(); i++) {
-      const int slab = p.x[i][0] < 0.0 ? 0 : n - 1;
-      owned[slabs ? slab : random.below(n)].push_back(i);
+      const bool stays = way == MOST_STAY && !rank_of.empty() && random.chance(0.8);
+      goes_to[i] = stays ? rank_of[i] : random.below(n);
+      if (way == SLABS) goes_to[i] = p.x[i][0] < 0.0 ? 0 : n - 1;
     }
+    Luggage luggage;
     for (int r = 0; r < n; r++)
-      ranks[r].rebuild(p, owned[r], candidates(p, skin, true), luggage, random);
+      if (keep)
+        ranks[r].depart_and_keep(luggage, [&](int i) { return goes_to[i] == r; });
+      else
+        ranks[r].depart(luggage);
+    rank_of = goes_to;
+    for (int r = 0; r < n; r++)
+      ranks[r].rebuild(p, owned_by(r), candidates(p, skin, true), luggage, random);
   }
 
   void compute(const Packing &p, bool advance)
@@ -96,7 +104,16 @@ class Machine {
   double contacts = 0.0;
 
  private:
+  std::vector<int> owned_by(int rank) const
+  {
+    std::vector<int> found;
+    for (int i = 0; i < static_cast<int>(rank_of.size()); i++)
+      if (rank_of[i] == rank) found.push_back(i);
+    return found;
+  }
+
   std::deque<TestRank> ranks;
+  std::vector<int> rank_of;    // by particle
   RandomSource random;
 };
 
@@ -107,10 +124,11 @@ void expect_same(const Machine &a, const Machine &b)
   EXPECT_EQ(a.contacts, b.contacts);
 }
 
-/// How the ranks of a machine divide their work.
+/// How the ranks of a machine divide their work, and whether they keep histories over rebuilds.
 struct Division {
   int threads = 1;
   bool two_phases = false;
+  bool keep = false;
 };
 
 /// Runs both machines over the same motion. Keys are refreshed every fourth step; machine b is
@@ -127,9 +145,11 @@ void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interva
     const bool refresh = step % 4 == 0;
     if (refresh) {
       p.refresh_keys(0.3 + 0.1 * step);
-      a.rebuild(p, false);
+      a.rebuild(p, Machine::AT_RANDOM);
     }
-    if (refresh || step % interval == 0) b.rebuild(p, step % 3 == 0);
+    constexpr Machine::Way ways[] = {Machine::SLABS, Machine::AT_RANDOM, Machine::MOST_STAY};
+    // now and then by lists in between, as after a restart file
+    if (refresh || step % interval == 0) b.rebuild(p, ways[step % 3], division.keep && step % 7 != 6);
     a.compute(p, step > 0);
     b.compute(p, step > 0);
     ASSERT_GT(a.contacts, 300.0);
@@ -189,6 +209,16 @@ TEST_P(OneTrajectory, RanksAndThreadsAndLateGhosts)
   run_and_compare(laws(), 1, 3, 2, {2, false});
 }
 
+TEST_P(OneTrajectory, HistoriesThatAreKept)
+{
+  for (const int interval : {1, 2}) {
+    for (const int ranks : {1, 2, 5}) run_and_compare(laws(), 1, ranks, interval, {1, false, true});
+    run_and_compare(laws(), 1, 1, interval, {3, false, true});
+    run_and_compare(laws(), 1, 3, interval, {1, true, true});
+    run_and_compare(laws(), 1, 2, interval, {3, true, true});
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, OneTrajectory, testing::Values(0, 1, 2));
 
 // Negative control: another order gives other bits, so the tests above can fail.
@@ -199,13 +229,13 @@ TEST(OneTrajectoryControl, AnotherOrderGivesOtherBits)
   std::fill(p.key.begin(), p.key.end(), 0);
   const LawTable laws = mixed_laws();
   Machine a(1, laws, 1), b(1, laws, 2), c(1, laws, 3);
-  a.rebuild(p, false);
+  a.rebuild(p, Machine::AT_RANDOM);
   a.compute(p, true);
-  b.rebuild(p, false);
+  b.rebuild(p, Machine::AT_RANDOM);
   b.compute(p, true);
   EXPECT_TRUE(same_bits(a.force, b.force));
   for (std::int64_t &tag : p.tag) tag = p.size() + 1 - tag;
-  c.rebuild(p, false);
+  c.rebuild(p, Machine::AT_RANDOM);
   c.compute(p, true);
   EXPECT_FALSE(same_bits(a.force, c.force));
   EXPECT_FALSE(same_bits(a.torque, c.torque));

@@ -150,44 +150,6 @@ TEST(PartnerLists, ChangeOfValuesKeepsWhatIsFiled)
 }
 
 // What the host does when particles leave: the last one takes the place of the one that left.
-TEST(PartnerLists, CompletedListsHoldBothEnds)
-{
-  RandomSource random(11);
-  constexpr int n = 60;
-  std::vector<std::int64_t> tag(n);
-  for (int a = 0; a < n; a++) tag[a] = 1000 - 7 * a;
-  struct Pair {
-    int a, b;
-    Record history;
-  };
-  std::vector<Pair> pairs;
-  for (int a = 0; a < n; a++)
-    for (int b = 0; b < a; b++)
-      if (random.chance(0.1)) pairs.push_back({a, b, random_history(random)});
-  random.shuffle(pairs);
-
-  PartnerLists lists;
-  lists.resize(n + 5);
-  lists.begin(PartnerLists::Filing::LOWER_TAG);    // complete() does not mind which
-  for (const Pair &p : pairs) lists.count(p.a);
-  lists.layout();
-  for (const Pair &p : pairs) std::copy_n(p.history.c, 4, lists.append(p.a, tag[p.b]));
-  EXPECT_FALSE(lists.has_both_ends());
-
-  tag[3] = 0;    // has no name any more, and the last particle is gone
-  for (int round = 0; round < 2; round++) {
-    lists.complete(tag.data(), n - 1);    // the second time there is nothing to do
-    EXPECT_TRUE(lists.has_both_ends());
-    Model model(n - 1);
-    for (const Pair &p : pairs) {
-      if (p.a == 3 || p.b == 3 || p.a == n - 1 || p.b == n - 1) continue;
-      model[p.a].push_back({tag[p.b], p.history});
-      model[p.b].push_back({tag[p.a], mirrored(p.history)});
-    }
-    for (int a = 0; a < n - 1; a++) expect_holds(lists, a, model[a]);
-  }
-}
-
 TEST(PartnerLists, CopyAndClear)
 {
   RandomSource random(5);

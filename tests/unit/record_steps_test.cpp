@@ -106,7 +106,7 @@ class RecordSteps : public testing::TestWithParam<Division> {
     NeighbourLists lists(p.size());
     for (const Neighbours &n : candidates(p, skin, true)) lists.add(n.i, n.j, n.weight);
     pipeline.set_pairs({p.size(), p.key, p.tag, p.type.data()}, lists.view());
-    pipeline.start_pairs(partners, p.tag);
+    pipeline.start_pairs({partners, p.tag, KeptContacts(), {}});
   }
 
   bool moves(int i) const { return !GetParam().some_rest || i % 5 != 2; }

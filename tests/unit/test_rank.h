@@ -37,7 +37,7 @@ class TestRank {
   /// spoiled until the first one is over.
   void divide(int threads, bool two_phases) { pipeline.set_work(threads, two_phases); }
 
-  /// Before a rebuild: histories leave with their particles.
+  /// Before a rebuild: histories leave with their particles, all of them.
   void depart(Luggage &luggage)
   {
     if (particle.empty()) return;
@@ -47,6 +47,26 @@ class TestRank {
       std::vector<double> &buffer = luggage[particle[a]];
       buffer.resize(partners.packed_size(a));
       partners.pack(a, buffer.data());
+    }
+  }
+
+  /// The same as in a run: only those of the particles that leave, the others are kept.
+  template <class Stays> void depart_and_keep(Luggage &luggage, Stays stays)
+  {
+    if (particle.empty()) return;
+    pipeline.keep_history(kept, true);
+    const std::vector<int> slots = pipeline.particle_order().slot_of_atom;
+    pipeline.release();
+    slot_of.clear();
+    for (int a = 0; a < owned; a++) {
+      const int i = particle[a];
+      if (stays(i)) {
+        slot_of[i] = slots[a];
+      } else if (!kept.empty()) {
+        std::vector<double> &buffer = luggage[i];
+        buffer.resize(partners.packed_size_of(kept.most_contacts()));
+        buffer.resize(kept.pack(slots[a], partners.num_values(), buffer.data()));
+      }
     }
   }
 
@@ -77,17 +97,6 @@ class TestRank {
     }
 
     start(p, near, number, random, old_tag);
-  }
-
-  /// A rebuild in which no particle moves elsewhere: all are owned, and histories are filed under
-  /// one end of each pair.
-  void rebuild_in_place(const Packing &p, const std::vector<Neighbours> &near, RandomSource &random)
-  {
-    pipeline.file_history(partners, Talus::PartnerLists::Filing::LOWER_TAG);
-    pipeline.release();
-    std::vector<int> number(p.size(), -1);
-    for (int a = 0; a < owned; a++) number[particle[a]] = a;
-    start(p, near, number, random, nullptr);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -138,12 +147,14 @@ class TestRank {
     const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
     std::vector<std::uint64_t> key;
     std::vector<std::int64_t> tag, filed_tag;
-    std::vector<int> type;
+    std::vector<int> type, kept_slot;
     for (const int i : particle) {
       key.push_back(p.key[i]);
       tag.push_back(p.tag[i]);
       filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
       type.push_back(p.type[i]);
+      const auto slot = slot_of.find(i);
+      kept_slot.push_back(slot == slot_of.end() ? -1 : slot->second);
     }
     slow::NeighbourLists lists(owned);
     std::vector<Neighbours> shuffled = near;
@@ -154,7 +165,8 @@ class TestRank {
       lists.add(number[n.i], number[n.j], n.weight);
     }
     pipeline.set_pairs({owned, key, tag, type.data()}, lists.view());
-    pipeline.start_pairs(partners, filed_tag);
+    pipeline.start_pairs({partners, filed_tag, kept, kept_slot});
+    kept.clear();
   }
 
   void run(const Talus::ParticleView &view, const Talus::ContactStep &step)
@@ -179,6 +191,8 @@ class TestRank {
   }
 
   Talus::PartnerLists partners;
+  Talus::KeptContacts kept;
+  std::map<int, int> slot_of;    // of particles that stay, at the time of keeping
 };
 
 inline std::vector<int> everyone(const Packing &p)

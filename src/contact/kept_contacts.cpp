@@ -1,0 +1,120 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/kept_contacts.h"
+
+#include "contact/in_parallel.h"
+#include "contact/partner_lists.h"
+
+#include <algorithm>
+
+namespace Talus {
+
+void KeptContacts::begin(const ParticleOrder &order, bool particles_may_leave)
+{
+  filled = true;
+  may_leave = particles_may_leave;
+  most = 0;
+  parts.resize(order.num_parts());
+  part_of_slot.clear();
+  if (order.num_parts() > 1)
+    part_of_slot.assign(order.part_of_slots(), order.part_of_slots() + order.size());
+
+  slot_by_name.clear();
+  tag.clear();
+  if (!may_leave) return;
+  tag.resize(order.size());
+  for (int s = 0; s < order.size(); s++) {
+    const int atom = order.atom_of_slot[s];
+    tag[s] = order.tag[atom];
+    if (!order.is_owned(atom)) slot_by_name[tag[s]] = was_ghost(s);
+  }
+}
+
+/* visit(first, second) for every pair of a part whose first particle is served there. */
+
+template <class Visit> void KeptContacts::for_each_own_first(int p, Visit visit) const
+{
+  const Part &its = parts[p];
+  for (std::size_t row = 0; row + 1 < its.rows.size(); row++)
+    for (std::uint32_t e = its.rows[row]; e < its.rows[row + 1]; e++) {
+      if (part_of(its.first[e]) == p) visit(its.first[e], its.first_row + static_cast<int>(row));
+    }
+}
+
+void KeptContacts::finish(int threads)
+{
+  if (!may_leave) return;
+  followers_begin.assign(tag.size() + 2, 0);
+  in_parallel(num_parts(), threads, [this](int p) {
+    for_each_own_first(p, [this](int first, int) { followers_begin[first + 2]++; });
+  });
+  const int total = static_cast<int>(tag.size());
+  for (int s = 0; s < total; s++) {
+    const int p = part_of(s);
+    if (p == ParticleOrder::no_part) continue;
+    const std::uint32_t before = parts[p].row_end(s) - parts[p].row_begin(s);
+    most = std::max(most, static_cast<int>(before + followers_begin[s + 2]));
+  }
+  for (int s = 0; s < total; s++) followers_begin[s + 2] += followers_begin[s + 1];
+  renew(followers, followers_begin.back());
+  in_parallel(num_parts(), threads, [this](int p) {
+    // the begin of a row moves on to its end
+    for_each_own_first(
+        p, [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
+  });
+  followers_begin.pop_back();
+}
+
+int KeptContacts::pack(int slot, int values, double *buffer)
+{
+  if (!may_leave) {
+    buffer[0] = 0.0;
+    return 1;
+  }
+  slot_by_name[tag[slot]] = slot;
+  const Part &its = parts[part_of(slot)];
+  double *to = buffer + 1;
+  int count = 0;
+  const auto add = [&](int partner, std::int64_t place, bool is_first) {
+    const Record &record = its.records[place];
+    const Record seen = is_first ? record : mirrored(record);
+    double all[8] = {seen.c[0], seen.c[1], seen.c[2], seen.c[3]};
+    if (!its.onsets.empty()) std::copy_n(its.onsets[place].c, 4, all + 4);
+    to = PartnerLists::write_entry(to, tag[partner], all, values);
+    count++;
+  };
+  for (std::uint32_t e = its.row_begin(slot); e < its.row_end(slot); e++)
+    add(its.first[e], its.place[e], false);
+  for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++)
+    add(followers[n], its.find(slot, followers[n]), true);
+  buffer[0] = count;
+  return static_cast<int>(to - buffer);
+}
+
+int KeptContacts::slot_named(std::int64_t name) const
+{
+  const auto found = slot_by_name.find(name);
+  return found != slot_by_name.end() ? found->second : unknown;
+}
+
+void KeptContacts::clear()
+{
+  filled = false;
+  most = 0;
+  if (memory_usage() > worth_giving_back) *this = KeptContacts{};
+}
+
+double KeptContacts::memory_usage() const
+{
+  std::size_t bytes =
+      sizeof(std::uint16_t) * part_of_slot.capacity() + sizeof(std::int64_t) * tag.capacity() +
+      sizeof(std::uint32_t) * followers_begin.capacity() + sizeof(int) * followers.capacity() +
+      (sizeof(std::pair<std::int64_t, int>) + 2 * sizeof(void *)) * slot_by_name.size();
+  for (const Part &p : parts)
+    bytes += sizeof(std::uint32_t) * p.rows.capacity() + sizeof(int) * p.first.capacity() +
+             sizeof(std::uint32_t) * p.place.capacity() +
+             sizeof(Record) * (p.records.capacity() + p.onsets.capacity());
+  return static_cast<double>(bytes);
+}
+
+}    // namespace Talus
