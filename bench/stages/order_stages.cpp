@@ -19,7 +19,15 @@ namespace Bench {
 namespace {
 
 const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
-const ContactStep in_records{dt, true, nullptr, nullptr, nullptr, false, false};
+
+/// Forces stay in the records; particles are there already, but for the first step.
+ContactStep in_records(bool first = false)
+{
+  ContactStep step{dt, true};
+  step.read = step.read_ghosts = first;
+  step.deliver = false;
+  return step;
+}
 
 LawTable law()
 {
@@ -40,7 +48,7 @@ struct Canonical {
     pipeline.set_work(threads, two_phases);
     partners.resize(bed.owned);
     rebuild();
-    run({dt, true, nullptr, nullptr, nullptr, true, false});
+    run(in_records(true));
   }
 
   void rebuild()
@@ -67,7 +75,7 @@ struct Canonical {
   void step()
   {
     pipeline.advance(at_rest);
-    run(in_records);
+    run(in_records());
   }
 };
 
@@ -125,7 +133,7 @@ struct AsListed {
 
   void step()
   {
-    part.compute(scene, records, in_records, [this](int begin, int end) {
+    part.compute(scene, records, in_records(), [this](int begin, int end) {
       records.advance(at_rest, {}, held.data(), {begin, end});
     });
   }

@@ -81,7 +81,8 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
   if (check != 0.0) throw std::domain_error("a position is not a number");
   constexpr double similar = 1.5, cells_per_sphere = 4.0, least = 4096.0;
   const double mean = sum / s.total;
-  double edge = 2.0 * (largest < similar * mean ? largest : mean) + s.skin;
+  const bool all_alike = largest < similar * mean;
+  double edge = 2.0 * (all_alike ? largest : mean) + s.skin;
   if (edge <= 0.0) edge = 1.0;    // points without a skin: any cells do
   double number = 0.0;
   // cells are numbered with 32 bits
@@ -93,6 +94,7 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
     if (number <= most) break;
   }
   grid.per_length = 1.0 / edge;
+  alike = all_alike ? static_cast<float>(largest / edge) : 0.0F;
   for (int d = 0; d < 3; d++)
     grid.cells[d] =
         1 + static_cast<int>((high[d] - grid.low[d]) * grid.per_length * cells_per_place[d]);
@@ -184,7 +186,7 @@ void NeighbourSearch::find_row(const Spheres &s, int a, Chunk &found) const
     own[d] = static_cast<float>(place[d]);
   }
   own[3] = static_cast<float>(s.radius[a] * grid.per_length);
-  const double reach = 2.0 * own[3] + skin + slack;
+  const double reach = own[3] + std::max(own[3], alike) + skin + slack;
   int from[3], to[3];
   for (int d = 0; d < 3; d++) {
     from[d] = grid.cell(place[d] - reach, d);
@@ -199,24 +201,25 @@ void NeighbourSearch::find_row(const Spheres &s, int a, Chunk &found) const
     }
 }
 
-/* Appends those of a piece of the sorted spheres that are near and smaller. */
+/* Appends those of a piece of the sorted spheres that are near and of a lower index, or smaller. */
 
 TALUS_INLINE void NeighbourSearch::compare(const float *own, int a, int below, std::int64_t begin,
                                            std::int64_t end, Chunk &found) const
 {
   constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const float wide = own[3] + skin + slack;
+  const Ints by_index = Ints{} - static_cast<std::int32_t>(alike > 0.0F);
   for (std::int64_t k = begin; k < end; k += width) {
     const Floats dx = load(&x[k]) - own[0], dy = load(&y[k]) - own[1], dz = load(&z[k]) - own[2];
     const Floats its = load(&radius[k]), reach = its + wide;
     const Ints other = load(&index[k]);
-    const Ints smaller = (its < own[3]) | ((its == own[3]) & (other < a));
+    const Ints chosen = (~by_index & (its < own[3])) | ((by_index | (its == own[3])) & (other < a));
     const Ints near = dx * dx + dy * dy + dz * dz < reach * reach;
     const Ints inside = lane < static_cast<std::int32_t>(std::min<std::int64_t>(end - k, width));
     if (found.entries.size() < found.count + width)
       found.entries.resize(2 * found.entries.size() + 1024);
-    found.count += append(near & smaller & inside & (other < below), other,
-                          found.entries.data() + found.count);
+    found.count +=
+        append(near & chosen & inside & (other < below), other, found.entries.data() + found.count);
   }
 }
 

@@ -4,12 +4,12 @@
 // |x_i - x_j| < r_i + r_j + skin of which at least one is owned, and a few that are slightly
 // further apart. Does the work of the host's neighbor lists for contacts, on all threads.
 //
-// Spheres are sorted into cells as wide as the reach of a usual one. Each looks for the smaller
-// ones around it (of two equal ones for that with the lower index), so that a pair is found once,
-// and a large sphere among many small ones looks into many cells instead of every small one looking
-// far. A row of cells along x stands in one piece of memory and is compared 16 spheres at a time,
-// in single precision: places in cells of the box around all spheres, with a reach that is wider by
-// more than the rounding.
+// Spheres are sorted into cells as wide as the reach of a usual one. Each looks for those around it
+// with a lower index, so that a pair is found once and where the candidate list will have it. If
+// sizes differ much, it looks for the smaller ones instead: a large sphere among many small ones
+// looks into many cells, which is better than every small one looking far. A row of cells along x
+// stands in one piece of memory and is compared 16 spheres at a time, in single precision: places
+// in cells of the box around all spheres, with a reach that is wider by more than the rounding.
 
 #ifndef TALUS_CONTACT_NEIGHBOUR_SEARCH_H
 #define TALUS_CONTACT_NEIGHBOUR_SEARCH_H
@@ -36,7 +36,7 @@ class NeighbourSearch {
   /// std::domain_error if a position is not a number.
   void find(const Spheres &spheres, int threads, const std::function<bool(int, int)> &excluded);
 
-  /// The pairs of the last find(), each in the row of its larger sphere, which may be a ghost.
+  /// The pairs of the last find(), each in the row of one of its spheres, which may be a ghost.
   /// Valid until the next find() or clear().
   NeighbourView view() const;
 
@@ -61,7 +61,7 @@ class NeighbourSearch {
     BigVector<int> entries;
     std::size_t count = 0;
   };
-  static Grid make_grid(const Spheres &spheres);
+  Grid make_grid(const Spheres &spheres);
   void sort_into_cells(const Spheres &spheres);
   void find_rows(const Spheres &spheres, int thread, int threads,
                  const std::function<bool(int, int)> &excluded);
@@ -71,6 +71,7 @@ class NeighbourSearch {
 
   Grid grid{};
   float slack = 0.0F, skin = 0.0F;     // in cells
+  float alike = 0.0F;                  // the largest radius, if sizes differ little; else 0
   std::vector<std::int32_t> start;     // of each cell in the arrays below, and one more
   BigVector<float> x, y, z, radius;    // in cells, sorted by cell
   BigVector<std::int32_t> index;

@@ -46,7 +46,7 @@ double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
 
 void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
 {
-  find_smallest_particles(laws.num_types(), {group});
+  sizes = smallest_particles(laws.num_types(), group);
   const double mine = contacts.largest_relative_speed();
   double speed;
   MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
@@ -63,7 +63,7 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
 void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
 {
   looks_at_damping = false;
-  find_smallest_particles(laws.num_types(), {group});
+  sizes = smallest_particles(laws.num_types(), group);
   consider_pairs(laws, 0.0);
   contact = smaller_defined(law_period, smallest_body_period(laws.num_types(), group));
 }
@@ -80,24 +80,23 @@ double CriticalTimeStep::smallest() const
   return smaller_defined(contact, smaller_defined(rayleigh, hertz));
 }
 
-/* Of the particles that are members of all groups. Forces are in LAMMPS' units: force/mass is
-   acceleration only after conversion. */
+/* Of the particles that are members of all groups, given by their bits. Forces are in LAMMPS'
+   units: force/mass is acceleration only after conversion. */
 
-void CriticalTimeStep::find_smallest_particles(int types, std::initializer_list<int> groups)
+CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int groups) const
 {
   std::vector<double> mine(2 * (types + 1), never), all(mine);
   double *const r = mine.data(), *const m = r + types + 1;
   for (int i = 0; i < atom->nlocal; i++) {
-    const bool member =
-        std::all_of(groups.begin(), groups.end(), [=](int group) { return atom->mask[i] & group; });
-    if (!member) continue;
+    if ((atom->mask[i] & groups) != groups) continue;
     const int type = atom->type[i];
     r[type] = std::min(r[type], atom->radius[i]);
-    m[type] = std::min(m[type], atom->rmass[i] / force->ftm2v);
+    m[type] = std::min(m[type], atom->rmass[i]);
   }
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
-  radius.assign(all.begin(), all.begin() + types + 1);
-  mass.assign(all.begin() + types + 1, all.end());
+  const auto middle = all.begin() + types + 1;
+  std::for_each(middle, all.end(), [this](double &mass) { mass /= force->ftm2v; });
+  return {{all.begin(), middle}, {middle, all.end()}};
 }
 
 double CriticalTimeStep::reduce_smallest(double mine) const
@@ -110,6 +109,7 @@ double CriticalTimeStep::reduce_smallest(double mine) const
 
 void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double speed)
 {
+  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass;
   if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
   if (!laws.is_set(i, j) && !laws.can_mix(i, j)) return;
   const ContactLaw law = laws.law(i, j);
@@ -138,15 +138,18 @@ void CriticalTimeStep::consider_damping(const std::string &who, ContactLaw law,
   elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
 }
 
-/* Of particles that a body can touch. Leaves their radii and masses behind. */
+/* Of particles that a body can touch. */
 
 double CriticalTimeStep::smallest_body_period(int types, int group)
 {
   double smallest = 0.0;
+  std::map<int, Sizes> known{{group, sizes}};
   for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
     auto *body = dynamic_cast<FixLargeBody *>(ifix);
     if (!body) continue;
-    find_smallest_particles(types, {group, body->groupbit});
+    const int groups = group | body->groupbit;
+    if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
+    const auto &[radius, mass] = known[groups];
     for (int type = 1; type <= types; type++) {
       if (std::isinf(radius[type])) continue;
       smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
@@ -161,8 +164,8 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 
 double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
 {
-  const double r = radius[type];
-  const double density = mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
+  const double r = sizes.radius[type];
+  const double density = sizes.mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
   const double shear = spec.young / (2.0 * (1.0 + spec.poisson));
   return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * spec.poisson + 0.8766);
 }

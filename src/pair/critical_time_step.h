@@ -24,7 +24,7 @@
 #include "pair/undamped_friction.h"
 #include "pointers.h"
 
-#include <initializer_list>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,7 +50,12 @@ class CriticalTimeStep : protected Pointers {
   double smallest() const;
 
  private:
-  void find_smallest_particles(int types, std::initializer_list<int> groups);
+  /// Of the smallest particle of each type, masses in units of force/acceleration; infinite if
+  /// there is none.
+  struct Sizes {
+    std::vector<double> radius, mass;
+  };
+  Sizes smallest_particles(int types, int groups) const;
   double reduce_smallest(double mine) const;
   void consider_pairs(const LawBook &laws, double speed);
   void consider_pair(const LawBook &laws, int i, int j, double speed);
@@ -60,9 +65,7 @@ class CriticalTimeStep : protected Pointers {
   double smallest_body_period(int types, int group);
   double rayleigh_of(const ContactSpec &spec, int type) const;
 
-  /// Of the smallest particle of each type, masses in units of force/acceleration; infinite if
-  /// there is none.
-  std::vector<double> radius, mass;
+  Sizes sizes;
   double law_period = 0.0;
   bool looks_at_damping = false;
 };
