@@ -53,7 +53,7 @@ TALUS = [
           (FILING,)),
     Array("displacements kept", 32, "contact", "rebuild, multistep", True, (LISTING,)),
     Array("pairs they belong to", 8, "contact", "rebuild, multistep", True, (LISTING,)),
-    Array("begin of their rows", 4, "particle", "rebuild, multistep", True, (LISTING,)),
+    Array("begin of their rows, for each thread", 4, "particle", "rebuild, multistep", True, (LISTING,)),
     Array("tags and second slots of pairs for particles that leave", 20, "particle", "rebuild, several ranks", False,
           (LISTING,)),
     Array("large bodies: where the displacement is", 4, "body", "multistep"),

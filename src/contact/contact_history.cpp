@@ -18,29 +18,26 @@ struct Filed {
   const double *history = nothing.c, *onset = nothing.c;
 };
 
-/// Lists of the owned particles of a pair: either, since who stayed may have none.
+/// In the list of the first particle, or if that is a ghost of the second.
 Filed in_lists(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
 {
   const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-  for (const auto &[owner, partner] : {std::pair(a, b), std::pair(b, a)}) {
-    if (!order.is_owned(owner) || !filed.name[partner]) continue;
-    const double *values = filed.partners.find(owner, filed.name[partner]);
-    if (values)
-      return {true, owner == a, values, filed.partners.num_values() == 8 ? values + 4 : nothing.c};
-  }
-  return {};
+  const bool of_first = order.is_owned(a);
+  const int owner = of_first ? a : b, partner = of_first ? b : a;
+  const double *values =
+      filed.name[partner] ? filed.partners.find(owner, filed.name[partner]) : nullptr;
+  if (!values) return {};
+  return {true, of_first, values, filed.partners.num_values() == 8 ? values + 4 : nothing.c};
 }
+
+/* Lists are of those that came from elsewhere: they tell of pairs that were nobody's here. */
 
 Filed in_kept(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
 {
-  int a = filed.kept_slot[first], b = filed.kept_slot[second];
-  if ((a | b) < 0) {    // not both were owned here
-    if (a < 0 && b < 0) return in_lists(filed, order, first, second);
-    if (a == KeptContacts::unknown || b == KeptContacts::unknown) return {};
-    (a < 0 ? a : b) = KeptContacts::was_ghost(a < 0 ? a : b);
-  }
+  const int a = filed.slot_then[first], b = filed.slot_then[second];
+  if (a < 0 && b < 0) return in_lists(filed, order, first, second);
   const KeptContacts::Found found = filed.kept.find(a, b);
-  return {found.known, a < b, found.record->c, found.onset->c};
+  return {found.known, found.by_a, found.record->c, found.onset->c};
 }
 
 }    // namespace

@@ -23,12 +23,12 @@ namespace Talus {
 /// Where histories are while pairs are numbered anew. `partners` are the lists of owned particles,
 /// and `name` (by host's index) is how these lists call each particle, 0 if it is in none: it
 /// differs from the tag if IDs were renumbered since. `kept`, if not empty, is asked first;
-/// `kept_slot` (by slot) says which slot each particle had then, see KeptContacts::slot_named().
+/// `slot_then` (by slot) says which slot each particle had, see KeptContacts::find().
 struct FiledHistories {
   const PartnerLists &partners;
   const std::vector<std::int64_t> &name;
   const KeptContacts &kept;
-  const std::vector<int> &kept_slot;
+  const std::vector<int> &slot_then;
 };
 
 class ContactHistory {

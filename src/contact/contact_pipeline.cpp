@@ -54,12 +54,13 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   travels.assign(order.num_parts() + 1, RecordTravel{});
   in_parallel(order.num_parts(), threads,
               [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
+  pairs_known = true;
 }
 
 void ContactPipeline::start_pairs(const Histories &histories)
 {
-  const std::vector<int> kept_slot = slots_then(histories);
-  const FiledHistories filed{histories.partners, histories.name, histories.kept, kept_slot};
+  const std::vector<int> slots = slots_then(histories);
+  const FiledHistories filed{histories.partners, histories.name, histories.kept, slots};
   in_parallel(order.num_parts(), threads, [&](int p) { parts[p].start_pairs(scene, filed); });
   make_room();
 }
@@ -73,8 +74,7 @@ std::vector<int> ContactPipeline::slots_then(const Histories &histories) const
   in_ranges(order.size(), [&](int begin, int end) {
     for (int s = begin; s < end; s++) {
       const int atom = order.atom_of_slot[s];
-      slots[s] = order.is_owned(atom) ? histories.kept_slot[atom] : KeptContacts::unknown;
-      if (slots[s] < 0) slots[s] = histories.kept.slot_named(histories.name[atom]);
+      slots[s] = histories.slot_then(atom, order.is_owned(atom));
     }
   });
   return slots;
@@ -98,12 +98,15 @@ void ContactPipeline::release()
 {
   const bool much = memory_usage() > worth_giving_back;
   release_records();
-  if (much) parts.clear();
+  if (!much) return;
+  parts.clear();
+  pairs_known = false;
 }
 
 void ContactPipeline::keep_history(KeptContacts &to, bool particles_may_leave)
 {
   to.clear();
+  pairs_known = false;
   if (!scene.with_history) return;
   to.begin(order, particles_may_leave);
   in_parallel(order.num_parts(), threads,
@@ -335,7 +338,7 @@ void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, doubl
 
 ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
 {
-  if (!scene.with_history || parts.empty() || std::max(i, j) >= order.size()) return {nullptr, -1};
+  if (!scene.with_history || std::max(i, j) >= num_particles()) return {nullptr, -1};
   const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
   const int p = order.part(a) != ParticleOrder::no_part ? order.part(a) : order.part(b);
   if (p == ParticleOrder::no_part) return {nullptr, -1};

@@ -53,25 +53,32 @@ class ContactPipeline {
     const int *type;
   };
   void set_pairs(const Particles &particles, const NeighbourView &neighbours);
-  /// Where histories are found. `name` and `kept_slot` by host's index, see FiledHistories; slots
-  /// of ghosts and of particles that came from elsewhere are looked up by name.
+  /// Where histories are found, see FiledHistories, but all by host's index. `kept_slot` of owned
+  /// particles is the slot that they had, -1 if they came from elsewhere; these and ghosts are
+  /// looked up by name.
   struct Histories {
     const PartnerLists &partners;
     const std::vector<std::int64_t> &name;
     const KeptContacts &kept;
     const std::vector<int> &kept_slot;
+
+    /// As KeptContacts::find() takes it.
+    int slot_then(int atom, bool is_owned) const
+    {
+      return is_owned && kept_slot[atom] >= 0 ? kept_slot[atom] : kept.slot_named(name[atom]);
+    }
   };
   /// After set_pairs(), when the neighbours are no longer needed.
   void start_pairs(const Histories &histories);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the records,
   /// which the next compute() makes anew and whose state must be in the host's arrays; and all of
-  /// it, with pairs and histories, which are then unknown until start_pairs().
+  /// it, with pairs and histories, which are then unknown until set_pairs().
   void release_records();
   void release();
 
-  /// Hands the current history over as it stands; the pairs have none until start_pairs(). Clears
-  /// `to` in a scene without history.
+  /// Hands the current history over as it stands; there are no pairs until set_pairs(). Clears `to`
+  /// in a scene without history.
   void keep_history(KeptContacts &to, bool particles_may_leave);
   /// Files the current history by particle. Empties the lists in a scene without history.
   void file_history(PartnerLists &partners) const;
@@ -142,8 +149,10 @@ class ContactPipeline {
   /// Largest relative speed of the centres of candidate pairs.
   double largest_relative_speed() const;
 
-  /// That it has pairs of: none after release().
-  int num_particles() const { return parts.empty() ? 0 : order.size(); }
+  /// Pairs are known: not after release() or keep_history().
+  bool has_pairs() const { return pairs_known; }
+  /// That it has pairs of.
+  int num_particles() const { return pairs_known ? order.size() : 0; }
   bool in_two_phases() const { return parts_per_phase < static_cast<int>(parts.size()); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
@@ -169,6 +178,7 @@ class ContactPipeline {
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
 
   ContactScene scene;
+  bool pairs_known = false;
   int threads = 1;
   bool two_phases = false;
 

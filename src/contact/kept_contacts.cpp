@@ -97,6 +97,14 @@ int KeptContacts::slot_named(std::int64_t name) const
   return found != slot_by_name.end() ? found->second : unknown;
 }
 
+/* One of the two has to have been owned, since of two ghosts nothing is known. */
+
+KeptContacts::Found KeptContacts::find_of_ghost(int a, int b) const
+{
+  if ((a < 0 && b < 0) || a == unknown || b == unknown) return {};
+  return a < 0 ? find_of_owned(was_ghost(a), b) : find_of_owned(a, was_ghost(b));
+}
+
 void KeptContacts::clear()
 {
   filled = false;

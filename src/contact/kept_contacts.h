@@ -6,7 +6,8 @@
 // both were known, as owned particles or ghosts. A particle that leaves the rank takes its
 // histories along as entries of PartnerLists, for pairs that no one there knew.
 //
-//   begin(), fill_part() for every part, finish()    the last lists are still there
+//   begin(), ContactHistory::keep() of every part,   the last lists are still there
+//   finish()
 //   pack() for each particle that leaves             while particles migrate
 //   slot_named(), find()                             new lists are there
 //
@@ -16,7 +17,7 @@
 #define TALUS_CONTACT_KEPT_CONTACTS_H
 
 #include "contact/big_vector.h"
-#include "contact/candidate_list.h"
+#include "contact/particle_order.h"
 #include "contact/record.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ class KeptContacts {
     std::int64_t find(int first, int second) const;
   };
 
-  /// `particles_may_leave`: pack(), slot_named() and most_contacts() will be called.
+  /// Without `particles_may_leave`, pack(), slot_named() and most_contacts() know of nothing.
   void begin(const ParticleOrder &order, bool particles_may_leave);
   Part &part(int p) { return parts[p]; }
   int num_parts() const { return static_cast<int>(parts.size()); }
@@ -68,27 +69,29 @@ class KeptContacts {
   static constexpr int unknown = -1;
   static constexpr int was_ghost(int slot) { return -2 - slot; }    // its own inverse
 
-  /// What is known of two slots, one of them at least of an owned particle, as the lower one sees
-  /// it. If nothing is, there are some records all the same: no branch, since nobody could foresee
-  /// it.
+  /// What is known of two particles, given by slot, was_ghost(slot) or `unknown`. If nothing is,
+  /// there are some records all the same: no branch, since nobody could foresee it.
   struct Found {
     bool known = false;
+    bool by_a = true;    ///< as `a` sees it, else as `b` does
     const Record *record = &nothing, *onset = &nothing;
   };
-  Found find(int slot_a, int slot_b) const
-  {
-    const int first = std::min(slot_a, slot_b), second = std::max(slot_a, slot_b);
-    const Part &part = parts[holder(first, second)];
-    if (part.records.empty()) return {};
-    const std::int64_t place = part.find(first, second), readable = place & ~(place >> 63);
-    return {place >= 0, part.records.data() + readable,
-            part.onsets.empty() ? &nothing : part.onsets.data() + readable};
-  }
+  Found find(int a, int b) const { return (a | b) < 0 ? find_of_ghost(a, b) : find_of_owned(a, b); }
 
   double memory_usage() const;
 
  private:
   static constexpr Record nothing{};
+  Found find_of_ghost(int a, int b) const;
+  Found find_of_owned(int a, int b) const
+  {
+    const int first = std::min(a, b), second = std::max(a, b);
+    const Part &part = parts[holder(first, second)];
+    if (part.records.empty()) return {};
+    const std::int64_t place = part.find(first, second), readable = place & ~(place >> 63);
+    return {place >= 0, a < b, part.records.data() + readable,
+            part.onsets.empty() ? &nothing : part.onsets.data() + readable};
+  }
   int part_of(int slot) const { return part_of_slot.empty() ? 0 : part_of_slot[slot]; }
   /// A part that has the pair: that of either owned particle.
   int holder(int first, int second) const
@@ -110,15 +113,17 @@ class KeptContacts {
   std::unordered_map<std::int64_t, int> slot_by_name;
 };
 
+/* Slots before the first row make a number beyond the last one. */
+
 inline std::uint32_t KeptContacts::Part::row_begin(int second) const
 {
-  const auto row = static_cast<std::size_t>(second - first_row);
+  const std::size_t row = static_cast<std::uint32_t>(second - first_row);
   return row + 1 < rows.size() ? rows[row] : 0;
 }
 
 inline std::uint32_t KeptContacts::Part::row_end(int second) const
 {
-  const auto row = static_cast<std::size_t>(second - first_row);
+  const std::size_t row = static_cast<std::uint32_t>(second - first_row);
   return row + 1 < rows.size() ? rows[row + 1] : 0;
 }
 

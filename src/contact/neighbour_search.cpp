@@ -67,7 +67,7 @@ int NeighbourSearch::Grid::cell(double place, int d) const
 
 NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
 {
-  Grid grid{{s.x[0], s.x[1], s.x[2]}, 1.0, {1, 1, 1}};
+  Grid grid{{s.x[0], s.x[1], s.x[2]}, 1.0, {1, 1, 1}, 0.0F};
   double high[3] = {s.x[0], s.x[1], s.x[2]}, sum = 0.0, largest = 0.0, check = 0.0;
   for (int a = 0; a < s.total; a++) {
     for (int d = 0; d < 3; d++) {
@@ -94,7 +94,7 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
     if (number <= most) break;
   }
   grid.per_length = 1.0 / edge;
-  alike = all_alike ? static_cast<float>(largest / edge) : 0.0F;
+  grid.alike = all_alike ? static_cast<float>(largest / edge) : 0.0F;
   for (int d = 0; d < 3; d++)
     grid.cells[d] =
         1 + static_cast<int>((high[d] - grid.low[d]) * grid.per_length * cells_per_place[d]);
@@ -186,7 +186,7 @@ void NeighbourSearch::find_row(const Spheres &s, int a, Chunk &found) const
     own[d] = static_cast<float>(place[d]);
   }
   own[3] = static_cast<float>(s.radius[a] * grid.per_length);
-  const double reach = own[3] + std::max(own[3], alike) + skin + slack;
+  const double reach = own[3] + std::max(own[3], grid.alike) + skin + slack;
   int from[3], to[3];
   for (int d = 0; d < 3; d++) {
     from[d] = grid.cell(place[d] - reach, d);
@@ -208,7 +208,7 @@ TALUS_INLINE void NeighbourSearch::compare(const float *own, int a, int below, s
 {
   constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const float wide = own[3] + skin + slack;
-  const Ints by_index = Ints{} - static_cast<std::int32_t>(alike > 0.0F);
+  const Ints by_index = Ints{} - static_cast<std::int32_t>(grid.alike > 0.0F);
   for (std::int64_t k = begin; k < end; k += width) {
     const Floats dx = load(&x[k]) - own[0], dy = load(&y[k]) - own[1], dz = load(&z[k]) - own[2];
     const Floats its = load(&radius[k]), reach = its + wide;

@@ -49,6 +49,7 @@ class NeighbourSearch {
   struct Grid {
     double low[3], per_length;    ///< lowest corner of the cells; cells per length
     int cells[3];
+    float alike;    ///< the largest radius (in cells) if sizes differ little, else 0
 
     int cell(double place, int d) const;
     std::int64_t row(int y, int z) const
@@ -61,7 +62,7 @@ class NeighbourSearch {
     BigVector<int> entries;
     std::size_t count = 0;
   };
-  Grid make_grid(const Spheres &spheres);
+  static Grid make_grid(const Spheres &spheres);
   void sort_into_cells(const Spheres &spheres);
   void find_rows(const Spheres &spheres, int thread, int threads,
                  const std::function<bool(int, int)> &excluded);
@@ -71,7 +72,6 @@ class NeighbourSearch {
 
   Grid grid{};
   float slack = 0.0F, skin = 0.0F;     // in cells
-  float alike = 0.0F;                  // the largest radius, if sizes differ little; else 0
   std::vector<std::int32_t> start;     // of each cell in the arrays below, and one more
   BigVector<float> x, y, z, radius;    // in cells, sorted by cell
   BigVector<std::int32_t> index;

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact history filed by particle: for each owned particle the tags of the partners it touches
-// and the history as this particle sees it. Histories live here only while pairs are renumbered:
-// across a rebuild, while particles migrate, between runs and in restart files. In between they are
-// stored by pair (ContactHistory).
+// and the history as this particle sees it. Histories live here in restart files, while particles
+// migrate, and in periodic boxes whenever pairs are renumbered. Elsewhere they are stored by pair
+// (ContactHistory, KeptContacts).
 
 #ifndef TALUS_CONTACT_PARTNER_LISTS_H
 #define TALUS_CONTACT_PARTNER_LISTS_H
@@ -31,9 +31,6 @@ class PartnerLists {
   void count(int atom) { range[atom].size++; }
   void layout();
   double *append(int atom, std::int64_t tag);
-
-  /// No particle has a partner.
-  bool empty() const { return pool.empty(); }
 
   /// Empties all lists, and gives their memory back if it is much.
   void release();

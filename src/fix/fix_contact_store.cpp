@@ -128,6 +128,7 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
+  if (in_periodic_box()) file_kept();    // which it was not in the last run
   take_over_sorting();
   sort_particles();
   keep_positions();
@@ -146,10 +147,7 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (!client) return;
-  client->renumber_pairs();
-  kept.clear();
-  pairs_are_current();
+  if (client) client->renumber_pairs();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -162,12 +160,32 @@ void FixContactStore::setup_post_neighbor()
   post_neighbor();
 }
 
-/* Between runs particles may be added, deleted, renumbered or moved to other ranks: the lists
-   travel with them. */
+void FixContactStore::pairs_are_current()
+{
+  if (!current) {
+    partners.release();
+    kept.clear();
+  }
+  current = true;
+}
+
+/* From here on each particle carries its slot along, whoever moves or deletes it before histories
+   are stored. */
+
+void FixContactStore::pairs_are_numbered(const std::vector<int> &slot_of_atom)
+{
+  std::copy_n(slot_of_atom.begin(), atom->nlocal, kept_slots.begin());
+  current = false;    // what is stored has been taken
+  pairs_are_current();
+}
+
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: histories go
+   with them. */
 
 void FixContactStore::post_run()
 {
   store_histories(Occasion::END_OF_RUN);
+  if (client && !kept.empty()) client->release_pairs();
   give_sorting_back();
 }
 
@@ -185,14 +203,31 @@ void FixContactStore::store_histories(Occasion occasion)
   if (!client || !current) return;
   client->look_at_pairs();
   if (occasion != Occasion::RESTART_FILE) client->release_records();
-  if (occasion == Occasion::REBUILD && !in_periodic_box())
-    client->keep_history(kept, kept_slots);
+  const bool last_use = occasion == Occasion::REBUILD ||
+                        (occasion == Occasion::END_OF_RUN && !client->pairs_are_needed());
+  if (last_use && !in_periodic_box())
+    client->keep_history(kept, comm->nprocs > 1 || occasion == Occasion::END_OF_RUN);
   else
     client->file_history(partners);
-  for (int i = 0; i < atom->nlocal; i++) filed_tags[i] = atom->tag[i];
+  // ghosts too: a run may go on without new ones
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) filed_tags[i] = atom->tag[i];
   if (in_periodic_box()) agree_on_shared_pairs();
   current = false;
   find_maxexchange();
+}
+
+/* From what is kept to lists. */
+
+void FixContactStore::file_kept()
+{
+  if (kept.empty()) return;
+  std::vector<double> buffer(partners.packed_size_of(kept.most_contacts()));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (kept_slots[i] < 0) continue;
+    kept.pack(kept_slots[i], partners.num_values(), buffer.data());
+    partners.unpack(i, buffer.data());
+  }
+  kept.clear();
 }
 
 /* What pack_exchange() may have to write, on this rank or on one that a particle passes through. */
@@ -355,6 +390,7 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 void FixContactStore::write_restart(FILE *fp)
 {
   store_histories(Occasion::RESTART_FILE);    // on all ranks, before particles are packed
+  file_kept();
   if (comm->me) return;
   const double state[3] = {inverse_cell, static_cast<double>(partners.num_values()),
                            static_cast<double>(atom->natoms)};

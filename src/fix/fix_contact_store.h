@@ -4,10 +4,10 @@
 //
 //   * its canonical key (see contact/canonical_key.h), to other ranks, to ghosts and into restart
 //   files;
-//   * the contact history: filed by particle (see contact/partner_lists.h) between runs, in restart
-//     files and in periodic boxes, and the tag under which the lists of others know this particle,
-//     for IDs may be renumbered between runs; in the rebuilds of a run as it stands (see
-//     contact/kept_contacts.h), and the slot that each particle had;
+//   * the contact history whenever pairs are renumbered, and between runs: as it stands (see
+//     contact/kept_contacts.h), with the slot that each particle had; in restart files and periodic
+//     boxes filed by particle (see contact/partner_lists.h). And the tag under which other
+//     particles' histories know this one, for IDs may be renumbered between runs;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
 //   and back
 //     for that, which moves every particle by a rounding error. The positions are put back, so that
@@ -39,9 +39,9 @@ class FixContactStore : public Fix {
    public:
     /// The pairs are still those of the last step: a look at them, on all ranks.
     virtual void look_at_pairs() = 0;
-    /// Hands the history of the current pairs over until renumber_pairs(), and says which slot each
-    /// owned particle has, -1 for none.
-    virtual void keep_history(Talus::KeptContacts &kept, std::vector<int> &kept_slot) = 0;
+    /// Hands the history of the current pairs over until renumber_pairs(). `particles_may_leave`:
+    /// see KeptContacts.
+    virtual void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) = 0;
     /// Files the history of the current pairs by particle.
     virtual void file_history(Talus::PartnerLists &partners) = 0;
     /// Makes both copies of a pair that is computed twice the same: that of its first particle.
@@ -52,6 +52,8 @@ class FixContactStore : public Fix {
     virtual void release_records() = 0;
     /// The same for the pairs: histories are elsewhere, and renumber_pairs() will follow.
     virtual void release_pairs() = 0;
+    /// Something is still to be asked about the pairs of the last step.
+    virtual bool pairs_are_needed() const = 0;
     /// The integrator has moved the velocities, and particles are still numbered as in the last
     /// compute().
     virtual void velocities_have_moved() = 0;
@@ -71,11 +73,9 @@ class FixContactStore : public Fix {
   void keep_onsets(bool yes) { partners.set_values(yes ? 8 : 4); }
   /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
   /// history, and the lists need not.
-  void pairs_are_current()
-  {
-    if (!current) partners.release();
-    current = true;
-  }
+  void pairs_are_current();
+  /// The same when pairs have been numbered: the slots of owned particles.
+  void pairs_are_numbered(const std::vector<int> &slot_of_atom);
 
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
@@ -120,6 +120,7 @@ class FixContactStore : public Fix {
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
   void store_histories(Occasion occasion);
+  void file_kept();
   void find_maxexchange();
   bool in_periodic_box() const;
   void agree_on_shared_pairs();
@@ -138,7 +139,7 @@ class FixContactStore : public Fix {
   std::vector<std::uint64_t> keys;
   std::vector<std::int64_t> filed_tags;    // 0: in no list
   Talus::PartnerLists partners;
-  std::vector<int> kept_slots;    // of owned particles
+  std::vector<int> kept_slots;    // of owned particles in the pairs that are or were
   Talus::KeptContacts kept;
 
   int host_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead

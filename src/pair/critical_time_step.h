@@ -24,7 +24,6 @@
 #include "pair/undamped_friction.h"
 #include "pointers.h"
 
-#include <map>
 #include <string>
 #include <vector>
 

@@ -195,14 +195,9 @@ void PairGranPenalty::look_at_pairs()
   time_step.look_for_smaller_particles(book);
 }
 
-/* Particles that some fix has added since have no slot. */
-
-void PairGranPenalty::keep_history(KeptContacts &kept, std::vector<int> &kept_slot)
+void PairGranPenalty::keep_history(KeptContacts &kept, bool particles_may_leave)
 {
-  pipeline.keep_history(kept, comm->nprocs > 1);
-  const ParticleOrder &order = pipeline.particle_order();
-  for (int i = 0; i < atom->nlocal; i++)
-    kept_slot[i] = order.is_owned(i) ? order.slot_of_atom[i] : -1;
+  pipeline.keep_history(kept, particles_may_leave);
 }
 
 void PairGranPenalty::file_history(PartnerLists &partners)
@@ -251,6 +246,7 @@ void PairGranPenalty::renumber_pairs()
                "ghosts of a rank: use more machines",
                atom->nlocal, atom->nghost);
   }
+  store->pairs_are_numbered(pipeline.particle_order().slot_of_atom);
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);
@@ -285,7 +281,10 @@ ParticleView PairGranPenalty::view() const
 void PairGranPenalty::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (pipeline.num_particles() != atom->nlocal + atom->nghost) renumber_pairs();
+  if (!pipeline.has_pairs() || pipeline.num_particles() != atom->nlocal + atom->nghost) {
+    finish_exchange();
+    renumber_pairs();    // as after `run pre no`
+  }
 
   const bool advance = update->setupflag == 0;
   const std::function<void(const ReportedContact &)> to_host = [this](const ReportedContact &c) {

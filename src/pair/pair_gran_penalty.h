@@ -89,13 +89,14 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   // FixContactStore::Client
   void look_at_pairs() override;
-  void keep_history(Talus::KeptContacts &kept, std::vector<int> &kept_slot) override;
+  void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) override;
   void file_history(Talus::PartnerLists &partners) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
                           const FixContactStore::GhostValues &ghosts) override;
   void renumber_pairs() override;
   void release_records() override;
   void release_pairs() override { pipeline.release(); }
+  bool pairs_are_needed() const override { return account.waits_for_move(); }
   void velocities_have_moved() override;
 
   // ProxyReader
@@ -109,6 +110,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void prepare_laws();
   void warn_small_periods();
 
+  Talus::TangentialHistory<double> history_of(int i, int j,
+                                              Talus::ContactOnset<double> &onset) const;
   void finish_exchange();
   Talus::ParticleView view() const;
   void tally(const Talus::ReportedContact &contact);

@@ -23,6 +23,26 @@ Vector3<double> row(const double *p)
 
 }    // namespace
 
+/* Between two runs histories are with the store. */
+
+TangentialHistory<double> PairGranPenalty::history_of(int i, int j,
+                                                      ContactOnset<double> &onset) const
+{
+  if (pipeline.has_pairs()) {
+    onset = pipeline.onset_of(i, j);
+    return pipeline.history_of(i, j);
+  }
+  const ContactPipeline::Histories filed = store->histories();
+  if (filed.kept.empty()) return {};
+  const KeptContacts::Found found =
+      filed.kept.find(filed.slot_then(i, i < atom->nlocal), filed.slot_then(j, j < atom->nlocal));
+  if (!found.known) return {};
+  const Record h = found.by_a ? *found.record : mirrored(*found.record);
+  const auto &o = found.onset->c;
+  onset = {o[0], o[1], o[2]};
+  return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
+}
+
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
                                double &fforce)
 {
@@ -44,10 +64,12 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.circle = circle_of_intersection(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
 
+  ContactOnset<double> onset;
+  const TangentialHistory<double> history = history_of(i, j, onset);
   const int row_of_types = pipeline.law_table().row(itype, jtype);
-  const ContactForce<double> out = single_contact(
-      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
-      update->dt, pipeline.history_of(i, j), pipeline.onset_of(i, j));
+  const ContactForce<double> out = single_contact(pipeline.law_table().law(row_of_types),
+                                                  pipeline.law_table().coefficients(row_of_types),
+                                                  s, update->dt, history, onset);
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;

@@ -113,17 +113,30 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
     ASSERT_GT(rank.touching.size(), 150U);
     for (const auto &[pair, values] : rank.touching) {
       const int a = rank.slot(pair.first), b = rank.slot(pair.second);
+      const int named_b = pair.second < owned ? b : KeptContacts::was_ghost(b);
       const Values expected = Rank::seen_by(a < b, values);
-      for (const KeptContacts::Found &found : {kept.find(a, b), kept.find(b, a)}) {
+      for (const bool swapped : {false, true}) {
+        const KeptContacts::Found found = swapped ? kept.find(named_b, a) : kept.find(a, named_b);
         ASSERT_TRUE(found.known) << pair.first << " " << pair.second;
+        ASSERT_EQ(found.by_a, (a < b) != swapped);
         ASSERT_TRUE(std::equal(found.record->c, found.record->c + 4, expected.begin()));
         if (GetParam().with_onsets) {
           ASSERT_TRUE(std::equal(found.onset->c, found.onset->c + 4, expected.begin() + 4));
         }
       }
+      ASSERT_FALSE(kept.find(a, KeptContacts::unknown).known);
+      ASSERT_FALSE(kept.find(KeptContacts::unknown, named_b).known);
     }
     ASSERT_GT(rank.apart.size(), 150U);
     for (const auto &[i, j] : rank.apart) ASSERT_FALSE(kept.find(rank.slot(i), rank.slot(j)).known);
+    const int g = KeptContacts::was_ghost(rank.slot(owned));
+    EXPECT_FALSE(kept.find(g, KeptContacts::was_ghost(rank.slot(owned + 1))).known);
+    for (int p = 0; p < kept.num_parts(); p++) {    // rows that are not there
+      const KeptContacts::Part &part = kept.part(p);
+      const int rows = static_cast<int>(part.rows.size()) - 1;
+      for (const int second : {part.first_row - 1, part.first_row + rows})
+        EXPECT_EQ(part.row_begin(second), part.row_end(second));
+    }
     kept.clear();
     EXPECT_TRUE(kept.empty());
     for (int p = 0; p < rank.order.num_parts(); p++)
