@@ -61,6 +61,41 @@ class LifeCycle(SceneCase):
                 self.assertGreater(reference[-1]["c_pair[1]"], 100)
                 self.assert_same_bits(self.frame("after"), self.frame("whole"))
 
+    def test_forces_after_what_happens_between_runs(self):
+        """A set-up gives the forces of the last step again: of positions, velocities and displacements of the springs."""
+        wide = "change_box all x final -2 40 y final -2 20 z final -2 60\n"
+        added = "create_atoms 1 single 5 5 55\ngroup added id > 336\ndelete_atoms group added compress no\n"
+        forces = "write_dump all custom {} id fx fy fz tqx tqy tqz modify format float %a sort id\n"
+        ways = {
+            "nothing": "",
+            "balance": "balance 1.0 shift xz 10 1.0\n",
+            "balance twice": "balance 1.0 shift z 10 1.0\nbalance 1.0 shift xz 10 1.0\n",
+            "write_restart": "write_restart half\n",
+            "added and deleted": wide + added,
+            "periodic": wide + "change_box all boundary p p f\n",
+            "periodic, balance": wide + "balance 1.0 shift xz 10 1.0\nchange_box all boundary p f f\n",
+        }
+        for np in 1, 2, 4:
+            script = BEGIN
+            for n, commands in enumerate(ways.values()):
+                script += forces.format(f"before{n}") + commands + "run 0\n" + forces.format(f"after{n}")
+                if "boundary" in commands:
+                    script += "change_box all boundary f f f\n"
+                script += "run 20\n"
+            self.run_lammps(script, np=np)
+            for n, name in enumerate(ways):
+                with self.subTest(ranks=np, way=name):
+                    before, after = self.frame(f"before{n}"), self.frame(f"after{n}")
+                    self.assertGreater(sum(torque != 0.0 for torque in before.column("tqx").values()), 100)
+                    if "balance" not in name:
+                        self.assert_same_bits(before, after)
+                        continue
+                    for key in before.columns:    # the command goes to fractions of the box and back
+                        mine, theirs = before.column(key), after.column(key)
+                        size = max(map(abs, mine.values()))
+                        for tag, value in mine.items():
+                            self.assertLess(abs(theirs[tag] - value), 1e-9 * size, f"{key} of atom {tag}")
+
     def test_plugin_survives_clear(self):
         """Found through LAMMPS_PLUGIN_PATH, styles are there again after each clear."""
         scene = BEGIN.replace("run 300", "run 50")
