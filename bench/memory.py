@@ -75,7 +75,7 @@ def by_array(bench, measured):
         totals.append([name, total, measured.get(name, float("nan")), measured.get(name, float("nan")) - total])
         bench.section.record(variant="by array: " + name, bytes_per_particle=total)
     section.table(["bytes per particle", "sum of the arrays", "measured", "rest"], totals)
-    section.text("""Sum: the largest of what stands at once in steps, while displacements are filed by particle, and while
+    section.text("""Sum: the largest of what stands at once in steps, while displacements are put aside, and while
 new lists are made: a rebuild of Talus takes the place of what it replaces. Without what other laws, checks of the lists, threads or ranks need. Rest: arrays that have grown further than
 needed, buffers of messages and of reading the file, what the allocator holds, or less where an array is freed before others
 grow. A proxy takes as much as a particle, without its share of pairs.""")

@@ -24,7 +24,7 @@ STAGES = {
     "order_particles": "rebuild: particles into canonical order",
     "collect_pairs": "rebuild: pairs of the neighbor list, sorted",
     "keep_history": "rebuild in a box without periodic borders: displacements kept by slots and fetched by pair",
-    "file_history": "rebuild in a periodic box, end of a run: displacements filed by particle",
+    "file_history": "rebuild in a periodic box, restart file: displacements filed by particle",
     "fetch_history": "the same: displacements fetched by pair",
     "read_particles": "step: records read from the arrays of the host",
     "advance_records": "step: records moved, with the travel since the rebuild",

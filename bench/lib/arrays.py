@@ -9,7 +9,8 @@ import dataclasses
 
 ALWAYS = "always"
 
-# when an array stands: in steps, while displacements are filed by particle, while new lists are made
+# when an array stands: in steps, while displacements are put aside (by Talus) or filed by particle (by the stock style),
+# while new lists are made
 STEPS, FILING, LISTING = "steps", "filing", "listing"
 PHASES = (STEPS, FILING, LISTING)
 
@@ -49,13 +50,13 @@ TALUS = [
     Array("pairs: place of the displacement; whether it touches", 4.125, "pair", "multistep", True, (STEPS, FILING)),
     Array("pairs: impact speed, age", 32, "contact", "laws that read them", False),
     Array("displacements filed by particle: heads", 16, "particle"),
-    Array("displacements filed by particle, with the tag of the partner", 40, "end", "end of a run, multistep", True,
+    Array("displacements filed by particle, with the tag of the partner", 40, "end", "periodic boxes, restart files", False,
           (FILING,)),
     Array("displacements kept", 32, "contact", "rebuild, multistep", True, (LISTING,)),
-    Array("pairs they belong to", 8, "contact", "rebuild, multistep", True, (LISTING,)),
-    Array("begin of their rows, for each thread", 4, "particle", "rebuild, multistep", True, (LISTING,)),
+    Array("pairs they belong to", 8, "contact", "rebuild, multistep", True, (FILING, LISTING)),
+    Array("begin of their rows, for each thread", 4, "particle", "rebuild, multistep", True, (FILING, LISTING)),
     Array("tags and second slots of pairs for particles that leave", 20, "particle", "rebuild, several ranks", False,
-          (LISTING,)),
+          (FILING, LISTING)),
     Array("large bodies: where the displacement is", 4, "body", "multistep"),
     Array("neighbor search: cells, places in them, rows", 36, "particle", "rebuild", True, (LISTING,)),
     Array("neighbor search: neighbors", 4, "pair", "rebuild", True, (LISTING,)),

@@ -162,10 +162,10 @@ class Memory(unittest.TestCase):
         for phase in arrays.PHASES:
             self.assertAlmostEqual(sums["stock gran/hertz/history"][phase], stock)
         ours, always, pairs = sums["Talus"], 24 + 12 + 16 + 4 * 5, 8 * 3
-        histories, filed, kept = 32 * 2 + 4.125 * 3, 40 * 4, 40 * 2 + 4
+        histories, listed, kept = 32 * 2 + 4.125 * 3, 8 * 2 + 4, 32 * 2
         self.assertAlmostEqual(ours[arrays.STEPS], always + pairs + histories + 4 * 2 + 96 + 64)
-        self.assertAlmostEqual(ours[arrays.FILING], always + pairs + histories + filed)
-        self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + 8 + kept + 36 + 4 * 3 + 32)
+        self.assertAlmostEqual(ours[arrays.FILING], always + pairs + histories + listed)
+        self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + 8 + kept + listed + 36 + 4 * 3 + 32)
 
     def test_own_peak(self):
         before = lammps.own_peak()
