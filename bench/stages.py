@@ -23,9 +23,9 @@ LISTED = "listed"   # the order-dependent twin
 STAGES = {
     "order_particles": "rebuild: particles into canonical order",
     "collect_pairs": "rebuild: pairs of the neighbor list, sorted",
-    "keep_history": "rebuild in a box without periodic borders: displacements kept by slots and fetched by pair",
-    "file_history": "rebuild in a periodic box, restart file: displacements filed by particle",
-    "fetch_history": "the same: displacements fetched by pair",
+    "keep_history": "rebuild, no periodic borders: displacements kept, fetched by pair",
+    "file_history": "rebuild, periodic box: displacements filed by particle",
+    "fetch_history": "rebuild, periodic box: displacements fetched by pair",
     "read_particles": "step: records read from the arrays of the host",
     "advance_records": "step: records moved, with the travel since the rebuild",
     "narrow_phase": "step: narrow phase",
@@ -135,4 +135,4 @@ def draw(plt, rows, sizes):
     axes.set_yticks(range(len(rows)), [row[0] for row in rows], fontsize=7)
     axes.invert_yaxis()
     axes.set_xlabel("ns per sphere")
-    axes.legend()
+    axes.legend(loc="lower right")
