@@ -4,20 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Talus {
 namespace {
 
-// A body may go half a skin before its list is made anew; particles may each go half a skin in one
-// direction before the rebuild that the list is made after, and half a skin in the other.
-constexpr double free_way = 0.5;
 constexpr std::size_t ahead = 12;    // candidates whose state is called into the cache
-
-double length(const Vector3<double> &v)
-{
-  return std::sqrt(dot(v, v));
-}
 
 }    // namespace
 
@@ -27,72 +18,6 @@ void BodyContacts::set_laws(const LawTable &table, bool one_contact)
   single = one_contact;
   with_history = laws.has_history();
   with_onset = laws.has_onset();
-}
-
-void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
-                                   const BodyParticleView &view, const int *mask, int group,
-                                   double skin)
-{
-  candidates.clear();
-  slots.clear();
-  listed.clear();
-  parts.clear();
-  parts_begin.assign(1, 0);
-  listed_frame = frame;
-  listed_reach = 0.0;
-  const double margin = frame.moves ? (1.0 + free_way) * skin : skin;
-  for (int i = 0; i < view.owned; i++) {
-    bool near = false;
-    if (mask[i] & group) {
-      const Vector3<double> x = frame.point_to_body(view.position(i));
-      const double reach = view.radius_of(i) + margin;
-      if (frame.moves) listed_reach = std::max(listed_reach, length(x - frame.origin) + reach);
-      near = single ? shape.distance_bound(x) < reach : shape.is_near(x, reach, parts);
-      if (near && !single) {
-        const bool has_parts = parts.size() > parts_begin.back();
-        listed.push_back({x, has_parts ? parts[parts_begin.back()].distance : 0.0});
-        parts_begin.push_back(parts.size());
-      }
-    }
-    if (near) candidates.push_back(i);
-    if (!near && keeps_lists()) memory.forget(i);
-  }
-  if (with_history && single) history.follow(candidates);
-}
-
-/* So that a step goes through the records from their beginning to their end. */
-
-void BodyContacts::sort_by_slot(const int *slot_of_atom)
-{
-  std::sort(candidates.begin(), candidates.end(),
-            [slot_of_atom](int a, int b) { return slot_of_atom[a] < slot_of_atom[b]; });
-  if (with_history) history.follow(candidates);
-  if (candidates.empty()) return;
-  for (const int i : candidates) slots.push_back(slot_of_atom[i]);
-  slots.resize(slots.size() + SlottedCandidates::spare, slots.back());
-}
-
-bool BodyContacts::is_stale(const BodyFrame &frame, double skin) const
-{
-  return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
-}
-
-Bounds BodyContacts::asked_for(const BodyFrame &frame, const BodyParticleView &view,
-                               const int *mask, int group, double skin)
-{
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Bounds box{{far, far, far}, {-far, -far, -far}};
-  double largest = 0.0;
-  for (int i = 0; i < view.owned; i++) {
-    if (!(mask[i] & group)) continue;
-    const Vector3<double> x = frame.point_to_body(view.position(i));
-    box = joined(box, {x, x});
-    largest = std::max(largest, view.radius_of(i));
-  }
-  // listed with the margin below; they go half a skin, the body what it may until it is stale
-  const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
-  const Vector3<double> around{reach, reach, reach};
-  return {box.low - around, box.high + around};
 }
 
 BodyContacts::Worst BodyContacts::worst(const LargeBodyShape &shape, const BodyFrame &frame,

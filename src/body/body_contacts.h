@@ -38,7 +38,8 @@ class BodyContacts {
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
-                       const BodyParticleView &view, const int *mask, int group, double skin);
+                       const BodyParticleView &view, const int *mask, int group, double skin,
+                       int threads = 1);
 
   /// The body has moved so far that particles must be listed anew.
   bool is_stale(const BodyFrame &frame, double skin) const;
@@ -85,6 +86,9 @@ class BodyContacts {
   ContactMemory memory;     ///< if there may be more than one contact
 
  private:
+  struct Search;
+  void list_near(const Search &search, int threads);
+  void list_with_parts(const Search &search);
   void sort_by_slot(const int *slot_of_atom);
   std::size_t first_of(int thread, int threads) const;
   BodyLoad compute_at_rest(const LargeBodyShape &shape, const BodyTask &task, int threads);

@@ -15,11 +15,6 @@ constexpr double tolerance = 1.0e-10;
 // Limits of cosines are lowered by far more than rounding.
 constexpr double slack = 1.0e-5;
 
-double length(const Vector3<double> &v)
-{
-  return std::sqrt(dot(v, v));
-}
-
 /// Does a step in the direction `along` from the nearest point come nearer?
 bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
 {

@@ -17,11 +17,6 @@ namespace {
 // over the extent of the mesh.
 constexpr double plane_tolerance = 1.0e-12;
 
-double length(const Vector3<double> &v)
-{
-  return std::sqrt(dot(v, v));
-}
-
 void note(int &count, int &first, int number)
 {
   if (count++ == 0) first = number + 1;

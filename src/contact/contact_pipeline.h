@@ -28,6 +28,7 @@ namespace Talus {
 struct DeepestContact {
   double overlap_ratio = 0.0;
   int i = 0, j = 0;
+  bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
 };
 
 class ContactPipeline {
@@ -176,6 +177,7 @@ class ContactPipeline {
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   std::vector<int> slots_then(const Histories &histories) const;
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
+  template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
 
   ContactScene scene;
   bool pairs_known = false;

@@ -5,6 +5,8 @@
 
 #include "contact/contact_pipeline.h"
 
+#include "contact/in_parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,10 +65,23 @@ double ContactPipeline::overlap_of(int slot_a, int slot_b) const
   return a[3] + b[3] - std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
+/* The largest result(part) of all parts, which are asked at the same time; of equal ones the
+   first. */
+
+template <class Value, class Result>
+Value ContactPipeline::largest_of_parts(Value none, Result result) const
+{
+  std::vector<Value> found(parts.size(), none);
+  in_parallel(static_cast<int>(parts.size()), threads, [&](int p) { found[p] = result(parts[p]); });
+  for (const Value &one : found)
+    if (none < one) none = one;
+  return none;
+}
+
 DeepestContact ContactPipeline::deepest_contact() const
 {
-  DeepestContact deepest;
-  for (const ContactPart &part : parts)
+  return largest_of_parts(DeepestContact{}, [this](const ContactPart &part) {
+    DeepestContact deepest;
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair];
       const double smaller = std::min(particles.position[i].c[3], particles.position[j].c[3]);
@@ -74,13 +89,15 @@ DeepestContact ContactPipeline::deepest_contact() const
       if (ratio > deepest.overlap_ratio)
         deepest = {ratio, order.atom_of_slot[i], order.atom_of_slot[j]};
     });
-  return deepest;
+    return deepest;
+  });
 }
 
 double ContactPipeline::smallest_contact_period() const
 {
-  double smallest = 0.0;
-  for (const ContactPart &part : parts)
+  // the largest of the inverse squares
+  const double largest = largest_of_parts(0.0, [this](const ContactPart &part) {
+    double of_part = 0.0;
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair], row = scene.row_of(i, j);
       const double inverse_mass = particles.velocity(i).c[3] + particles.velocity(j).c[3];
@@ -88,24 +105,25 @@ double ContactPipeline::smallest_contact_period() const
       const double ri = particles.position[i].c[3], rj = particles.position[j].c[3];
       const double k = tangent_stiffness(scene.laws.law(row), scene.laws.coefficients(row),
                                          overlap_of(i, j), 1.0 / inverse_mass, ri * rj / (ri + rj));
-      if (!(k > 0.0)) return;
-      const double period = std::sqrt(1.0 / (inverse_mass * k));
-      smallest = smallest > 0.0 ? std::min(smallest, period) : period;
+      if (k > 0.0) of_part = std::max(of_part, inverse_mass * k);
     });
-  return smallest;
+    return of_part;
+  });
+  return largest > 0.0 ? std::sqrt(1.0 / largest) : 0.0;
 }
 
 double ContactPipeline::largest_relative_speed() const
 {
-  double largest = 0.0;
-  for (const ContactPart &part : parts)
+  return std::sqrt(largest_of_parts(0.0, [this](const ContactPart &part) {
+    double largest = 0.0;
     for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++) {
       const double *a = particles.velocity(part.pairs.first[c]).c,
                    *b = particles.velocity(part.pairs.second[c]).c;
       const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
       largest = std::max(largest, dx * dx + dy * dy + dz * dz);
     }
-  return std::sqrt(largest);
+    return largest;
+  }));
 }
 
 }    // namespace Talus

@@ -2,6 +2,7 @@
 
 #include "contact/particle_order.h"
 
+#include "contact/in_parallel.h"
 #include "contact/simd.h"
 
 #include <algorithm>
@@ -22,6 +23,23 @@ struct Entry {
     return std::tie(key, tag, atom) < std::tie(o.key, o.tag, o.atom);
   }
 };
+
+void set(std::atomic<unsigned char> &flag)
+{
+  flag.store(1, std::memory_order_relaxed);
+}
+
+/// visit(thread, i, j) for every pair: each thread takes a piece of the rows.
+template <class Visit> void for_each_pair(const NeighbourView &neighbours, int threads, Visit visit)
+{
+  const auto first_row = [&](int thread) {
+    return static_cast<int>(std::int64_t{neighbours.rows} * thread / threads);
+  };
+  in_parallel(threads, threads, [&](int t) {
+    neighbours.for_each_pair(first_row(t), first_row(t + 1),
+                             [&](int i, int j, double) { visit(t, i, j); });
+  });
+}
 
 }    // namespace
 
@@ -60,6 +78,8 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   }
 }
 
+/* Pairs of each slot are counted by up to eight threads, each for itself. */
+
 void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in_phases)
 {
   two_phases = in_phases;
@@ -68,31 +88,46 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   frontier_slots.clear();
   if (parts == 1) return;
 
-  std::vector<int> work(size(), 1);
-  std::vector<bool> late(two_phases ? size() : 0, false);
-  neighbours.for_each_pair([&](int i, int j, double) {
+  constexpr int enough = 8;
+  std::vector<std::vector<int>> pairs(std::min(threads, enough));
+  for (auto &one : pairs) one.resize(size());
+  Flags late(two_phases ? size() : 0);
+  for_each_pair(neighbours, static_cast<int>(pairs.size()), [&](int thread, int i, int j) {
     const int a = slot_of_atom[i], b = slot_of_atom[j];
-    work[a]++;
-    work[b]++;
+    pairs[thread][a]++;
+    pairs[thread][b]++;
     if (!two_phases) return;
-    if (!is_owned(j)) late[a] = true;
-    if (!is_owned(i)) late[b] = true;
+    if (!is_owned(j)) set(late[a]);
+    if (!is_owned(i)) set(late[b]);
   });
-
-  std::int64_t total = 0, done = 0;
-  for (int s = 0; s < size(); s++)
-    if (is_owned(atom_of_slot[s])) total += work[s];
-  part_of_slot.assign(size(), no_part);
-  for (int s = 0; s < size(); s++) {
-    if (!is_owned(atom_of_slot[s])) continue;
-    const int range = static_cast<int>(done * threads / total);
-    part_of_slot[s] = static_cast<std::uint16_t>(two_phases && late[s] ? threads + range : range);
-    done += work[s];
-  }
-  find_ranges(neighbours);
+  assign_parts(pairs, late, threads);
+  find_ranges();
+  find_frontier(neighbours, threads);
 }
 
-void ParticleOrder::find_ranges(const NeighbourView &neighbours)
+/* Ranges of the order with the same work: one for each particle and for each of its pairs. */
+
+void ParticleOrder::assign_parts(const PairCounts &pairs, const Flags &late, int threads)
+{
+  const auto work = [&](int s) {
+    std::int64_t its = 1;
+    for (const auto &counted : pairs) its += counted[s];
+    return its;
+  };
+  std::int64_t total = 0, done = 0;
+  for (int s = 0; s < size(); s++)
+    if (is_owned(atom_of_slot[s])) total += work(s);
+  part_of_slot.assign(size(), no_part);
+  int range = 0;
+  for (int s = 0; s < size(); s++) {
+    if (!is_owned(atom_of_slot[s])) continue;
+    while (done * threads >= (range + 1) * total) range++;
+    part_of_slot[s] = static_cast<std::uint16_t>(two_phases && late[s] ? threads + range : range);
+    done += work(s);
+  }
+}
+
+void ParticleOrder::find_ranges()
 {
   range_of_part.assign(parts, {size(), 0});
   for (int s = 0; s < size(); s++) {
@@ -102,12 +137,17 @@ void ParticleOrder::find_ranges(const NeighbourView &neighbours)
     its.end = s + 1;
   }
   for (Range &its : range_of_part) its.begin = std::min(its.begin, its.end);
+}
 
-  std::vector<bool> read_by_others(size(), false);
-  neighbours.for_each_pair([&](int i, int j, double) {
+void ParticleOrder::find_frontier(const NeighbourView &neighbours, int threads)
+{
+  Flags read_by_others(size());
+  for_each_pair(neighbours, threads, [&](int, int i, int j) {
     const int a = slot_of_atom[i], b = slot_of_atom[j];
     if (part_of_slot[a] == no_part || part_of_slot[b] == no_part) return;
-    if (part_of_slot[a] != part_of_slot[b]) read_by_others[a] = read_by_others[b] = true;
+    if (part_of_slot[a] == part_of_slot[b]) return;
+    set(read_by_others[a]);
+    set(read_by_others[b]);
   });
   for (int s = 0; s < size(); s++)
     if (read_by_others[s]) frontier_slots.push_back(s);

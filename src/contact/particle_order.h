@@ -8,6 +8,7 @@
 
 #include "contact/neighbour_view.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -66,7 +67,11 @@ class ParticleOrder {
   std::vector<int> slot_of_atom;    ///< host's index -> slot
 
  private:
-  void find_ranges(const NeighbourView &neighbours);
+  using PairCounts = std::vector<std::vector<int>>;         // by slot, of several threads
+  using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
+  void assign_parts(const PairCounts &pairs, const Flags &late, int threads);
+  void find_ranges();
+  void find_frontier(const NeighbourView &neighbours, int threads);
 
   int parts = 1;
   bool two_phases = false;

@@ -7,6 +7,8 @@
 
 #include "contact/simd.h"
 
+#include <cmath>
+
 namespace Talus {
 
 template <class Real> struct Vector3 {
@@ -41,6 +43,11 @@ template <class Real> inline Real dot(Vector3<Real> a, Vector3<Real> b)
 template <class Real> inline Vector3<Real> cross(Vector3<Real> a, Vector3<Real> b)
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline double length(const Vector3<double> &a)
+{
+  return std::sqrt(dot(a, a));
 }
 
 template <class Mask, class Real>

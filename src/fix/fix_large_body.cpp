@@ -262,7 +262,8 @@ void FixLargeBody::list_particles()
   if (shape->wants_focus())
     shape->focus(
         BodyContacts::asked_for(motion.frame(), particles, atom->mask, groupbit, neighbor->skin));
-  contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin);
+  contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin,
+                           comm->nthreads);
 }
 
 void FixLargeBody::setup(int vflag)

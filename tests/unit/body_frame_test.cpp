@@ -29,11 +29,6 @@ slow::Vector plain(const V &a)
 {
   return {a.x, a.y, a.z};
 }
-double length(const V &v)
-{
-  return std::sqrt(dot(v, v));
-}
-
 LawTable resisting_law()
 {
   LawTable table;

@@ -21,11 +21,6 @@ namespace {
 using V = Vector3<double>;
 const double pi = std::acos(-1.0);
 
-double length(const V &v)
-{
-  return std::sqrt(dot(v, v));
-}
-
 TEST(BodyRotation, TurnsAndTurnsBack)
 {
   const V axis{0.6, 0.0, 0.8}, v{0.3, -1.0, 2.0};

@@ -21,10 +21,6 @@ namespace {
 using V = Vector3<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double length(const V &v)
-{
-  return std::sqrt(dot(v, v));
-}
 V random_point(RandomSource &random, double half)
 {
   const auto p = random.in_cube(half);

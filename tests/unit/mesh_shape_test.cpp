@@ -25,11 +25,6 @@ V talus(const std::array<double, 3> &a)
 {
   return {a[0], a[1], a[2]};
 }
-double length(const V &v)
-{
-  return std::sqrt(dot(v, v));
-}
-
 /// A frame of three axes; the plane contains origin, e1 and e2.
 struct Axes {
   V origin, e1, e2, normal;
