@@ -51,11 +51,12 @@ class BodyContactsTest : public testing::TestWithParam<int> {
     BodyStep step;
     step.dt = dt;
     step.advance = advance;
-    step.threads = GetParam() == 2 ? 3 : 1;
+    step.threads = threads();
     return step;
   }
+  static int threads() { return GetParam() == 2 ? 3 : 1; }
 
-  void find() { contacts.find_candidates(*shape, frame, view(), mask.data(), 1, skin); }
+  void find() { contacts.find_candidates(*shape, frame, view(), mask.data(), 1, skin, threads()); }
 
   BodyParticleView view()
   {

@@ -83,7 +83,7 @@ class Scene {
   {
     force.assign(p.size(), slow::Vector{});
     torque.assign(p.size(), slow::Vector{});
-    if (list) contacts.find_candidates(box, frame, view(), mask.data(), 1, skin);
+    if (list) contacts.find_candidates(box, frame, view(), mask.data(), 1, skin, 3);
     BodyStep how;
     how.dt = dt;
     how.threads = threads;
