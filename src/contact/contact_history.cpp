@@ -32,9 +32,10 @@ Filed in_lists(const FiledHistories &filed, const ParticleOrder &order, int firs
 
 /* Lists are of those that came from elsewhere: they tell of pairs that were nobody's here. */
 
-Filed in_kept(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
+Filed in_kept(const FiledHistories &filed, const std::vector<int> &slots_then,
+              const ParticleOrder &order, int first, int second)
 {
-  const int a = filed.slot_then[first], b = filed.slot_then[second];
+  const int a = slots_then[first], b = slots_then[second];
   if (a < 0 && b < 0) return in_lists(filed, order, first, second);
   const KeptContacts::Found found = filed.kept.find(a, b);
   return {found.known, found.by_a, found.record->c, found.onset->c};
@@ -72,14 +73,16 @@ template <class Find> void ContactHistory::fill(const CandidateList &pairs, Find
   onsets.resize(onset_kept ? found : 0);
 }
 
-void ContactHistory::fetch(const CandidateList &pairs, const FiledHistories &filed)
+void ContactHistory::fetch(const CandidateList &pairs, const FiledHistories &filed,
+                           const std::vector<int> &slots_then)
 {
   const ParticleOrder &order = pairs.order();
   onset_kept = filed.partners.num_values() == 8;
   if (filed.kept.empty())
     fill(pairs, [&](int first, int second) { return in_lists(filed, order, first, second); });
   else
-    fill(pairs, [&](int first, int second) { return in_kept(filed, order, first, second); });
+    fill(pairs,
+         [&](int first, int second) { return in_kept(filed, slots_then, order, first, second); });
 }
 
 void ContactHistory::keep(const CandidateList &pairs, KeptContacts::Part &part)

@@ -20,22 +20,31 @@
 
 namespace Talus {
 
-/// Where histories are while pairs are numbered anew. `partners` are the lists of owned particles,
-/// and `name` (by host's index) is how these lists call each particle, 0 if it is in none: it
+/// Where histories are while pairs are numbered anew, by host's index. `partners` are the lists of
+/// owned particles, and `name` is how these lists call each particle, 0 if it is in none: it
 /// differs from the tag if IDs were renumbered since. `kept`, if not empty, is asked first;
-/// `slot_then` (by slot) says which slot each particle had, see KeptContacts::find().
+/// `kept_slot` of owned particles is the slot that they had, -1 if they came from elsewhere: these
+/// and ghosts are looked up by name.
 struct FiledHistories {
   const PartnerLists &partners;
   const std::vector<std::int64_t> &name;
   const KeptContacts &kept;
-  const std::vector<int> &slot_then;
+  const std::vector<int> &kept_slot;
+
+  /// As KeptContacts::find() takes it.
+  int slot_then(int atom, bool is_owned) const
+  {
+    return is_owned && kept_slot[atom] >= 0 ? kept_slot[atom] : kept.slot_named(name[atom]);
+  }
 };
 
 class ContactHistory {
  public:
   /// After a rebuild: takes the history of each pair from wherever it is. Pairs without history
-  /// start at zero. Onsets are kept if the lists have 8 values.
-  void fetch(const CandidateList &pairs, const FiledHistories &filed);
+  /// start at zero. Onsets are kept if the lists have 8 values. `slots_then` (by slot):
+  /// FiledHistories::slot_then() of every particle; not needed if nothing is kept.
+  void fetch(const CandidateList &pairs, const FiledHistories &filed,
+             const std::vector<int> &slots_then);
 
   /// Before pairs are numbered anew: hands all histories over, and has none until fetch(). May run
   /// for different parts of a rank at the same time.

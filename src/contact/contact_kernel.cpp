@@ -112,8 +112,8 @@ void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficient
   }
   const Coefficients<Vec8> common = spread<Vec8>(table[0]);
   for (; k < end; k += lanes)
-    compute_lanes<Model, advance, Vec8>(
-        b, k, uniform ? common : collect(table, &b.coefficients[k]), dt);
+    compute_lanes<Model, advance, Vec8>(b, k, uniform ? common : collect(table, &b.coefficients[k]),
+                                        dt);
 }
 
 template <class Model> ContactKernel pick(bool uniform, bool advance)

@@ -15,14 +15,15 @@ ContactPart::ContactPart()
   batch.clear();
 }
 
-void ContactPart::start_pairs(const ContactScene &scene, const FiledHistories &filed)
+void ContactPart::start_pairs(const ContactScene &scene, const FiledHistories &filed,
+                              const std::vector<int> &slots_then)
 {
   // the contacts of each law fill whole vectors of the batch: leave room for the gaps
   std::iota(std::begin(lane_of_contact), std::end(lane_of_contact), 0);
   const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
   if (scene.with_history)
-    history.fetch(pairs, filed);
+    history.fetch(pairs, filed, slots_then);
   else
     history.release();
   touching = 0;

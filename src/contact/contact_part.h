@@ -69,7 +69,8 @@ class ContactPart {
   ContactPart();
 
   /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
-  void start_pairs(const ContactScene &scene, const FiledHistories &filed);
+  void start_pairs(const ContactScene &scene, const FiledHistories &filed,
+                   const std::vector<int> &slots_then);
 
   /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
   /// ask.

@@ -57,24 +57,24 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   pairs_known = true;
 }
 
-void ContactPipeline::start_pairs(const Histories &histories)
+void ContactPipeline::start_pairs(const FiledHistories &filed)
 {
-  const std::vector<int> slots = slots_then(histories);
-  const FiledHistories filed{histories.partners, histories.name, histories.kept, slots};
-  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].start_pairs(scene, filed); });
+  const std::vector<int> slots = slots_then(filed);
+  in_parallel(order.num_parts(), threads,
+              [&](int p) { parts[p].start_pairs(scene, filed, slots); });
   make_room();
 }
 
 /* By present slot: that of the last lists. */
 
-std::vector<int> ContactPipeline::slots_then(const Histories &histories) const
+std::vector<int> ContactPipeline::slots_then(const FiledHistories &filed) const
 {
-  if (histories.kept.empty()) return {};
+  if (filed.kept.empty()) return {};
   std::vector<int> slots(order.size());
   in_ranges(order.size(), [&](int begin, int end) {
     for (int s = begin; s < end; s++) {
       const int atom = order.atom_of_slot[s];
-      slots[s] = histories.slot_then(atom, order.is_owned(atom));
+      slots[s] = filed.slot_then(atom, order.is_owned(atom));
     }
   });
   return slots;

@@ -54,23 +54,8 @@ class ContactPipeline {
     const int *type;
   };
   void set_pairs(const Particles &particles, const NeighbourView &neighbours);
-  /// Where histories are found, see FiledHistories, but all by host's index. `kept_slot` of owned
-  /// particles is the slot that they had, -1 if they came from elsewhere; these and ghosts are
-  /// looked up by name.
-  struct Histories {
-    const PartnerLists &partners;
-    const std::vector<std::int64_t> &name;
-    const KeptContacts &kept;
-    const std::vector<int> &kept_slot;
-
-    /// As KeptContacts::find() takes it.
-    int slot_then(int atom, bool is_owned) const
-    {
-      return is_owned && kept_slot[atom] >= 0 ? kept_slot[atom] : kept.slot_named(name[atom]);
-    }
-  };
   /// After set_pairs(), when the neighbours are no longer needed.
-  void start_pairs(const Histories &histories);
+  void start_pairs(const FiledHistories &filed);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the records,
   /// which the next compute() makes anew and whose state must be in the host's arrays; and all of
@@ -175,7 +160,7 @@ class ContactPipeline {
   void run_parts(const ParticleView &host, const ContactStep &step, int first_part);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
-  std::vector<int> slots_then(const Histories &histories) const;
+  std::vector<int> slots_then(const FiledHistories &filed) const;
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
   template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
 

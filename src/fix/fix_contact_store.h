@@ -79,10 +79,7 @@ class FixContactStore : public Fix {
 
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
-  Talus::ContactPipeline::Histories histories() const
-  {
-    return {partners, filed_tags, kept, kept_slots};
-  }
+  Talus::FiledHistories histories() const { return {partners, filed_tags, kept, kept_slots}; }
 
   int setmask() override;
   void init() override;

@@ -32,7 +32,7 @@ TangentialHistory<double> PairGranPenalty::history_of(int i, int j,
     onset = pipeline.onset_of(i, j);
     return pipeline.history_of(i, j);
   }
-  const ContactPipeline::Histories filed = store->histories();
+  const FiledHistories filed = store->histories();
   if (filed.kept.empty()) return {};
   const KeptContacts::Found found =
       filed.kept.find(filed.slot_then(i, i < atom->nlocal), filed.slot_then(j, j < atom->nlocal));

@@ -116,7 +116,7 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   partners.begin();
   partners.layout();
   ContactHistory history;
-  history.fetch(pairs, {partners, tag, KeptContacts(), {}});
+  history.fetch(pairs, {partners, tag, KeptContacts(), {}}, {});
   BigVector<Record> position(n);
   for (int i = 0; i < n; i++) position[i] = {{1.0e-5 * i, 0.0, 0.0, 0.5}};
   const std::int64_t end = pairs.num_pairs();
@@ -143,7 +143,7 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   history.file(pairs, partners);
   EXPECT_EQ(partners.size(n - 1), close - 1);
   history.record(end - 1) = {};
-  history.fetch(pairs, {partners, tag, KeptContacts(), {}});
+  history.fetch(pairs, {partners, tag, KeptContacts(), {}}, {});
   EXPECT_EQ(history.record(end - 1).c[1], 2.0);
   EXPECT_TRUE(history.touches(end - 1));
 }

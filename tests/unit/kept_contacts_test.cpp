@@ -64,7 +64,7 @@ struct Rank {
     histories.resize(order.num_parts());
     for (int p = 0; p < order.num_parts(); p++) {
       pairs[p].collect(order, neighbours.view(), p);
-      histories[p].fetch(pairs[p], {lists, tag, KeptContacts(), {}});
+      histories[p].fetch(pairs[p], {lists, tag, KeptContacts(), {}}, {});
     }
   }
 
@@ -140,7 +140,7 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
     kept.clear();
     EXPECT_TRUE(kept.empty());
     for (int p = 0; p < rank.order.num_parts(); p++)
-      rank.histories[p].fetch(rank.pairs[p], {rank.lists, rank.tag, KeptContacts(), {}});
+      rank.histories[p].fetch(rank.pairs[p], {rank.lists, rank.tag, KeptContacts(), {}}, {});
   }
 }
 

@@ -124,7 +124,7 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
     PartnerLists none;
     none.resize(num_particles);
     ContactHistory history;
-    history.fetch(pairs, {none, std::vector<std::int64_t>(num_particles, 0), KeptContacts(), {}});
+    history.fetch(pairs, {none, std::vector<std::int64_t>(num_particles, 0), KeptContacts(), {}}, {});
     std::vector<Record> expected(count);
     for (int step = 0; step < 20; step++) {
       const std::vector<Record> position = random_positions(random);
