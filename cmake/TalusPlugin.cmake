@@ -16,8 +16,8 @@ foreach(name candidate_list contact_history contact_part contact_part_lanes cont
   set_source_files_properties(src/contact/${name}.cpp PROPERTIES COMPILE_OPTIONS "${talus_index_flags}")
 endforeach()
 if(TALUS_SANITIZE)
-  # Hundreds of kernels with checks in them: at -O3 the compiler takes a quarter of an hour.
-  set_source_files_properties(src/contact/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O1")
+  # A thousand kernels with checks in them: optimized, they take the compiler more than a quarter of an hour.
+  set_source_files_properties(src/contact/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O0;-g1")
 endif()
 
 # talus_add_code(suffix): libraries talus_contact and talus_exchange with the flags talus_flags, each name with the suffix.

@@ -19,8 +19,13 @@
 #endif
 
 /// For what runs inside the kernels: with hundreds of kernels in one file compilers stop to inline
-/// on their own, and passing vectors through memory costs a fifth of the time.
+/// on their own, and passing vectors through memory costs a fifth of the time. Sanitizers add
+/// so much code to each operation that compilers do not cope with all of it in one function.
+#if defined(__SANITIZE_ADDRESS__)
+#define TALUS_INLINE inline
+#else
 #define TALUS_INLINE [[gnu::always_inline]] inline
+#endif
 
 namespace Talus {
 
