@@ -4,6 +4,8 @@
 import concurrent.futures
 import os
 import re
+import statistics
+import subprocess
 
 import beds
 import lammps
@@ -19,6 +21,7 @@ REBUILD = 100           # steps between rebuilds of the neighbor lists, in all c
 # steps in our own records; on two ranks that takes our exchange, and in periodic boxes too
 OWN_STEPS = "run_style verlet/proxy\n"
 OWN_EXCHANGE = "comm_proxy yes\n" + OWN_STEPS
+LOCKSTEP = os.path.join(machine.BUILD, "bench", "lockstep")
 CHRONO_DEMO, CHRONO_CHUTE = 3640.0, 55.0     # ns per particle and step: Chrono::Distributed, and in.chute beside it
 
 
@@ -180,7 +183,8 @@ def two_at_once(run, script, cores):
     return 1.0 / sum(1.0 / t for t in times)      # time of the pair for one particle and step
 
 
-def two_core_rows(bench, run):
+def two_core_rows(bench, run, limits):
+    """`limits` receives what the machine allows for when two cores wait for each other, see lockstep()."""
     if len(machine.cores()) < 2:
         bench.section.text("Two cores: not measured, there is one.")
         return
@@ -193,14 +197,24 @@ def two_core_rows(bench, run):
         if bench.wants(case):
             bench.note(case)
             series = paired.measure({"alone": lambda: two_at_once(run, s["talus"], cores),
-                                     "pair": lambda o=options, n=script: run(s[n], **o)}, bench.rounds)
+                                     "pair": lambda o=options, n=script: run(s[n], **o),
+                                     "lockstep": lambda: lockstep(cores)}, bench.rounds)
+            alone, pair = series["alone"], series["pair"]
             yield finish(bench, case, f"{size} spheres, 2 {case}; of the throughput of two independent runs",
-                         series["alone"], series["pair"], paired.ratio(*series.values()), 0.92, 0.97)
+                         alone, pair, paired.ratio(alone, pair), 0.92, 0.97)
+            limits += series["lockstep"].values
     if bench.wants("omp"):
         omp = dict(threads=2, cores=cores)
         yield compare(bench, run, "omp", f"{size} spheres, 2 threads, stock with -sf omp",
                       {"stock": lambda: run(s["stock"], STOCK, arguments=["-sf", "omp"], **omp),
                        "talus": lambda: run(s["talus"], **omp)}, 4, 5)
+
+
+def lockstep(cores):
+    """Throughput of two cores that wait for each other after each millisecond of work, of that of two that do not."""
+    done = subprocess.run([LOCKSTEP, *map(str, cores)], capture_output=True, text=True, check=True)
+    apart, together = map(float, done.stdout.split())
+    return apart / together
 
 
 # ---- all --------------------------------------------------------------------------------------
@@ -209,8 +223,9 @@ COLUMNS = ["case", "what", "other, ns", "Talus, ns", "ratio, median (range)", "f
 
 
 def measure(bench):
-    section, run = bench.section, Runner(bench)
-    rows = [row for part in (bed_rows, chute_row, demo_row, two_core_rows) for row in part(bench, run)]
+    section, run, limits = bench.section, Runner(bench), []
+    rows = [row for part in (bed_rows, chute_row, demo_row) for row in part(bench, run)]
+    rows += two_core_rows(bench, run, limits)
     section.table(COLUMNS, rows)
     section.text(f"""Times in ns per particle and step. Beds: settled, 15 diameters deep, diameters +- 5 %, Hertz, friction
 with history, floor and four walls, skin .1 diameters; lists are rebuilt every {REBUILD} steps in all codes (in the row
@@ -221,6 +236,10 @@ goal are what was aimed at.""")
 takes 55 ns with the stock style; its time is scaled by in.chute, which ran in turn. `frictionless`: the same positions
 without friction; `ranks` and `threads`: time for a particle and step of two independent runs on the two cores, both
 running, over that of one run on both.""")
+    if limits:
+        section.text(f"""`ranks` and `threads` wait for each other after each step. Two threads that do mere arithmetic on data of
+their own, for 1 ms at a time, and then wait for each other reach {statistics.median(limits):.2f} ({min(limits):.2f} to {max(limits):.2f}) of
+their throughput without waiting, measured in turn with these two rows: this machine allows for no more.""")
     state = beds.contacts(bench, bench.size(50000, 12500))
     section.text(f"The bed has {state[0]:.2f} contacts and {state[1]:.2f} candidate pairs per sphere.")
     if rows:

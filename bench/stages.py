@@ -17,7 +17,6 @@ does it cost that sums are taken in canonical order, against the same kernels on
 PROGRAM = os.path.join(machine.BUILD, "bench", "contact_stages")
 REBUILD = 100       # steps between rebuilds
 AIM = 1.10          # what canonical order may cost
-LISTED = "listed"   # the order-dependent twin
 
 # function of the program: what it does
 STAGES = {
@@ -39,53 +38,56 @@ STAGES = {
     "floor_contacts": "step: contacts with a plane, per sphere that touches it",
 }
 
-# how the work is divided: (function, variant) of a step and of a rebuild, for `FUNCTION_step/VARIANT`
+# how the work is divided: functions of a step and a rebuild, ours and those of the order-dependent twin
 DIVISIONS = {
-    "one rank, one thread": "canonical_{}/one_part",
-    "one rank, two threads": "canonical_{}/two_threads",
-    "two ranks": "ranks_{}/one_phase",
-    "two ranks, two phases (overlap)": "ranks_{}/two_phases",
+    "one rank, one thread": (("canonical_step/one_part", "canonical_rebuild/one_part"), ("listed_step/one_part", "listed_rebuild")),
+    "one rank, two threads": (("canonical_step/two_threads", "canonical_rebuild/two_threads"),
+                              ("listed_step/two_threads", "listed_rebuild")),
+    "two ranks": (("ranks_step/one_phase", "ranks_rebuild/one_phase"), ("listed_ranks_step", "listed_ranks_rebuild")),
+    "two ranks, two phases (overlap)": (("ranks_step/two_phases", "ranks_rebuild/two_phases"),
+                                        ("listed_ranks_step", "listed_ranks_rebuild")),
 }
 
 
-def one_round(bench):
-    """{(function, spheres): result of Google Benchmark}."""
+def results(bench):
+    """{(function, spheres): results of Google Benchmark, one for each round}; all functions in every round, in random order."""
     out = bench.path("stages.json")
     command = ["taskset", "-c", str(paired.one_core()[0]), PROGRAM, f"--benchmark_out={out}", "--benchmark_out_format=json",
-               f"--benchmark_min_time={bench.size(0.1, 0.01)}"]
+               f"--benchmark_min_time={bench.size(0.1, 0.01)}", f"--benchmark_repetitions={bench.rounds}",
+               "--benchmark_enable_random_interleaving=true"]
     if bench.quick:
         command.append("--benchmark_filter=/(3000|50000)$")
     # the parts of several threads one after the other: their work is asked for, not what the machine makes of it
     done = subprocess.run(command, env=dict(os.environ, OMP_THREAD_LIMIT="1"), capture_output=True, text=True, check=False)
     if done.returncode:
         raise lammps.Failed(f"{PROGRAM}: {done.stderr[-1500:]}")
+    found = {}
     with open(out) as file:
-        results = json.load(file)["benchmarks"]
-    return {(name, int(size)): result for result in results for name, size in [result["name"].rsplit("/", 1)]}
+        for result in json.load(file)["benchmarks"]:
+            if result["run_type"] == "iteration":
+                name, size = result["run_name"].rsplit("/", 1)
+                found.setdefault((name, int(size)), []).append(result)
+    return found
 
 
 def measure(bench):
     if not os.path.exists(PROGRAM):
         bench.section.text("Left out: Google Benchmark was not found when Talus was built (Debian: libbenchmark-dev).")
         return
-    rounds = []
-    for k in range(bench.rounds):
-        bench.note(f"round {k + 1} of {bench.rounds}")
-        rounds.append(one_round(bench))
-    series = {key: paired.Series([1e9 / found[key]["items_per_second"] for found in rounds]) for key in rounds[0]}
+    found = results(bench)
+    series = {key: paired.Series([1e9 / result["items_per_second"] for result in each]) for key, each in found.items()}
     sizes = sorted({size for _, size in series})
     for (name, size), times in series.items():
         bench.section.record(stage=name, spheres=size, ns=times.median, low=min(times.values), high=max(times.values))
-    stages(bench, series, sizes, rounds[0])
+    stages(bench, series, sizes, found["contacts/hertz_multistep", sizes[-1]][0])
     order(bench, series, sizes)
 
 
-def stages(bench, series, sizes, first):
+def stages(bench, series, sizes, sample):
     section = bench.section
     section.heading("Stages")
     rows = [[words, *(series[name, size].median for size in sizes)] for name, words in STAGES.items() if bench.wants(name)]
     section.table(["ns per sphere", *(f"{size} spheres" for size in sizes)], rows)
-    sample = first["contacts/hertz_multistep", sizes[-1]]
     section.text(f"""One thread, medians of {bench.rounds} rounds. Spheres near the sites of a body-centred lattice, in the order of their
 keys, {sample["contacts"]:.2f} contacts and {sample["candidates"]:.2f} candidate pairs per sphere, as in a settled bed. contacts: narrow
 phase, gathering, kernel and summing together. A stage that runs alone finds in the cache what it left there; in a whole step
@@ -97,18 +99,17 @@ of a large bed it does not, and stages that follow each other there share what t
 def order(bench, series, sizes):
     section, rows = bench.section, []
 
-    def whole(pattern, size):
+    def whole(names, size):
         """A step with its share of a rebuild, round by round."""
-        pairs = zip(series[pattern.format("step"), size].values, series[pattern.format("rebuild"), size].values)
-        return paired.Series([step + rebuild / REBUILD for step, rebuild in pairs])
+        step, rebuild = (series[name, size] for name in names)
+        return paired.Series([a + b / REBUILD for a, b in zip(step.values, rebuild.values)])
     ratios = {}
-    for words, pattern in DIVISIONS.items():
+    for words, (our_names, twin_names) in DIVISIONS.items():
         for size in sizes:
-            ours, twin = whole(pattern, size), whole(LISTED + "_{}", size)
+            ours, twin = whole(our_names, size), whole(twin_names, size)
             ratio = paired.ratio(ours, twin)
-            rows.append([words, size, series[pattern.format("step"), size].median,
-                         series[LISTED + "_step", size].median, series[pattern.format("rebuild"), size].median,
-                         series[LISTED + "_rebuild", size].median, str(ratio)])
+            times = [series[names[n], size].median for n in (0, 1) for names in (our_names, twin_names)]
+            rows.append([words, size, *times, str(ratio)])
             section.record(stage="canonical order: " + words, spheres=size, ns=ours.median, ratio=ratio.median,
                            low=ratio.low, high=ratio.high)
             ratios.setdefault(words, []).append(ratio.median)
@@ -122,9 +123,10 @@ def order(bench, series, sizes):
                    f"ratio of step + rebuild/{REBUILD}"], rows)
     section.text("""Hertz with multistep friction; step: particles moved and contacts computed, in the records; rebuild: all that Talus does with
 a new neighbor list, the making of which is left out. As listed: the same kernels on pairs in the order of the list, no keys, no
-sorting, each pair once; its work on two threads or ranks is taken to be that of one, which no real code reaches, since it
-would have to bring together what several have added to one particle. Ours on two threads or ranks: the work of both, one
-after the other on one core, pairs between them computed by both. Ratios are medians over the rounds (range).""")
+sorting, each pair of a rank once. On two threads or ranks: the work of both, one after the other on one core. As listed on
+two threads: the sums of the second are then added to those of the first (no thread contends for anything); on two ranks both
+compute the pairs between them, as the stock styles do for friction with history, and two phases cost nothing. Ratios are medians
+over the rounds (range); the functions of a round run in random order.""")
 
 
 def draw(plt, rows, sizes):

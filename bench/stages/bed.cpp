@@ -120,12 +120,13 @@ class Cells {
   }
 };
 
-/// Rows of owned spheres with the neighbors j for which wanted(i, j).
-template <class Wanted> Lists make_lists(const Bed &bed, const Cells &cells, Wanted wanted)
+/// Rows of the first spheres with the neighbors j for which wanted(i, j).
+template <class Wanted>
+Lists make_lists(const Bed &bed, const Cells &cells, int rows, Wanted wanted)
 {
   Lists lists;
   std::vector<std::size_t> begin;
-  for (int i = 0; i < bed.owned; i++) {
+  for (int i = 0; i < rows; i++) {
     begin.push_back(lists.entries.size());
     cells.around(&bed.x[3 * i], [&](int j) {
       if (i != j && wanted(i, j) && near(bed, i, j)) lists.entries.push_back(j);
@@ -140,9 +141,9 @@ template <class Wanted> Lists make_lists(const Bed &bed, const Cells &cells, Wan
 void list_pairs(Bed &bed)
 {
   const Cells cells(bed);
-  bed.later = make_lists(bed, cells, [](int i, int j) { return j > i; });
-  if (bed.owned == bed.size())
-    bed.earlier = make_lists(bed, cells, [](int i, int j) { return j < i; });
+  bed.later = make_lists(bed, cells, bed.owned, [](int i, int j) { return j > i; });
+  bed.earlier =
+      make_lists(bed, cells, bed.size(), [&](int i, int j) { return j < i && j < bed.owned; });
 }
 
 Bed in_order_of_keys(const Bed &bed)

@@ -37,7 +37,7 @@ struct Bed {
   std::vector<std::int64_t> tag;
   std::vector<int> type;
   Lists later;      ///< each pair in the row of its member with the lower index, as in LAMMPS
-  Lists earlier;    ///< in the row of the other one; only of beds without ghosts
+  Lists earlier;    ///< in the row of the other one, which may be a ghost
 
   int size() const { return static_cast<int>(radius.size()); }
   Talus::ParticleView view();

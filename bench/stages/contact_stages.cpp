@@ -44,7 +44,7 @@ struct Prepared {
   SlotChoice all() const { return {0, order.size()}; }
   void collect() { part.pairs.collect(order, bed.later.view(), 0); }
   FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
-  void start_pairs() { part.start_pairs(scene, filed()); }
+  void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()
   {
     part.compute(scene, records, {dt, true}, [](int, int) {});
@@ -108,7 +108,7 @@ void fetch_history(benchmark::State &state)
 {
   Prepared p = prepared(state);
   p.file();
-  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.filed()); });
+  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.filed(), p.slots); });
 }
 BENCHMARK(fetch_history)->Apply(sizes);
 
@@ -118,7 +118,7 @@ void keep_history(benchmark::State &state)
   repeat(state, p, [&] {
     p.kept.begin(p.order, false);
     p.part.history.keep(p.part.pairs, p.kept.part(0));
-    p.part.history.fetch(p.part.pairs, p.filed());
+    p.part.history.fetch(p.part.pairs, p.filed(), p.slots);
   });
 }
 BENCHMARK(keep_history)->Apply(sizes);

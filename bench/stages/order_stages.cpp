@@ -1,10 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // What it costs that every sum is taken in canonical order. The twin takes pairs as the neighbor
-// list gives them, each of them once, through the same narrow phase, kernels and integrator: no
-// keys, no sorting of particles or pairs, and on several threads or ranks nothing is computed
-// twice. Its work on several threads or ranks is therefore that of one, which is less than any real
-// variant can do with: it would have to bring together what several have added to one particle.
+// list gives them, each of them once on a rank, through the same narrow phase, kernels and
+// integrator: no keys, no sorting of particles or pairs, and nothing is computed twice for the sake
+// of threads or phases. On two threads, what the second one has added is brought to the sums of the
+// first, particle by particle. On two ranks both compute the pairs between them, as the stock
+// styles do for friction with history: the alternative sends forces back, one message more.
 
 #include "stages.h"
 
@@ -88,10 +89,11 @@ struct AsListed {
   PartnerLists partners;
   KeptContacts kept;
   ContactPart part;
-  BigVector<Record> held;
+  BigVector<Record> held, of_other_thread;
   std::vector<std::uint64_t> index;
+  std::vector<ParticleRecords::Role> role;
 
-  explicit AsListed(Bed &given) : bed(given), index(bed.size())
+  AsListed(Bed &given, int threads) : bed(given), index(bed.size())
   {
     std::iota(index.begin(), index.end(), 0);
     order.arrange(bed.owned, index, bed.tag);
@@ -99,6 +101,11 @@ struct AsListed {
     records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
     held = records.position;
+    if (bed.size() > bed.owned) {
+      role.assign(bed.size(), ParticleRecords::GHOST);
+      std::fill_n(role.begin(), bed.owned, ParticleRecords::MOVES);
+    }
+    if (threads == 2) of_other_thread.resize(records.load.size());
     partners.resize(bed.owned);
     take_pairs();
     start_pairs();
@@ -107,12 +114,15 @@ struct AsListed {
 
   void rebuild()
   {
-    kept.begin(order, false);
+    kept.begin(order, bed.size() > bed.owned);
     part.history.keep(part.pairs, kept.part(0));
     take_pairs();
     start_pairs();
   }
-  void start_pairs() { part.start_pairs(scene, {partners, bed.tag, kept, order.slot_of_atom}); }
+  void start_pairs()
+  {
+    part.start_pairs(scene, {partners, bed.tag, kept, order.slot_of_atom}, order.slot_of_atom);
+  }
 
   /// Rows and entries, one after the other.
   void take_pairs()
@@ -134,8 +144,12 @@ struct AsListed {
   void step()
   {
     part.compute(scene, records, in_records(), [this](int begin, int end) {
-      records.advance(at_rest, {}, held.data(), {begin, end});
+      records.advance(at_rest, role, held.data(), {begin, end});
     });
+    for (std::size_t k = 0; k < of_other_thread.size(); k++) {
+      store(records.load[k].c, load4(records.load[k].c) + load4(of_other_thread[k].c));
+      of_other_thread[k] = Record{};
+    }
   }
 };
 
@@ -160,17 +174,18 @@ void canonical_rebuild(benchmark::State &state, int threads, bool two_phases)
 BENCHMARK_CAPTURE(canonical_rebuild, one_part, 1, false)->Apply(sizes);
 BENCHMARK_CAPTURE(canonical_rebuild, two_threads, 2, false)->Apply(sizes);
 
-void listed_step(benchmark::State &state)
+void listed_step(benchmark::State &state, int threads)
 {
-  AsListed scene(bed_of(state));
+  AsListed scene(bed_of(state), threads);
   for (auto _ : state) scene.step();
   count_spheres(state, scene.bed.owned);
 }
-BENCHMARK(listed_step)->Apply(sizes);
+BENCHMARK_CAPTURE(listed_step, one_part, 1)->Apply(sizes);
+BENCHMARK_CAPTURE(listed_step, two_threads, 2)->Apply(sizes);
 
 void listed_rebuild(benchmark::State &state)
 {
-  AsListed scene(bed_of(state));
+  AsListed scene(bed_of(state), 1);
   for (auto _ : state) scene.rebuild();
   count_spheres(state, scene.bed.owned);
 }
@@ -178,20 +193,21 @@ BENCHMARK(listed_rebuild)->Apply(sizes);
 
 // ---- two ranks, one after the other -------------------------------------------------------------
 
-struct TwoRanks {
+template <class Variant> struct TwoRanks {
   std::vector<Bed> beds;
-  std::vector<std::unique_ptr<Canonical>> ranks;
+  std::vector<std::unique_ptr<Variant>> ranks;
 
-  TwoRanks(const Bed &bed, bool two_phases) : beds(two_ranks(bed))
+  template <class... Options>
+  explicit TwoRanks(const Bed &bed, Options... options) : beds(two_ranks(bed))
   {
-    for (Bed &half : beds) ranks.push_back(std::make_unique<Canonical>(half, 1, two_phases));
+    for (Bed &half : beds) ranks.push_back(std::make_unique<Variant>(half, 1, options...));
   }
 };
 
 void ranks_step(benchmark::State &state, bool two_phases)
 {
   Bed &bed = bed_of(state);
-  TwoRanks scene(bed, two_phases);
+  TwoRanks<Canonical> scene(bed, two_phases);
   for (auto &rank : scene.ranks) rank->start();
   for (auto _ : state)
     for (auto &rank : scene.ranks) rank->step();
@@ -203,13 +219,33 @@ BENCHMARK_CAPTURE(ranks_step, two_phases, true)->Apply(sizes);
 void ranks_rebuild(benchmark::State &state, bool two_phases)
 {
   Bed &bed = bed_of(state);
-  TwoRanks scene(bed, two_phases);
+  TwoRanks<Canonical> scene(bed, two_phases);
   for (auto _ : state)
     for (auto &rank : scene.ranks) rank->rebuild();
   count_spheres(state, bed.owned);
 }
 BENCHMARK_CAPTURE(ranks_rebuild, one_phase, false)->Apply(sizes);
 BENCHMARK_CAPTURE(ranks_rebuild, two_phases, true)->Apply(sizes);
+
+void listed_ranks_step(benchmark::State &state)
+{
+  Bed &bed = bed_of(state);
+  TwoRanks<AsListed> scene(bed);
+  for (auto _ : state)
+    for (auto &rank : scene.ranks) rank->step();
+  count_spheres(state, bed.owned);
+}
+BENCHMARK(listed_ranks_step)->Apply(sizes);
+
+void listed_ranks_rebuild(benchmark::State &state)
+{
+  Bed &bed = bed_of(state);
+  TwoRanks<AsListed> scene(bed);
+  for (auto _ : state)
+    for (auto &rank : scene.ranks) rank->rebuild();
+  count_spheres(state, bed.owned);
+}
+BENCHMARK(listed_ranks_rebuild)->Apply(sizes);
 
 }    // namespace
 }    // namespace Bench
