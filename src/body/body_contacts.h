@@ -37,6 +37,7 @@ class BodyContacts {
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
+  /// `threads` are used for shapes that are thread_safe() and touch at one point at most.
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
                        const BodyParticleView &view, const int *mask, int group, double skin,
                        int threads = 1);
