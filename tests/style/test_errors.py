@@ -4,6 +4,7 @@ word that is marked, on 1 and 2 ranks, without a hang."""
 
 import os
 import re
+import resource
 import sys
 import unittest
 
@@ -28,6 +29,19 @@ PAIR = STYLE + "pair_coeff * * hooke 1.0 1.0 tangential multistep NULL NULL 0.5\
 MOVE = "fix move all nve/sphere\n"
 LAW = "contact hooke 1.0 1.0"
 RUN = PAIR + MOVE + "run 2\n"
+
+# 27 000 particles with 1500 pairs each
+MANY_PAIRS = """
+newton off
+atom_style sphere
+comm_modify vel yes
+boundary f f f
+lattice sc 1.0
+region box block 0 30 0 30 0 30
+create_box 1 box
+create_atoms 1 box
+neighbor 8.0 bin
+""" + PAIR + MOVE + "run 0\n"
 
 PAIR_STYLE = [    # words after pair_style gran/penalty, message, marked word
     ("foo", "unknown word 'foo', expected mix", "foo"),
@@ -222,6 +236,19 @@ class Errors(SceneCase):
     def test_host_settings(self):
         for settings, commands, message in HOST:
             self.assert_error(box(**settings) + commands, message)
+
+    def test_memory(self):
+        """Pairs that do not fit into memory: not a signal, nor a message of the C++ library alone."""
+        before = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (1 << 30, before[1]))     # inherited by what is run
+        try:
+            for ranks in 1, 2:
+                with self.subTest(ranks=ranks):
+                    result = self.run_lammps(MANY_PAIRS, np=ranks, expect_error=True, timeout=60)
+                    self.assertRegex(result.log + result.output, r"ERROR on proc \d+: Pair style gran/penalty: not enough memory "
+                                     rf"for the pairs of {27000 // ranks} particles and \d+ ghosts of a rank: use more machines")
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, before)
 
     def test_what_is_right_runs(self):
         self.run_lammps(f"{box()}fix f all large/body {RECTANGLE} two-sided contact types 2 hertz 1 1 "

@@ -175,6 +175,51 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   EXPECT_EQ(f[5], 60.0);
 }
 
+// A chain of spheres so long that its memory is worth giving back between two lists.
+TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
+{
+  constexpr int n = 450000;
+  std::vector<double> x, v, omega, radius(n, 1.0), mass(n, 2.0);
+  std::vector<std::uint64_t> key;
+  std::vector<std::int64_t> tag;
+  NeighbourLists lists(n);
+  for (int i = 0; i < n; i++) {
+    x.insert(x.end(), {1.99 * i, 0.0, 0.0});
+    v.insert(v.end(), {0.0, 0.01 * (i % 7), 0.0});
+    omega.insert(omega.end(), {0.0, 0.0, 0.02 * (i % 5)});
+    key.push_back(i);
+    tag.push_back(i + 1);
+    if (i) lists.add(i, i - 1, 1.0);
+  }
+  ContactPipeline pipeline;
+  pipeline.set_laws(single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, false));
+  PartnerLists partners;
+  partners.resize(n);
+  KeptContacts kept;
+  const auto start = [&](const std::vector<int> &kept_slot) {
+    pipeline.set_pairs({n, key, tag, nullptr}, lists.view());
+    pipeline.start_pairs({partners, tag, kept, kept_slot});
+  };
+  const auto forces = [&](bool advance) {
+    std::vector<double> f(3 * n, 0.0), torque(3 * n, 0.0);
+    pipeline.compute({x.data(), v.data(), omega.data(), radius.data(), mass.data(), nullptr,
+                      f.data(), torque.data()},
+                     {dt, advance});
+    f.insert(f.end(), torque.begin(), torque.end());
+    return f;
+  };
+  start(std::vector<int>(n, -1));
+  const std::vector<double> first = forces(true), before = forces(true);
+  ASSERT_TRUE(first != before);    // there is a history
+  const std::vector<int> slots = pipeline.particle_order().slot_of_atom;
+  ASSERT_GT(pipeline.memory_usage(), worth_giving_back);
+  pipeline.keep_history(kept, false);
+  pipeline.release();
+  EXPECT_LT(pipeline.memory_usage(), 0.5 * worth_giving_back);
+  start(slots);
+  EXPECT_TRUE(forces(false) == before);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllScenes, Pipeline, testing::ValuesIn(scenes()), [](const auto &info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), ' ', '_');
