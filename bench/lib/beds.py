@@ -38,7 +38,8 @@ def cache_path(name):
 # ---- laws: the commands of each code ----------------------------------------------------------
 
 HISTORY = f"hertz {KN} {GN} tangential multistep NULL NULL {MU}"
-MATERIAL = f"hertz/material {YOUNG} {RESTITUTION} {NU} tangential multistep NULL NULL {MU}"
+# stock: the displacement of contacts that slide follows the rule of pair granular and of LIGGGHTS
+MATERIAL = f"hertz/material {YOUNG} {RESTITUTION} {NU} tangential multistep NULL NULL {MU} stock"
 STOCK_HISTORY = f"hertz/history {KN} NULL {GN} NULL {MU} 1"
 STOCK_GRANULAR = (f"hertz/material {YOUNG} {RESTITUTION} {NU} tangential mindlin NULL 1.0 {MU} "
                   "damping coeff_restitution")
