@@ -57,8 +57,9 @@ class NeighbourSearch {
       return (static_cast<std::int64_t>(z) * cells[1] + y) * cells[0];
     }
   };
-  /// What one thread finds: the rows of its particles, one after the other.
-  struct Chunk {
+  /// What one thread finds: the rows of its particles, one after the other. In a cache line of its
+  /// own, for the count is written all the time.
+  struct alignas(64) Chunk {
     BigVector<int> entries;
     std::size_t count = 0;
   };

@@ -73,8 +73,9 @@ struct SlotChoice {
 };
 
 /// How far particles have gone: maxima over particles of the distance from where they were when
-/// lists were made, and of the speed (see MotionForecast).
-struct RecordTravel {
+/// lists were made, and of the speed (see MotionForecast). In a cache line of its own: each thread
+/// writes one every few hundred particles.
+struct alignas(64) RecordTravel {
   double moved = 0.0, speed = 0.0;
 
   void join(const RecordTravel &other)
