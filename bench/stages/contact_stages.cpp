@@ -34,7 +34,7 @@ struct Prepared {
     slots.resize(order.size());
     std::iota(slots.begin(), slots.end(), 0);
     partners.resize(bed.owned);
-    records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
+    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
     collect();
     start_pairs();
     records.read(order, bed.view(), all());

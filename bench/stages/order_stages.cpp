@@ -98,7 +98,7 @@ struct AsListed {
     std::iota(index.begin(), index.end(), 0);
     order.arrange(bed.owned, index, bed.tag);
     part.pairs.collect(order, bed.earlier.view(), 0);    // knows the order from now on
-    records.resize(order.size(), 1, scene.with_friction, scene.with_resistance);
+    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
     held = records.position;
     if (bed.size() > bed.owned) {

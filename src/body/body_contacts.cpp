@@ -2,6 +2,8 @@
 
 #include "body/body_contacts.h"
 
+#include "contact/in_parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,22 +55,13 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   const bool many = step.threads > 1 && !step.account && shape.thread_safe();
   const int threads = many ? step.threads : 1;
   if (step.account) remember_velocities(frame, view, *step.account);
-  const BodyTask task{laws,
-                      frame,
-                      view,
-                      step.dt,
-                      step.advance,
-                      step.exact != nullptr,
-                      step.touched != nullptr,
-                      step.account,
-                      with_history,
-                      with_onset,
-                      laws.has_resistance()};
-  largest_overlap = 0.0;
-  if (single && view.records) {
-    if (slots.empty()) sort_by_slot(view.slot_of_atom);
-    if (RestingBodyBatch::serves(task)) return compute_at_rest(shape, task, threads);
+  if (begin_at_rest(shape, frame, view, step)) {
+    in_parallel(threads, threads,
+                [&](int t) { add_at_rest(t, first_of(t, threads), first_of(t + 1, threads)); });
+    return load_at_rest();
   }
+  const BodyTask task = task_of(frame, view, step);
+  largest_overlap = 0.0;
   compute_batches(shape, task, threads);
 
   BodyLoad load;
@@ -85,26 +78,61 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   return load;
 }
 
-/* Blocks of eight candidates stay together: they share a byte of the history. */
+BodyTask BodyContacts::task_of(const BodyFrame &frame, const BodyParticleView &view,
+                               const BodyStep &step) const
+{
+  return {laws,
+          frame,
+          view,
+          step.dt,
+          step.advance,
+          step.exact != nullptr,
+          step.touched != nullptr,
+          step.account,
+          with_history,
+          with_onset,
+          laws.has_resistance()};
+}
 
 std::size_t BodyContacts::first_of(int thread, int threads) const
 {
-  const std::size_t n = candidates.size();
-  return std::min((n + 7) / 8 * thread / threads * 8, n);
+  return candidates.size() * thread / threads;
 }
 
-BodyLoad BodyContacts::compute_at_rest(const LargeBodyShape &shape, const BodyTask &task,
-                                       int threads)
+bool BodyContacts::begin_at_rest(const LargeBodyShape &shape, const BodyFrame &frame,
+                                 const BodyParticleView &view, const BodyStep &step)
 {
-  while (static_cast<int>(resting_batches.size()) < threads)
+  if (!single || !view.records) return false;
+  if (slots.empty()) sort_by_slot(view.slot_of_atom);
+  if (!RestingBodyBatch::serves(task_of(frame, view, step))) return false;
+  at_rest = {&shape, &frame, view, step};
+  while (static_cast<int>(resting_batches.size()) < step.threads)
     resting_batches.push_back(std::make_unique<RestingBodyBatch>());
-  const SlottedCandidates slotted{candidates, slots};
-#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++)
-    resting_batches[t]->compute(shape, task, slotted, history, first_of(t, threads),
-                                first_of(t + 1, threads));
+  for (auto &batch : resting_batches) batch->load = BodyLoad();
+  largest_overlap = 0.0;
+  return true;
+}
+
+void BodyContacts::add_at_rest(int thread, std::size_t begin, std::size_t end)
+{
+  resting_batches[thread]->compute(*at_rest.shape,
+                                   task_of(*at_rest.frame, at_rest.view, at_rest.step),
+                                   {candidates, slots}, history, begin, end);
+}
+
+void BodyContacts::add_to_slots(int thread, int begin, int end)
+{
+  const auto last = slots.begin() + static_cast<std::ptrdiff_t>(candidates.size());
+  const auto place = [&](int slot) {
+    return static_cast<std::size_t>(std::lower_bound(slots.begin(), last, slot) - slots.begin());
+  };
+  add_at_rest(thread, place(begin), place(end));
+}
+
+BodyLoad BodyContacts::load_at_rest() const
+{
   BodyLoad load;
-  for (int t = 0; t < threads; t++) load.add(resting_batches[t]->load);
+  for (const auto &batch : resting_batches) load.add(batch->load);
   return load;
 }
 
@@ -113,13 +141,12 @@ void BodyContacts::compute_batches(const LargeBodyShape &shape, const BodyTask &
   while (static_cast<int>(batches.size()) < threads)
     batches.push_back(std::make_unique<BodyBatch>());
   new_lists.assign(single ? 0 : candidates.size(), NewList{0, 0, 0});
-#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++) {
+  in_parallel(threads, threads, [&](int t) {
     const std::size_t begin = first_of(t, threads), end = first_of(t + 1, threads);
     batches[t]->start(task.exact);
     for (std::size_t c = begin; c < end && !single; c++) new_lists[c].batch = t;
     compute_range(shape, task, *batches[t], begin, end);
-  }
+  });
 }
 
 void BodyContacts::compute_range(const LargeBodyShape &shape, const BodyTask &task,

@@ -64,6 +64,15 @@ class BodyContacts {
   BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
                    const BodyParticleView &view, const BodyStep &step);
 
+  /// The same for a body at rest and particles in the records, piece by piece: begin_at_rest() says
+  /// whether it can be done so, and then keeps the references of its arguments; add_to_slots(), by up
+  /// to `step.threads` threads, deals with the particles of the slots begin ... end-1, which together
+  /// must be all; load_at_rest() is the reaction of all that have been dealt with.
+  bool begin_at_rest(const LargeBodyShape &shape, const BodyFrame &frame,
+                     const BodyParticleView &view, const BodyStep &step);
+  void add_to_slots(int thread, int begin, int end);
+  BodyLoad load_at_rest() const;
+
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   /// `frame`: with the velocity that the body has now.
   void account_for_move(const BodyFrame &frame, const BodyParticleView &view, double dt,
@@ -91,8 +100,10 @@ class BodyContacts {
   void list_near(const Search &search, int threads);
   void list_with_parts(const Search &search);
   void sort_by_slot(const int *slot_of_atom);
+  BodyTask task_of(const BodyFrame &frame, const BodyParticleView &view,
+                   const BodyStep &step) const;
+  void add_at_rest(int thread, std::size_t begin, std::size_t end);
   std::size_t first_of(int thread, int threads) const;
-  BodyLoad compute_at_rest(const LargeBodyShape &shape, const BodyTask &task, int threads);
   void compute_batches(const LargeBodyShape &shape, const BodyTask &task, int threads);
   void compute_range(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch,
                      std::size_t begin, std::size_t end);
@@ -124,6 +135,13 @@ class BodyContacts {
   std::vector<NewList> new_lists;                     // by candidate
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
   std::vector<std::unique_ptr<RestingBodyBatch>> resting_batches;
+  struct AtRest {
+    const LargeBodyShape *shape = nullptr;
+    const BodyFrame *frame = nullptr;
+    BodyParticleView view{};
+    BodyStep step;
+  };
+  AtRest at_rest;    // of the last begin_at_rest()
   BodyFrame listed_frame;
   double largest_overlap = 0.0;    // over radius
   double listed_reach = 0.0;       // largest distance of a particle from the reference point

@@ -70,38 +70,43 @@ void RestingBodyBatch::compute(const LargeBodyShape &its_shape, const BodyTask &
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
-    for (std::size_t c = begin; c < last; c += width)
-      look_at(c, static_cast<int>(std::min<std::size_t>(last - c, width)));
+    for (std::size_t c = begin / width * width; c < last; c += width)
+      look_at(c, static_cast<int>(begin > c ? begin - c : 0),
+              static_cast<int>(std::min<std::size_t>(last - c, width)));
     flush();
   }
   sum_up();
 }
 
-/* Those of eight candidates that have this law. */
+/* Of eight candidates those low ... high-1 that have this law. */
 
-unsigned RestingBodyBatch::bits_of_law(std::size_t first, int count) const
+unsigned RestingBodyBatch::bits_of_law(std::size_t first, int low, int high) const
 {
-  const unsigned all = (1U << count) - 1U;
-  if (task->laws.num_laws() == 1) return all;
+  if (task->laws.num_laws() == 1) return (1U << high) - (1U << low);
   unsigned bits = 0;
-  for (int k = 0; k < count; k++) {
+  for (int k = low; k < high; k++) {
     const int row = task->row_of(candidates->atoms[first + k]);
     bits |= (task->laws.law_index(row) == law_index ? 1U : 0U) << k;
   }
   return bits;
 }
 
-void RestingBodyBatch::look_at(std::size_t first, int count)
+/* Candidates low ... high-1 of eight: the others are not even read, for they may be on their way
+   through another thread. */
+
+void RestingBodyBatch::look_at(std::size_t first, int low, int high)
 {
   const Record *const positions = task->view.records->position.data();
   const int *const slot = &candidates->slots[first];
   for (int k = 0; k < width; k++) __builtin_prefetch(positions + slot[ahead + k]);
   if (task->with_history) call(first + ahead, history->touched((first + ahead) / width));
-  const EightRecords state = to_lanes([=](int k) -> const Record & { return positions[slot[k]]; });
+  const EightRecords state = to_lanes([=](int k) -> const Record & {
+    return positions[slot[std::clamp(k, low, high - 1)]];
+  });
   for (int d = 0; d < 3; d++) store(spheres.centre[d], state.number[d]);
   store(spheres.radius, state.number[3]);
-  const unsigned asked = bits_of_law(first, count);
-  const unsigned bits = shape->touches_eight(spheres, count, contacts) & asked;
+  const unsigned asked = bits_of_law(first, low, high);
+  const unsigned bits = shape->touches_eight(spheres, high, contacts) & asked;
   if (task->with_history) history->set_touching(first / width, asked, bits);
   if (bits) take(first, bits);
 }

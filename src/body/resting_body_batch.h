@@ -30,8 +30,9 @@ class RestingBodyBatch {
   /// Whether these are such contacts, of a shape with one_contact().
   static bool serves(const BodyTask &task);
 
-  /// Computes the contacts of candidates begin ... end-1; `begin` is a multiple of eight. Adds the
-  /// forces to the records, and keeps histories if the laws have them.
+  /// Computes the contacts of candidates begin ... end-1. Adds the forces to the records, and keeps
+  /// histories if the laws have them. Several threads may do so at the same time, each with a batch
+  /// and candidates of its own; nothing else of other candidates is read.
   void compute(const LargeBodyShape &shape, const BodyTask &task,
                const SlottedCandidates &candidates, SparseHistory &history, std::size_t begin,
                std::size_t end);
@@ -39,8 +40,8 @@ class RestingBodyBatch {
   BodyLoad load;    ///< of the last compute()
 
  private:
-  unsigned bits_of_law(std::size_t first, int count) const;
-  void look_at(std::size_t first, int count);
+  unsigned bits_of_law(std::size_t first, int low, int high) const;
+  void look_at(std::size_t first, int low, int high);
   void call(std::size_t first, unsigned bits) const;
   void take(std::size_t first, unsigned bits);
   void flush();

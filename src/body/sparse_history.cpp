@@ -47,7 +47,8 @@ void SparseHistory::follow(const std::vector<int> &candidates)
   }
   std::fill(place.begin(), place.end(), nowhere);
   for (std::size_t c = 0; c < n; c++) place[candidates[c]] = static_cast<int>(c);
-  touching.assign((n + 7) / 8, 0xff);
+  touching = std::vector<std::atomic<std::uint8_t>>((n + 7) / 8);
+  for (auto &block : touching) block.store(0xff, std::memory_order_relaxed);
 }
 
 void SparseHistory::clear(std::size_t block, unsigned separated)

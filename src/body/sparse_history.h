@@ -15,6 +15,7 @@
 #include "contact/big_vector.h"
 #include "contact/record.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -44,19 +45,21 @@ class SparseHistory {
   Record &onset(std::size_t candidate) { return onsets[candidate]; }
 
   /// Which of the candidates 8 block ... 8 block + 7 touch now, of those whose bits are set in
-  /// `asked`: the histories of those that did and do no longer are forgotten. Different blocks may
-  /// be set at the same time.
+  /// `asked`: the histories of those that did and do no longer are forgotten. Different candidates
+  /// may be set at the same time.
   void set_touching(std::size_t block, unsigned asked, unsigned bits)
   {
-    const unsigned before = touching[block];
-    if (const unsigned separated = before & asked & ~bits) clear(block, separated);
-    touching[block] = static_cast<std::uint8_t>((before & ~asked) | bits);
+    std::atomic<std::uint8_t> &its = touching[block];
+    const unsigned changed = (its.load(std::memory_order_relaxed) & asked) ^ bits;
+    if (!changed) return;
+    if (const unsigned separated = changed & ~bits) clear(block, separated);
+    its.fetch_xor(static_cast<std::uint8_t>(changed), std::memory_order_relaxed);
   }
 
   /// Bits of the candidates of a block that touched when last looked at; 0 beyond the end.
   unsigned touched(std::size_t block) const
   {
-    return block < touching.size() ? touching[block] : 0;
+    return block < touching.size() ? touching[block].load(std::memory_order_relaxed) : 0;
   }
 
   /// Of a particle; zero if it has none.
@@ -72,7 +75,8 @@ class SparseHistory {
   std::vector<int> place;                // by particle: index of its record
   BigVector<Record> records;             // of the candidates, then of particles that came since
   BigVector<Record> onsets;              // the same, or empty
-  std::vector<std::uint8_t> touching;    // one bit for each candidate: its record may not be zero
+  // one bit for each candidate: its record may not be zero
+  std::vector<std::atomic<std::uint8_t>> touching;
 };
 
 }    // namespace Talus

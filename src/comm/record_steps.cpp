@@ -31,6 +31,11 @@ void RecordSteps::start(bool pairs_computed)
   at_end_of_step.clear();
   forget_plan();
   reason = find_hazard(pairs_computed);
+  if (!reason.empty()) return;
+  std::vector<RecordForces *> bodies;
+  for (auto &fix : modify->get_fix_list())
+    if (auto *body = dynamic_cast<FixLargeBody *>(fix)) bodies.push_back(body);
+  style->add_in_records(bodies);
 }
 
 std::string RecordSteps::find_hazard(bool pairs_computed)

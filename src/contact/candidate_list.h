@@ -47,8 +47,8 @@ class CandidateList {
   bool screened() const { return shared() && !particles->runs_alone_first(part); }
 
   /// Where forces on a slot are added: there, or if this part does not want them behind the last
-  /// particle, where every part has a slot of its own.
-  std::size_t nowhere() const { return static_cast<std::size_t>(particles->size()) + part; }
+  /// particle.
+  std::size_t nowhere() const { return particles->nowhere(part); }
   struct ToAll {
     std::size_t operator()(int slot) const { return slot; }
   };

@@ -50,13 +50,15 @@ struct ContactScene {
 /// `report`, if given, is called for every contact; `account`, if given, the energies of those that
 /// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
 /// then, by the first part and so by the first thread: for messages that need someone to look after
-/// them.
+/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 as soon as all
+/// contacts of these are computed: called by each thread, with its number and range.
 struct ContactStep {
   double dt;
   bool advance;
   const std::function<void(const ReportedContact &)> *report = nullptr;
   EnergyAccount *account = nullptr;
   const std::function<void()> *meanwhile = nullptr;
+  const std::function<void(int thread, int begin, int end)> *add_more = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
 };
 

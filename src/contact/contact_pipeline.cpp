@@ -5,6 +5,7 @@
 #include "contact/in_parallel.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace Talus {
 
@@ -19,39 +20,45 @@ void ContactPipeline::set_laws(const LawTable &table)
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)
 {
-  threads = std::clamp(num_threads, 1, ParticleOrder::max_threads);
-  two_phases = in_phases;
+  next_threads = std::clamp(num_threads, 1, ParticleOrder::max_threads);
+  next_in_phases = in_phases;
 }
 
 /* work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time. */
 
 template <class Work> void ContactPipeline::in_ranges(std::int64_t n, Work work) const
 {
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++)
-    work(static_cast<int>(n * t / threads), static_cast<int>(n * (t + 1) / threads));
+  in_parallel(threads, threads, [&](int t) { work(piece(n, t), piece(n, t + 1)); });
+}
+
+/* Where the piece of a thread begins if n are divided evenly. */
+
+int ContactPipeline::piece(std::int64_t n, int thread) const
+{
+  return static_cast<int>(n * thread / threads);
 }
 
 void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &neighbours)
 {
   in_records = prepared = move_pending = false;
   order.arrange(given.owned, given.key, given.tag);
-  order.divide(neighbours, threads, two_phases);
+  threads = next_threads;
+  order.divide(neighbours, threads, next_in_phases);
   scene.slot_type.clear();
   if (!scene.laws.uniform()) {
     scene.slot_type.resize(order.size());
     for (int s = 0; s < order.size(); s++) scene.slot_type[s] = given.type[order.atom_of_slot[s]];
   }
   parts.resize(order.num_parts());
-  parts_per_phase = threads;
   late_slots.clear();
-  for (int s = 0; two_phases && s < order.size(); s++)
+  for (int s = 0; order.in_two_phases() && s < order.size(); s++)
     if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
       late_slots.push_back(s);
 
+  at_frontier.clear();
   mark(order.frontier(), at_frontier);
 
-  travels.assign(order.num_parts() + 1, RecordTravel{});
+  travels.assign(order.num_parts(), RecordTravel{});
   in_parallel(order.num_parts(), threads,
               [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
   pairs_known = true;
@@ -82,7 +89,7 @@ std::vector<int> ContactPipeline::slots_then(const FiledHistories &filed) const
 
 void ContactPipeline::make_room()
 {
-  particles.resize(order.size(), order.num_parts(), scene.with_friction, scene.with_resistance);
+  particles.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
 }
 
 void ContactPipeline::release_records()
@@ -119,11 +126,11 @@ void ContactPipeline::file_history(PartnerLists &partners) const
   partners.begin();
   if (!scene.with_history) return;
   const int num_parts = static_cast<int>(parts.size());
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int p = 0; p < num_parts; p++) parts[p].history.announce(parts[p].pairs, partners);
+  in_parallel(num_parts, threads,
+              [&](int p) { parts[p].history.announce(parts[p].pairs, partners); });
   partners.layout();
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int p = 0; p < num_parts; p++) parts[p].history.file(parts[p].pairs, partners);
+  in_parallel(num_parts, threads,
+              [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
 }
 
 void ContactPipeline::adopt_first_copies(
@@ -140,24 +147,22 @@ void ContactPipeline::adopt_first_copies(
 void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  bring_frontier(host, step);
-  if (step.read_ghosts && (order.num_parts() > 1 || !step.read)) read_ghosts(host);
-  for (int p = 0; p < static_cast<int>(parts.size()); p += parts_per_phase)
-    run_parts(host, step, p);
+  // one part alone brings the ghosts among its slots
+  const bool with_ghosts = step.read_ghosts && (order.num_parts() > 1 || !step.read);
+  run_phase(host, step, 0, with_ghosts);
+  if (in_two_phases()) run_phase(host, step, threads, false);
   end_step(host, step);
 }
 
 void ContactPipeline::compute_early(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  bring_frontier(host, step);
-  run_parts(host, step, 0);
+  run_phase(host, step, 0, false);
 }
 
 void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &step)
 {
-  if (step.read_ghosts) read_ghosts(host);
-  run_parts(host, step, parts_per_phase);
+  run_phase(host, step, threads, step.read_ghosts);
   end_step(host, step);
 }
 
@@ -169,26 +174,33 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
     in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
 }
 
-/* What several parts read has to be there before any of them begins. */
+/* Those of a list in ascending order that are in the range of a thread. */
 
-void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep &step)
+SlotChoice ContactPipeline::of_thread(const std::vector<int> &slots, int thread) const
 {
-  if (step.read) {
-    const std::vector<int> &list = order.frontier();
-    in_ranges(list.size(), [&](int begin, int end) {
-      particles.read(order, host, {begin, end, list.data()});
-    });
-  } else if (!move_pending) {    // nobody has moved them: only the sums are those of the last step
-    in_ranges(order.size(), [&](int begin, int end) { particles.clear(begin, end); });
-  }
+  const ParticleOrder::Range its = order.range_of_thread(thread);
+  const auto place = [&](int slot) {
+    return static_cast<int>(std::lower_bound(slots.begin(), slots.end(), slot) - slots.begin());
+  };
+  return {place(its.begin), place(its.end), slots.data()};
 }
 
-void ContactPipeline::read_ghosts(const ParticleView &host)
+/* What several parts read has to be there before any of them begins: a thread brings its own. */
+
+void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep &step, int thread)
 {
-  const int *slots = order.slot_of_atom.data() + order.owned;
-  in_ranges(order.size() - order.owned, [&](int begin, int end) {
-    particles.read(order, host, {begin, end, slots});
-  });
+  if (step.read)
+    particles.read(order, host, of_thread(order.frontier(), thread));
+  else if (move_pending)
+    travels[thread].join(particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
+  else    // nobody has moved them: only the sums are those of the last step
+    particles.clear(piece(order.size(), thread), piece(order.size(), thread + 1));
+}
+
+void ContactPipeline::read_ghosts(const ParticleView &host, int thread)
+{
+  const int n = order.size() - order.owned;
+  particles.read(order, host, {piece(n, thread), piece(n, thread + 1), order.slot_of_atom.data() + order.owned});
 }
 
 void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, int part, int begin,
@@ -202,8 +214,8 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
     slots.marked = flags(at_frontier);
     particles.read(order, host, slots);
   } else if (move_pending) {
-    slots.marked = flags(is_moved_at_once);
-    travels[part].join(particles.advance(move, role, held.empty() ? nullptr : held.data(), slots));
+    slots.marked = flags(is_moved_before);
+    travels[part].join(particles.advance(move, role, held_or_null(), slots));
   }
 }
 
@@ -213,31 +225,38 @@ void ContactPipeline::start_step(const ContactStep &step)
   if (step.account) step.account->begin_step(order.size());
 }
 
-/* Computes the parts of one phase. Reports and accounts are kept in the order of the parts, so
-   these then run one after the other. */
+/* Computes the parts of one phase, one by each thread. Reports and accounts are kept in the order of
+   the parts, so these then run one after the other. */
 
-void ContactPipeline::run_parts(const ParticleView &host, const ContactStep &step, int first_part)
+void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &step, int first_part,
+                                bool with_ghosts)
 {
-  if (first_part)
-    for (const int slot : late_slots) particles.clear_sums(slot);
-  const int count = std::min(parts_per_phase, static_cast<int>(parts.size()) - first_part);
-  const bool alone = threads == 1 || step.report || step.account;
-#pragma omp parallel for schedule(static) num_threads(threads) if (!alone)
-  for (int p = 0; p < count; p++) {
+  const bool last = first_part + threads == order.num_parts();
+  const auto prepare = [&](int t) {
+    if (first_part)
+      of_thread(late_slots, t).for_each([&](std::size_t slot) { particles.clear_sums(static_cast<int>(slot)); });
+    else
+      bring_frontier(host, step, t);
+    if (with_ghosts) read_ghosts(host, t);
+  };
+  const auto work = [&](int t) {
     ContactStep of_part = step;
-    if (p) of_part.meanwhile = nullptr;
-    parts[first_part + p].compute(scene, particles, of_part, [&, p](int begin, int end) {
-      bring(host, step, first_part + p, begin, end);
-    });
-  }
-  parts_moved = first_part + count;
+    if (t) of_part.meanwhile = nullptr;
+    const int p = first_part + t;
+    parts[p].compute(scene, particles, of_part,
+                     [&](int begin, int end) { bring(host, step, p, begin, end); });
+    const ParticleOrder::Range its = order.range_of_thread(t);
+    if (last && step.add_more) (*step.add_more)(t, its.begin, its.end);
+  };
+  in_parallel(threads, step.report || step.account ? 1 : threads, prepare, work);
+  parts_moved = first_part + threads;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ContactPipeline::mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const
 {
-  marks.assign(slots.empty() ? 0 : order.size(), 0);
+  if (!slots.empty()) marks.resize(order.size(), 0);
   for (const int s : slots) marks[s] = 1;
 }
 
@@ -256,11 +275,16 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   }
   if (all) role.clear();
 
-  moved_at_once = order.frontier();
+  moved_at_once.clear();
   for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
   std::sort(moved_at_once.begin(), moved_at_once.end());
   moved_at_once.erase(std::unique(moved_at_once.begin(), moved_at_once.end()), moved_at_once.end());
-  mark(moved_at_once, is_moved_at_once);
+  moved_first.clear();
+  std::set_difference(order.frontier().begin(), order.frontier().end(), moved_at_once.begin(),
+                      moved_at_once.end(), std::back_inserter(moved_first));
+  is_moved_before.clear();
+  mark(moved_at_once, is_moved_before);
+  mark(moved_first, is_moved_before);
 
   renew(held, x_then ? order.size() : 0);
   for (int s = 0; x_then && s < order.size(); s++) {
@@ -278,16 +302,10 @@ void ContactPipeline::advance(const RecordStep &step)
   move_pending = true;
   parts_moved = 0;
   travels.assign(travels.size(), RecordTravel{});
-  const Record *then = held.empty() ? nullptr : held.data();
-  std::vector<RecordTravel> pieces(threads);
-  const std::int64_t n = moved_at_once.size();
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int t = 0; t < threads; t++) {
-    const SlotChoice piece{static_cast<int>(n * t / threads),
-                           static_cast<int>(n * (t + 1) / threads), moved_at_once.data()};
-    pieces[t] = particles.advance(move, role, then, piece);
-  }
-  for (const RecordTravel &piece : pieces) travels.back().join(piece);
+  if (moved_at_once.empty()) return;
+  in_parallel(threads, threads, [&](int t) {
+    travels[t] = particles.advance(move, role, held_or_null(), of_thread(moved_at_once, t));
+  });
 }
 
 RecordTravel ContactPipeline::travel() const
@@ -299,13 +317,16 @@ RecordTravel ContactPipeline::travel() const
 
 void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
 {
+  if (move_pending && parts_moved == 0)
+    for (int t = 0; t < threads; t++)
+      particles.advance(move, role, nullptr, of_thread(moved_first, t));
   // an error may have come between the two phases, when the first parts have already moved theirs
   for (int p = parts_moved; move_pending && p < order.num_parts(); p++) {
     const ParticleOrder::Range its = order.range(p);
     in_ranges(its.end - its.begin, [&](int begin, int end) {
       particles.advance(move, role, nullptr,
                         {its.begin + begin, its.begin + end, nullptr, order.part_of_slots(), p,
-                         is_moved_at_once.empty() ? nullptr : is_moved_at_once.data()});
+                         is_moved_before.empty() ? nullptr : is_moved_before.data()});
     });
   }
   move_pending = in_records = false;

@@ -97,8 +97,8 @@ class ContactPipeline {
   void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }
-  /// Moves the owned particles, if holds_state(): those at once that are sent or that several parts
-  /// read, the others on the way through the next compute().
+  /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the way
+  /// through the next compute().
   void advance(const RecordStep &step);
   /// How far they went, after compute().
   RecordTravel travel() const;
@@ -139,7 +139,7 @@ class ContactPipeline {
   bool has_pairs() const { return pairs_known; }
   /// That it has pairs of.
   int num_particles() const { return pairs_known ? order.size() : 0; }
-  bool in_two_phases() const { return parts_per_phase < static_cast<int>(parts.size()); }
+  bool in_two_phases() const { return pairs_known && order.in_two_phases(); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
   bool keeps_spins() const { return scene.with_friction; }
@@ -155,19 +155,24 @@ class ContactPipeline {
   void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &host, const ContactStep &step);
-  void bring_frontier(const ParticleView &host, const ContactStep &step);
-  void read_ghosts(const ParticleView &host);
-  void run_parts(const ParticleView &host, const ContactStep &step, int first_part);
+  void run_phase(const ParticleView &host, const ContactStep &step, int first_part,
+                 bool with_ghosts);
+  void bring_frontier(const ParticleView &host, const ContactStep &step, int thread);
+  void read_ghosts(const ParticleView &host, int thread);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   std::vector<int> slots_then(const FiledHistories &filed) const;
   template <class Work> void in_ranges(std::int64_t n, Work work) const;
+  int piece(std::int64_t n, int thread) const;
+  SlotChoice of_thread(const std::vector<int> &slots, int thread) const;
+  const Record *held_or_null() const { return held.empty() ? nullptr : held.data(); }
   template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
 
   ContactScene scene;
   bool pairs_known = false;
-  int threads = 1;
-  bool two_phases = false;
+  int threads = 1;    ///< parts of each phase
+  int next_threads = 1;
+  bool next_in_phases = false;
 
   ParticleOrder order;
   ParticleRecords particles;
@@ -178,13 +183,13 @@ class ContactPipeline {
   RecordStep move{};
   int parts_moved = 0;                            // by a pending move
   std::vector<ParticleRecords::Role> role;        ///< by slot; empty if all move
-  std::vector<int> moved_at_once;                 ///< slots
-  std::vector<unsigned char> is_moved_at_once;    ///< by slot; empty if none is
-  BigVector<Record> held;                         ///< by slot, or empty
-  std::vector<RecordTravel> travels;              ///< by part, and one more
+  std::vector<int> moved_at_once;                ///< slots that are sent
+  std::vector<int> moved_first;                  ///< others that several parts read
+  std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
+  BigVector<Record> held;                        ///< by slot, or empty
+  std::vector<RecordTravel> travels;             ///< by part
 
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
-  int parts_per_phase = 1;
   std::vector<int> late_slots;    ///< particles of the second phase
 };
 

@@ -11,14 +11,30 @@ namespace Talus {
 /// out of memory for one, is thrown here when all are done: in a thread nobody would catch it.
 template <class Work> void in_parallel(int count, int threads, Work work)
 {
+  in_parallel(count, threads, [](int) {}, work);
+}
+
+/// The same, of which all of `first` is done before any of `work` begins; the same thread does both
+/// for one n. One start and one end of the threads less than two calls.
+template <class First, class Work>
+void in_parallel(int count, int threads, First first, Work work)
+{
   std::exception_ptr failure;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (int n = 0; n < count; n++) try {
-      work(n);
+  const auto guarded = [&failure](auto &task, int n) {
+    try {
+      task(n);
     } catch (...) {
 #pragma omp critical
       failure = std::current_exception();
     }
+  };
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
+#pragma omp for schedule(static)
+    for (int n = 0; n < count; n++) guarded(first, n);
+#pragma omp for schedule(static) nowait
+    for (int n = 0; n < count; n++) guarded(work, n);
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -139,6 +139,15 @@ void ParticleOrder::find_ranges()
   for (Range &its : range_of_part) its.begin = std::min(its.begin, its.end);
 }
 
+ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
+{
+  if (!two_phases) return range(thread);
+  const Range early = range(thread), late = range(thread + parts / 2);
+  if (early.begin == early.end) return late;
+  if (late.begin == late.end) return early;
+  return {std::min(early.begin, late.begin), std::max(early.end, late.end)};
+}
+
 void ParticleOrder::find_frontier(const NeighbourView &neighbours, int threads)
 {
   Flags read_by_others(size());

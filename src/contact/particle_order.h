@@ -42,8 +42,16 @@ class ParticleOrder {
     int begin, end;
   };
   Range range(int part) const { return parts == 1 ? Range{0, size()} : range_of_part[part]; }
+  /// Those of all parts of a thread are within this one, and of no other thread.
+  Range range_of_thread(int thread) const;
+  bool in_two_phases() const { return two_phases; }
   /// Owned slots that parts other than their own read; empty if there is one part only.
   const std::vector<int> &frontier() const { return frontier_slots; }
+
+  /// Every part has a place behind the slots for what nobody wants, in a cache line of its own if an
+  /// entry takes half a line: of entries that begin at a line and are `num_places()` in all.
+  std::size_t nowhere(int part) const { return (std::size_t(size()) + 1) / 2 * 2 + 2UL * part; }
+  std::size_t num_places() const { return nowhere(parts); }
 
   /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
   double share(int slot_a, int slot_b) const

@@ -21,14 +21,13 @@ inline void add_to_row(double *row, Vec4 value)
 
 }    // namespace
 
-void ParticleRecords::resize(int n, int spare, bool spins, bool couples)
+void ParticleRecords::resize(std::size_t n, std::size_t places, bool spins, bool couples)
 {
   stride = spins ? 2 : 1;
-  const std::size_t slots = static_cast<std::size_t>(n) + spare;
   position.resize(n);
   motion.resize(stride * n);
-  load.resize(stride * slots);
-  couple.resize(couples ? slots : 0);
+  load.resize(stride * places);
+  couple.resize(couples ? places : 0);
 }
 
 void ParticleRecords::release()

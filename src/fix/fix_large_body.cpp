@@ -316,7 +316,7 @@ std::string FixLargeBody::hazard_of_records() const
   return "";
 }
 
-void FixLargeBody::compute_contacts(const BodyParticleView &to, bool advance)
+BodyStep FixLargeBody::step_of(bool advance)
 {
   BodyStep step;
   step.dt = update->dt;
@@ -325,21 +325,42 @@ void FixLargeBody::compute_contacts(const BodyParticleView &to, bool advance)
   step.account = keeps_account ? &account : nullptr;
   step.exact = motion.moves() ? &exact : nullptr;
   step.touched = surface->records() ? surface->touched() : nullptr;
-  mine = contacts.compute(*shape, motion.frame(), to, step);
+  return step;
 }
 
-void FixLargeBody::post_force(int vflag)
+void FixLargeBody::compute_contacts(const BodyParticleView &to, bool advance)
 {
-  finish_reduction();
-  v_init(vflag);
+  mine = contacts.compute(*shape, motion.frame(), to, step_of(advance));
+}
+
+void FixLargeBody::add_contacts(bool advance)
+{
   BodyParticleView particles = view();
   if (evflag) {
     virials.assign(6L * atom->nlocal, 0.0);
     particles.virial = virials.data();
   }
   if (contacts.is_stale(motion.frame(), neighbor->skin)) list_particles();
-  const bool advance = update->setupflag == 0;
   compute_contacts(particles, advance);
+}
+
+bool FixLargeBody::join_step()
+{
+  joined = (comm->nthreads == 1 || shape->thread_safe()) &&
+           contacts.begin_at_rest(*shape, motion.frame(), view(), step_of(true));
+  return joined;
+}
+
+void FixLargeBody::post_force(int vflag)
+{
+  finish_reduction();
+  v_init(vflag);
+  const bool advance = update->setupflag == 0;
+  if (joined)
+    mine = contacts.load_at_rest();
+  else
+    add_contacts(advance);
+  joined = false;
   if (evflag) tally_virial();
   if (already_frozen) clear_frozen();
   surface->add_step(advance ? update->dt : 0.0);

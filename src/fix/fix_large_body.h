@@ -19,13 +19,14 @@
 #include "fix/large_body_words.h"
 #include "pair/contact_command.h"
 #include "pair/effective_masses.h"
+#include "pair/record_forces.h"
 
 #include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLargeBody : public Fix {
+class FixLargeBody : public Fix, public Talus::RecordForces {
  public:
   FixLargeBody(class LAMMPS *, int, char **);
   ~FixLargeBody() override;
@@ -62,6 +63,13 @@ class FixLargeBody : public Fix {
   /// For run style verlet/proxy: "", or why contacts with this body need the host's arrays.
   std::string hazard_of_records() const;
 
+  // RecordForces
+  bool join_step() override;
+  void add_to_slots(int thread, int begin, int end) override
+  {
+    contacts.add_to_slots(thread, begin, end);
+  }
+
   /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
   /// mass, are those of a particle of this type, mass and radius against the body. Returns
   /// sqrt(m/k), 0 without stiffness.
@@ -96,7 +104,9 @@ class FixLargeBody : public Fix {
   void find_region();
   void find_frozen();
   void clear_frozen();
+  Talus::BodyStep step_of(bool advance);
   void compute_contacts(const Talus::BodyParticleView &to, bool advance);
+  void add_contacts(bool advance);
   void tally_virial();
   void collect_digits();
   void begin_reduction();
@@ -118,6 +128,7 @@ class FixLargeBody : public Fix {
   int already_frozen = 0;    // groups whose forces a fix freeze has set to zero before this fix
 
   bool keeps_account = false, has_forces = false;
+  bool joined = false;    // forces of this step have been added by the pair style
   Talus::EnergyAccount account;
   std::vector<double> virials;    // by particle
 

@@ -295,6 +295,11 @@ void PairGranPenalty::compute(int eflag, int vflag)
   step.read = !pipeline.holds_state();
   step.read_ghosts = !proxies_are_there;
   step.deliver = !keeps_state;
+  const std::size_t joined = others_that_join();
+  const std::function<void(int, int, int)> add_others = [&](int thread, int begin, int end) {
+    for (std::size_t n = 0; n < joined; n++) others[n]->add_to_slots(thread, begin, end);
+  };
+  if (joined) step.add_more = &add_others;
   proxies_are_there = false;
   if (pipeline.in_two_phases()) {
     auto *exchange = dynamic_cast<PendingExchange *>(comm);

@@ -20,9 +20,11 @@
 #include "pair/largest_radii.h"
 #include "pair/law_book.h"
 #include "pair/neighbour_source.h"
+#include "pair/record_forces.h"
 #include "pair/time_step_watch.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -64,6 +66,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   /// The run style says before compute() whether the particles may stay there after it; the
   /// integrator then moves them there, and large bodies add their forces there.
   void keep_state(bool yes) { keeps_state = yes; }
+  /// Who adds forces in such steps, in the order in which they act.
+  void add_in_records(std::vector<Talus::RecordForces *> forces) { others = std::move(forces); }
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline.keeps_spins(); }
   bool holds_state() const { return pipeline.holds_state(); }
@@ -113,6 +117,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   Talus::TangentialHistory<double> history_of(int i, int j,
                                               Talus::ContactOnset<double> &onset) const;
   void finish_exchange();
+  std::size_t others_that_join();
   Talus::ParticleView view() const;
   void tally(const Talus::ReportedContact &contact);
   void count_contacts();
@@ -125,6 +130,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   bool keeps_state = false, proxies_are_there = false;
   std::vector<int> sent;
+  std::vector<Talus::RecordForces *> others;
 
   bool keeps_account = false;
   Talus::EnergyAccount account;

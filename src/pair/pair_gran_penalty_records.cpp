@@ -21,6 +21,14 @@ void PairGranPenalty::advance(const RecordStep &step, int groupbit)
   pipeline.advance(step);
 }
 
+std::size_t PairGranPenalty::others_that_join()
+{
+  if (!keeps_state || !pipeline.holds_state()) return 0;
+  std::size_t joined = 0;
+  while (joined < others.size() && others[joined]->join_step()) joined++;
+  return joined;
+}
+
 void PairGranPenalty::return_state(bool with_forces)
 {
   if (!pipeline.holds_state()) return;

@@ -48,11 +48,12 @@ dump_modify all format float %a sort id
 """
 MOVERS = "fix step all nve/sphere/symplectic start {start} gravity 4.0 vector 0.3 0.1 -1"
 FROZEN = "fix step loose nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1\nfix held base freeze"
+# bodies at rest before and behind one that moves, and corners where particles touch several
 WALLS = """fix xlo all large/body plane 0 0 0  1 0 0  contact {law}
 fix ylo all large/body plane 0 0 0  0 1 0  contact {law}
+fix top all large/body box 4.5 3.5 4.5 5 3 1.5 outside move rotate 4.5 3.5 4.5  0 0 1  3.0  contact {law}
 fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
 fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
-fix top all large/body box 4.5 3.5 4.5 5 3 1.5 outside move rotate 4.5 3.5 4.5  0 0 1  3.0  contact {law}
 """
 PROXY = "comm_proxy yes\nrun_style verlet/proxy"
 

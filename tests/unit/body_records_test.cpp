@@ -6,6 +6,7 @@
 #include "body/ball.h"
 #include "body/body_contacts.h"
 #include "body/plane.h"
+#include "contact/in_parallel.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +113,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
     random.shuffle(p.tag);
     p.refresh_keys(random.uniform(0.3, 1.0));
     order.arrange(p.size(), p.key, p.tag);
-    records.resize(p.size(), 0, laws.has_friction(), laws.has_resistance());
+    records.resize(p.size(), p.size(), laws.has_friction(), laws.has_resistance());
     for (Body &body : bodies)
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records})
         contacts->find_candidates(*body.shape, body.frame, view(false), mask.data(), 1, skin);
@@ -159,6 +160,18 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
     }
   }
 
+  /// As threads do it that deal with three ranges of the slots, at the same time.
+  BodyLoad add_in_ranges(Body &body, BodyStep step)
+  {
+    step.threads = 3;
+    const BodyParticleView of_records = view(true);
+    EXPECT_TRUE(body.in_records.begin_at_rest(*body.shape, body.frame, of_records, step));
+    const int a = random.below(p.size()), b = random.below(p.size());
+    const int ends[] = {0, std::min(a, b), std::max(a, b), p.size()};
+    in_parallel(3, 3, [&](int t) { body.in_records.add_to_slots(t, ends[t], ends[t + 1]); });
+    return body.in_records.load_at_rest();
+  }
+
   static void expect_near(const V &a, const V &b, double scale)
   {
     const V d = a - b;
@@ -192,7 +205,9 @@ TEST_P(BodyRecordsTest, SameBitsAsInArrays)
       const bool stays = n % 5 != 4;
       const std::vector<Vector> its_force = force, its_torque = torque;
       const BodyLoad found =
-          body.in_records.compute(*body.shape, body.frame, view(stays), threaded);
+          stays && n % 3 == 2
+              ? add_in_ranges(body, step)
+              : body.in_records.compute(*body.shape, body.frame, view(stays), threaded);
       force = its_force;
       torque = its_torque;
       ASSERT_EQ(found.contacts, expected.contacts);
@@ -205,6 +220,25 @@ TEST_P(BodyRecordsTest, SameBitsAsInArrays)
     p.move(5.0 * dt, 0.1, random);
   }
   EXPECT_GT(contacts, 12.0 * num_bodies * ContactBatch::width / 2);
+}
+
+TEST_P(BodyRecordsTest, WhatIsNotAtRestIsNotBegun)
+{
+  find();
+  load_particles();
+  BodyStep step;
+  step.dt = dt;
+  Body &body = bodies[0];
+  const BodyParticleView in_records = view(true), in_arrays = view(false);
+  BodyContacts &contacts = body.in_records;
+  EXPECT_TRUE(contacts.begin_at_rest(*body.shape, body.frame, in_records, step));
+  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_arrays, step));
+  ExactLoad exact;
+  BodyStep with_exact_load = step;
+  with_exact_load.exact = &exact;
+  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_records, with_exact_load));
+  body.frame.moves = true;
+  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_records, step));
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, BodyRecordsTest,

@@ -263,6 +263,38 @@ TEST_P(RecordSteps, TakeTorquesOfOthers)
   EXPECT_TRUE(same_state(host, twin));
 }
 
+TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
+{
+  ContactStep keep{euler.dt, true};
+  keep.deliver = false;
+  compute(slow, twin, {euler.dt, true});
+  compute(fast, host, keep);
+  advance();
+  twin.step([this](int i) { return moves(i); });
+  twin.clear_forces();
+  compute(slow, twin, {euler.dt, true});
+
+  const ParticleOrder &order = fast.particle_order();
+  std::vector<Record> sums(twin.n);
+  const std::function<void(int, int, int)> more = [&](int, int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      Record &force = fast.records().load[2 * static_cast<std::size_t>(s)];
+      sums[order.atom_of_slot[s]] = force;
+      force.c[2] += 0.5;
+    }
+  };
+  keep.read = false;
+  keep.add_more = &more;
+  compute(fast, host, keep);
+  for (int i = 0; i < twin.n; i++) {
+    for (int d = 0; d < 3; d++) ASSERT_EQ(sums[i].c[d], twin.f[3 * i + d]) << i;
+    twin.f[3 * i + 2] += 0.5;
+  }
+  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), host.f.data(),
+                    host.torque.data());
+  EXPECT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque));
+}
+
 INSTANTIATE_TEST_SUITE_P(Divisions, RecordSteps,
                          testing::Values(Division{1, false, false, false},
                                          Division{1, false, true, true},
