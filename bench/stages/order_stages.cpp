@@ -141,6 +141,7 @@ struct AsListed {
     });
   }
 
+  void start() {}    // of steps: nothing to prepare
   void step()
   {
     part.compute(scene, records, in_records(), [this](int begin, int end) {
@@ -204,46 +205,50 @@ template <class Variant> struct TwoRanks {
   }
 };
 
-void ranks_step(benchmark::State &state, bool two_phases)
+template <class Variant, class... Options>
+void step_on_ranks(benchmark::State &state, Options... options)
 {
   Bed &bed = bed_of(state);
-  TwoRanks<Canonical> scene(bed, two_phases);
+  TwoRanks<Variant> scene(bed, options...);
   for (auto &rank : scene.ranks) rank->start();
   for (auto _ : state)
     for (auto &rank : scene.ranks) rank->step();
   count_spheres(state, bed.owned);
+}
+
+template <class Variant, class... Options>
+void rebuild_on_ranks(benchmark::State &state, Options... options)
+{
+  Bed &bed = bed_of(state);
+  TwoRanks<Variant> scene(bed, options...);
+  for (auto _ : state)
+    for (auto &rank : scene.ranks) rank->rebuild();
+  count_spheres(state, bed.owned);
+}
+
+void ranks_step(benchmark::State &state, bool two_phases)
+{
+  step_on_ranks<Canonical>(state, two_phases);
 }
 BENCHMARK_CAPTURE(ranks_step, one_phase, false)->Apply(sizes);
 BENCHMARK_CAPTURE(ranks_step, two_phases, true)->Apply(sizes);
 
 void ranks_rebuild(benchmark::State &state, bool two_phases)
 {
-  Bed &bed = bed_of(state);
-  TwoRanks<Canonical> scene(bed, two_phases);
-  for (auto _ : state)
-    for (auto &rank : scene.ranks) rank->rebuild();
-  count_spheres(state, bed.owned);
+  rebuild_on_ranks<Canonical>(state, two_phases);
 }
 BENCHMARK_CAPTURE(ranks_rebuild, one_phase, false)->Apply(sizes);
 BENCHMARK_CAPTURE(ranks_rebuild, two_phases, true)->Apply(sizes);
 
 void listed_ranks_step(benchmark::State &state)
 {
-  Bed &bed = bed_of(state);
-  TwoRanks<AsListed> scene(bed);
-  for (auto _ : state)
-    for (auto &rank : scene.ranks) rank->step();
-  count_spheres(state, bed.owned);
+  step_on_ranks<AsListed>(state);
 }
 BENCHMARK(listed_ranks_step)->Apply(sizes);
 
 void listed_ranks_rebuild(benchmark::State &state)
 {
-  Bed &bed = bed_of(state);
-  TwoRanks<AsListed> scene(bed);
-  for (auto _ : state)
-    for (auto &rank : scene.ranks) rank->rebuild();
-  count_spheres(state, bed.owned);
+  rebuild_on_ranks<AsListed>(state);
 }
 BENCHMARK(listed_ranks_rebuild)->Apply(sizes);
 
