@@ -145,7 +145,9 @@ struct AsListed {
   void step()
   {
     part.compute(scene, records, in_records(), [this](int begin, int end) {
-      records.advance(at_rest, role, held.data(), {begin, end});
+      SlotChoice slots{begin, end};
+      slots.next_end = order.size();
+      records.advance(at_rest, role, held.data(), slots);
     });
     for (std::size_t k = 0; k < of_other_thread.size(); k++) {
       store(records.load[k].c, load4(records.load[k].c) + load4(of_other_thread[k].c));

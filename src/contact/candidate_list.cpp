@@ -47,9 +47,13 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
 
   constexpr int records_in_cache = 2048;
   distant.clear();
-  for (std::int64_t c = 0; c < count; c++)
+  for (std::int64_t c = 0; c < count; c++) {
+    const bool begins = c == 0 || second[c] != second[c - 1];
+    if (begins && !all && !serves(second[c]))
+      distant.push_back({static_cast<std::uint32_t>(c), second[c]});
     if (second[c] - first[c] > records_in_cache)
       distant.push_back({static_cast<std::uint32_t>(c), first[c]});
+  }
 }
 
 /* The narrow phase counts a few further than there are pairs. */

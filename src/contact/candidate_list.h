@@ -90,11 +90,11 @@ class CandidateList {
 
   BigVector<int> first, second;
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
-  /// Pairs, in ascending order, whose first particle will have left a cache of 1 MB when the second
-  /// one comes.
+  /// Particles that will not be in a cache of 1 MB when a pair comes, in ascending order of the
+  /// pairs: first ones that have left it, and second ones of other parts.
   struct Distant {
     std::uint32_t pair;
-    int first;
+    int slot;
   };
   std::vector<Distant> distant;
 

@@ -82,16 +82,16 @@ void ContactPart::compute_all(const Step &step, Target target)
   if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
 }
 
-/* Calls the first particles of distant pairs before `end` into the cache. */
+/* Calls the distant particles of pairs before `end` into the cache. */
 
 void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &next,
                                std::int64_t end) const
 {
   for (; next < pairs.distant.size() && pairs.distant[next].pair < end; next++) {
-    const std::size_t i = pairs.distant[next].first;
-    __builtin_prefetch(&particles.position[i]);
-    __builtin_prefetch(&particles.motion[particles.stride * i]);
-    __builtin_prefetch(&particles.load[particles.stride * i]);
+    const std::size_t s = pairs.distant[next].slot;
+    __builtin_prefetch(&particles.position[s]);
+    __builtin_prefetch(&particles.motion[particles.stride * s]);
+    if (pairs.serves(static_cast<int>(s))) __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
 

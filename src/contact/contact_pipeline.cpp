@@ -209,7 +209,8 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
   const auto flags = [](const std::vector<unsigned char> &v) {
     return v.empty() ? nullptr : v.data();
   };
-  SlotChoice slots{begin, end, nullptr, order.part_of_slots(), part, nullptr};
+  SlotChoice slots{
+      begin, end, nullptr, order.part_of_slots(), part, nullptr, order.range(part).end};
   if (step.read) {
     slots.marked = flags(at_frontier);
     particles.read(order, host, slots);

@@ -46,16 +46,26 @@ struct SlotChoice {
   const std::uint16_t *part_of_slot = nullptr;
   int part = 0;
   const unsigned char *marked = nullptr;
+  int next_end = 0;    ///< more slots may be asked for after these, up to this one
 
+  int at(int n) const { return list ? list[n] : n; }
   bool holds(int slot) const
   {
     return (!part_of_slot || part_of_slot[slot] == part) && (!marked || !marked[slot]);
   }
   template <class Visit> void for_each(Visit visit) const
   {
+    for (int n = begin; n < end; n++)
+      if (const int slot = at(n); holds(slot)) visit(static_cast<std::size_t>(slot));
+  }
+  /// The same as visit(slot, soon), where `soon` is probably visited `ahead` visits later.
+  template <class Visit> void for_each(int ahead, Visit visit) const
+  {
     for (int n = begin; n < end; n++) {
-      const int slot = list ? list[n] : n;
-      if (holds(slot)) visit(static_cast<std::size_t>(slot));
+      const int later = std::min(n + ahead, std::max(end, next_end) - 1);
+      const int soon = list ? list[later] : later;
+      if (const int slot = at(n); holds(slot))
+        visit(static_cast<std::size_t>(slot), static_cast<std::size_t>(soon));
     }
   }
   /// visit(slots, count) for groups of up to eight.

@@ -97,11 +97,10 @@ RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vec
   const Kick with(step);
   const Role *const roles = role.empty() ? nullptr : role.data();
   Vec4 moved2{}, fastest2{};
-  slots.for_each([&](std::size_t s) {
-    constexpr std::size_t soon = 64;
-    __builtin_prefetch(position.data() + s + soon, 1);
-    __builtin_prefetch(motion.data() + its_stride * (s + soon), 1);
-    __builtin_prefetch(load.data() + its_stride * (s + soon), 1);
+  slots.for_each(64, [&](std::size_t s, std::size_t soon) {
+    __builtin_prefetch(position.data() + soon, 1);
+    __builtin_prefetch(motion.data() + its_stride * soon, 1);
+    __builtin_prefetch(load.data() + its_stride * soon, 1);
     const Role its = roles ? roles[s] : MOVES;
     const Moved now = its == MOVES ? kick<spins>(with, s)
                                    : Moved{load4(position[s]), load4(motion[its_stride * s])};

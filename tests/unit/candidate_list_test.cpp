@@ -146,7 +146,7 @@ TEST(CandidateList, NamesDistantPairs)
     if (list.second[c] - list.first[c] <= 2048) continue;
     ASSERT_LT(found, list.distant.size());
     EXPECT_EQ(list.distant[found].pair, c);
-    EXPECT_EQ(list.distant[found].first, list.first[c]);
+    EXPECT_EQ(list.distant[found].slot, list.first[c]);
     found++;
   }
   EXPECT_GT(found, 100U);
