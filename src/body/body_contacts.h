@@ -65,9 +65,9 @@ class BodyContacts {
                    const BodyParticleView &view, const BodyStep &step);
 
   /// The same for a body at rest and particles in the records, piece by piece: begin_at_rest() says
-  /// whether it can be done so, and then keeps the references of its arguments; add_to_slots(), by up
-  /// to `step.threads` threads, deals with the particles of the slots begin ... end-1, which together
-  /// must be all; load_at_rest() is the reaction of all that have been dealt with.
+  /// whether it can be done so, and then keeps the references of its arguments; add_to_slots(), by
+  /// up to `step.threads` threads, deals with the particles of the slots begin ... end-1, which
+  /// together must be all; load_at_rest() is the reaction of all that have been dealt with.
   bool begin_at_rest(const LargeBodyShape &shape, const BodyFrame &frame,
                      const BodyParticleView &view, const BodyStep &step);
   void add_to_slots(int thread, int begin, int end);

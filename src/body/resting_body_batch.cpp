@@ -100,9 +100,8 @@ void RestingBodyBatch::look_at(std::size_t first, int low, int high)
   const int *const slot = &candidates->slots[first];
   for (int k = 0; k < width; k++) __builtin_prefetch(positions + slot[ahead + k]);
   if (task->with_history) call(first + ahead, history->touched((first + ahead) / width));
-  const EightRecords state = to_lanes([=](int k) -> const Record & {
-    return positions[slot[std::clamp(k, low, high - 1)]];
-  });
+  const EightRecords state = to_lanes(
+      [=](int k) -> const Record & { return positions[slot[std::clamp(k, low, high - 1)]]; });
   for (int d = 0; d < 3; d++) store(spheres.centre[d], state.number[d]);
   store(spheres.radius, state.number[3]);
   const unsigned asked = bits_of_law(first, low, high);

@@ -72,9 +72,9 @@ class SparseHistory {
 
   static constexpr int nowhere = -1;
   bool with_onset = false;
-  std::vector<int> place;                // by particle: index of its record
-  BigVector<Record> records;             // of the candidates, then of particles that came since
-  BigVector<Record> onsets;              // the same, or empty
+  std::vector<int> place;       // by particle: index of its record
+  BigVector<Record> records;    // of the candidates, then of particles that came since
+  BigVector<Record> onsets;     // the same, or empty
   // one bit for each candidate: its record may not be zero
   std::vector<std::atomic<std::uint8_t>> touching;
 };

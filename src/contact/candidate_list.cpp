@@ -15,11 +15,13 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   particles = &order;
   part = which_part;
   const bool all = !shared();
+  const std::vector<ParticleOrder::Range> rows = order.rows_of(neighbours, part);
   const auto for_each_of_part = [&](auto visit) {
-    neighbours.for_each_pair([&](int i, int j, double weight) {
-      const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-      if (all || serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
-    });
+    for (const ParticleOrder::Range &piece : rows)
+      neighbours.for_each_pair(piece.begin, piece.end, [&](int i, int j, double weight) {
+        const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
+        if (all || serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
+      });
   };
 
   bool all_unit = true;

@@ -91,7 +91,8 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (pairs.serves(static_cast<int>(s))) __builtin_prefetch(&particles.load[particles.stride * s]);
+    if (pairs.serves(static_cast<int>(s)))
+      __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
 

@@ -50,8 +50,8 @@ struct ContactScene {
 /// `report`, if given, is called for every contact; `account`, if given, the energies of those that
 /// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
 /// then, by the first part and so by the first thread: for messages that need someone to look after
-/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 as soon as all
-/// contacts of these are computed: called by each thread, with its number and range.
+/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 as soon as
+/// all contacts of these are computed: called by each thread, with its number and range.
 struct ContactStep {
   double dt;
   bool advance;

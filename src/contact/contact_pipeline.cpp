@@ -129,8 +129,7 @@ void ContactPipeline::file_history(PartnerLists &partners) const
   in_parallel(num_parts, threads,
               [&](int p) { parts[p].history.announce(parts[p].pairs, partners); });
   partners.layout();
-  in_parallel(num_parts, threads,
-              [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
+  in_parallel(num_parts, threads, [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
 }
 
 void ContactPipeline::adopt_first_copies(
@@ -192,7 +191,8 @@ void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep
   if (step.read)
     particles.read(order, host, of_thread(order.frontier(), thread));
   else if (move_pending)
-    travels[thread].join(particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
+    travels[thread].join(
+        particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
   else    // nobody has moved them: only the sums are those of the last step
     particles.clear(piece(order.size(), thread), piece(order.size(), thread + 1));
 }
@@ -200,7 +200,8 @@ void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep
 void ContactPipeline::read_ghosts(const ParticleView &host, int thread)
 {
   const int n = order.size() - order.owned;
-  particles.read(order, host, {piece(n, thread), piece(n, thread + 1), order.slot_of_atom.data() + order.owned});
+  particles.read(order, host,
+                 {piece(n, thread), piece(n, thread + 1), order.slot_of_atom.data() + order.owned});
 }
 
 void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, int part, int begin,
@@ -226,8 +227,8 @@ void ContactPipeline::start_step(const ContactStep &step)
   if (step.account) step.account->begin_step(order.size());
 }
 
-/* Computes the parts of one phase, one by each thread. Reports and accounts are kept in the order of
-   the parts, so these then run one after the other. */
+/* Computes the parts of one phase, one by each thread. Reports and accounts are kept in the order
+   of the parts, so these then run one after the other. */
 
 void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &step, int first_part,
                                 bool with_ghosts)
@@ -235,7 +236,9 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
   const bool last = first_part + threads == order.num_parts();
   const auto prepare = [&](int t) {
     if (first_part)
-      of_thread(late_slots, t).for_each([&](std::size_t slot) { particles.clear_sums(static_cast<int>(slot)); });
+      of_thread(late_slots, t).for_each([&](std::size_t slot) {
+        particles.clear_sums(static_cast<int>(slot));
+      });
     else
       bring_frontier(host, step, t);
     if (with_ghosts) read_ghosts(host, t);

@@ -97,8 +97,8 @@ class ContactPipeline {
   void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }
-  /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the way
-  /// through the next compute().
+  /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the
+  /// way through the next compute().
   void advance(const RecordStep &step);
   /// How far they went, after compute().
   RecordTravel travel() const;
@@ -139,7 +139,7 @@ class ContactPipeline {
   bool has_pairs() const { return pairs_known; }
   /// That it has pairs of.
   int num_particles() const { return pairs_known ? order.size() : 0; }
-  bool in_two_phases() const { return pairs_known && order.in_two_phases(); }
+  bool in_two_phases() const { return !parts.empty() && order.in_two_phases(); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
   bool keeps_spins() const { return scene.with_friction; }
@@ -181,8 +181,8 @@ class ContactPipeline {
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   RecordStep move{};
-  int parts_moved = 0;                            // by a pending move
-  std::vector<ParticleRecords::Role> role;        ///< by slot; empty if all move
+  int parts_moved = 0;                           // by a pending move
+  std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
   std::vector<int> moved_at_once;                ///< slots that are sent
   std::vector<int> moved_first;                  ///< others that several parts read
   std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
@@ -190,7 +190,7 @@ class ContactPipeline {
   std::vector<RecordTravel> travels;             ///< by part
 
   std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
-  std::vector<int> late_slots;    ///< particles of the second phase
+  std::vector<int> late_slots;       ///< particles of the second phase
 };
 
 }    // namespace Talus

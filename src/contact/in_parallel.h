@@ -11,13 +11,13 @@ namespace Talus {
 /// out of memory for one, is thrown here when all are done: in a thread nobody would catch it.
 template <class Work> void in_parallel(int count, int threads, Work work)
 {
-  in_parallel(count, threads, [](int) {}, work);
+  in_parallel(
+      count, threads, [](int) {}, work);
 }
 
 /// The same, of which all of `first` is done before any of `work` begins; the same thread does both
 /// for one n. One start and one end of the threads less than two calls.
-template <class First, class Work>
-void in_parallel(int count, int threads, First first, Work work)
+template <class First, class Work> void in_parallel(int count, int threads, First first, Work work)
 {
   std::exception_ptr failure;
   const auto guarded = [&failure](auto &task, int n) {

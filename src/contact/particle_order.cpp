@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -29,15 +30,27 @@ void set(std::atomic<unsigned char> &flag)
   flag.store(1, std::memory_order_relaxed);
 }
 
-/// visit(thread, i, j) for every pair: each thread takes a piece of the rows.
-template <class Visit> void for_each_pair(const NeighbourView &neighbours, int threads, Visit visit)
+constexpr int rows_in_block = 64;
+
+int num_blocks(const NeighbourView &neighbours)
 {
-  const auto first_row = [&](int thread) {
-    return static_cast<int>(std::int64_t{neighbours.rows} * thread / threads);
-  };
+  return (neighbours.rows + rows_in_block - 1) / rows_in_block;
+}
+
+template <class Visit>
+void for_each_pair_of_block(const NeighbourView &neighbours, int block, Visit visit)
+{
+  const int begin = block * rows_in_block;
+  neighbours.for_each_pair(begin, std::min(begin + rows_in_block, neighbours.rows), visit);
+}
+
+/// work(thread, block) for every block of rows: each thread takes some that follow each other.
+template <class Work> void in_blocks(const NeighbourView &neighbours, int threads, Work work)
+{
+  const std::int64_t blocks = num_blocks(neighbours);
   in_parallel(threads, threads, [&](int t) {
-    neighbours.for_each_pair(first_row(t), first_row(t + 1),
-                             [&](int i, int j, double) { visit(t, i, j); });
+    for (std::int64_t b = blocks * t / threads; b < blocks * (t + 1) / threads; b++)
+      work(t, static_cast<int>(b));
   });
 }
 
@@ -86,57 +99,59 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   parts = two_phases ? 2 * threads : threads;
   part_of_slot.clear();
   frontier_slots.clear();
+  threads_of_block.clear();
   if (parts == 1) return;
 
   constexpr int enough = 8;
   std::vector<std::vector<int>> pairs(std::min(threads, enough));
   for (auto &one : pairs) one.resize(size());
   Flags late(two_phases ? size() : 0);
-  for_each_pair(neighbours, static_cast<int>(pairs.size()), [&](int thread, int i, int j) {
-    const int a = slot_of_atom[i], b = slot_of_atom[j];
-    pairs[thread][a]++;
-    pairs[thread][b]++;
-    if (!two_phases) return;
-    if (!is_owned(j)) set(late[a]);
-    if (!is_owned(i)) set(late[b]);
+  const int counting = static_cast<int>(pairs.size());
+  in_blocks(neighbours, counting, [&](int thread, int block) {
+    for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
+      const int a = slot_of_atom[i], b = slot_of_atom[j];
+      pairs[thread][a]++;
+      pairs[thread][b]++;
+      if (!two_phases) return;
+      if (!is_owned(j)) set(late[a]);
+      if (!is_owned(i)) set(late[b]);
+    });
   });
   assign_parts(pairs, late, threads);
-  find_ranges();
-  find_frontier(neighbours, threads);
+  look_at_neighbours(neighbours, threads);
 }
 
 /* Ranges of the order with the same work: one for each particle and for each of its pairs. */
 
-void ParticleOrder::assign_parts(const PairCounts &pairs, const Flags &late, int threads)
+void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threads)
 {
-  const auto work = [&](int s) {
-    std::int64_t its = 1;
-    for (const auto &counted : pairs) its += counted[s];
-    return its;
-  };
-  std::int64_t total = 0, done = 0;
-  for (int s = 0; s < size(); s++)
-    if (is_owned(atom_of_slot[s])) total += work(s);
+  std::vector<int> &work = pairs[0];
+  std::vector<std::int64_t> work_of_thread(threads, 0);
+  in_parallel(threads, threads, [&](int t) {
+    const std::int64_t n = size();
+    std::int64_t sum = 0;
+    for (std::int64_t s = n * t / threads; s < n * (t + 1) / threads; s++) {
+      for (std::size_t other = 1; other < pairs.size(); other++) work[s] += pairs[other][s];
+      work[s] = is_owned(atom_of_slot[s]) ? work[s] + 1 : 0;
+      sum += work[s];
+    }
+    work_of_thread[t] = sum;
+  });
+  const std::int64_t total =
+      std::accumulate(work_of_thread.begin(), work_of_thread.end(), std::int64_t{0});
+
   part_of_slot.assign(size(), no_part);
+  range_of_part.assign(parts, {size(), size()});
+  std::int64_t done = 0;
   int range = 0;
   for (int s = 0; s < size(); s++) {
-    if (!is_owned(atom_of_slot[s])) continue;
+    if (work[s] == 0) continue;
     while (done * threads >= (range + 1) * total) range++;
-    part_of_slot[s] = static_cast<std::uint16_t>(two_phases && late[s] ? threads + range : range);
-    done += work(s);
+    const int its = two_phases && late[s] ? threads + range : range;
+    part_of_slot[s] = static_cast<std::uint16_t>(its);
+    range_of_part[its] = {std::min(range_of_part[its].begin, s), s + 1};
+    done += work[s];
   }
-}
-
-void ParticleOrder::find_ranges()
-{
-  range_of_part.assign(parts, {size(), 0});
-  for (int s = 0; s < size(); s++) {
-    if (part_of_slot[s] == no_part) continue;
-    Range &its = range_of_part[part_of_slot[s]];
-    its.begin = std::min(its.begin, s);
-    its.end = s + 1;
-  }
-  for (Range &its : range_of_part) its.begin = std::min(its.begin, its.end);
 }
 
 ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
@@ -148,26 +163,57 @@ ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
   return {std::min(early.begin, late.begin), std::max(early.end, late.end)};
 }
 
-void ParticleOrder::find_frontier(const NeighbourView &neighbours, int threads)
+/* The frontier, and which rows are of no concern for a thread. */
+
+void ParticleOrder::look_at_neighbours(const NeighbourView &neighbours, int threads)
 {
   Flags read_by_others(size());
-  for_each_pair(neighbours, threads, [&](int, int i, int j) {
-    const int a = slot_of_atom[i], b = slot_of_atom[j];
-    if (part_of_slot[a] == no_part || part_of_slot[b] == no_part) return;
-    if (part_of_slot[a] == part_of_slot[b]) return;
-    set(read_by_others[a]);
-    set(read_by_others[b]);
+  threads_of_block.resize(num_blocks(neighbours));
+  in_blocks(neighbours, threads, [&](int, int block) {
+    Range concerned{threads, 0};
+    for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
+      const int a = slot_of_atom[i], b = slot_of_atom[j];
+      for (const int s : {a, b}) {
+        if (part_of_slot[s] == no_part) continue;
+        concerned.begin = std::min(concerned.begin, part_of_slot[s] % threads);
+        concerned.end = std::max(concerned.end, part_of_slot[s] % threads + 1);
+      }
+      if (part_of_slot[a] == no_part || part_of_slot[b] == no_part) return;
+      if (part_of_slot[a] == part_of_slot[b]) return;
+      set(read_by_others[a]);
+      set(read_by_others[b]);
+    });
+    threads_of_block[block] = concerned;
   });
   for (int s = 0; s < size(); s++)
     if (read_by_others[s]) frontier_slots.push_back(s);
 }
 
+std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &neighbours,
+                                                         int part) const
+{
+  if (parts == 1) return {{0, neighbours.rows}};
+  const int thread = part % (two_phases ? parts / 2 : parts);
+  std::vector<Range> pieces;
+  for (int block = 0; block < static_cast<int>(threads_of_block.size()); block++) {
+    const Range &concerned = threads_of_block[block];
+    if (thread < concerned.begin || thread >= concerned.end) continue;
+    const int begin = block * rows_in_block;
+    const int end = std::min(begin + rows_in_block, neighbours.rows);
+    if (!pieces.empty() && pieces.back().end == begin)
+      pieces.back().end = end;
+    else
+      pieces.push_back({begin, end});
+  }
+  return pieces;
+}
+
 double ParticleOrder::memory_usage() const
 {
-  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
-                             sizeof(std::int64_t) * tag.capacity() +
-                             sizeof(std::uint16_t) * part_of_slot.capacity() +
-                             sizeof(int) * frontier_slots.capacity());
+  return static_cast<double>(
+      sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
+      sizeof(std::int64_t) * tag.capacity() + sizeof(std::uint16_t) * part_of_slot.capacity() +
+      sizeof(int) * frontier_slots.capacity() + sizeof(Range) * threads_of_block.capacity());
 }
 
 }    // namespace Talus

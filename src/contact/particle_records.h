@@ -98,8 +98,8 @@ struct alignas(64) RecordTravel {
 class ParticleRecords {
  public:
   /// Makes room for `n` particles and their sums, and for sums that nobody wants behind them: there
-  /// are `places` for sums, at least n. `spins` is false in scenes without friction: spin records and
-  /// moments are then neither read nor kept. `couples`: laws with resistance occur.
+  /// are `places` for sums, at least n. `spins` is false in scenes without friction: spin records
+  /// and moments are then neither read nor kept. `couples`: laws with resistance occur.
   void resize(std::size_t n, std::size_t places, bool spins, bool couples);
 
   /// Gives all memory back.

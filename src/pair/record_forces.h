@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Forces on particles that live in the records of a pair style, other than those of its contacts:
-// added by the threads that compute the contacts, each to the particles that it has just dealt with,
-// so that no thread waits for another one in between.
+// added by the threads that compute the contacts, each to the particles that it has just dealt
+// with, so that no thread waits for another one in between.
 
 #ifndef TALUS_PAIR_RECORD_FORCES_H
 #define TALUS_PAIR_RECORD_FORCES_H
