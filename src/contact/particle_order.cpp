@@ -34,14 +34,20 @@ constexpr int rows_in_block = 64;
 
 int num_blocks(const NeighbourView &neighbours)
 {
-  return (neighbours.rows + rows_in_block - 1) / rows_in_block;
+  return neighbours.rows / rows_in_block + (neighbours.rows % rows_in_block ? 1 : 0);
+}
+
+ParticleOrder::Range rows_of_block(const NeighbourView &neighbours, int block)
+{
+  const int begin = block * rows_in_block;
+  return {begin, begin + std::min(rows_in_block, neighbours.rows - begin)};
 }
 
 template <class Visit>
 void for_each_pair_of_block(const NeighbourView &neighbours, int block, Visit visit)
 {
-  const int begin = block * rows_in_block;
-  neighbours.for_each_pair(begin, std::min(begin + rows_in_block, neighbours.rows), visit);
+  const ParticleOrder::Range rows = rows_of_block(neighbours, block);
+  neighbours.for_each_pair(rows.begin, rows.end, visit);
 }
 
 /// work(thread, block) for every block of rows: each thread takes some that follow each other.
@@ -198,12 +204,11 @@ std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &ne
   for (int block = 0; block < static_cast<int>(threads_of_block.size()); block++) {
     const Range &concerned = threads_of_block[block];
     if (thread < concerned.begin || thread >= concerned.end) continue;
-    const int begin = block * rows_in_block;
-    const int end = std::min(begin + rows_in_block, neighbours.rows);
-    if (!pieces.empty() && pieces.back().end == begin)
-      pieces.back().end = end;
+    const Range rows = rows_of_block(neighbours, block);
+    if (!pieces.empty() && pieces.back().end == rows.begin)
+      pieces.back().end = rows.end;
     else
-      pieces.push_back({begin, end});
+      pieces.push_back(rows);
   }
   return pieces;
 }

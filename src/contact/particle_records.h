@@ -61,8 +61,9 @@ struct SlotChoice {
   /// The same as visit(slot, soon), where `soon` is probably visited `ahead` visits later.
   template <class Visit> void for_each(int ahead, Visit visit) const
   {
+    const int last = std::max(end, next_end) - 1;
     for (int n = begin; n < end; n++) {
-      const int later = std::min(n + ahead, std::max(end, next_end) - 1);
+      const int later = n + std::min(ahead, last - n);
       const int soon = list ? list[later] : later;
       if (const int slot = at(n); holds(slot))
         visit(static_cast<std::size_t>(slot), static_cast<std::size_t>(soon));

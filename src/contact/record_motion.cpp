@@ -101,6 +101,7 @@ RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vec
     __builtin_prefetch(position.data() + soon, 1);
     __builtin_prefetch(motion.data() + its_stride * soon, 1);
     __builtin_prefetch(load.data() + its_stride * soon, 1);
+    if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
     const Moved now = its == MOVES ? kick<spins>(with, s)
                                    : Moved{load4(position[s]), load4(motion[its_stride * s])};

@@ -17,7 +17,7 @@ class RecordForces {
   virtual bool join_step() = 0;
 
   /// Adds the forces on the particles of slots begin ... end-1. Called once by each thread, at the
-  /// same time, for ranges that together are all slots.
+  /// same time, for ranges that together hold all owned particles.
   virtual void add_to_slots(int thread, int begin, int end) = 0;
 
  protected:
