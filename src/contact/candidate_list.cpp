@@ -46,16 +46,31 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   });
   row_start.pop_back();
   for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
+  look_around();
+}
 
+/* Which particles are far away in memory, and which belong to others. */
+
+void CandidateList::look_around()
+{
   constexpr int records_in_cache = 2048;
   distant.clear();
-  for (std::int64_t c = 0; c < count; c++) {
-    const bool begins = c == 0 || second[c] != second[c - 1];
-    if (begins && !all && !serves(second[c]))
-      distant.push_back({static_cast<std::uint32_t>(c), second[c]});
-    if (second[c] - first[c] > records_in_cache)
-      distant.push_back({static_cast<std::uint32_t>(c), first[c]});
+  foreign.clear();
+  const auto note_foreign = [this](int slot) {
+    if (!serves(slot) && particles->part(slot) != ParticleOrder::no_part) foreign.push_back(slot);
+  };
+  for (std::int64_t c = 0; c < num_pairs(); c++) {
+    const auto call = [&](int slot) { distant.push_back({static_cast<std::uint32_t>(c), slot}); };
+    if (shared()) {
+      note_foreign(first[c]);
+      note_foreign(second[c]);
+      const bool begins = c == 0 || second[c] != second[c - 1];
+      if (begins && !serves(second[c])) call(second[c]);
+    }
+    if (second[c] - first[c] > records_in_cache) call(first[c]);
   }
+  std::sort(foreign.begin(), foreign.end());
+  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
 }
 
 /* The narrow phase counts a few further than there are pairs. */
@@ -102,9 +117,9 @@ std::int64_t CandidateList::find(int slot_a, int slot_b) const
 
 double CandidateList::memory_usage() const
 {
-  return static_cast<double>(sizeof(int) * (first.capacity() + second.capacity()) +
-                             sizeof(double) * weights.capacity() +
-                             sizeof(Distant) * distant.capacity());
+  return static_cast<double>(
+      sizeof(int) * (first.capacity() + second.capacity()) + sizeof(double) * weights.capacity() +
+      sizeof(Distant) * distant.capacity() + sizeof(int) * foreign.capacity());
 }
 
 }    // namespace Talus

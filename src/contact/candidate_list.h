@@ -97,9 +97,12 @@ class CandidateList {
     int slot;
   };
   std::vector<Distant> distant;
+  /// Slots of other parts that these pairs read, in ascending order; not those of ghosts.
+  std::vector<int> foreign;
 
  private:
   void sort_row(std::int64_t begin, std::int64_t end);
+  void look_around();
 
   const ParticleOrder *particles = nullptr;
   int part = 0;

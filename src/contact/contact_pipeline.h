@@ -15,6 +15,7 @@
 #define TALUS_CONTACT_CONTACT_PIPELINE_H
 
 #include "contact/contact_part.h"
+#include "contact/in_parallel.h"
 #include "contact/neighbour_view.h"
 #include "contact/particle_order.h"
 
@@ -155,6 +156,8 @@ class ContactPipeline {
   void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &host, const ContactStep &step);
+  void find_frontier();
+  static void sort_and_unite(std::vector<int> &slots);
   void run_phase(const ParticleView &host, const ContactStep &step, int first_part,
                  bool with_ghosts);
   void bring_frontier(const ParticleView &host, const ContactStep &step, int thread);
@@ -162,8 +165,13 @@ class ContactPipeline {
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   std::vector<int> slots_then(const FiledHistories &filed) const;
-  template <class Work> void in_ranges(std::int64_t n, Work work) const;
-  int piece(std::int64_t n, int thread) const;
+  /// work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
+  template <class Work> void in_ranges(std::int64_t n, Work work) const
+  {
+    in_parallel(threads, threads, [&](int t) { work(piece(n, t), piece(n, t + 1)); });
+  }
+  /// Where the piece of a thread begins if n are divided evenly.
+  int piece(std::int64_t n, int thread) const { return static_cast<int>(n * thread / threads); }
   SlotChoice of_thread(const std::vector<int> &slots, int thread) const;
   const Record *held_or_null() const { return held.empty() ? nullptr : held.data(); }
   template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
@@ -176,6 +184,7 @@ class ContactPipeline {
 
   ParticleOrder order;
   ParticleRecords particles;
+  std::vector<int> frontier;                 ///< owned slots that other parts than theirs read
   std::vector<unsigned char> at_frontier;    ///< by slot; empty if none is
 
   // particles in the records

@@ -80,7 +80,6 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   parts = 1;
   two_phases = false;
   part_of_slot.clear();
-  frontier_slots.clear();
 
   std::vector<Entry> order(total);
   for (int a = 0; a < total; a++) order[a] = {key[a], tag[a], a};
@@ -104,27 +103,28 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   two_phases = in_phases;
   parts = two_phases ? 2 * threads : threads;
   part_of_slot.clear();
-  frontier_slots.clear();
-  threads_of_block.clear();
+  slots_of_block.clear();
   if (parts == 1) return;
 
   constexpr int enough = 8;
   std::vector<std::vector<int>> pairs(std::min(threads, enough));
   for (auto &one : pairs) one.resize(size());
   Flags late(two_phases ? size() : 0);
-  const int counting = static_cast<int>(pairs.size());
-  in_blocks(neighbours, counting, [&](int thread, int block) {
+  slots_of_block.resize(num_blocks(neighbours));
+  in_blocks(neighbours, static_cast<int>(pairs.size()), [&](int thread, int block) {
+    Range slots{size(), 0};
     for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
       const int a = slot_of_atom[i], b = slot_of_atom[j];
+      slots = {std::min({slots.begin, a, b}), std::max({slots.end, a + 1, b + 1})};
       pairs[thread][a]++;
       pairs[thread][b]++;
       if (!two_phases) return;
       if (!is_owned(j)) set(late[a]);
       if (!is_owned(i)) set(late[b]);
     });
+    slots_of_block[block] = slots;
   });
   assign_parts(pairs, late, threads);
-  look_at_neighbours(neighbours, threads);
 }
 
 /* Ranges of the order with the same work: one for each particle and for each of its pairs. */
@@ -169,41 +169,15 @@ ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
   return {std::min(early.begin, late.begin), std::max(early.end, late.end)};
 }
 
-/* The frontier, and which rows are of no concern for a thread. */
-
-void ParticleOrder::look_at_neighbours(const NeighbourView &neighbours, int threads)
-{
-  Flags read_by_others(size());
-  threads_of_block.resize(num_blocks(neighbours));
-  in_blocks(neighbours, threads, [&](int, int block) {
-    Range concerned{threads, 0};
-    for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
-      const int a = slot_of_atom[i], b = slot_of_atom[j];
-      for (const int s : {a, b}) {
-        if (part_of_slot[s] == no_part) continue;
-        concerned.begin = std::min(concerned.begin, part_of_slot[s] % threads);
-        concerned.end = std::max(concerned.end, part_of_slot[s] % threads + 1);
-      }
-      if (part_of_slot[a] == no_part || part_of_slot[b] == no_part) return;
-      if (part_of_slot[a] == part_of_slot[b]) return;
-      set(read_by_others[a]);
-      set(read_by_others[b]);
-    });
-    threads_of_block[block] = concerned;
-  });
-  for (int s = 0; s < size(); s++)
-    if (read_by_others[s]) frontier_slots.push_back(s);
-}
-
 std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &neighbours,
                                                          int part) const
 {
   if (parts == 1) return {{0, neighbours.rows}};
-  const int thread = part % (two_phases ? parts / 2 : parts);
+  const Range its = range(part);
   std::vector<Range> pieces;
-  for (int block = 0; block < static_cast<int>(threads_of_block.size()); block++) {
-    const Range &concerned = threads_of_block[block];
-    if (thread < concerned.begin || thread >= concerned.end) continue;
+  for (int block = 0; block < static_cast<int>(slots_of_block.size()); block++) {
+    const Range &slots = slots_of_block[block];
+    if (slots.end <= its.begin || slots.begin >= its.end) continue;
     const Range rows = rows_of_block(neighbours, block);
     if (!pieces.empty() && pieces.back().end == rows.begin)
       pieces.back().end = rows.end;
@@ -215,10 +189,10 @@ std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &ne
 
 double ParticleOrder::memory_usage() const
 {
-  return static_cast<double>(
-      sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
-      sizeof(std::int64_t) * tag.capacity() + sizeof(std::uint16_t) * part_of_slot.capacity() +
-      sizeof(int) * frontier_slots.capacity() + sizeof(Range) * threads_of_block.capacity());
+  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
+                             sizeof(std::int64_t) * tag.capacity() +
+                             sizeof(std::uint16_t) * part_of_slot.capacity() +
+                             sizeof(Range) * slots_of_block.capacity());
 }
 
 }    // namespace Talus

@@ -45,16 +45,14 @@ class ParticleOrder {
   /// Those of all parts of a thread are within this one, and of no other thread.
   Range range_of_thread(int thread) const;
   bool in_two_phases() const { return two_phases; }
-  /// Owned slots that parts other than their own read; empty if there is one part only.
-  const std::vector<int> &frontier() const { return frontier_slots; }
 
   /// Every part has a place behind the slots for what nobody wants, in a cache line of its own if
   /// an entry takes half a line: of entries that begin at a line and are `num_places()` in all.
   std::size_t nowhere(int part) const { return (std::size_t(size()) + 1) / 2 * 2 + 2UL * part; }
   std::size_t num_places() const { return nowhere(parts); }
 
-  /// Rows of the neighbours that divide() has seen in which all pairs of a part are, in ascending
-  /// order.
+  /// Rows of the neighbours that divide() has seen, in ascending order: all pairs of a part are in
+  /// them.
   std::vector<Range> rows_of(const NeighbourView &neighbours, int part) const;
 
   /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
@@ -82,14 +80,12 @@ class ParticleOrder {
   using PairCounts = std::vector<std::vector<int>>;         // by slot, of several threads
   using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
   void assign_parts(PairCounts &pairs, const Flags &late, int threads);
-  void look_at_neighbours(const NeighbourView &neighbours, int threads);
 
   int parts = 1;
   bool two_phases = false;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
-  std::vector<int> frontier_slots;
-  std::vector<Range> threads_of_block;    // by block of rows of the neighbours, if several parts
+  std::vector<Range> slots_of_block;    // of the pairs in some rows of the neighbours
 };
 
 }    // namespace Talus

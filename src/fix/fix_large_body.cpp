@@ -179,6 +179,7 @@ void FixLargeBody::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   if (thermo_energy) keeps_account = true;
+  joined = false;    // a step that an error ended may have left it
   motion.init();
   watch.start();
   masses.find_fixes();

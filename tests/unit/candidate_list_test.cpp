@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -153,7 +154,7 @@ TEST(CandidateList, NamesDistantPairs)
   EXPECT_EQ(list.distant.size(), found);
 }
 
-TEST(ParticleOrder, FrontierIsWhatOtherPartsRead)
+TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
 {
   RandomSource random(4);
   for (int threads : {1, 2, 5})
@@ -163,21 +164,24 @@ TEST(ParticleOrder, FrontierIsWhatOtherPartsRead)
       order.arrange(p.owned, p.key, p.tag);
       Pairs pairs(order, 0.02, 1.0, random);
       order.divide(pairs.lists.view(), threads, two_phases);
-      std::vector<int> expected;
       for (int s = 0; s < order.size(); s++) {
-        bool read = false;
-        for (const auto &[slots, weight] : pairs.by_slots)
-          for (const auto &[mine, other] : {slots, std::pair<int, int>(slots.second, slots.first)})
-            read = read || (mine == s && order.part(s) != order.part(other) &&
-                            order.part(s) != ParticleOrder::no_part &&
-                            order.part(other) != ParticleOrder::no_part);
-        if (read) expected.push_back(s);
         const int part = order.part(s);
         if (part == ParticleOrder::no_part) continue;
         ASSERT_GE(s, order.range(part).begin);
         ASSERT_LT(s, order.range(part).end);
       }
-      EXPECT_EQ(order.frontier(), expected);
+      for (int part = 0; part < order.num_parts(); part++) {
+        const auto is_of_other = [&](int s) {
+          return order.part(s) != part && order.part(s) != ParticleOrder::no_part;
+        };
+        std::set<int> expected;
+        for (const auto &[slots, weight] : pairs.by_slots)
+          for (const auto &[mine, other] : {slots, std::pair<int, int>(slots.second, slots.first)})
+            if (order.part(mine) == part && is_of_other(other)) expected.insert(other);
+        CandidateList list;
+        list.collect(order, pairs.lists.view(), part);
+        EXPECT_EQ(list.foreign, std::vector<int>(expected.begin(), expected.end()));
+      }
     }
 }
 

@@ -1,0 +1,106 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// How ContactPipeline moves particles that live in its records, and gives them back.
+
+#include "contact/contact_pipeline.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace Talus {
+
+void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
+                                      const std::vector<int> &sent, const double *x_then)
+{
+  bool all = true;
+  role.assign(order.size(), ParticleRecords::MOVES);
+  for (int s = 0; s < order.size(); s++) {
+    const int a = order.atom_of_slot[s];
+    if (!order.is_owned(a))
+      role[s] = ParticleRecords::GHOST;
+    else if (!moves(a))
+      role[s] = ParticleRecords::RESTS;
+    all = all && role[s] == ParticleRecords::MOVES;
+  }
+  if (all) role.clear();
+
+  moved_at_once.clear();
+  for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
+  sort_and_unite(moved_at_once);
+  moved_first.clear();
+  std::set_difference(frontier.begin(), frontier.end(), moved_at_once.begin(), moved_at_once.end(),
+                      std::back_inserter(moved_first));
+  is_moved_before.clear();
+  mark(moved_at_once, is_moved_before);
+  mark(moved_first, is_moved_before);
+
+  renew(held, x_then ? order.size() : 0);
+  for (int s = 0; x_then && s < order.size(); s++) {
+    const int a = order.atom_of_slot[s];
+    if (!order.is_owned(a)) continue;
+    const double *x = x_then + 3L * a;
+    held[s] = {{x[0], x[1], x[2], particles.position[s].c[3]}};
+  }
+  prepared = true;
+}
+
+void ContactPipeline::advance(const RecordStep &step)
+{
+  move = step;
+  move_pending = true;
+  parts_moved = 0;
+  travels.assign(travels.size(), RecordTravel{});
+  if (moved_at_once.empty()) return;
+  in_parallel(threads, threads, [&](int t) {
+    travels[t] = particles.advance(move, role, held_or_null(), of_thread(moved_at_once, t));
+  });
+}
+
+RecordTravel ContactPipeline::travel() const
+{
+  RecordTravel all;
+  for (const RecordTravel &one : travels) all.join(one);
+  return all;
+}
+
+void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
+{
+  if (move_pending && parts_moved == 0)
+    for (int t = 0; t < threads; t++)
+      particles.advance(move, role, nullptr, of_thread(moved_first, t));
+  // an error may have come between the two phases, when the first parts have already moved theirs
+  for (int p = parts_moved; move_pending && p < order.num_parts(); p++) {
+    const ParticleOrder::Range its = order.range(p);
+    in_ranges(its.end - its.begin, [&](int begin, int end) {
+      particles.advance(move, role, nullptr,
+                        {its.begin + begin, its.begin + end, nullptr, order.part_of_slots(), p,
+                         is_moved_before.empty() ? nullptr : is_moved_before.data()});
+    });
+  }
+  move_pending = in_records = false;
+  write_state(x, v, omega);
+  if (f)
+    in_ranges(order.owned, [&](int begin, int end) {
+      for (int a = begin; a < end; a++)
+        particles.write_forces(order.slot_of_atom[a], f + 3L * a, torque + 3L * a);
+    });
+}
+
+void ContactPipeline::write_state(double *x, double *v, double *omega) const
+{
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++)
+      particles.write_state(order.slot_of_atom[a], x + 3L * a, v + 3L * a, omega + 3L * a);
+  });
+}
+
+void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,
+                                 double *omega) const
+{
+  for (const int atom : atoms) {
+    const std::int64_t a = 3L * atom;
+    particles.write_state(order.slot_of_atom[atom], x + a, v + a, omega + a);
+  }
+}
+
+}    // namespace Talus
