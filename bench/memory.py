@@ -103,7 +103,7 @@ def measure(bench):
         section.text(f"""10^9 particles of the full law with floor and walls need {need:.0f} GiB, without proxies: {math.ceil(need / NODE / FILLED)} nodes
 of {NODE} GiB that are filled to {100 * FILLED:.0f} %.""")
     if ours and stock:
-        section.headline(f"memory: Talus takes {ours:.0f} bytes per particle, stock {stock:.0f}.")
+        section.headline(f"memory: from {sizes[0]} to {sizes[1]} spheres Talus takes {ours:.0f} bytes for each, stock {stock:.0f}.")
     if not bench.quick and bench.wants("large"):
         large(bench)
     by_array(bench, per_particle)
@@ -122,6 +122,8 @@ def large(bench):
         rows.append([name, size])
         bench.section.record(variant=name + ", whole process", large=count, bytes_per_particle=size)
     bench.section.table([f"{count} spheres, whole process", "bytes per particle"], rows)
+    (_, ours), (_, stock) = rows
+    bench.section.headline(f"memory: a process with {count} spheres takes {ours:.0f} bytes for each, stock {stock:.0f}.")
 
 
 def draw(plt, rows):

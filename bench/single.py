@@ -240,7 +240,8 @@ running, over that of one run on both. Rows with two cores have three times as m
     if limits:
         section.text(f"""`ranks` and `threads` wait for each other after each step. Two threads that do mere arithmetic on data of
 their own, for 1 ms at a time, and then wait for each other reach {statistics.median(limits):.2f} ({min(limits):.2f} to {max(limits):.2f}) of
-their throughput without waiting, measured in turn with these two rows: this machine allows for no more.""")
+their throughput without waiting, measured in turn with these two rows: an upper limit, for threads and ranks share data
+as well.""")
     state = beds.contacts(bench, bench.size(50000, 12500))
     section.text(f"The bed has {state[0]:.2f} contacts and {state[1]:.2f} candidate pairs per sphere.")
     if rows:
