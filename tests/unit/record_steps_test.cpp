@@ -125,6 +125,18 @@ class RecordSteps : public testing::TestWithParam<Division> {
     fast.advance(euler);
   }
 
+  /// A step after which particles stay in the records, and their move; how such steps are made.
+  ContactStep keep_and_move()
+  {
+    ContactStep keep{euler.dt, true};
+    keep.deliver = false;
+    compute(slow, twin, {euler.dt, true});
+    compute(fast, host, keep);
+    advance();
+    twin.step([this](int i) { return moves(i); });
+    return keep;
+  }
+
   RandomSource random{21};
   Packing p;
   Host twin, host;
@@ -214,12 +226,7 @@ TEST_P(RecordSteps, ReturnTheStateBetweenTheTwoPhases)
 
 TEST_P(RecordSteps, TellHowFarParticlesGo)
 {
-  ContactStep keep{euler.dt, true};
-  keep.deliver = false;
-  compute(slow, twin, {euler.dt, true});
-  compute(fast, host, keep);
-  advance();
-  twin.step([this](int i) { return moves(i); });
+  ContactStep keep = keep_and_move();
   keep.read = false;
   compute(fast, host, keep);
 
@@ -265,12 +272,7 @@ TEST_P(RecordSteps, TakeTorquesOfOthers)
 
 TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
 {
-  ContactStep keep{euler.dt, true};
-  keep.deliver = false;
-  compute(slow, twin, {euler.dt, true});
-  compute(fast, host, keep);
-  advance();
-  twin.step([this](int i) { return moves(i); });
+  ContactStep keep = keep_and_move();
   twin.clear_forces();
   compute(slow, twin, {euler.dt, true});
 
