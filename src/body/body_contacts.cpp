@@ -23,11 +23,34 @@ void BodyContacts::set_laws(const LawTable &table, bool one_contact)
 }
 
 BodyContacts::Worst BodyContacts::worst(const LargeBodyShape &shape, const BodyFrame &frame,
-                                        const BodyParticleView &view) const
+                                        const BodyParticleView &view, int threads) const
+{
+  if (!shape.thread_safe()) threads = 1;
+  std::vector<Worst> found(threads);
+  in_parallel(threads, threads, [&](int t) {
+    found[t] = worst_of(shape, frame, view, first_of(t, threads), first_of(t + 1, threads));
+  });
+  Worst most;
+  for (const Worst &its : found) {
+    if (its.overlap > most.overlap) {
+      most.overlap = its.overlap;
+      most.deepest = its.deepest;
+    }
+    if (its.speed > most.speed) {
+      most.speed = its.speed;
+      most.fastest = its.fastest;
+    }
+  }
+  return most;
+}
+
+BodyContacts::Worst BodyContacts::worst_of(const LargeBodyShape &shape, const BodyFrame &frame,
+                                           const BodyParticleView &view, std::size_t begin,
+                                           std::size_t end) const
 {
   Worst most;
   SurfaceContact found[LargeBodyShape::max_contacts];
-  for (std::size_t c = 0; c < candidates.size(); c++) {
+  for (std::size_t c = begin; c < end; c++) {
     const int i = candidates[c];
     const Vector3<double> place = view.position(i), x = frame.point_to_body(place);
     const double radius = view.radius_of(i);

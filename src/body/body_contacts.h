@@ -51,13 +51,14 @@ class BodyContacts {
                           int group, double skin);
 
   /// Of the particles listed: the largest overlap/radius and its particle, the largest speed past
-  /// the body over the radius and its particle. Zero without any.
+  /// the body over the radius and its particle, of equal ones the first listed. Zero without any.
+  /// `threads` are used for shapes that are thread_safe().
   struct Worst {
     double overlap = 0.0, speed = 0.0;
     int deepest = 0, fastest = 0;
   };
-  Worst worst(const LargeBodyShape &shape, const BodyFrame &frame,
-              const BodyParticleView &view) const;
+  Worst worst(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
+              int threads = 1) const;
 
   /// Adds the contact forces to the particles and returns their reaction. The slots of particles in
   /// the records may change only before find_candidates(), as they do at a rebuild.
@@ -113,6 +114,8 @@ class BodyContacts {
                   std::size_t candidate);
   void touch_often(const LargeBodyShape &shape, const BodyTask &task, BodyBatch &batch, int law,
                    std::size_t candidate);
+  Worst worst_of(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
+                 std::size_t begin, std::size_t end) const;
   NearParts parts_near(std::size_t candidate, double reach) const;
   void renew_memory(int threads);
   void remember_velocities(const BodyFrame &frame, const BodyParticleView &view,

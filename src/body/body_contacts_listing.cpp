@@ -7,7 +7,6 @@
 #include "contact/in_parallel.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -67,12 +66,9 @@ void BodyContacts::list_near(const Search &search, int threads)
     double farthest = 0.0;
   };
   std::vector<Found> found(threads);
-  const auto first = [&](std::int64_t t) {
-    return static_cast<int>(search.view.owned * t / threads);
-  };
-  in_parallel(threads, threads, [&](int t) {
+  in_ranges(search.view.owned, threads, [&](int t, int begin, int end) {
     Found its;
-    for (int i = first(t); i < first(t + 1); i++) {
+    for (int i = begin; i < end; i++) {
       if (!search.wants(i)) continue;
       const Vector3<double> x = search.place(i);
       const double reach = search.reach(i);
@@ -112,9 +108,11 @@ void BodyContacts::list_with_parts(const Search &search)
 
 void BodyContacts::sort_by_slot(const int *slot_of_atom)
 {
-  std::sort(candidates.begin(), candidates.end(),
-            [slot_of_atom](int a, int b) { return slot_of_atom[a] < slot_of_atom[b]; });
-  if (with_history) history.follow(candidates);
+  const auto before = [slot_of_atom](int a, int b) { return slot_of_atom[a] < slot_of_atom[b]; };
+  if (!std::is_sorted(candidates.begin(), candidates.end(), before)) {
+    std::sort(candidates.begin(), candidates.end(), before);
+    if (with_history) history.follow(candidates);
+  }
   if (candidates.empty()) return;
   for (const int i : candidates) slots.push_back(slot_of_atom[i]);
   slots.resize(slots.size() + SlottedCandidates::spare, slots.back());

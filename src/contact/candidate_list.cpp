@@ -49,28 +49,29 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   look_around();
 }
 
-/* Which particles are far away in memory, and which belong to others. */
+/* Which particles are far away in memory, and which belong to others: these may stand in the cache
+   of another core, however near they are in memory. */
 
 void CandidateList::look_around()
 {
   constexpr int records_in_cache = 2048;
   distant.clear();
   foreign.clear();
-  const auto note_foreign = [this](int slot) {
-    if (!serves(slot) && particles->part(slot) != ParticleOrder::no_part) foreign.push_back(slot);
-  };
+  std::vector<unsigned char> seen(shared() ? particles->size() : 0, 0);
   for (std::int64_t c = 0; c < num_pairs(); c++) {
     const auto call = [&](int slot) { distant.push_back({static_cast<std::uint32_t>(c), slot}); };
-    if (shared()) {
-      note_foreign(first[c]);
-      note_foreign(second[c]);
-      const bool begins = c == 0 || second[c] != second[c - 1];
-      if (begins && !serves(second[c])) call(second[c]);
-    }
+    const auto look_at = [&](int slot) {
+      if (serves(slot) || seen[slot]) return;
+      seen[slot] = 1;
+      call(slot);
+      if (particles->part(slot) != ParticleOrder::no_part) foreign.push_back(slot);
+    };
     if (second[c] - first[c] > records_in_cache) call(first[c]);
+    if (!shared()) continue;
+    look_at(first[c]);
+    look_at(second[c]);
   }
   std::sort(foreign.begin(), foreign.end());
-  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
 }
 
 /* The narrow phase counts a few further than there are pairs. */

@@ -91,7 +91,7 @@ class CandidateList {
   BigVector<int> first, second;
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
   /// Particles that will not be in a cache of 1 MB when a pair comes, in ascending order of the
-  /// pairs: first ones that have left it, and second ones of other parts.
+  /// pairs: first ones that have left it, and those of other parts where they come first.
   struct Distant {
     std::uint32_t pair;
     int slot;

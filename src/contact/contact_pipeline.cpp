@@ -24,13 +24,15 @@ void ContactPipeline::set_work(int num_threads, bool in_phases)
 void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &neighbours)
 {
   in_records = prepared = move_pending = false;
-  order.arrange(given.owned, given.key, given.tag);
   threads = next_threads;
+  order.arrange(given.owned, given.key, given.tag, threads);
   order.divide(neighbours, threads, next_in_phases);
   scene.slot_type.clear();
   if (!scene.laws.uniform()) {
     scene.slot_type.resize(order.size());
-    for (int s = 0; s < order.size(); s++) scene.slot_type[s] = given.type[order.atom_of_slot[s]];
+    in_ranges(order.size(), [&](int begin, int end) {
+      for (int s = begin; s < end; s++) scene.slot_type[s] = given.type[order.atom_of_slot[s]];
+    });
   }
   parts.resize(order.num_parts());
   late_slots.clear();

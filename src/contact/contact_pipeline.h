@@ -93,8 +93,9 @@ class ContactPipeline {
   const ParticleOrder &particle_order() const { return order; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by host's index: who moves; whose states are sent away before forces are computed; and where
-  /// they were when lists were made, rows of three doubles, nullptr if nobody asks for the travel.
+  /// by host's index: who moves (asked by all threads); whose states are sent away before forces
+  /// are computed; and where they were when lists were made, rows of three doubles, nullptr if
+  /// nobody asks for the travel.
   void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }
@@ -168,7 +169,7 @@ class ContactPipeline {
   /// work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
   template <class Work> void in_ranges(std::int64_t n, Work work) const
   {
-    in_parallel(threads, threads, [&](int t) { work(piece(n, t), piece(n, t + 1)); });
+    Talus::in_ranges(n, threads, [&](int, int begin, int end) { work(begin, end); });
   }
   /// Where the piece of a thread begins if n are divided evenly.
   int piece(std::int64_t n, int thread) const { return static_cast<int>(n * thread / threads); }

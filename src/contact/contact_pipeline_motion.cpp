@@ -5,6 +5,7 @@
 #include "contact/contact_pipeline.h"
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 
 namespace Talus {
@@ -12,16 +13,17 @@ namespace Talus {
 void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
                                       const std::vector<int> &sent, const double *x_then)
 {
-  bool all = true;
-  role.assign(order.size(), ParticleRecords::MOVES);
-  for (int s = 0; s < order.size(); s++) {
-    const int a = order.atom_of_slot[s];
-    if (!order.is_owned(a))
-      role[s] = ParticleRecords::GHOST;
-    else if (!moves(a))
-      role[s] = ParticleRecords::RESTS;
-    all = all && role[s] == ParticleRecords::MOVES;
-  }
+  std::atomic<bool> all{true};
+  role.resize(order.size());
+  in_ranges(order.size(), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      const int a = order.atom_of_slot[s];
+      role[s] = !order.is_owned(a) ? ParticleRecords::GHOST
+                : moves(a)         ? ParticleRecords::MOVES
+                                   : ParticleRecords::RESTS;
+      if (role[s] != ParticleRecords::MOVES) all.store(false, std::memory_order_relaxed);
+    }
+  });
   if (all) role.clear();
 
   moved_at_once.clear();
@@ -35,12 +37,14 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   mark(moved_first, is_moved_before);
 
   renew(held, x_then ? order.size() : 0);
-  for (int s = 0; x_then && s < order.size(); s++) {
-    const int a = order.atom_of_slot[s];
-    if (!order.is_owned(a)) continue;
-    const double *x = x_then + 3L * a;
-    held[s] = {{x[0], x[1], x[2], particles.position[s].c[3]}};
-  }
+  in_ranges(static_cast<std::int64_t>(held.size()), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      const int a = order.atom_of_slot[s];
+      if (!order.is_owned(a)) continue;
+      const double *x = x_then + 3L * a;
+      held[s] = {{x[0], x[1], x[2], particles.position[s].c[3]}};
+    }
+  });
   prepared = true;
 }
 

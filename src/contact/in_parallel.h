@@ -3,6 +3,7 @@
 #ifndef TALUS_CONTACT_IN_PARALLEL_H
 #define TALUS_CONTACT_IN_PARALLEL_H
 
+#include <cstdint>
 #include <exception>
 
 namespace Talus {
@@ -36,6 +37,15 @@ template <class First, class Work> void in_parallel(int count, int threads, Firs
     for (int n = 0; n < count; n++) guarded(work, n);
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+/// work(thread, begin, end) for as many ranges of 0 ... n-1 as there are threads, in ascending
+/// order and at the same time.
+template <class Work> void in_ranges(std::int64_t n, int threads, Work work)
+{
+  in_parallel(threads, threads, [&](int t) {
+    work(t, static_cast<int>(n * t / threads), static_cast<int>(n * (t + 1) / threads));
+  });
 }
 
 }    // namespace Talus

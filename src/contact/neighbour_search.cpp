@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace Talus {
 namespace {
@@ -62,27 +63,66 @@ int NeighbourSearch::Grid::cell(double place, int d) const
   return std::clamp(static_cast<int>(std::floor(place * cells_per_place[d])), 0, cells[d] - 1);
 }
 
+/* Of the places and sizes of all spheres. */
+
+struct NeighbourSearch::Extent {
+  static constexpr double far = std::numeric_limits<double>::infinity();
+  double low[3] = {far, far, far}, high[3] = {-far, -far, -far};
+  double sum = 0.0, largest = 0.0;    // of radii
+  double check = 0.0;                 // not a number if any position is not
+
+  void add(const double *x, double radius)
+  {
+    for (int d = 0; d < 3; d++) {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+      check += 0.0 * x[d];
+    }
+    sum += radius;
+    largest = std::max(largest, radius);
+  }
+  void join(const Extent &other)
+  {
+    for (int d = 0; d < 3; d++) {
+      low[d] = std::min(low[d], other.low[d]);
+      high[d] = std::max(high[d], other.high[d]);
+    }
+    sum += other.sum;
+    largest = std::max(largest, other.largest);
+    check += other.check;
+  }
+};
+
+/* Sums over blocks of spheres, so that they do not depend on the number of threads. */
+
+NeighbourSearch::Extent NeighbourSearch::extent_of(const Spheres &s, int threads)
+{
+  constexpr int block = 4096;
+  std::vector<Extent> found((s.total - 1) / block + 1);
+  in_ranges(static_cast<std::int64_t>(found.size()), threads, [&](int, int begin, int end) {
+    for (int n = begin; n < end; n++) {
+      Extent its;
+      const int first = n * block, last = first + std::min(block, s.total - first);
+      for (int a = first; a < last; a++) its.add(s.x + 3L * a, s.radius[a]);
+      found[n] = its;
+    }
+  });
+  Extent all;
+  for (const Extent &one : found) all.join(one);
+  return all;
+}
+
 /* As wide as the reach of a sphere of the mean radius, or of all if they differ little; wider if
    there would be far more cells than spheres. */
 
-NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
+NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s, int threads)
 {
-  Grid grid{{s.x[0], s.x[1], s.x[2]}, 1.0, {1, 1, 1}, 0.0F};
-  double high[3] = {s.x[0], s.x[1], s.x[2]}, sum = 0.0, largest = 0.0, check = 0.0;
-  for (int a = 0; a < s.total; a++) {
-    for (int d = 0; d < 3; d++) {
-      grid.low[d] = std::min(grid.low[d], s.x[3L * a + d]);
-      high[d] = std::max(high[d], s.x[3L * a + d]);
-      check += 0.0 * s.x[3L * a + d];
-    }
-    sum += s.radius[a];
-    largest = std::max(largest, s.radius[a]);
-  }
-  if (check != 0.0) throw std::domain_error("a position is not a number");
+  const Extent extent = extent_of(s, threads);
+  if (extent.check != 0.0) throw std::domain_error("a position is not a number");
   constexpr double similar = 1.5, cells_per_sphere = 4.0, least = 4096.0;
-  const double mean = sum / s.total;
-  const bool all_alike = largest < similar * mean;
-  double edge = 2.0 * (all_alike ? largest : mean) + s.skin;
+  const double mean = extent.sum / s.total;
+  const bool all_alike = extent.largest < similar * mean;
+  double edge = 2.0 * (all_alike ? extent.largest : mean) + s.skin;
   if (edge <= 0.0) edge = 1.0;    // points without a skin: any cells do
   double number = 0.0;
   // cells are numbered with 32 bits
@@ -90,54 +130,88 @@ NeighbourSearch::Grid NeighbourSearch::make_grid(const Spheres &s)
   for (;; edge *= 1.3) {
     number = 1.0;
     for (int d = 0; d < 3; d++)
-      number *= std::floor((high[d] - grid.low[d]) / edge * cells_per_place[d]) + 1.0;
+      number *= std::floor((extent.high[d] - extent.low[d]) / edge * cells_per_place[d]) + 1.0;
     if (number <= most) break;
   }
+  Grid grid{};
   grid.per_length = 1.0 / edge;
-  grid.alike = all_alike ? static_cast<float>(largest / edge) : 0.0F;
-  for (int d = 0; d < 3; d++)
-    grid.cells[d] =
-        1 + static_cast<int>((high[d] - grid.low[d]) * grid.per_length * cells_per_place[d]);
+  grid.largest = extent.largest / edge;
+  grid.alike = all_alike ? static_cast<float>(grid.largest) : 0.0F;
+  for (int d = 0; d < 3; d++) {
+    grid.low[d] = extent.low[d];
+    grid.cells[d] = 1 + static_cast<int>((extent.high[d] - extent.low[d]) * grid.per_length *
+                                         cells_per_place[d]);
+  }
   return grid;
 }
 
-void NeighbourSearch::sort_into_cells(const Spheres &s)
+/* Spheres in a cell stand in ascending order. They are counted by up to eight threads, each for
+   itself and a range of the spheres. */
+
+void NeighbourSearch::sort_into_cells(const Spheres &s, int threads)
 {
-  grid = make_grid(s);
-  const auto place = [&](int a, int d) {
-    return (s.x[3L * a + d] - grid.low[d]) * grid.per_length;
-  };
-  std::vector<std::int32_t> cell(s.total);
-  start.assign(grid.row(0, grid.cells[2]) + 2, 0);
-  double largest = 0.0;
-  for (int a = 0; a < s.total; a++) {
-    cell[a] = static_cast<std::int32_t>(
-        grid.row(grid.cell(place(a, 1), 1), grid.cell(place(a, 2), 2)) + grid.cell(place(a, 0), 0));
-    start[cell[a] + 2]++;
-    largest = std::max(largest, s.radius[a]);
-  }
-  std::partial_sum(start.begin(), start.end(), start.begin());
+  grid = make_grid(s, threads);
+  constexpr int enough = 8;
+  const int workers = std::min(threads, enough);
+  const std::int64_t num_cells = grid.row(0, grid.cells[2]);
+  CellCounts counts(workers);
+  BigVector<std::int32_t> cell(s.total);
+  in_ranges(s.total, workers, [&](int t, int begin, int end) {
+    counts[t].assign(num_cells, 0);
+    for (int a = begin; a < end; a++) {
+      const int y = grid.cell(grid.place(s, a, 1), 1), z = grid.cell(grid.place(s, a, 2), 2);
+      cell[a] = static_cast<std::int32_t>(grid.row(y, z) + grid.cell(grid.place(s, a, 0), 0));
+      counts[t][cell[a]]++;
+    }
+  });
+  find_starts(counts);
 
   const std::size_t room = static_cast<std::size_t>(s.total) + width;    // read, but not used
   for (BigVector<float> *array : {&x, &y, &z, &radius}) renew(*array, room);
   renew(index, room);
-  for (int a = 0; a < s.total; a++) {
-    const std::int32_t n = start[cell[a] + 1]++;    // which ends as the end of the cell
-    x[n] = static_cast<float>(place(a, 0));
-    y[n] = static_cast<float>(place(a, 1));
-    z[n] = static_cast<float>(place(a, 2));
-    radius[n] = static_cast<float>(s.radius[a] * grid.per_length);
-    index[n] = a;
-  }
-  start.pop_back();
+  in_ranges(s.total, workers, [&](int t, int begin, int end) {
+    for (int a = begin; a < end; a++) {
+      const std::int32_t n = counts[t][cell[a]]++;
+      x[n] = static_cast<float>(grid.place(s, a, 0));
+      y[n] = static_cast<float>(grid.place(s, a, 1));
+      z[n] = static_cast<float>(grid.place(s, a, 2));
+      radius[n] = static_cast<float>(s.radius[a] * grid.per_length);
+      index[n] = a;
+    }
+  });
 
   // places and sums of lengths are rounded by less than this part of the longest length
   constexpr float rounding = 1.0e-6F;
   skin = static_cast<float>(s.skin * grid.per_length);
   double extent = 0.0;
   for (int d = 0; d < 3; d++) extent = std::max(extent, grid.cells[d] / cells_per_place[d]);
-  slack = rounding * (static_cast<float>(extent) +
-                      2.0F * static_cast<float>(largest * grid.per_length) + skin);
+  slack = rounding * (static_cast<float>(extent) + 2.0F * static_cast<float>(grid.largest) + skin);
+}
+
+/* From the numbers of spheres in each cell, by thread, to where the first of them will stand. */
+
+void NeighbourSearch::find_starts(CellCounts &counts)
+{
+  const std::int64_t num_cells = static_cast<std::int64_t>(counts[0].size());
+  const int workers = static_cast<int>(counts.size());
+  start.resize(num_cells + 1);
+  std::vector<std::int32_t> before(workers + 1, 0);    // spheres in the cells of a range
+  const auto begin = [&](int range) { return num_cells * range / workers; };
+  const auto count = [&](int range) {
+    std::int32_t sum = 0;
+    for (const auto &its : counts)
+      sum = std::accumulate(its.begin() + begin(range), its.begin() + begin(range + 1), sum);
+    before[range + 1] = sum;
+  };
+  const auto place = [&](int range) {
+    std::int32_t next = std::accumulate(before.begin(), before.begin() + range + 1, 0);
+    for (std::int64_t c = begin(range); c < begin(range + 1); c++) {
+      start[c] = next;
+      for (auto &its : counts) next += std::exchange(its[c], next);
+    }
+    if (range + 1 == workers) start[num_cells] = next;
+  };
+  in_parallel(workers, workers, count, place);
 }
 
 void NeighbourSearch::find(const Spheres &s, int threads,
@@ -145,21 +219,19 @@ void NeighbourSearch::find(const Spheres &s, int threads,
 {
   clear();
   if (s.total == 0) return;
-  sort_into_cells(s);
-  size.assign(s.total, 0);
-  entries.assign(s.total, nullptr);
+  sort_into_cells(s, threads);
+  renew(size, s.total);
+  renew(entries, s.total);
   chunks.resize(threads);
-  in_parallel(threads, threads, [&](int t) { find_rows(s, t, threads, excluded); });
+  in_ranges(s.total, threads,
+            [&](int t, int begin, int end) { find_rows(s, chunks[t], begin, end, excluded); });
 }
 
 /* The rows of one thread. */
 
-void NeighbourSearch::find_rows(const Spheres &s, int t, int threads,
+void NeighbourSearch::find_rows(const Spheres &s, Chunk &mine, int begin, int end,
                                 const std::function<bool(int, int)> &excluded)
 {
-  const int begin = static_cast<int>(static_cast<std::int64_t>(s.total) * t / threads);
-  const int end = static_cast<int>(static_cast<std::int64_t>(s.total) * (t + 1) / threads);
-  Chunk &mine = chunks[t];
   mine.count = 0;
   // addresses for more than most scenes need: only what is written takes memory
   if (mine.entries.empty()) mine.entries.resize(usual * (end - begin));
@@ -182,7 +254,7 @@ void NeighbourSearch::find_row(const Spheres &s, int a, Chunk &found) const
   float own[4];
   double place[3];
   for (int d = 0; d < 3; d++) {
-    place[d] = (s.x[3L * a + d] - grid.low[d]) * grid.per_length;
+    place[d] = grid.place(s, a, d);
     own[d] = static_cast<float>(place[d]);
   }
   own[3] = static_cast<float>(s.radius[a] * grid.per_length);

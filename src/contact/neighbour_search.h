@@ -48,6 +48,7 @@ class NeighbourSearch {
  private:
   struct Grid {
     double low[3], per_length;    ///< lowest corner of the cells; cells per length
+    double largest;               ///< radius (in cells)
     int cells[3];
     float alike;    ///< the largest radius (in cells) if sizes differ little, else 0
 
@@ -56,29 +57,38 @@ class NeighbourSearch {
     {
       return (static_cast<std::int64_t>(z) * cells[1] + y) * cells[0];
     }
+    double place(const Spheres &s, int a, int d) const
+    {
+      return (s.x[3L * a + d] - low[d]) * per_length;
+    }
   };
+  struct Extent;
   /// What one thread finds: the rows of its particles, one after the other. In a cache line of its
   /// own, for the count is written all the time.
   struct alignas(64) Chunk {
     BigVector<int> entries;
     std::size_t count = 0;
   };
-  static Grid make_grid(const Spheres &spheres);
-  void sort_into_cells(const Spheres &spheres);
-  void find_rows(const Spheres &spheres, int thread, int threads,
+  static Extent extent_of(const Spheres &spheres, int threads);
+  static Grid make_grid(const Spheres &spheres, int threads);
+  void sort_into_cells(const Spheres &spheres, int threads);
+  void find_rows(const Spheres &spheres, Chunk &mine, int begin, int end,
                  const std::function<bool(int, int)> &excluded);
   void find_row(const Spheres &spheres, int particle, Chunk &found) const;
   void compare(const float *place_and_radius, int particle, int below, std::int64_t begin,
                std::int64_t end, Chunk &found) const;
 
   Grid grid{};
-  float slack = 0.0F, skin = 0.0F;     // in cells
+  float slack = 0.0F, skin = 0.0F;                              // in cells
+  using CellCounts = std::vector<std::vector<std::int32_t>>;    // of several threads
+  void find_starts(CellCounts &counts);
+
   std::vector<std::int32_t> start;     // of each cell in the arrays below, and one more
   BigVector<float> x, y, z, radius;    // in cells, sorted by cell
   BigVector<std::int32_t> index;
-  std::vector<Chunk> chunks;           // by thread
-  std::vector<int> size;               // by particle
-  std::vector<const int *> entries;    // by particle
+  std::vector<Chunk> chunks;         // by thread
+  BigVector<int> size;               // by particle
+  BigVector<const int *> entries;    // by particle
 };
 
 }    // namespace Talus

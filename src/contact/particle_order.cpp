@@ -15,16 +15,6 @@
 namespace Talus {
 namespace {
 
-struct Entry {
-  std::uint64_t key;
-  std::int64_t tag;
-  int atom;
-  bool operator<(const Entry &o) const
-  {
-    return std::tie(key, tag, atom) < std::tie(o.key, o.tag, o.atom);
-  }
-};
-
 void set(std::atomic<unsigned char> &flag)
 {
   flag.store(1, std::memory_order_relaxed);
@@ -53,10 +43,8 @@ void for_each_pair_of_block(const NeighbourView &neighbours, int block, Visit vi
 /// work(thread, block) for every block of rows: each thread takes some that follow each other.
 template <class Work> void in_blocks(const NeighbourView &neighbours, int threads, Work work)
 {
-  const std::int64_t blocks = num_blocks(neighbours);
-  in_parallel(threads, threads, [&](int t) {
-    for (std::int64_t b = blocks * t / threads; b < blocks * (t + 1) / threads; b++)
-      work(t, static_cast<int>(b));
+  in_ranges(num_blocks(neighbours), threads, [&](int t, int begin, int end) {
+    for (int b = begin; b < end; b++) work(t, b);
   });
 }
 
@@ -68,10 +56,10 @@ void ParticleOrder::require_countable(std::size_t particles)
     throw std::length_error("more than 2^31 particles and ghosts on one rank");
 }
 
-/* The host's particles are nearly in order already, since the contact store sorts them by key. */
+/* The host's particles are usually in order already, since the contact store sorts them by key. */
 
 void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key,
-                            std::vector<std::int64_t> tag_of_atom)
+                            std::vector<std::int64_t> tag_of_atom, int threads)
 {
   owned = num_owned;
   tag = std::move(tag_of_atom);
@@ -81,19 +69,25 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   two_phases = false;
   part_of_slot.clear();
 
-  std::vector<Entry> order(total);
-  for (int a = 0; a < total; a++) order[a] = {key[a], tag[a], a};
-  const auto middle = order.begin() + owned;
-  if (!std::is_sorted(order.begin(), middle)) std::sort(order.begin(), middle);
-  std::sort(middle, order.end());
-  std::inplace_merge(order.begin(), middle, order.end());
-
+  const auto before = [&](int a, int b) {
+    return std::tie(key[a], tag[a], a) < std::tie(key[b], tag[b], b);
+  };
+  std::atomic<bool> in_order{true};
   atom_of_slot.resize(total);
+  in_ranges(total, threads, [&](int, int begin, int end) {
+    std::iota(atom_of_slot.begin() + begin, atom_of_slot.begin() + end, begin);
+    for (int a = std::max(begin, 1); a < std::min(end, owned); a++)
+      if (before(a, a - 1)) in_order.store(false, std::memory_order_relaxed);
+  });
+  const auto middle = atom_of_slot.begin() + owned;
+  if (!in_order) std::sort(atom_of_slot.begin(), middle, before);
+  std::sort(middle, atom_of_slot.end(), before);
+  std::inplace_merge(atom_of_slot.begin(), middle, atom_of_slot.end(), before);
+
   slot_of_atom.resize(total);
-  for (int s = 0; s < total; s++) {
-    atom_of_slot[s] = order[s].atom;
-    slot_of_atom[order[s].atom] = s;
-  }
+  in_ranges(total, threads, [&](int, int begin, int end) {
+    for (int s = begin; s < end; s++) slot_of_atom[atom_of_slot[s]] = s;
+  });
 }
 
 /* Pairs of each slot are counted by up to eight threads, each for itself. */
@@ -127,37 +121,54 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   assign_parts(pairs, late, threads);
 }
 
-/* Ranges of the order with the same work: one for each particle and for each of its pairs. */
+/* Adds the counts of all threads up in those of the first one, and makes work of them: one for
+   each particle and for each of its pairs. */
 
-void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threads)
+ParticleOrder::Sums ParticleOrder::add_counts(PairCounts &pairs, int threads) const
 {
   std::vector<int> &work = pairs[0];
-  std::vector<std::int64_t> work_of_thread(threads, 0);
-  in_parallel(threads, threads, [&](int t) {
-    const std::int64_t n = size();
+  Sums sums(threads, 0);
+  in_ranges(size(), threads, [&](int t, int begin, int end) {
     std::int64_t sum = 0;
-    for (std::int64_t s = n * t / threads; s < n * (t + 1) / threads; s++) {
+    for (int s = begin; s < end; s++) {
       for (std::size_t other = 1; other < pairs.size(); other++) work[s] += pairs[other][s];
       work[s] = is_owned(atom_of_slot[s]) ? work[s] + 1 : 0;
       sum += work[s];
     }
-    work_of_thread[t] = sum;
+    sums[t] = sum;
   });
-  const std::int64_t total =
-      std::accumulate(work_of_thread.begin(), work_of_thread.end(), std::int64_t{0});
+  return sums;
+}
 
-  part_of_slot.assign(size(), no_part);
-  range_of_part.assign(parts, {size(), size()});
-  std::int64_t done = 0;
-  int range = 0;
-  for (int s = 0; s < size(); s++) {
-    if (work[s] == 0) continue;
-    while (done * threads >= (range + 1) * total) range++;
-    const int its = two_phases && late[s] ? threads + range : range;
-    part_of_slot[s] = static_cast<std::uint16_t>(its);
-    range_of_part[its] = {std::min(range_of_part[its].begin, s), s + 1};
-    done += work[s];
-  }
+/* Ranges of the order with the same work. */
+
+void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threads)
+{
+  const Sums sums = add_counts(pairs, threads);
+  const std::vector<int> &work = pairs[0];
+  const std::int64_t total = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
+
+  part_of_slot.resize(size());
+  const std::vector<Range> none(parts, {size(), size()});
+  std::vector<std::vector<Range>> found(threads, none);
+  in_ranges(size(), threads, [&](int t, int begin, int end) {
+    std::int64_t done = std::accumulate(sums.begin(), sums.begin() + t, std::int64_t{0});
+    int range = 0;
+    for (int s = begin; s < end; s++) {
+      part_of_slot[s] = no_part;
+      if (work[s] == 0) continue;
+      while (done * threads >= (range + 1) * total) range++;
+      const int its = two_phases && late[s] ? threads + range : range;
+      part_of_slot[s] = static_cast<std::uint16_t>(its);
+      found[t][its] = {std::min(found[t][its].begin, s), s + 1};
+      done += work[s];
+    }
+  });
+  range_of_part = none;
+  for (const std::vector<Range> &ranges : found)
+    for (int p = 0; p < parts; p++)
+      if (ranges[p].begin < ranges[p].end)
+        range_of_part[p] = {std::min(range_of_part[p].begin, ranges[p].begin), ranges[p].end};
 }
 
 ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const

@@ -18,9 +18,10 @@ class ParticleOrder {
  public:
   /// At a rebuild: puts all particles into the order of (key, tag); images of one particle keep the
   /// order of the host. The arrays are in the host's numbering: owned particles 0 ... num_owned-1,
-  /// then ghosts. All forces are then computed by part 0.
+  /// then ghosts. All forces are then computed by part 0. Particles that are in order already, or
+  /// nearly, cost least.
   void arrange(int num_owned, const std::vector<std::uint64_t> &key,
-               std::vector<std::int64_t> tag_of_atom);
+               std::vector<std::int64_t> tag_of_atom, int threads = 1);
 
   /// Divides the owned particles: `threads` ranges of the order with about the same number of
   /// pairs and, with `two_phases`, each of them into particles without any ghost partner (parts
@@ -79,6 +80,8 @@ class ParticleOrder {
  private:
   using PairCounts = std::vector<std::vector<int>>;         // by slot, of several threads
   using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
+  using Sums = std::vector<std::int64_t>;                   // of the slots of each thread
+  Sums add_counts(PairCounts &pairs, int threads) const;
   void assign_parts(PairCounts &pairs, const Flags &late, int threads);
 
   int parts = 1;

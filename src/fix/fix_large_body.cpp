@@ -254,7 +254,7 @@ void FixLargeBody::post_run()
 
 void FixLargeBody::look_for_trouble()
 {
-  watch.look(contacts.worst(*shape, motion.frame(), view()), motion.moves(), id);
+  watch.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
 }
 
 void FixLargeBody::list_particles()

@@ -4,11 +4,13 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact/in_parallel.h"
 #include "error.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -65,12 +67,18 @@ bool ContactWatch::exceeds(double mine, double limit, double &worst, int &rank) 
 
 ContactWatch::Move ContactWatch::largest_own_move() const
 {
-  Move found = {0.0, 0};
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double *v = atom->v[i], r = atom->radius[i];
-    const double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
-    if (ratio2 > found.ratio) found = {ratio2, i};
-  }
-  found.ratio = std::sqrt(found.ratio) * update->dt;
-  return found;
+  std::vector<Move> found(comm->nthreads, Move{0.0, 0});
+  in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
+    Move its = {0.0, 0};
+    for (int i = begin; i < end; i++) {
+      const double *v = atom->v[i], r = atom->radius[i];
+      const double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
+      if (ratio2 > its.ratio) its = {ratio2, i};
+    }
+    found[t] = its;
+  });
+  Move longest = *std::max_element(found.begin(), found.end(),
+                                   [](const Move &a, const Move &b) { return a.ratio < b.ratio; });
+  longest.ratio = std::sqrt(longest.ratio) * update->dt;
+  return longest;
 }

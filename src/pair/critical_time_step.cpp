@@ -5,6 +5,8 @@
 #include "fix/fix_large_body.h"
 
 #include "atom.h"
+#include "comm.h"
+#include "contact/in_parallel.h"
 #include "force.h"
 #include "math_const.h"
 #include "modify.h"
@@ -13,6 +15,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -87,13 +91,21 @@ double CriticalTimeStep::smallest() const
 CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int groups) const
 {
   std::vector<double> mine(2 * (types + 1), never), all(mine);
-  double *const r = mine.data(), *const m = r + types + 1;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if ((atom->mask[i] & groups) != groups) continue;
-    const int type = atom->type[i];
-    r[type] = std::min(r[type], atom->radius[i]);
-    m[type] = std::min(m[type], atom->rmass[i]);
-  }
+  std::vector<std::vector<double>> found(comm->nthreads);
+  in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
+    std::vector<double> its(mine.size(), never);
+    double *const r = its.data(), *const m = r + types + 1;
+    for (int i = begin; i < end; i++) {
+      if ((atom->mask[i] & groups) != groups) continue;
+      const int type = atom->type[i];
+      r[type] = std::min(r[type], atom->radius[i]);
+      m[type] = std::min(m[type], atom->rmass[i]);
+    }
+    found[t] = std::move(its);
+  });
+  for (const std::vector<double> &its : found)
+    std::transform(its.begin(), its.end(), mine.begin(), mine.begin(),
+                   [](double a, double b) { return std::min(a, b); });
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
   const auto middle = all.begin() + types + 1;
   std::for_each(middle, all.end(), [this](double &mass) { mass /= force->ftm2v; });

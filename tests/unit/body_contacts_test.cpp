@@ -155,6 +155,34 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
   EXPECT_GT(touching, ContactBatch::width);    // more than one batch
 }
 
+TEST_P(BodyContactsTest, TheWorstContactAndTheFastestParticle)
+{
+  // two that are equal: the first counts
+  const int fast = 400, as_fast = 900;
+  const double speed = 50.0;
+  for (int i : {fast, as_fast}) {
+    p.x[i] = {0.5, -0.3, 0.2};
+    p.v[i] = {0.0, speed, 0.0};
+    p.radius[i] = 0.5;
+  }
+  find();
+  double overlap = 0.0;
+  int deepest = 0;
+  for (int i = 0; i < p.size(); i++) {
+    SurfaceContact surface;
+    if (!touches(i, surface) || surface.overlap / p.radius[i] <= overlap) continue;
+    overlap = surface.overlap / p.radius[i];
+    deepest = i;
+  }
+  for (int threads : {1, 2, 7}) {
+    const BodyContacts::Worst worst = contacts.worst(*shape, frame, view(), threads);
+    EXPECT_EQ(worst.overlap, overlap);
+    EXPECT_EQ(worst.deepest, deepest);
+    EXPECT_EQ(worst.speed, speed / 0.5);
+    EXPECT_EQ(worst.fastest, fast);
+  }
+}
+
 TEST_P(BodyContactsTest, ForcesAreAdded)
 {
   find();

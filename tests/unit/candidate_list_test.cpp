@@ -65,6 +65,24 @@ TEST(ParticleOrder, OrdersParticlesByKeyThenTagThenHost)
   }
 }
 
+TEST(ParticleOrder, ThreadsDoNotShow)
+{
+  RandomSource random(6);
+  for (int n : {0, 1, 5, 400})
+    for (bool sorted : {false, true}) {
+      Particles p = random_particles(n, random);
+      if (sorted)
+        for (int a = 0; a < p.owned; a++) p.key[a] = a;
+      ParticleOrder one, several;
+      one.arrange(p.owned, p.key, p.tag);
+      for (int threads : {2, 3, 8}) {
+        several.arrange(p.owned, p.key, p.tag, threads);
+        EXPECT_EQ(several.atom_of_slot, one.atom_of_slot);
+        EXPECT_EQ(several.slot_of_atom, one.slot_of_atom);
+      }
+    }
+}
+
 /// By the second slot, then the first.
 struct InOrder {
   bool operator()(const std::pair<int, int> &a, const std::pair<int, int> &b) const
@@ -152,6 +170,32 @@ TEST(CandidateList, NamesDistantPairs)
   }
   EXPECT_GT(found, 100U);
   EXPECT_EQ(list.distant.size(), found);
+}
+
+TEST(CandidateList, CallsForeignParticlesWhereTheyComeFirst)
+{
+  RandomSource random(7);
+  for (bool two_phases : {false, true}) {
+    const Particles p = random_particles(300, random);
+    ParticleOrder order;
+    order.arrange(p.owned, p.key, p.tag);
+    Pairs pairs(order, 0.02, 1.0, random);
+    order.divide(pairs.lists.view(), 3, two_phases);
+    std::size_t called = 0;
+    for (int part = 0; part < order.num_parts(); part++) {
+      CandidateList list;
+      list.collect(order, pairs.lists.view(), part);
+      std::set<int> seen;
+      std::vector<std::pair<std::uint32_t, int>> expected, found;
+      for (std::uint32_t c = 0; c < list.num_pairs(); c++)
+        for (int slot : {list.first[c], list.second[c]})
+          if (!list.serves(slot) && seen.insert(slot).second) expected.emplace_back(c, slot);
+      for (const auto &its : list.distant) found.emplace_back(its.pair, its.slot);
+      EXPECT_EQ(found, expected);
+      called += found.size();
+    }
+    EXPECT_GT(called, 100U);
+  }
 }
 
 TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)

@@ -133,6 +133,30 @@ TEST(NeighbourSearch, FindsEveryPairOnce)
     }
 }
 
+using Pairs = std::vector<std::pair<int, int>>;
+
+Pairs in_order_of_the_list(NeighbourSearch &search, const Scene &scene, int threads)
+{
+  Pairs all;
+  search.find(scene.spheres(), threads, {});
+  search.view().for_each_pair([&](int i, int j, double) { all.emplace_back(i, j); });
+  return all;
+}
+
+TEST(NeighbourSearch, ThreadsDoNotShow)
+{
+  RandomSource random(23);
+  NeighbourSearch search;
+  const double edge[3] = {30, 20, 25};
+  // enough for several of the blocks that are added up, one of them not full
+  for (double largest : {0.5, 0.6, 8.0}) {
+    const Scene scene = random_scene(9000, edge, 3.0, 0.4, largest, random);
+    const Pairs expected = in_order_of_the_list(search, scene, 1);
+    EXPECT_GT(expected.size(), 9000U);
+    for (int threads : {2, 3, 11}) EXPECT_EQ(in_order_of_the_list(search, scene, threads), expected);
+  }
+}
+
 TEST(NeighbourSearch, OneLargeAmongManySmall)
 {
   RandomSource random(22);
