@@ -80,6 +80,7 @@ class CandidateList {
     work(ToPart{particles->part_of_slots(), part, nowhere()});
   }
 
+  int which() const { return part; }
   /// Where the slots of this part are.
   ParticleOrder::Range slots() const { return particles->range(part); }
 

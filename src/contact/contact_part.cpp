@@ -59,9 +59,12 @@ template <bool friction, bool history_kept, class Target>
 void ContactPart::compute_all(const Step &step, Target target)
 {
   constexpr std::int64_t stretch = 8L * ContactBatch::width, between_calls = 16 * stretch;
+  // as many as are brought with some stretches; of a part with few particles in its range none
+  const int slots_ahead = pairs.order().may_fill_range(pairs.which()) ? 512 : 0;
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
   ParticleOrder::Range to_bring = pairs.slots();
+  to_call = {to_bring.begin, to_bring.begin};
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
@@ -72,6 +75,8 @@ void ContactPart::compute_all(const Step &step, Target target)
     const int needed = std::min(pairs.second[end - 1] + 1, to_bring.end);
     if (needed > to_bring.begin) step.bring(to_bring.begin, needed);
     to_bring.begin = std::max(to_bring.begin, needed);
+    const int ahead = std::min(slots_ahead, to_bring.end - to_bring.begin);
+    to_call = {std::max(to_call.begin, to_bring.begin), to_bring.begin + ahead};
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= block_size; done += block_size)

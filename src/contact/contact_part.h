@@ -112,6 +112,7 @@ class ContactPart {
   template <bool friction, bool history_kept, class Target>
   void compute_block(const Step &step, Target target, std::int64_t begin, int count);
   void call_distant(const ParticleRecords &particles, std::size_t &next, std::int64_t end) const;
+  TALUS_INLINE void call_own(const ParticleRecords &particles);
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
   void place(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history_kept>
@@ -137,6 +138,7 @@ class ContactPart {
   BigVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
   int block_size = ContactBatch::width;
+  ParticleOrder::Range to_call{0, 0};    ///< slots that are brought soon
 
   // one block of contacts on its way through the kernels
   struct LawRange {
