@@ -5,12 +5,12 @@ import concurrent.futures
 import os
 import re
 import statistics
-import subprocess
 
 import beds
 import lammps
 import machine
 import paired
+import two_cores
 from lammps import LIGGGHTS, STOCK, TALUS
 
 TITLE = "One core, and two"
@@ -21,7 +21,6 @@ REBUILD = 100           # steps between rebuilds of the neighbor lists, in all c
 # steps in our own records; on two ranks that takes our exchange, and in periodic boxes too
 OWN_STEPS = "run_style verlet/proxy\n"
 OWN_EXCHANGE = "comm_proxy yes\n" + OWN_STEPS
-LOCKSTEP = os.path.join(machine.BUILD, "bench", "lockstep")
 CHRONO_DEMO, CHRONO_CHUTE = 3640.0, 55.0     # ns per particle and step: Chrono::Distributed, and in.chute beside it
 
 
@@ -71,9 +70,10 @@ def compare(bench, case, what, pair, floor, goal, rounds=None):
     return finish(bench, case, what, other, ours, paired.ratio(other, ours), floor, goal)
 
 
-def finish(bench, case, what, other, ours, ratio, floor, goal):
+def finish(bench, case, what, other, ours, ratio, floor, goal, more=None):
+    """more: for each round a dictionary with what else is known of it."""
     for k, (a, b) in enumerate(zip(other.values, ours.values)):
-        bench.section.record(case=case, round=k + 1, other_ns=a, ours_ns=b, ratio=a / b)
+        bench.section.record(case=case, round=k + 1, other_ns=a, ours_ns=b, ratio=a / b, **(more[k] if more else {}))
     if ratio.median < floor:
         bench.section.headline(f"single, {case}: ratio {ratio.median:.2f}, less than the {floor} that was aimed at.")
     return [case, what, other.median, ours.median, str(ratio), floor, goal]
@@ -183,8 +183,8 @@ def two_at_once(run, script, cores):
     return 1.0 / sum(1.0 / t for t in times)      # time of the pair for one particle and step
 
 
-def two_core_rows(bench, run, limits):
-    """`limits` receives what the machine allows for when two cores wait for each other, see lockstep()."""
+def two_core_rows(bench, run, machine_says):
+    """`machine_says` receives texts and tables on what two cores of this machine cost each other."""
     if len(machine.cores()) < 2:
         bench.section.text("Two cores: not measured, there is one.")
         return
@@ -194,16 +194,22 @@ def two_core_rows(bench, run, limits):
     rounds = 3 * bench.rounds    # whoever disturbs one core delays both: the spread is larger, and runs are short
     both = {"ranks": ("talus ranks", dict(ranks=2, cores=cores)),
             "threads": ("talus", dict(threads=2, cores=cores))}
+    distance, limits, ratios = two_cores.Distance(cores), [], {}
     for case, (script, options) in both.items():
         if bench.wants(case):
             bench.note(case)
             series = paired.measure({"alone": lambda: two_at_once(run, s["talus"], cores),
-                                     "pair": lambda o=options, n=script: run(s[n], **o),
-                                     "lockstep": lambda: lockstep(cores)}, rounds)
+                                     "pair": lambda c=case, o=options, n=script:
+                                         distance.around(c, lambda: run(s[n], **o)),
+                                     "lockstep": lambda: two_cores.lockstep(cores)}, rounds)
             alone, pair = series["alone"], series["pair"]
+            ratios[case] = [a / b for a, b in zip(alone.values, pair.values)]
             yield finish(bench, case, f"{size} spheres, 2 {case}; of the throughput of two independent runs",
-                         alone, pair, paired.ratio(alone, pair), 0.92, 0.97)
+                         alone, pair, paired.ratio(alone, pair), 0.92, 0.97,
+                         [dict(line_before_ns=before, line_after_ns=after) for before, after in distance.trips[case]])
             limits += series["lockstep"].values
+    if ratios:
+        machine_says += [lockstep_text(limits), *distance_blocks(distance, ratios)]
     if bench.wants("omp"):
         omp = dict(threads=2, cores=cores)
         yield compare(bench, "omp", f"{size} spheres, 2 threads, stock with -sf omp",
@@ -211,11 +217,29 @@ def two_core_rows(bench, run, limits):
                        "talus": lambda: run(s["talus"], **omp)}, 4, 5, rounds)
 
 
-def lockstep(cores):
-    """Throughput of two cores that wait for each other after each millisecond of work, of that of two that do not."""
-    done = subprocess.run([LOCKSTEP, *map(str, cores)], capture_output=True, text=True, check=True)
-    apart, together = map(float, done.stdout.split())
-    return apart / together
+def lockstep_text(limits):
+    return f"""`ranks` and `threads` wait for each other after each step. Two threads that do mere arithmetic on data of
+their own, for 1 ms at a time, and then wait for each other reach {statistics.median(limits):.2f} ({min(limits):.2f} to {max(limits):.2f}) of
+their throughput without waiting, measured in turn with these two rows: an upper limit, for threads and ranks share data
+as well."""
+
+
+def distance_blocks(distance, ratios):
+    """ratios: {case: ratio of each round}.  A sentence; and a table if the machine has changed."""
+    times = {name: distance.time(name) for name in ("near", "far") if distance.seen(name)}
+    said = " or ".join(f"{time:.0f} ns ({name})" for name, time in times.items())
+    text = f"A cache line that goes to the other core and back takes {said or 'a time that changed in every round'}"
+    if list(times) == ["near"] and not distance.seen("changing"):
+        return [text + ", measured before and after each run of these two rows."]
+    rows = []
+    for case, values in ratios.items():
+        for name, its in distance.sort(case, values).items():
+            if its:
+                rows.append([case, name, len(its), f"{statistics.median(its):.2f} ({min(its):.2f} to {max(its):.2f})"])
+    return [text + """: measured before and after each run of these two rows; near is less than
+twice the shortest time, and in some runs it changed on the way. A machine with cores of its own has one of these times;
+threads send lines to each other all the time, independent runs do not.""",
+            (["case", "cores", "rounds", "ratio, median (range)"], rows)]
 
 
 # ---- all --------------------------------------------------------------------------------------
@@ -224,9 +248,9 @@ COLUMNS = ["case", "what", "other, ns", "Talus, ns", "ratio, median (range)", "f
 
 
 def measure(bench):
-    section, run, limits = bench.section, Runner(bench), []
+    section, run, machine_says = bench.section, Runner(bench), []
     rows = [row for part in (bed_rows, chute_row, demo_row) for row in part(bench, run)]
-    rows += two_core_rows(bench, run, limits)
+    rows += two_core_rows(bench, run, machine_says)
     section.table(COLUMNS, rows)
     section.text(f"""Times in ns per particle and step. Beds: settled, 15 diameters deep, diameters +- 5 %, Hertz, friction
 with history, floor and four walls, skin .1 diameters; lists are rebuilt every {REBUILD} steps in all codes (in the row
@@ -237,11 +261,8 @@ goal are what was aimed at.""")
 takes 55 ns with the stock style; its time is scaled by in.chute, which ran in turn. `frictionless`: the same positions
 without friction; `ranks` and `threads`: time for a particle and step of two independent runs on the two cores, both
 running, over that of one run on both. Rows with two cores have three times as many rounds.""")
-    if limits:
-        section.text(f"""`ranks` and `threads` wait for each other after each step. Two threads that do mere arithmetic on data of
-their own, for 1 ms at a time, and then wait for each other reach {statistics.median(limits):.2f} ({min(limits):.2f} to {max(limits):.2f}) of
-their throughput without waiting, measured in turn with these two rows: an upper limit, for threads and ranks share data
-as well.""")
+    for block in machine_says:
+        section.text(block) if isinstance(block, str) else section.table(*block)
     state = beds.contacts(bench, bench.size(50000, 12500))
     section.text(f"The bed has {state[0]:.2f} contacts and {state[1]:.2f} candidate pairs per sphere.")
     if rows:

@@ -2,10 +2,12 @@
 //
 // What it costs on this machine that two cores wait for each other after every step, whatever they
 // compute: two threads repeat the same arithmetic, for about as long as half a step of a bed of
-// 50 000 spheres, and either meet after each repetition or do not.
+// 50 000 spheres, and either meet after each repetition or do not. And how long a cache line takes
+// to the other core and back, which says whether the two share a cache.
 //
-// usage: lockstep CORE CORE
-// Prints the seconds that each way took, without meeting (mean of the threads) and with it.
+// usage: lockstep CORE CORE TURNS
+// Prints the seconds that each way took, without meeting (mean of the threads) and with it, 0 if
+// there are no turns; and the nanoseconds of the cache line.
 
 #include <atomic>
 #include <chrono>
@@ -19,7 +21,7 @@
 
 namespace {
 
-constexpr int repetitions = 100, turns = 10;
+constexpr int repetitions = 100, round_trips = 100000;
 
 /// Where both threads wait for each other; without sleeping, as OpenMP and MPI do.
 class Meeting {
@@ -68,18 +70,37 @@ double seconds_of(std::vector<double> &numbers, Meeting *meeting)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Both threads call it; the first one returns the mean time (s) of the line to the other core and
+/// back.
+double line_round_trip(int who)
+{
+  alignas(64) static std::atomic<int> turn{0};
+  const auto begin = std::chrono::steady_clock::now();
+  for (int n = 0; n < round_trips; n++) {
+    while (turn.load(std::memory_order_acquire) != who) {
+    }
+    turn.store(1 - who, std::memory_order_release);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
+         round_trips;
+}
+
 }    // namespace
 
 int main(int argc, char **argv)
 {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: lockstep CORE CORE\n");
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: lockstep CORE CORE TURNS\n");
     return 1;
   }
+  const int turns = std::atoi(argv[3]);
   Meeting start, meeting;
-  double apart[2] = {}, together[2] = {};
+  double apart[2] = {}, together[2] = {}, trip[2] = {};
   const auto run = [&](int who) {
     pin(std::atoi(argv[1 + who]));
+    start.wait();
+    trip[who] = line_round_trip(who);
+    if (turns == 0) return;
     std::vector<double> numbers(size, 1.0);
     work(numbers);
     for (int turn = 0; turn < turns; turn++) {
@@ -92,5 +113,6 @@ int main(int argc, char **argv)
   std::thread other(run, 1);
   run(0);
   other.join();
-  std::printf("%g %g\n", 0.5 * (apart[0] + apart[1]), 0.5 * (together[0] + together[1]));
+  std::printf("%g %g %g\n", 0.5 * (apart[0] + apart[1]), 0.5 * (together[0] + together[1]),
+              1.0e9 * trip[0]);
 }
