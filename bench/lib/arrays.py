@@ -35,8 +35,10 @@ HOST = [
 ]
 
 TALUS = [
-    Array("records: place and radius; velocity and 1/mass; sum of forces", 96, "particle", "steps", True, (STEPS,)),
-    Array("records: spin and 1/radius; sum of moments", 64, "particle", "steps, friction", True, (STEPS,)),
+    Array("records: place and radius; velocity and 1/mass", 64, "particle"),
+    Array("records: spin and 1/radius", 32, "particle", "friction"),
+    Array("records: sum of forces", 32, "particle", "steps", True, (STEPS,)),
+    Array("records: sum of moments", 32, "particle", "steps, friction", True, (STEPS,)),
     Array("records: sum of couples", 32, "particle", "steps, rolling or spinning resistance", False),
     Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
     Array("order: key, tag, both numberings", 24, "particle"),
@@ -60,7 +62,7 @@ TALUS = [
     Array("large bodies: where the displacement is", 4, "body", "multistep"),
     Array("neighbor search: cells, places in them, rows", 36, "particle", "rebuild", True, (LISTING,)),
     Array("neighbor search: neighbors", 4, "pair", "rebuild", True, (LISTING,)),
-    Array("keys and tags in the old order, and their sorting", 32, "particle", "rebuild", True, (LISTING,)),
+    Array("tags in the old order", 8, "particle", "rebuild", True, (LISTING,)),
 ]
 
 STOCK = [

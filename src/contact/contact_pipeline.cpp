@@ -95,7 +95,7 @@ void ContactPipeline::release_records()
 {
   in_records = prepared = move_pending = false;
   if (memory_usage() < worth_giving_back) return;
-  particles.release();
+  particles.release_sums();
   Talus::release(held);
   for (ContactPart &part : parts) part.forget_contacts();
 }
@@ -222,7 +222,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
 
 void ContactPipeline::start_step(const ContactStep &step)
 {
-  if (particles.position.empty()) make_room();
+  if (!particles.has_room()) make_room();
   if (step.account) step.account->begin_step(order.size());
 }
 

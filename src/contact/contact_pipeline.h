@@ -58,9 +58,9 @@ class ContactPipeline {
   /// After set_pairs(), when the neighbours are no longer needed.
   void start_pairs(const FiledHistories &filed);
 
-  /// Give memory back if it is much, for rebuilds need as much for a while: that of the records,
-  /// which the next compute() makes anew and whose state must be in the host's arrays; and all of
-  /// it, with pairs and histories, which are then unknown until set_pairs().
+  /// Give memory back if it is much, for rebuilds need as much for a while: that of the sums in the
+  /// records, which the next compute() makes anew; the state must be in the host's arrays. And that
+  /// of pairs and histories as well, which are then unknown until set_pairs().
   void release_records();
   void release();
 

@@ -24,15 +24,15 @@ inline void add_to_row(double *row, Vec4 value)
 void ParticleRecords::resize(std::size_t n, std::size_t places, bool spins, bool couples)
 {
   stride = spins ? 2 : 1;
-  position.resize(n);
-  motion.resize(stride * n);
-  load.resize(stride * places);
-  couple.resize(couples ? places : 0);
+  renew(position, n);
+  renew(motion, stride * n);
+  renew(load, stride * places);
+  renew(couple, couples ? places : 0);
 }
 
-void ParticleRecords::release()
+void ParticleRecords::release_sums()
 {
-  for (BigVector<Record> *records : {&position, &motion, &load, &couple}) Talus::release(*records);
+  for (BigVector<Record> *records : {&load, &couple}) release(*records);
 }
 
 /* Eight particles at a time, for the sake of the divisions. */

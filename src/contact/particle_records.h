@@ -98,13 +98,16 @@ struct alignas(64) RecordTravel {
 
 class ParticleRecords {
  public:
-  /// Makes room for `n` particles and their sums, and for sums that nobody wants behind them: there
-  /// are `places` for sums, at least n. `spins` is false in scenes without friction: spin records
-  /// and moments are then neither read nor kept. `couples`: laws with resistance occur.
+  /// Makes room for `n` particles and their sums, whatever stood there before, and for sums that
+  /// nobody wants behind them: there are `places` for sums, at least n. `spins` is false in scenes
+  /// without friction: spin records and moments are then neither read nor kept. `couples`: laws
+  /// with resistance occur.
   void resize(std::size_t n, std::size_t places, bool spins, bool couples);
 
-  /// Gives all memory back.
-  void release();
+  /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
+  /// of what they need without sums, and the system takes its time to hand memory out anew.
+  void release_sums();
+  bool has_room() const { return !load.empty(); }
 
   /// Reads the state of some slots and clears their sums.
   void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
