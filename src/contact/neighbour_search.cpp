@@ -225,6 +225,16 @@ void NeighbourSearch::find(const Spheres &s, int threads,
   chunks.resize(threads);
   in_ranges(s.total, threads,
             [&](int t, int begin, int end) { find_rows(s, chunks[t], begin, end, excluded); });
+  if (memory_usage() > worth_giving_back) release_cells();
+}
+
+/* Before lists of pairs are made from the rows. */
+
+void NeighbourSearch::release_cells()
+{
+  for (BigVector<float> *array : {&x, &y, &z, &radius}) release(*array);
+  release(index);
+  release(start);
 }
 
 /* The rows of one thread. */

@@ -72,6 +72,7 @@ class NeighbourSearch {
   static Extent extent_of(const Spheres &spheres, int threads);
   static Grid make_grid(const Spheres &spheres, int threads);
   void sort_into_cells(const Spheres &spheres, int threads);
+  void release_cells();
   void find_rows(const Spheres &spheres, Chunk &mine, int begin, int end,
                  const std::function<bool(int, int)> &excluded);
   void find_row(const Spheres &spheres, int particle, Chunk &found) const;

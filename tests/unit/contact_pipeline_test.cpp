@@ -212,10 +212,11 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
   const std::vector<double> first = forces(true), before = forces(true);
   ASSERT_TRUE(first != before);    // there is a history
   const std::vector<int> slots = pipeline.particle_order().slot_of_atom;
-  ASSERT_GT(pipeline.memory_usage(), worth_giving_back);
+  const double used = pipeline.memory_usage();
+  ASSERT_GT(used, worth_giving_back);
   pipeline.keep_history(kept, false);
   pipeline.release();
-  EXPECT_LT(pipeline.memory_usage(), 0.5 * worth_giving_back);
+  EXPECT_LT(pipeline.memory_usage(), 0.6 * used);    // the states of the particles stay
   start(slots);
   EXPECT_TRUE(forces(false) == before);
 }
