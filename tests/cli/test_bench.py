@@ -8,6 +8,7 @@ import sys
 import tempfile
 import types
 import unittest
+import unittest.mock
 
 ROOT = os.environ["TALUS_SOURCE_DIR"]
 os.environ.update(TALUS_ROOT=ROOT, TALUS_BUILD=os.environ["TALUS_BINARY_DIR"], TALUS_BENCH_HOST=os.environ["TALUS_LMP"],
@@ -20,6 +21,7 @@ import main
 import paired
 import projection
 import report
+import two_cores
 import verdict
 
 
@@ -153,6 +155,30 @@ class Profile(unittest.TestCase):
             self.assertEqual(stage_of(library, symbol), stage, symbol)
 
 
+class TwoCores(unittest.TestCase):
+
+    def test_rounds_are_told_apart_by_the_time_of_a_line(self):
+        distance = two_cores.Distance([0, 1])
+        times = iter([50.0, 55.0, 52.0, 330.0, 320.0, 340.0, 60.0, 58.0])
+        with unittest.mock.patch("two_cores.line_trip", lambda cores: next(times)):
+            for case in ("ranks", "ranks", "threads", "threads"):
+                self.assertEqual(distance.around(case, lambda c=case: c), case)
+        self.assertEqual(distance.sort("ranks", [0.9, 0.8]), {"near": [0.9], "far": [], "changing": [0.8]})
+        self.assertEqual(distance.sort("threads", [0.7, 1.0]), {"near": [1.0], "far": [0.7], "changing": []})
+        self.assertEqual(distance.time("near"), 56.5)
+        self.assertEqual(distance.time("far"), 330.0)
+
+        text, (_, rows) = main.load("single").distance_blocks(distance, {"ranks": [0.9, 0.8], "threads": [0.7, 1.0]})
+        self.assertIn("56 ns (near) or 330 ns (far)", text)
+        self.assertEqual([row[:3] for row in rows], [["ranks", "near", 1], ["ranks", "changing", 1],
+                                                     ["threads", "near", 1], ["threads", "far", 1]])
+
+    def test_a_machine_that_does_not_change_needs_no_table(self):
+        distance = two_cores.Distance([0, 1])
+        distance.trips = {"threads": [(100.0, 110.0), (105.0, 150.0)]}
+        self.assertEqual(len(main.load("single").distance_blocks(distance, {"threads": [0.9, 1.0]})), 1)
+
+
 class Memory(unittest.TestCase):
 
     def test_sums_hold_what_is_counted(self):
@@ -161,11 +187,11 @@ class Memory(unittest.TestCase):
         stock = 16 + 4 * 3 + 48 + 36 + 28 * 3 + 28 * 4 + 24 * 3
         for phase in arrays.PHASES:
             self.assertAlmostEqual(sums["stock gran/hertz/history"][phase], stock)
-        ours, always, pairs = sums["Talus"], 24 + 12 + 16 + 4 * 5, 8 * 3
+        ours, always, pairs = sums["Talus"], 64 + 32 + 24 + 12 + 16 + 4 * 5, 8 * 3
         histories, listed, kept = 32 * 2 + 4.125 * 3, 8 * 2 + 4, 32 * 2
-        self.assertAlmostEqual(ours[arrays.STEPS], always + pairs + histories + 4 * 2 + 96 + 64)
+        self.assertAlmostEqual(ours[arrays.STEPS], always + pairs + histories + 4 * 2 + 32 + 32)
         self.assertAlmostEqual(ours[arrays.FILING], always + pairs + histories + listed)
-        self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + 8 + kept + listed + 36 + 4 * 3 + 32)
+        self.assertAlmostEqual(ours[arrays.LISTING], always + pairs + 8 + kept + listed + 36 + 4 * 3 + 8)
 
     def test_own_peak(self):
         before = lammps.own_peak()
