@@ -14,21 +14,27 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
 {
   particles = &order;
   part = which_part;
-  const bool all = !shared();
+  const bool all = !shared(), of_both = order.in_two_phases();
+  // second slots are among these
+  const ParticleOrder::Range seconds =
+      of_both ? ParticleOrder::Range{0, order.size()} : order.range(part);
   const std::vector<ParticleOrder::Range> rows = order.rows_of(neighbours, part);
   const auto for_each_of_part = [&](auto visit) {
     for (const ParticleOrder::Range &piece : rows)
       neighbours.for_each_pair(piece.begin, piece.end, [&](int i, int j, double weight) {
         const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-        if (all || serves(a) || serves(b)) visit(std::min(a, b), std::max(a, b), weight);
+        const int first_of_both = std::min(a, b), second_of_both = std::max(a, b);
+        if (all || serves(second_of_both) || (of_both && serves(first_of_both)))
+          visit(first_of_both, second_of_both, weight);
       });
   };
 
   bool all_unit = true;
-  // pairs with second s: row_start[s] ... row_start[s+1]-1
-  std::vector<std::int64_t> row_start(static_cast<std::size_t>(order.size()) + 2, 0);
+  // pairs with the n-th second: row_start[n] ... row_start[n+1]-1
+  const int rows_in_all = seconds.end - seconds.begin;
+  std::vector<std::int64_t> row_start(static_cast<std::size_t>(rows_in_all) + 2, 0);
   for_each_of_part([&](int, int b, double weight) {
-    row_start[b + 2]++;
+    row_start[b - seconds.begin + 2]++;
     all_unit = all_unit && weight == 1.0;
   });
   for (std::size_t s = 2; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
@@ -39,14 +45,25 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   renew(second, count);
   renew(weights, all_unit ? 0 : count);
   for_each_of_part([&](int a, int b, double weight) {
-    const std::int64_t c = row_start[b + 1]++;    // which ends as the end of the row
+    // which ends as the end of the row
+    const std::int64_t c = row_start[b - seconds.begin + 1]++;
     first[c] = a;
     second[c] = b;
     if (!all_unit) weights[c] = weight;
   });
   row_start.pop_back();
-  for (int s = 0; s < order.size(); s++) sort_row(row_start[s], row_start[s + 1]);
+  for (int row = 0; row < rows_in_all; row++) sort_row(row_start[row], row_start[row + 1]);
   look_around();
+  find_crossing();
+}
+
+void CandidateList::find_crossing()
+{
+  crossing.clear();
+  if (!hands_over()) return;
+  const int begin = slots().begin;
+  for (std::int64_t c = 0; c < num_pairs(); c++)
+    if (first[c] < begin) crossing.push_back(static_cast<std::uint32_t>(c));
 }
 
 /* Which particles are far away in memory, and which belong to others: these may stand in the cache
@@ -120,7 +137,8 @@ double CandidateList::memory_usage() const
 {
   return static_cast<double>(
       sizeof(int) * (first.capacity() + second.capacity()) + sizeof(double) * weights.capacity() +
-      sizeof(Distant) * distant.capacity() + sizeof(int) * foreign.capacity());
+      sizeof(Distant) * distant.capacity() + sizeof(int) * foreign.capacity() +
+      sizeof(std::uint32_t) * crossing.capacity());
 }
 
 }    // namespace Talus

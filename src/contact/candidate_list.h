@@ -21,7 +21,7 @@ namespace Talus {
 
 class CandidateList {
  public:
-  /// At a rebuild, after order.arrange() and order.divide(): the pairs with a member in `part`.
+  /// At a rebuild, after order.arrange() and order.divide(): the pairs that belong to `part`.
   /// `order` must live as long as this list. Throws what require_countable() throws. May be
   /// called for different parts at the same time.
   void collect(const ParticleOrder &order, const NeighbourView &neighbours, int part);
@@ -33,26 +33,38 @@ class CandidateList {
   /// Index of the pair of two slots, or -1.
   std::int64_t find(int slot_a, int slot_b) const;
 
-  /// This part computes the force on that slot.
+  /// The slot is of this part.
   bool serves(int slot) const { return particles->part(slot) == part; }
-  /// The pair is counted here; other parts of this rank may compute it as well.
+  /// This part computes the force of its pairs on that slot, if it is owned.
+  bool acts_on(int slot) const { return !particles->in_two_phases() || serves(slot); }
+  /// The pair is counted here; in two phases other parts of this rank may compute it as well.
   bool counts(std::int64_t pair) const
   {
-    return serves(first[pair]) || particles->part(first[pair]) == ParticleOrder::no_part;
+    return acts_on(first[pair]) || particles->part(first[pair]) == ParticleOrder::no_part;
   }
-  /// Other parts compute forces on some members of these pairs.
+  /// Members of these pairs are in other parts.
   bool shared() const { return particles->num_parts() > 1; }
-
-  /// Forces on particles that other parts serve must be kept off their sums.
-  bool screened() const { return shared() && !particles->runs_alone_first(part); }
+  /// Forces on first particles of other parts are handed over to them: see OutgoingForces.
+  bool hands_over() const { return part > 0 && !particles->in_two_phases(); }
+  /// Pairs of this kind, in ascending order.
+  const std::vector<std::uint32_t> &handed_over() const { return crossing; }
 
   /// Where forces on a slot are added: there, or if this part does not want them behind the last
   /// particle.
   std::size_t nowhere() const { return particles->nowhere(part); }
   struct ToAll {
+    static constexpr bool hands_over = false;
     std::size_t operator()(int slot) const { return slot; }
   };
+  /// Second particles there; first ones there or, before `begin`, handed over.
+  struct ToFollowers {
+    static constexpr bool hands_over = true;
+    int begin;
+    std::size_t operator()(int slot) const { return slot; }
+    bool keeps(int slot) const { return slot >= begin; }
+  };
   struct ToRange {
+    static constexpr bool hands_over = false;
     int begin;
     unsigned size;
     std::size_t nowhere;
@@ -62,6 +74,7 @@ class CandidateList {
     }
   };
   struct ToPart {
+    static constexpr bool hands_over = false;
     const std::uint16_t *part_of_slot;
     int part;
     std::size_t nowhere;
@@ -73,8 +86,9 @@ class CandidateList {
   /// Calls work(target) with the cheapest of these that will do.
   template <class Work> void with_target(Work work) const
   {
-    if (!screened()) return work(ToAll{});
     const ParticleOrder::Range its = slots();
+    if (hands_over()) return work(ToFollowers{its.begin});
+    if (!particles->in_two_phases() || particles->runs_alone_first(part)) return work(ToAll{});
     if (particles->may_fill_range(part))
       return work(ToRange{its.begin, static_cast<unsigned>(its.end - its.begin), nowhere()});
     work(ToPart{particles->part_of_slots(), part, nowhere()});
@@ -98,15 +112,18 @@ class CandidateList {
     int slot;
   };
   std::vector<Distant> distant;
-  /// Slots of other parts that these pairs read, in ascending order; not those of ghosts.
+  /// Slots of other parts that these pairs read, in ascending order; in two phases not those of
+  /// ghosts, which are in none.
   std::vector<int> foreign;
 
  private:
   void sort_row(std::int64_t begin, std::int64_t end);
   void look_around();
+  void find_crossing();
 
   const ParticleOrder *particles = nullptr;
   int part = 0;
+  std::vector<std::uint32_t> crossing;
 };
 
 }    // namespace Talus

@@ -136,8 +136,8 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   touching[block] = static_cast<std::uint8_t>(bits);
 }
 
-/* visit(pair, atom, partner, atom is the first) for both ends of every touching pair, where owned
-   and served. */
+/* visit(pair, atom, atom is the first) for both ends of every touching pair, where owned and
+   served. */
 
 template <class Visit>
 void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
@@ -147,26 +147,52 @@ void ContactHistory::for_each_end(const CandidateList &pairs, Visit visit) const
     if (!touches(c)) continue;
     const int first = pairs.first[c], second = pairs.second[c];
     const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, b, true);
-    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, a, false);
+    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, true);
+    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, false);
   }
+}
+
+/* visit(pair, atom) for every touching pair whose first particle is owned and of another part, to
+   which it is handed over. */
+
+template <class Visit>
+void ContactHistory::for_each_handed_over(const CandidateList &pairs, Visit visit) const
+{
+  const ParticleOrder &order = pairs.order();
+  for (const std::int64_t c : pairs.handed_over())
+    if (const int a = order.atom_of_slot[pairs.first[c]]; touches(c) && order.is_owned(a))
+      visit(c, a);
 }
 
 void ContactHistory::announce(const CandidateList &pairs, PartnerLists &partners) const
 {
-  for_each_end(pairs, [&](std::int64_t, int atom, int, bool) { partners.count(atom); });
+  for_each_end(pairs, [&](std::int64_t, int atom, bool) { partners.count(atom); });
+}
+
+void ContactHistory::announce_handed_over(const CandidateList &pairs, PartnerLists &partners) const
+{
+  for_each_handed_over(pairs, [&](std::int64_t, int atom) { partners.count(atom); });
 }
 
 void ContactHistory::file(const CandidateList &pairs, PartnerLists &partners) const
 {
-  const std::vector<std::int64_t> &tag = pairs.order().tag;
-  for_each_end(pairs, [&](std::int64_t c, int atom, int partner, bool is_first) {
-    file_entry(partners.append(atom, tag[partner]), c, is_first);
-  });
+  for_each_end(pairs,
+               [&](std::int64_t c, int, bool of_first) { file_end(pairs, partners, c, of_first); });
 }
 
-void ContactHistory::file_entry(double *values, std::int64_t pair, bool from_first) const
+void ContactHistory::file_handed_over(const CandidateList &pairs, PartnerLists &partners) const
 {
+  for_each_handed_over(pairs, [&](std::int64_t c, int) { file_end(pairs, partners, c, true); });
+}
+
+void ContactHistory::file_end(const CandidateList &pairs, PartnerLists &partners, std::int64_t pair,
+                              bool from_first) const
+{
+  const ParticleOrder &order = pairs.order();
+  const int first = order.atom_of_slot[pairs.first[pair]],
+            second = order.atom_of_slot[pairs.second[pair]];
+  double *values =
+      partners.append(from_first ? first : second, order.tag[from_first ? second : first]);
   const Record seen = from_first ? record(pair) : mirrored(record(pair));
   std::copy(std::begin(seen.c), std::end(seen.c), values);
   if (onset_kept) std::copy(std::begin(onset(pair).c), std::end(onset(pair).c), values + 4);

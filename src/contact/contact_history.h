@@ -51,11 +51,14 @@ class ContactHistory {
   void keep(const CandidateList &pairs, KeptContacts::Part &part);
 
   /// Before particles are renumbered: the history of every touching pair is filed under each of its
-  /// owned particles that the list serves (see PartnerLists). First announce(), then
-  /// PartnerLists::layout(), then file(); each may run for different parts of a rank at the same
-  /// time.
+  /// owned particles (see PartnerLists). First announce(), then PartnerLists::layout(), then
+  /// file(); each may run for different parts of a rank at the same time, and files under particles
+  /// of the part. For first particles of other parts, one part after the other: the same with
+  /// _handed_over, after it.
   void announce(const CandidateList &pairs, PartnerLists &partners) const;
+  void announce_handed_over(const CandidateList &pairs, PartnerLists &partners) const;
   void file(const CandidateList &pairs, PartnerLists &partners) const;
+  void file_handed_over(const CandidateList &pairs, PartnerLists &partners) const;
 
   /// After file(): pairs whose first particle is a ghost take over the history that its owner has
   /// filed, which ghost_values(host's index of the first, tag of the second) returns or nullptr.
@@ -93,7 +96,9 @@ class ContactHistory {
   void begin(std::int64_t pair);
   void change(std::int64_t block, unsigned bits);
   template <class Visit> void for_each_end(const CandidateList &pairs, Visit visit) const;
-  void file_entry(double *values, std::int64_t pair, bool from_first) const;
+  template <class Visit> void for_each_handed_over(const CandidateList &pairs, Visit visit) const;
+  void file_end(const CandidateList &pairs, PartnerLists &partners, std::int64_t pair,
+                bool of_first) const;
 
   bool onset_kept = false;
   std::vector<std::uint8_t> touching;    // one bit for each pair

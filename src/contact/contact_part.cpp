@@ -33,6 +33,7 @@ void ContactPart::forget_contacts()
 {
   touching = 0;
   release(contacts);
+  outgoing = OutgoingForces{};
 }
 
 void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
@@ -41,6 +42,8 @@ void ContactPart::compute(const ContactScene &scene, ParticleRecords &particles,
   const Step step{how, scene, particles, bring};
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
+  outgoing.make_room(pairs.handed_over().size(), particles);
+  outgoing.clear();
   pairs.with_target([&](auto target) {
     if (scene.with_history)
       compute_all<true, true>(step, target);
@@ -216,16 +219,22 @@ void ContactPart::add_up(ParticleRecords &particles, Target target, const std::u
     const std::uint32_t pair = block[n];
     const int its = second[pair];
     Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
+    bool kept = true;
+    if constexpr (Target::hands_over) {
+      kept = target.keeps(first[pair]);
+      i = kept ? i : outgoing.next();
+      outgoing.note(first[pair], !kept);
+    }
     const int lane = one_law ? n : lane_of_contact[n];
     const bool same = its == last;
     last = its;
     const Vec4 f = load4(force_of_lane[lane]);
-    store(i[0], load4(i[0]) + f);
+    store(i[0], kept_if(kept, load4(i[0])) + f);
     force = kept_if(same, force) - f;
     store(j[0], force);
     if constexpr (friction) {
       const Vec4 m = load4(moment_of_lane[lane]);
-      store(i[1], load4(i[1]) + m);
+      store(i[1], kept_if(kept, load4(i[1])) + m);
       moment = kept_if(same, moment) + m;
       store(j[1], moment);
     }
@@ -237,10 +246,17 @@ void ContactPart::add_couples(ParticleRecords &particles, Target target, const s
                               int count)
 {
   for (int n = 0; n < count; n++) {
-    Record &i = particles.couple[target(pairs.first[block[n]])];
+    const int first = pairs.first[block[n]];
+    Record *i = &particles.couple[target(first)];
     Record &j = particles.couple[target(pairs.second[block[n]])];
+    bool kept = true;
+    if constexpr (Target::hands_over) {
+      kept = target.keeps(first);
+      if (!kept) i = outgoing.next_couple();
+      outgoing.note_couple(!kept);
+    }
     const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
-    store(i, load4(i) + c);
+    store(*i, kept_if(kept, load4(*i)) + c);
     store(j, load4(j) - c);
   }
 }
@@ -251,7 +267,7 @@ void ContactPart::report_block(const Step &step, const std::uint32_t *block, int
   for (int n = 0; n < count; n++) {
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
     ReportedContact out{
-        order.atom_of_slot[i], order.atom_of_slot[j], pairs.serves(i), pairs.serves(j), {}, {}};
+        order.atom_of_slot[i], order.atom_of_slot[j], pairs.acts_on(i), pairs.acts_on(j), {}, {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
       out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
@@ -275,7 +291,7 @@ void ContactPart::account_block(const Step &step, const std::uint32_t *block, in
 
 double ContactPart::memory_usage() const
 {
-  return pairs.memory_usage() + history.memory_usage() +
+  return pairs.memory_usage() + history.memory_usage() + outgoing.memory_usage() +
          static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
 }
 

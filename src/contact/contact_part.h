@@ -1,11 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// One part of the contact work of a rank: it computes every contact that acts on its own particles
-// and adds the forces on them, and on no others. A contact between particles of two parts is
-// computed by both, from the same numbers in the same order, and each keeps a history of it: so
-// parts need neither locks nor sums over parts, may run at the same time or one after the other,
-// and give the same bits as one part alone. Parts serve threads (one range of particles each) and
-// the overlap of communication (particles without ghost partners first).
+// One part of the contact work of a rank: it computes the contacts that belong to it (see
+// ParticleOrder::divide()) and adds the forces on its own particles, and on no others. Parts need
+// no locks, may run at the same time or one after the other, and give the same bits as one part
+// alone. They serve threads (ranges of particles) and the overlap of communication (particles
+// without ghost partners first).
+//
+// A contact between particles of two parts is computed by the part of the second, which hands the
+// force on the first one over. In two phases, where parts do not follow each other in the order, it
+// is computed by both, from the same numbers in the same order, and each keeps a history of it.
 
 #ifndef TALUS_CONTACT_CONTACT_PART_H
 #define TALUS_CONTACT_CONTACT_PART_H
@@ -16,6 +19,7 @@
 #include "contact/contact_energy.h"
 #include "contact/contact_history.h"
 #include "contact/law_table.h"
+#include "contact/outgoing_forces.h"
 #include "contact/particle_records.h"
 
 #include <cstdint>
@@ -25,8 +29,8 @@
 namespace Talus {
 
 /// One contact as reported on request: host's indices, force on i, x_i - x_j. A part reports all
-/// its contacts, in the order in which it adds them up; `for_i` and `for_j` say which of the
-/// particles it serves, so that every owned particle gets each of its contacts once, and in
+/// its contacts, in the order in which it adds them up; `for_i` and `for_j` say on which of the
+/// particles it acts, so that every owned particle gets each of its contacts once, and in
 /// canonical order.
 struct ReportedContact {
   int i, j;
@@ -50,8 +54,8 @@ struct ContactScene {
 /// `report`, if given, is called for every contact; `account`, if given, the energies of those that
 /// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
 /// then, by the first part and so by the first thread: for messages that need someone to look after
-/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 as soon as
-/// all contacts of these are computed: called by each thread, with its number and range.
+/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 when all
+/// contacts of these are added: called once by each thread, with its number and range.
 struct ContactStep {
   double dt;
   bool advance;
@@ -98,6 +102,9 @@ class ContactPart {
 
   double memory_usage() const;
 
+  /// After compute(): what is to be added to particles of other parts.
+  const OutgoingForces &handed_over() const { return outgoing; }
+
   CandidateList pairs;
   ContactHistory history;
 
@@ -137,6 +144,7 @@ class ContactPart {
 
   BigVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
+  OutgoingForces outgoing;
   int block_size = ContactBatch::width;
   ParticleOrder::Range to_call{0, 0};    ///< slots that are brought soon
 

@@ -35,6 +35,7 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
     });
   }
   parts.resize(order.num_parts());
+  claimed = std::vector<std::atomic<unsigned char>>(order.num_parts());
   late_slots.clear();
   for (int s = 0; order.in_two_phases() && s < order.size(); s++)
     if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
@@ -127,8 +128,10 @@ void ContactPipeline::file_history(PartnerLists &partners) const
   const int num_parts = static_cast<int>(parts.size());
   in_parallel(num_parts, threads,
               [&](int p) { parts[p].history.announce(parts[p].pairs, partners); });
+  for (const ContactPart &part : parts) part.history.announce_handed_over(part.pairs, partners);
   partners.layout();
   in_parallel(num_parts, threads, [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
+  for (const ContactPart &part : parts) part.history.file_handed_over(part.pairs, partners);
 }
 
 void ContactPipeline::adopt_first_copies(
@@ -145,8 +148,8 @@ void ContactPipeline::adopt_first_copies(
 void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
   start_step(step);
-  // one part alone brings the ghosts among its slots
-  const bool with_ghosts = step.read_ghosts && (order.num_parts() > 1 || !step.read);
+  // parts that follow each other bring the ghosts among their slots
+  const bool with_ghosts = step.read_ghosts && (in_two_phases() || !step.read);
   run_phase(host, step, 0, with_ghosts);
   if (in_two_phases()) run_phase(host, step, threads, false);
   end_step(host, step);
@@ -226,13 +229,38 @@ void ContactPipeline::start_step(const ContactStep &step)
   if (step.account) step.account->begin_step(order.size());
 }
 
-/* Computes the parts of one phase, one by each thread. Reports and accounts are kept in the order
-   of the parts, so these then run one after the other. */
+/* visit(part) for what a thread does of a phase: in two phases its own part, else what no other
+   thread has claimed before. */
+
+template <class Visit>
+void ContactPipeline::for_each_part_of(int thread, int first_part, Visit visit)
+{
+  if (in_two_phases()) return visit(first_part + thread);
+  order.for_each_wanted(thread, [&](int p) {
+    if (claimed[p].exchange(1, std::memory_order_relaxed) == 0) visit(p);
+  });
+}
+
+/* Adds what parts have handed over to the particles of a thread. */
+
+void ContactPipeline::take_over(int thread)
+{
+  const ParticleOrder::Range its = order.range_of_thread(thread);
+  for (const ContactPart &part : parts) {
+    const std::vector<int> &foreign = part.pairs.foreign;
+    if (foreign.empty() || foreign.back() < its.begin || foreign.front() >= its.end) continue;
+    part.handed_over().add_to(particles, its);
+  }
+}
+
+/* Computes the parts of one phase. Reports and accounts are kept in the order of the parts, so
+   these then run one after the other. */
 
 void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &step, int first_part,
                                 bool with_ghosts)
 {
-  const bool last = first_part + threads == order.num_parts();
+  const bool last = !in_two_phases() || first_part > 0;
+  for (auto &one : claimed) one.store(0, std::memory_order_relaxed);
   const auto prepare = [&](int t) {
     if (first_part)
       of_thread(late_slots, t).for_each([&](std::size_t slot) {
@@ -245,14 +273,18 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
   const auto work = [&](int t) {
     ContactStep of_part = step;
     if (t) of_part.meanwhile = nullptr;
-    const int p = first_part + t;
-    parts[p].compute(scene, particles, of_part,
-                     [&](int begin, int end) { bring(host, step, p, begin, end); });
+    for_each_part_of(t, first_part, [&](int p) {
+      parts[p].compute(scene, particles, of_part,
+                       [&](int begin, int end) { bring(host, step, p, begin, end); });
+    });
+  };
+  const auto finish = [&](int t) {
+    if (!in_two_phases()) take_over(t);
     const ParticleOrder::Range its = order.range_of_thread(t);
     if (last && step.add_more) (*step.add_more)(t, its.begin, its.end);
   };
-  in_parallel(threads, step.report || step.account ? 1 : threads, prepare, work);
-  parts_moved = first_part + threads;
+  in_parallel(threads, step.report || step.account ? 1 : threads, prepare, work, finish);
+  parts_moved = last ? order.num_parts() : threads;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -269,7 +301,7 @@ ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
 {
   if (!scene.with_history || std::max(i, j) >= num_particles()) return {nullptr, -1};
   const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-  const int p = order.part(a) != ParticleOrder::no_part ? order.part(a) : order.part(b);
+  const int p = order.part_with_pair(std::min(a, b), std::max(a, b));
   if (p == ParticleOrder::no_part) return {nullptr, -1};
   const std::int64_t pair = parts[p].pairs.find(a, b);
   return {pair < 0 ? nullptr : &parts[p], pair};

@@ -19,6 +19,7 @@
 #include "contact/neighbour_view.h"
 #include "contact/particle_order.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -161,6 +162,8 @@ class ContactPipeline {
   static void sort_and_unite(std::vector<int> &slots);
   void run_phase(const ParticleView &host, const ContactStep &step, int first_part,
                  bool with_ghosts);
+  template <class Visit> void for_each_part_of(int thread, int first_part, Visit visit);
+  void take_over(int thread);
   void bring_frontier(const ParticleView &host, const ContactStep &step, int thread);
   void read_ghosts(const ParticleView &host, int thread);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
@@ -199,8 +202,9 @@ class ContactPipeline {
   BigVector<Record> held;                        ///< by slot, or empty
   std::vector<RecordTravel> travels;             ///< by part
 
-  std::vector<ContactPart> parts;    ///< one for each thread, in two phases as many again
-  std::vector<int> late_slots;       ///< particles of the second phase
+  std::vector<ContactPart> parts;                     ///< see ParticleOrder::divide()
+  std::vector<std::atomic<unsigned char>> claimed;    ///< by part: a thread does it
+  std::vector<int> late_slots;                        ///< particles of the second phase
 };
 
 }    // namespace Talus

@@ -35,7 +35,7 @@ double ContactPipeline::early_share() const
 {
   std::int64_t early = 0;
   for (int s = 0; s < order.size(); s++)
-    early += order.is_owned(order.atom_of_slot[s]) && order.part(s) < threads;
+    early += order.is_owned(order.atom_of_slot[s]) && (!in_two_phases() || order.part(s) < threads);
   return order.owned ? static_cast<double>(early) / order.owned : 0.0;
 }
 

@@ -8,34 +8,39 @@
 
 namespace Talus {
 
-/// work(n) for n = 0 ... count-1 by so many threads, each of them a range of n. What work throws,
-/// out of memory for one, is thrown here when all are done: in a thread nobody would catch it.
-template <class Work> void in_parallel(int count, int threads, Work work)
+namespace in_parallel_detail {
+
+/// Inside a parallel region: every thread does its share of each stage, and waits between stages.
+template <class Guarded, class Stage, class... Later>
+void do_stages(int count, const Guarded &guarded, Stage &stage, Later &...later)
 {
-  in_parallel(
-      count, threads, [](int) {}, work);
+#pragma omp for schedule(static) nowait
+  for (int n = 0; n < count; n++) guarded(stage, n);
+  if constexpr (sizeof...(later) > 0) {
+#pragma omp barrier
+    do_stages(count, guarded, later...);
+  }
 }
 
-/// The same, of which all of `first` is done before any of `work` begins; the same thread does both
-/// for one n. One start and one end of the threads less than two calls.
-template <class First, class Work> void in_parallel(int count, int threads, First first, Work work)
+}    // namespace in_parallel_detail
+
+/// stage(n) for n = 0 ... count-1 by so many threads, each of them a range of n. Of several stages
+/// all of one is done before any of the next one begins; the same thread does all stages for one n,
+/// and threads start and end once. What a stage throws, out of memory for one, is thrown here when
+/// all are done: in a thread nobody would catch it.
+template <class... Stage> void in_parallel(int count, int threads, Stage... stages)
 {
   std::exception_ptr failure;
-  const auto guarded = [&failure](auto &task, int n) {
+  const auto guarded = [&failure](auto &stage, int n) {
     try {
-      task(n);
+      stage(n);
     } catch (...) {
 #pragma omp critical
       failure = std::current_exception();
     }
   };
 #pragma omp parallel num_threads(threads) if (threads > 1)
-  {
-#pragma omp for schedule(static)
-    for (int n = 0; n < count; n++) guarded(first, n);
-#pragma omp for schedule(static) nowait
-    for (int n = 0; n < count; n++) guarded(work, n);
-  }
+  in_parallel_detail::do_stages(count, guarded, stages...);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -14,6 +14,7 @@ void KeptContacts::begin(const ParticleOrder &order, bool particles_may_leave)
   filled = true;
   may_leave = particles_may_leave;
   most = 0;
+  both_have_pairs = order.in_two_phases();
   parts.resize(order.num_parts());
   part_of_slot.clear();
   if (order.num_parts() > 1)
@@ -30,24 +31,33 @@ void KeptContacts::begin(const ParticleOrder &order, bool particles_may_leave)
   }
 }
 
-/* visit(first, second) for every pair of a part whose first particle is served there. */
+/* visit(first, second) for every pair of a part whose first particle is of this part, or is not. */
 
-template <class Visit> void KeptContacts::for_each_own_first(int p, Visit visit) const
+template <class Visit> void KeptContacts::for_each_pair(int p, bool of_own_first, Visit visit) const
 {
   const Part &its = parts[p];
   for (std::size_t row = 0; row + 1 < its.rows.size(); row++)
     for (std::uint32_t e = its.rows[row]; e < its.rows[row + 1]; e++) {
-      if (part_of(its.first[e]) == p) visit(its.first[e], its.first_row + static_cast<int>(row));
+      if ((part_of(its.first[e]) == p) == of_own_first)
+        visit(its.first[e], its.first_row + static_cast<int>(row));
     }
+}
+
+/* visit(first, second) once for every pair with a first particle of any part, in ascending order of
+   the second for each of them. Parts at the same time visit each their own; the few pairs between
+   parts, if the part of the first does not have them as well, follow. */
+
+template <class Visit> void KeptContacts::for_each_follower(int threads, Visit visit) const
+{
+  in_parallel(num_parts(), threads, [&](int p) { for_each_pair(p, true, visit); });
+  for (int p = 0; p < num_parts() && !both_have_pairs; p++) for_each_pair(p, false, visit);
 }
 
 void KeptContacts::finish(int threads)
 {
   if (!may_leave) return;
   followers_begin.assign(tag.size() + 2, 0);
-  in_parallel(num_parts(), threads, [this](int p) {
-    for_each_own_first(p, [this](int first, int) { followers_begin[first + 2]++; });
-  });
+  for_each_follower(threads, [this](int first, int) { followers_begin[first + 2]++; });
   const int total = static_cast<int>(tag.size());
   for (int s = 0; s < total; s++) {
     const int p = part_of(s);
@@ -57,11 +67,9 @@ void KeptContacts::finish(int threads)
   }
   for (int s = 0; s < total; s++) followers_begin[s + 2] += followers_begin[s + 1];
   renew(followers, followers_begin.back());
-  in_parallel(num_parts(), threads, [this](int p) {
-    // the begin of a row moves on to its end
-    for_each_own_first(
-        p, [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
-  });
+  // the begin of a row moves on to its end
+  for_each_follower(
+      threads, [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
   followers_begin.pop_back();
 }
 
@@ -72,10 +80,9 @@ int KeptContacts::pack(int slot, int values, double *buffer)
     return 1;
   }
   slot_by_name[tag[slot]] = slot;
-  const Part &its = parts[part_of(slot)];
   double *to = buffer + 1;
   int count = 0;
-  const auto add = [&](int partner, std::int64_t place, bool is_first) {
+  const auto add = [&](const Part &its, int partner, std::int64_t place, bool is_first) {
     const Record &record = its.records[place];
     const Record seen = is_first ? record : mirrored(record);
     double all[8] = {seen.c[0], seen.c[1], seen.c[2], seen.c[3]};
@@ -83,10 +90,13 @@ int KeptContacts::pack(int slot, int values, double *buffer)
     to = PartnerLists::write_entry(to, tag[partner], all, values);
     count++;
   };
-  for (std::uint32_t e = its.row_begin(slot); e < its.row_end(slot); e++)
-    add(its.first[e], its.place[e], false);
-  for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++)
-    add(followers[n], its.find(slot, followers[n]), true);
+  const Part &own = parts[part_of(slot)];
+  for (std::uint32_t e = own.row_begin(slot); e < own.row_end(slot); e++)
+    add(own, own.first[e], own.place[e], false);
+  for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++) {
+    const Part &its = parts[holder(slot, followers[n])];
+    add(its, followers[n], its.find(slot, followers[n]), true);
+  }
   buffer[0] = count;
   return static_cast<int>(to - buffer);
 }

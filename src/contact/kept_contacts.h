@@ -93,15 +93,16 @@ class KeptContacts {
             part.onsets.empty() ? &nothing : part.onsets.data() + readable};
   }
   int part_of(int slot) const { return part_of_slot.empty() ? 0 : part_of_slot[slot]; }
-  /// A part that has the pair: that of either owned particle.
+  /// A part that has the pair, see ParticleOrder::part_with_pair().
   int holder(int first, int second) const
   {
-    const int p = part_of(first);
-    return p != ParticleOrder::no_part ? p : part_of(second);
+    const int p = part_of(second);
+    return p != ParticleOrder::no_part ? p : part_of(first);
   }
-  template <class Visit> void for_each_own_first(int p, Visit visit) const;
+  template <class Visit> void for_each_pair(int p, bool of_own_first, Visit visit) const;
+  template <class Visit> void for_each_follower(int threads, Visit visit) const;
 
-  bool filled = false, may_leave = false;
+  bool filled = false, may_leave = false, both_have_pairs = false;
   int most = 0;
   std::vector<Part> parts;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only

@@ -90,12 +90,13 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   });
 }
 
-/* Pairs of each slot are counted by up to eight threads, each for itself. */
+/* Pairs of each slot, without two phases those of which it is the second, are counted by up to
+   eight threads, each for itself. */
 
 void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in_phases)
 {
   two_phases = in_phases;
-  parts = two_phases ? 2 * threads : threads;
+  parts = two_phases ? 2 * threads : threads + 2 * small_parts * (threads - 1);
   part_of_slot.clear();
   slots_of_block.clear();
   if (parts == 1) return;
@@ -110,19 +111,22 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
     for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
       const int a = slot_of_atom[i], b = slot_of_atom[j];
       slots = {std::min({slots.begin, a, b}), std::max({slots.end, a + 1, b + 1})};
-      pairs[thread][a]++;
-      pairs[thread][b]++;
+      pairs[thread][std::max(a, b)]++;
       if (!two_phases) return;
+      pairs[thread][std::min(a, b)]++;
       if (!is_owned(j)) set(late[a]);
       if (!is_owned(i)) set(late[b]);
     });
     slots_of_block[block] = slots;
   });
-  assign_parts(pairs, late, threads);
+  if (two_phases)
+    assign_phases(pairs, late, threads);
+  else
+    assign_ranges(pairs, threads);
 }
 
 /* Adds the counts of all threads up in those of the first one, and makes work of them: one for
-   each particle and for each of its pairs. */
+   each owned particle and for each of its pairs; in two phases nothing is done for ghosts. */
 
 ParticleOrder::Sums ParticleOrder::add_counts(PairCounts &pairs, int threads) const
 {
@@ -132,7 +136,10 @@ ParticleOrder::Sums ParticleOrder::add_counts(PairCounts &pairs, int threads) co
     std::int64_t sum = 0;
     for (int s = begin; s < end; s++) {
       for (std::size_t other = 1; other < pairs.size(); other++) work[s] += pairs[other][s];
-      work[s] = is_owned(atom_of_slot[s]) ? work[s] + 1 : 0;
+      if (is_owned(atom_of_slot[s]))
+        work[s]++;
+      else if (two_phases)
+        work[s] = 0;
       sum += work[s];
     }
     sums[t] = sum;
@@ -140,9 +147,49 @@ ParticleOrder::Sums ParticleOrder::add_counts(PairCounts &pairs, int threads) co
   return sums;
 }
 
-/* Ranges of the order with the same work. */
+/* Ranges of the order: large ones with the same work, between them small ones. */
 
-void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threads)
+void ParticleOrder::assign_ranges(PairCounts &pairs, int threads)
+{
+  const Sums sums = add_counts(pairs, threads);
+  const std::vector<int> &work = pairs[0];
+  const double of_thread =
+      static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::int64_t{0})) / threads;
+
+  std::vector<double> work_before(parts + 1, std::numeric_limits<double>::infinity());
+  work_before[0] = 0.0;
+  for (int p = 1; p < parts; p++) {
+    constexpr int per_thread = 1 + 2 * small_parts;
+    const int thread = (p + small_parts) / per_thread, its = (p + small_parts) % per_thread;
+    work_before[p] =
+        of_thread * (its <= small_parts ? thread + small_part * its
+                                        : thread + 1 - small_part * (per_thread - its));
+  }
+
+  part_of_slot.resize(size());
+  std::vector<std::vector<int>> begins(threads, std::vector<int>(parts + 1, size()));
+  in_ranges(size(), threads, [&](int t, int begin, int end) {
+    auto done = static_cast<double>(std::accumulate(sums.begin(), sums.begin() + t, 0L));
+    int its = 0;
+    for (int s = begin; s < end; s++) {
+      while (done >= work_before[its + 1]) its++;
+      part_of_slot[s] = static_cast<std::uint16_t>(its);
+      begins[t][its] = std::min(begins[t][its], s);
+      done += work[s];
+    }
+  });
+  range_of_part.assign(parts, {size(), size()});
+  for (int p = parts - 1; p >= 0; p--) {
+    const int next = p + 1 < parts ? range_of_part[p + 1].begin : size();
+    range_of_part[p] = {next, next};
+    for (const std::vector<int> &of_thread : begins)
+      range_of_part[p].begin = std::min(range_of_part[p].begin, of_thread[p]);
+  }
+}
+
+/* Ranges of the order with the same work, and of each what waits for ghosts apart. */
+
+void ParticleOrder::assign_phases(PairCounts &pairs, const Flags &late, int threads)
 {
   const Sums sums = add_counts(pairs, threads);
   const std::vector<int> &work = pairs[0];
@@ -158,7 +205,7 @@ void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threa
       part_of_slot[s] = no_part;
       if (work[s] == 0) continue;
       while (done * threads >= (range + 1) * total) range++;
-      const int its = two_phases && late[s] ? threads + range : range;
+      const int its = late[s] ? threads + range : range;
       part_of_slot[s] = static_cast<std::uint16_t>(its);
       found[t][its] = {std::min(found[t][its].begin, s), s + 1};
       done += work[s];
@@ -173,7 +220,12 @@ void ParticleOrder::assign_parts(PairCounts &pairs, const Flags &late, int threa
 
 ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
 {
-  if (!two_phases) return range(thread);
+  if (parts == 1) return range(0);
+  if (!two_phases) {
+    const int home = thread * (1 + 2 * small_parts), last = parts - 1;
+    return {range(std::max(0, home - small_parts)).begin,
+            range(std::min(last, home + small_parts)).end};
+  }
   const Range early = range(thread), late = range(thread + parts / 2);
   if (early.begin == early.end) return late;
   if (late.begin == late.end) return early;

@@ -23,10 +23,28 @@ class ParticleOrder {
   void arrange(int num_owned, const std::vector<std::uint64_t> &key,
                std::vector<std::int64_t> tag_of_atom, int threads = 1);
 
-  /// Divides the owned particles: `threads` ranges of the order with about the same number of
-  /// pairs and, with `two_phases`, each of them into particles without any ghost partner (parts
-  /// 0 ... threads-1) and the others (parts threads ... 2 threads-1). Ghosts are in none.
+  /// Divides the particles for `threads` threads, into ranges of the order.
+  ///
+  /// Without `two_phases` into one range for each thread and, between those of two threads, a few
+  /// small ones for whichever of them has the time: see for_each_wanted(). Ghosts are in the parts
+  /// as well. Pairs belong to the part of their second particle.
+  ///
+  /// With `two_phases` into ranges with about the same number of pairs, and each of them into
+  /// owned particles without any ghost partner (parts 0 ... threads-1) and the others (parts
+  /// threads ... 2 threads-1). Ghosts are in none. Pairs belong to the parts of both.
   void divide(const NeighbourView &neighbours, int threads, bool two_phases);
+
+  /// visit(part) for the parts that a thread may do, the most wanted first: its own one, then small
+  /// ones by distance. All parts in ascending order if one thread after the other claims its own.
+  template <class Visit> void for_each_wanted(int thread, Visit visit) const
+  {
+    const int home = thread * (1 + 2 * small_parts);
+    visit(home);
+    for (int d = 1; d <= 2 * small_parts; d++) {
+      if (home + d < parts) visit(home + d);
+      if (home - d > 0) visit(home - d);
+    }
+  }
 
   /// Slots are counted with an int, like the host's particles: throws std::length_error if there
   /// are too many.
@@ -35,15 +53,22 @@ class ParticleOrder {
   bool is_owned(int atom) const { return atom < owned; }
   int size() const { return static_cast<int>(atom_of_slot.size()); }
   int num_parts() const { return parts; }
-  /// Part of a slot; no_part for ghosts, unless there is one part only.
+  /// Part of a slot; in two phases no_part for ghosts.
   int part(int slot) const { return parts == 1 ? 0 : part_of_slot[slot]; }
+  /// One of the parts to which a pair belongs; no_part for two ghosts in two phases.
+  int part_with_pair(int first, int second) const
+  {
+    return part(second) != no_part ? part(second) : part(first);
+  }
   const std::uint16_t *part_of_slots() const { return parts == 1 ? nullptr : part_of_slot.data(); }
-  /// Slots of a part are within this range, in ascending order; in part 0 alone they are all.
+  /// Slots of a part are within this range, in ascending order; unless in two phases, they are all
+  /// that are in it, and the parts follow each other.
   struct Range {
     int begin, end;
   };
   Range range(int part) const { return parts == 1 ? Range{0, size()} : range_of_part[part]; }
-  /// Those of all parts of a thread are within this one, and of no other thread.
+  /// All slots divided among the threads: with its own part and, without two phases, the nearer
+  /// half of the small ones.
   Range range_of_thread(int thread) const;
   bool in_two_phases() const { return two_phases; }
 
@@ -70,7 +95,7 @@ class ParticleOrder {
   bool may_fill_range(int part) const { return !two_phases || part < parts / 2; }
   double memory_usage() const;
 
-  static constexpr int no_part = 0xffff, max_threads = 0x7fff;
+  static constexpr int no_part = 0xffff, max_threads = 0x2fff;
 
   int owned = 0;                    ///< host's indices below this are owned by this rank
   std::vector<std::int64_t> tag;    ///< by host's index, as of the rebuild
@@ -82,7 +107,13 @@ class ParticleOrder {
   using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
   using Sums = std::vector<std::int64_t>;                   // of the slots of each thread
   Sums add_counts(PairCounts &pairs, int threads) const;
-  void assign_parts(PairCounts &pairs, const Flags &late, int threads);
+  void assign_phases(PairCounts &pairs, const Flags &late, int threads);
+  void assign_ranges(PairCounts &pairs, int threads);
+
+  /// On either side of the border between the ranges of two threads, and how much of the work of a
+  /// thread each of them is.
+  static constexpr int small_parts = 1;
+  static constexpr double small_part = 0.1;
 
   int parts = 1;
   bool two_phases = false;

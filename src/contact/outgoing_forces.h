@@ -1,0 +1,51 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Forces of the contacts of one part of the work on first particles of other parts (see
+// ParticleOrder::divide()): noted here in the order of the contacts, and added when all parts are
+// done. A particle gets the contacts of its own part first, then those of other parts in ascending
+// order of the parts: as these are ranges of the order, that is the canonical order.
+
+#ifndef TALUS_CONTACT_OUTGOING_FORCES_H
+#define TALUS_CONTACT_OUTGOING_FORCES_H
+
+#include "contact/big_vector.h"
+#include "contact/particle_records.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace Talus {
+
+class OutgoingForces {
+ public:
+  /// For so many contacts and one more, which is written before it is known whether it counts.
+  void make_room(std::size_t contacts, const ParticleRecords &particles);
+  void clear() { noted = with_couple = 0; }
+
+  /// Where the next force stands, as a load (see ParticleRecords), to be written without being
+  /// read; on which slot; and that it counts.
+  Record *next() { return &load[stride * noted]; }
+  void note(int slot, bool counts)
+  {
+    slots[noted] = slot;
+    noted += counts;
+  }
+  /// The same for couples, of the same contacts, a while later.
+  Record *next_couple() { return &couple[with_couple]; }
+  void note_couple(bool counts) { with_couple += counts; }
+
+  /// Adds those on slots of a range to their sums.
+  void add_to(ParticleRecords &particles, ParticleOrder::Range range) const;
+
+  std::size_t size() const { return noted; }
+  double memory_usage() const;
+
+ private:
+  std::size_t stride = 1, noted = 0, with_couple = 0;
+  BigVector<int> slots;
+  BigVector<Record> load, couple;
+};
+
+}    // namespace Talus
+
+#endif
