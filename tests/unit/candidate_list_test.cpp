@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -198,6 +199,13 @@ TEST(CandidateList, CallsForeignParticlesWhereTheyComeFirst)
   }
 }
 
+/// To the part of the second particle, in two phases to those of both.
+bool belongs_to(int part, std::pair<int, int> slots, const ParticleOrder &order)
+{
+  return order.part(slots.second) == part ||
+         (order.in_two_phases() && order.part(slots.first) == part);
+}
+
 TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
 {
   RandomSource random(4);
@@ -210,6 +218,8 @@ TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
       order.divide(pairs.lists.view(), threads, two_phases);
       for (int s = 0; s < order.size(); s++) {
         const int part = order.part(s);
+        const bool is_ghost = !order.is_owned(order.atom_of_slot[s]);
+        ASSERT_EQ(part == ParticleOrder::no_part, two_phases && is_ghost);
         if (part == ParticleOrder::no_part) continue;
         ASSERT_GE(s, order.range(part).begin);
         ASSERT_LT(s, order.range(part).end);
@@ -219,12 +229,20 @@ TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
           return order.part(s) != part && order.part(s) != ParticleOrder::no_part;
         };
         std::set<int> expected;
-        for (const auto &[slots, weight] : pairs.by_slots)
-          for (const auto &[mine, other] : {slots, std::pair<int, int>(slots.second, slots.first)})
-            if (order.part(mine) == part && is_of_other(other)) expected.insert(other);
+        std::vector<std::uint32_t> handed_over;
+        std::uint32_t c = 0;
+        for (const auto &[slots, weight] : pairs.by_slots) {
+          if (!belongs_to(part, slots, order)) continue;
+          for (const int slot : {slots.first, slots.second})
+            if (is_of_other(slot)) expected.insert(slot);
+          if (!two_phases && is_of_other(slots.first)) handed_over.push_back(c);
+          c++;
+        }
         CandidateList list;
         list.collect(order, pairs.lists.view(), part);
         EXPECT_EQ(list.foreign, std::vector<int>(expected.begin(), expected.end()));
+        EXPECT_EQ(list.handed_over(), handed_over);
+        EXPECT_EQ(list.hands_over(), !two_phases && part > 0);
       }
     }
 }
@@ -244,6 +262,67 @@ TEST(CandidateList, StoresWeightsOnlyIfOneIsNotOne)
   }
 }
 
+TEST(ParticleOrder, RangesOfThreadsHaveTheSameWork)
+{
+  RandomSource random(8);
+  for (int threads : {1, 2, 3, 8}) {
+    const Particles p = random_particles(600, random);
+    ParticleOrder order;
+    order.arrange(p.owned, p.key, p.tag);
+    Pairs pairs(order, 0.02, 1.0, random);
+    order.divide(pairs.lists.view(), threads, false);
+    std::vector<int> work(order.size());
+    for (int s = 0; s < order.size(); s++) work[s] = order.is_owned(order.atom_of_slot[s]);
+    for (const auto &[slots, weight] : pairs.by_slots) work[slots.second]++;
+    const auto work_of = [&](ParticleOrder::Range range) {
+      return std::accumulate(work.begin() + range.begin, work.begin() + range.end, 0.0);
+    };
+    const double share = work_of({0, order.size()}) / threads,
+                 most = *std::max_element(work.begin(), work.end());
+    int end = 0;
+    for (int part = 0; part < order.num_parts(); part++) {    // side by side, some smaller
+      ASSERT_EQ(order.range(part).begin, end);
+      end = order.range(part).end;
+      EXPECT_LT(work_of(order.range(part)), share + 2.0 * most);
+    }
+    EXPECT_EQ(end, order.size());
+    end = 0;
+    for (int t = 0; t < threads; t++) {
+      ASSERT_EQ(order.range_of_thread(t).begin, end);
+      end = order.range_of_thread(t).end;
+      EXPECT_NEAR(work_of(order.range_of_thread(t)), share, most);
+    }
+    EXPECT_EQ(end, order.size());
+  }
+}
+
+TEST(ParticleOrder, EveryPartIsWanted)
+{
+  RandomSource random(9);
+  for (int threads : {1, 2, 3, 8}) {
+    const Particles p = random_particles(100, random);
+    ParticleOrder order;
+    order.arrange(p.owned, p.key, p.tag);
+    order.divide(Pairs(order, 0.1, 1.0, random).lists.view(), threads, false);
+    std::set<int> first_wanted;
+    std::vector<int> done;    // by one thread after the other
+    for (int t = 0; t < threads; t++) {
+      bool first = true;
+      order.for_each_wanted(t, [&](int part) {
+        ASSERT_GE(part, 0);
+        ASSERT_LT(part, order.num_parts());
+        if (first) {
+          EXPECT_TRUE(first_wanted.insert(part).second);
+        }
+        first = false;
+        if (std::find(done.begin(), done.end(), part) == done.end()) done.push_back(part);
+      });
+    }
+    EXPECT_EQ(static_cast<int>(done.size()), order.num_parts());
+    EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+  }
+}
+
 TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
 {
   RandomSource random(3);
@@ -254,7 +333,9 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
       order.arrange(p.owned, p.key, p.tag);
       Pairs pairs(order, 0.02, 1.0, random);
       order.divide(pairs.lists.view(), threads, two_phases);
-      ASSERT_EQ(order.num_parts(), two_phases ? 2 * threads : threads);
+      if (two_phases) {
+        ASSERT_EQ(order.num_parts(), 2 * threads);
+      }
 
       BySlots<int> counted;
       std::vector<int> particles_of_part(order.num_parts(), 0);
@@ -263,8 +344,7 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
         list.collect(order, pairs.lists.view(), part);
         BySlots<double> expected;
         for (const auto &pair : pairs.by_slots)
-          if (list.serves(pair.first.first) || list.serves(pair.first.second))
-            expected.insert(pair);
+          if (belongs_to(part, pair.first, order)) expected.insert(pair);
         ASSERT_EQ(list.num_pairs(), static_cast<std::int64_t>(expected.size()));
         std::int64_t c = 0;
         for (const auto &pair : expected) {
@@ -278,7 +358,7 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
         }
         for (int s = 0; s < order.size(); s++) {
           const bool owned = order.is_owned(order.atom_of_slot[s]);
-          ASSERT_TRUE(!list.serves(s) || owned || order.num_parts() == 1);
+          ASSERT_TRUE(!list.serves(s) || owned || !two_phases);
           particles_of_part[part] += owned && list.serves(s);
         }
       }
@@ -286,10 +366,6 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
       int total = 0;
       for (int n : particles_of_part) total += n;
       EXPECT_EQ(total, order.owned);
-      for (int n : particles_of_part)
-        if (!two_phases) {
-          EXPECT_NEAR(n, order.owned / threads, order.owned / 8 + 1);
-        }
     }
 }
 
