@@ -41,6 +41,7 @@ void CandidateList::collect(const ParticleOrder &order, const NeighbourView &nei
   const std::int64_t count = row_start.back();
   require_countable(count);
 
+  copy_of_first.clear();
   renew(first, count);
   renew(second, count);
   renew(weights, all_unit ? 0 : count);
@@ -64,6 +65,20 @@ void CandidateList::find_crossing()
   const int begin = slots().begin;
   for (std::int64_t c = 0; c < num_pairs(); c++)
     if (first[c] < begin) crossing.push_back(static_cast<std::uint32_t>(c));
+}
+
+void CandidateList::read_copies(const std::vector<int> &copied, int copies_begin)
+{
+  if (crossing.empty()) return;
+  const int begin = slots().begin;
+  const auto place = [&](int slot) {
+    if (slot >= begin) return slot;
+    const auto its = std::lower_bound(copied.begin(), copied.end(), slot);
+    return copies_begin + static_cast<int>(its - copied.begin());
+  };
+  renew(copy_of_first, num_pairs());
+  std::transform(first.begin(), first.end(), copy_of_first.begin(), place);
+  for (Distant &its : distant) its.slot = place(its.slot);
 }
 
 /* Which particles are far away in memory, and which belong to others: these may stand in the cache
@@ -136,9 +151,9 @@ std::int64_t CandidateList::find(int slot_a, int slot_b) const
 double CandidateList::memory_usage() const
 {
   return static_cast<double>(
-      sizeof(int) * (first.capacity() + second.capacity()) + sizeof(double) * weights.capacity() +
-      sizeof(Distant) * distant.capacity() + sizeof(int) * foreign.capacity() +
-      sizeof(std::uint32_t) * crossing.capacity());
+      sizeof(int) * (first.capacity() + second.capacity() + copy_of_first.capacity()) +
+      sizeof(double) * weights.capacity() + sizeof(Distant) * distant.capacity() +
+      sizeof(int) * foreign.capacity() + sizeof(std::uint32_t) * crossing.capacity());
 }
 
 }    // namespace Talus

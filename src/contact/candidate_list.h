@@ -30,6 +30,16 @@ class CandidateList {
   /// std::length_error if `pairs` are too many for that.
   static void require_countable(std::int64_t pairs);
 
+  /// Without two phases, before the first step: first particles of other parts are read where these
+  /// copy their states for others, in the order of `copied`, which holds all of `foreign`; the
+  /// first copy stands at `copies_begin`.
+  void read_copies(const std::vector<int> &copied, int copies_begin);
+  /// By pair: where the state of the first particle is read.
+  const int *state_of_first() const
+  {
+    return copy_of_first.empty() ? first.data() : copy_of_first.data();
+  }
+
   /// Index of the pair of two slots, or -1.
   std::int64_t find(int slot_a, int slot_b) const;
 
@@ -53,18 +63,17 @@ class CandidateList {
   /// particle.
   std::size_t nowhere() const { return particles->nowhere(part); }
   struct ToAll {
-    static constexpr bool hands_over = false;
+    static constexpr bool keeps(int) { return true; }
     std::size_t operator()(int slot) const { return slot; }
   };
   /// Second particles there; first ones there or, before `begin`, handed over.
   struct ToFollowers {
-    static constexpr bool hands_over = true;
     int begin;
     std::size_t operator()(int slot) const { return slot; }
     bool keeps(int slot) const { return slot >= begin; }
   };
   struct ToRange {
-    static constexpr bool hands_over = false;
+    static constexpr bool keeps(int) { return true; }
     int begin;
     unsigned size;
     std::size_t nowhere;
@@ -74,7 +83,7 @@ class CandidateList {
     }
   };
   struct ToPart {
-    static constexpr bool hands_over = false;
+    static constexpr bool keeps(int) { return true; }
     const std::uint16_t *part_of_slot;
     int part;
     std::size_t nowhere;
@@ -106,7 +115,8 @@ class CandidateList {
   BigVector<int> first, second;
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
   /// Particles that will not be in a cache of 1 MB when a pair comes, in ascending order of the
-  /// pairs: first ones that have left it, and those of other parts where they come first.
+  /// pairs: first ones that have left it, and those of other parts where they come first. `slot`
+  /// is where the state is read.
   struct Distant {
     std::uint32_t pair;
     int slot;
@@ -124,6 +134,7 @@ class CandidateList {
   const ParticleOrder *particles = nullptr;
   int part = 0;
   std::vector<std::uint32_t> crossing;
+  BigVector<int> copy_of_first;    // empty if all are read where they are
 };
 
 }    // namespace Talus

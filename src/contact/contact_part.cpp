@@ -87,6 +87,7 @@ void ContactPart::compute_all(const Step &step, Target target)
   }
   if (done < touching)
     compute_block<friction, history_kept>(step, target, done, static_cast<int>(touching - done));
+  if (pairs.hands_over()) streams_are_done();
   if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
 }
 
@@ -99,7 +100,8 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (pairs.serves(static_cast<int>(s)))
+    if (pairs.slots().begin <= pairs.distant[next].slot &&
+        pairs.distant[next].slot < pairs.slots().end)
       __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
@@ -219,22 +221,20 @@ void ContactPart::add_up(ParticleRecords &particles, Target target, const std::u
     const std::uint32_t pair = block[n];
     const int its = second[pair];
     Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
-    bool kept = true;
-    if constexpr (Target::hands_over) {
-      kept = target.keeps(first[pair]);
-      i = kept ? i : outgoing.next();
-      outgoing.note(first[pair], !kept);
-    }
     const int lane = one_law ? n : lane_of_contact[n];
     const bool same = its == last;
     last = its;
     const Vec4 f = load4(force_of_lane[lane]);
-    store(i[0], kept_if(kept, load4(i[0])) + f);
+    if (!target.keeps(first[pair])) {
+      i = nullptr;
+      outgoing.note(first[pair], f, load4(moment_of_lane[lane]));
+    } else
+      store(i[0], load4(i[0]) + f);
     force = kept_if(same, force) - f;
     store(j[0], force);
     if constexpr (friction) {
       const Vec4 m = load4(moment_of_lane[lane]);
-      store(i[1], kept_if(kept, load4(i[1])) + m);
+      if (i) store(i[1], load4(i[1]) + m);
       moment = kept_if(same, moment) + m;
       store(j[1], moment);
     }
@@ -247,16 +247,13 @@ void ContactPart::add_couples(ParticleRecords &particles, Target target, const s
 {
   for (int n = 0; n < count; n++) {
     const int first = pairs.first[block[n]];
-    Record *i = &particles.couple[target(first)];
+    Record &i = particles.couple[target(first)];
     Record &j = particles.couple[target(pairs.second[block[n]])];
-    bool kept = true;
-    if constexpr (Target::hands_over) {
-      kept = target.keeps(first);
-      if (!kept) i = outgoing.next_couple();
-      outgoing.note_couple(!kept);
-    }
     const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
-    store(*i, kept_if(kept, load4(*i)) + c);
+    if (!target.keeps(first))
+      outgoing.note_couple(c);
+    else
+      store(i, load4(i) + c);
     store(j, load4(j) - c);
   }
 }

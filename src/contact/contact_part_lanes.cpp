@@ -72,7 +72,7 @@ void ContactPart::gather(const ParticleRecords &particles, int end)
   const Record *h = history.all_records();
   const std::uint32_t *place = history.all_places();
 
-  const int *first = pairs.first.data(), *second = pairs.second.data();
+  const int *first = pairs.state_of_first(), *second = pairs.second.data();
 
   for (int k = 0; k < end; k += 4) {
     call_own(particles);
@@ -137,9 +137,10 @@ void ContactPart::finish_geometry(int end, bool radii_known)
 void ContactPart::gather_resistance(const ParticleRecords &particles, int end)
 {
   const Record *x = particles.position.data();
+  const int *first = pairs.state_of_first();
   const auto relative_spin = [&](int lane) {
     const std::uint32_t pair = pair_of_lane[lane];
-    const int i = pairs.first[pair], j = pairs.second[pair];
+    const int i = first[pair], j = pairs.second[pair];
     batch.circle[lane] = x[i].c[3];
     second_radius[lane] = x[j].c[3];
     return load4(particles.spin(i)) - load4(particles.spin(j));

@@ -44,6 +44,8 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   travels.assign(order.num_parts(), RecordTravel{});
   in_parallel(order.num_parts(), threads,
               [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
+  ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
+  std::sort(ghost_slots.begin(), ghost_slots.end());
   find_frontier();
   pairs_known = true;
 }
@@ -62,6 +64,9 @@ void ContactPipeline::find_frontier()
   sort_and_unite(frontier);
   at_frontier.clear();
   mark(frontier, at_frontier);
+  if (in_two_phases()) return;
+  in_parallel(order.num_parts(), threads,
+              [&](int p) { parts[p].pairs.read_copies(frontier, order.size()); });
 }
 
 void ContactPipeline::start_pairs(const FiledHistories &filed)
@@ -89,7 +94,8 @@ std::vector<int> ContactPipeline::slots_then(const FiledHistories &filed) const
 
 void ContactPipeline::make_room()
 {
-  particles.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
+  particles.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance,
+                   in_two_phases() ? 0 : frontier.size());
 }
 
 void ContactPipeline::release_records()
@@ -201,9 +207,21 @@ void ContactPipeline::bring_frontier(const ParticleView &host, const ContactStep
 
 void ContactPipeline::read_ghosts(const ParticleView &host, int thread)
 {
-  const int n = order.size() - order.owned;
+  const std::size_t n = ghost_slots.size();
   particles.read(order, host,
-                 {piece(n, thread), piece(n, thread + 1), order.slot_of_atom.data() + order.owned});
+                 in_two_phases()
+                     ? SlotChoice{piece(n, thread), piece(n, thread + 1), ghost_slots.data()}
+                     : of_thread(ghost_slots, thread));
+}
+
+/* Parts of other threads read copies: were it the particle itself, its thread would have to ask
+   theirs for it in every step. */
+
+void ContactPipeline::copy_frontier(int thread)
+{
+  const SlotChoice its = of_thread(frontier, thread);
+  for (int n = its.begin; n < its.end; n++) particles.copy_state(frontier[n], order.size() + n);
+  streams_are_done();
 }
 
 void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, int part, int begin,
@@ -269,6 +287,7 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
     else
       bring_frontier(host, step, t);
     if (with_ghosts) read_ghosts(host, t);
+    if (!in_two_phases()) copy_frontier(t);
   };
   const auto work = [&](int t) {
     ContactStep of_part = step;

@@ -166,6 +166,7 @@ class ContactPipeline {
   void take_over(int thread);
   void bring_frontier(const ParticleView &host, const ContactStep &step, int thread);
   void read_ghosts(const ParticleView &host, int thread);
+  void copy_frontier(int thread);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   std::vector<int> slots_then(const FiledHistories &filed) const;
@@ -190,6 +191,7 @@ class ContactPipeline {
   ParticleRecords particles;
   std::vector<int> frontier;                 ///< owned slots that other parts than theirs read
   std::vector<unsigned char> at_frontier;    ///< by slot; empty if none is
+  std::vector<int> ghost_slots;              ///< in ascending order
 
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;

@@ -49,7 +49,7 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
 std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
                            const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
-  const int *first = pairs.first.data(), *second = pairs.second.data();
+  const int *first = pairs.state_of_first(), *second = pairs.second.data();
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {

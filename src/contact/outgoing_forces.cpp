@@ -6,12 +6,12 @@ namespace Talus {
 
 void OutgoingForces::make_room(std::size_t contacts, const ParticleRecords &particles)
 {
-  const std::size_t room = contacts + 1, couples = particles.couple.empty() ? 0 : room;
-  if (slots.size() == room && stride == particles.stride && couple.size() == couples) return;
+  const std::size_t couples = particles.couple.empty() ? 0 : contacts;
+  if (slots.size() == contacts && stride == particles.stride && couple.size() == couples) return;
   stride = particles.stride;
   clear();
-  renew(slots, room);
-  renew(load, stride * room);
+  renew(slots, contacts);
+  renew(load, stride * contacts);
   renew(couple, couples);
 }
 

@@ -18,23 +18,21 @@ namespace Talus {
 
 class OutgoingForces {
  public:
-  /// For so many contacts and one more, which is written before it is known whether it counts.
+  /// For so many contacts.
   void make_room(std::size_t contacts, const ParticleRecords &particles);
   void clear() { noted = with_couple = 0; }
 
-  /// Where the next force stands, as a load (see ParticleRecords), to be written without being
-  /// read; on which slot; and that it counts.
-  Record *next() { return &load[stride * noted]; }
-  void note(int slot, bool counts)
+  /// Notes force and, in scenes with friction, moment on a slot; see stream().
+  TALUS_INLINE void note(int slot, Vec4 force, Vec4 moment)
   {
-    slots[noted] = slot;
-    noted += counts;
+    stream(load[stride * noted], force);
+    if (stride == 2) stream(load[stride * noted + 1], moment);
+    slots[noted++] = slot;
   }
   /// The same for couples, of the same contacts, a while later.
-  Record *next_couple() { return &couple[with_couple]; }
-  void note_couple(bool counts) { with_couple += counts; }
+  TALUS_INLINE void note_couple(Vec4 its) { stream(couple[with_couple++], its); }
 
-  /// Adds those on slots of a range to their sums.
+  /// Adds those on slots of a range to their sums, after streams_are_done().
   void add_to(ParticleRecords &particles, ParticleOrder::Range range) const;
 
   std::size_t size() const { return noted; }

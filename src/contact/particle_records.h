@@ -101,8 +101,8 @@ class ParticleRecords {
   /// Makes room for `n` particles and their sums, whatever stood there before, and for sums that
   /// nobody wants behind them: there are `places` for sums, at least n. `spins` is false in scenes
   /// without friction: spin records and moments are then neither read nor kept. `couples`: laws
-  /// with resistance occur.
-  void resize(std::size_t n, std::size_t places, bool spins, bool couples);
+  /// with resistance occur. `copies`: of the states of some particles, behind those of all.
+  void resize(std::size_t n, std::size_t places, bool spins, bool couples, std::size_t copies = 0);
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
   /// of what they need without sums, and the system takes its time to hand memory out anew.
@@ -135,6 +135,15 @@ class ParticleRecords {
                        const SlotChoice &slots);
   /// Only clears sums.
   void clear(int begin, int end);
+
+  /// Copies the state of a slot to where other cores read it; then streams_are_done().
+  void copy_state(int slot, int copy)
+  {
+    const std::size_t from = slot, to = copy;
+    stream(position[to], load4(position[from]));
+    for (std::size_t n = 0; n < stride; n++)
+      Talus::stream(motion[stride * to + n], load4(motion[stride * from + n]));
+  }
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
   /// one order whoever adds them up: first those of the contacts, and of these first the lever

@@ -33,6 +33,10 @@ inline void store(Record &record, Vec4 value)
 {
   store(record.c, value);
 }
+TALUS_INLINE void stream(Record &record, Vec4 value)
+{
+  stream(record.c, value);
+}
 
 /// The history of a contact as its other body sees it.
 inline Record mirrored(const Record &history)

@@ -360,6 +360,25 @@ inline void store(double *address, Vec8 value)
   Memory<Vec8>::store(address, value);
 }
 
+/// For what another core reads next: a store past the caches, which need not be asked for the line
+/// first. If the cores are far from each other, asking takes as long as hundreds of additions.
+/// Stores of this kind may become visible late: streams_are_done() before others are told to read.
+TALUS_INLINE void stream(double *address, Vec4 value)
+{
+#if defined(__AVX__)
+  _mm256_stream_pd(address, (__m256d) value);
+#else
+  store(address, value);
+#endif
+}
+
+inline void streams_are_done()
+{
+#if defined(__AVX__)
+  _mm_sfence();
+#endif
+}
+
 }    // namespace Talus
 
 #endif
