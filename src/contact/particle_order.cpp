@@ -98,26 +98,28 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   two_phases = in_phases;
   parts = two_phases ? 2 * threads : threads + 2 * small_parts * (threads - 1);
   part_of_slot.clear();
-  slots_of_block.clear();
+  classes_of_block.clear();
   if (parts == 1) return;
 
   constexpr int enough = 8;
   std::vector<std::vector<int>> pairs(std::min(threads, enough));
   for (auto &one : pairs) one.resize(size());
   Flags late(two_phases ? size() : 0);
-  slots_of_block.resize(num_blocks(neighbours));
+  classes_of_block.resize(num_blocks(neighbours));
   in_blocks(neighbours, static_cast<int>(pairs.size()), [&](int thread, int block) {
-    Range slots{size(), 0};
+    std::uint64_t classes = 0;
     for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
       const int a = slot_of_atom[i], b = slot_of_atom[j];
-      slots = {std::min({slots.begin, a, b}), std::max({slots.end, a + 1, b + 1})};
-      pairs[thread][std::max(a, b)]++;
+      const int second = std::max(a, b), first = std::min(a, b);
+      pairs[thread][second]++;
+      classes |= std::uint64_t{1} << class_of(second);
       if (!two_phases) return;
-      pairs[thread][std::min(a, b)]++;
+      pairs[thread][first]++;
+      classes |= std::uint64_t{1} << class_of(first);
       if (!is_owned(j)) set(late[a]);
       if (!is_owned(i)) set(late[b]);
     });
-    slots_of_block[block] = slots;
+    classes_of_block[block] = classes;
   });
   if (two_phases)
     assign_phases(pairs, late, threads);
@@ -232,15 +234,21 @@ ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
   return {std::min(early.begin, late.begin), std::max(early.end, late.end)};
 }
 
+std::uint64_t ParticleOrder::classes_of(Range slots) const
+{
+  if (slots.begin >= slots.end) return 0;
+  const int first = class_of(slots.begin), last = class_of(slots.end - 1);
+  return ~std::uint64_t{0} << first & ~std::uint64_t{0} >> (63 - last);
+}
+
 std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &neighbours,
                                                          int part) const
 {
   if (parts == 1) return {{0, neighbours.rows}};
-  const Range its = range(part);
+  const std::uint64_t wanted = classes_of(range(part));
   std::vector<Range> pieces;
-  for (int block = 0; block < static_cast<int>(slots_of_block.size()); block++) {
-    const Range &slots = slots_of_block[block];
-    if (slots.end <= its.begin || slots.begin >= its.end) continue;
+  for (int block = 0; block < static_cast<int>(classes_of_block.size()); block++) {
+    if (!(classes_of_block[block] & wanted)) continue;
     const Range rows = rows_of_block(neighbours, block);
     if (!pieces.empty() && pieces.back().end == rows.begin)
       pieces.back().end = rows.end;
@@ -255,7 +263,7 @@ double ParticleOrder::memory_usage() const
   return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
                              sizeof(std::int64_t) * tag.capacity() +
                              sizeof(std::uint16_t) * part_of_slot.capacity() +
-                             sizeof(Range) * slots_of_block.capacity());
+                             sizeof(std::uint64_t) * classes_of_block.capacity());
 }
 
 }    // namespace Talus

@@ -119,7 +119,10 @@ class ParticleOrder {
   bool two_phases = false;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
-  std::vector<Range> slots_of_block;    // of the pairs in some rows of the neighbours
+  /// Slots in 64 classes of neighbours in the order, as bits.
+  std::uint64_t classes_of(Range slots) const;
+  int class_of(int slot) const { return slot / (size() / 64 + 1); }
+  std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows of the neighbours
 };
 
 }    // namespace Talus
