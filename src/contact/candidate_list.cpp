@@ -67,18 +67,14 @@ void CandidateList::find_crossing()
     if (first[c] < begin) crossing.push_back(static_cast<std::uint32_t>(c));
 }
 
-void CandidateList::read_copies(const std::vector<int> &copied, int copies_begin)
+void CandidateList::read_copies(const std::vector<int> &copy_of_slot)
 {
   if (crossing.empty()) return;
-  const int begin = slots().begin;
-  const auto place = [&](int slot) {
-    if (slot >= begin) return slot;
-    const auto its = std::lower_bound(copied.begin(), copied.end(), slot);
-    return copies_begin + static_cast<int>(its - copied.begin());
-  };
   renew(copy_of_first, num_pairs());
-  std::transform(first.begin(), first.end(), copy_of_first.begin(), place);
-  for (Distant &its : distant) its.slot = place(its.slot);
+  std::copy(first.begin(), first.end(), copy_of_first.begin());
+  for (const std::uint32_t c : crossing) copy_of_first[c] = copy_of_slot[first[c]];
+  for (Distant &its : distant)
+    if (its.slot < slots().begin) its.slot = copy_of_slot[its.slot];
 }
 
 /* Which particles are far away in memory, and which belong to others: these may stand in the cache

@@ -31,9 +31,8 @@ class CandidateList {
   static void require_countable(std::int64_t pairs);
 
   /// Without two phases, before the first step: first particles of other parts are read where these
-  /// copy their states for others, in the order of `copied`, which holds all of `foreign`; the
-  /// first copy stands at `copies_begin`.
-  void read_copies(const std::vector<int> &copied, int copies_begin);
+  /// copy their states for others: at copy_of_slot[slot] for each of `foreign`.
+  void read_copies(const std::vector<int> &copy_of_slot);
   /// By pair: where the state of the first particle is read.
   const int *state_of_first() const
   {

@@ -58,15 +58,16 @@ void ContactPipeline::sort_and_unite(std::vector<int> &slots)
 
 void ContactPipeline::find_frontier()
 {
-  frontier.clear();
-  for (const ContactPart &part : parts)
-    frontier.insert(frontier.end(), part.pairs.foreign.begin(), part.pairs.foreign.end());
-  sort_and_unite(frontier);
   at_frontier.clear();
-  mark(frontier, at_frontier);
-  if (in_two_phases()) return;
-  in_parallel(order.num_parts(), threads,
-              [&](int p) { parts[p].pairs.read_copies(frontier, order.size()); });
+  for (const ContactPart &part : parts) mark(part.pairs.foreign, at_frontier);
+  frontier.clear();
+  for (int s = 0; s < static_cast<int>(at_frontier.size()); s++)
+    if (at_frontier[s]) frontier.push_back(s);
+  if (in_two_phases() || frontier.empty()) return;
+  copy_of_slot.resize(order.size());
+  for (int n = 0; n < static_cast<int>(frontier.size()); n++)
+    copy_of_slot[frontier[n]] = order.size() + n;
+  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].pairs.read_copies(copy_of_slot); });
 }
 
 void ContactPipeline::start_pairs(const FiledHistories &filed)

@@ -100,6 +100,7 @@ void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in
   part_of_slot.clear();
   classes_of_block.clear();
   if (parts == 1) return;
+  for (class_bits = 0; size() >> class_bits >= 64;) class_bits++;
 
   constexpr int enough = 8;
   std::vector<std::vector<int>> pairs(std::min(threads, enough));

@@ -121,7 +121,8 @@ class ParticleOrder {
   std::vector<Range> range_of_part;
   /// Slots in 64 classes of neighbours in the order, as bits.
   std::uint64_t classes_of(Range slots) const;
-  int class_of(int slot) const { return slot / (size() / 64 + 1); }
+  int class_of(int slot) const { return slot >> class_bits; }
+  int class_bits = 0;
   std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows of the neighbours
 };
 
