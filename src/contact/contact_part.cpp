@@ -100,8 +100,8 @@ void ContactPart::call_distant(const ParticleRecords &particles, std::size_t &ne
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (pairs.slots().begin <= pairs.distant[next].slot &&
-        pairs.distant[next].slot < pairs.slots().end)
+    // of those read where they copy their state nothing is added to
+    if (s < static_cast<std::size_t>(pairs.order().size()) && pairs.serves(static_cast<int>(s)))
       __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
@@ -224,17 +224,15 @@ void ContactPart::add_up(ParticleRecords &particles, Target target, const std::u
     const int lane = one_law ? n : lane_of_contact[n];
     const bool same = its == last;
     last = its;
+    const bool kept = target.keeps(first[pair]);
+    if (!kept) outgoing.note(first[pair], force_of_lane[lane], moment_of_lane[lane]);
     const Vec4 f = load4(force_of_lane[lane]);
-    if (!target.keeps(first[pair])) {
-      i = nullptr;
-      outgoing.note(first[pair], f, load4(moment_of_lane[lane]));
-    } else
-      store(i[0], load4(i[0]) + f);
+    if (kept) store(i[0], load4(i[0]) + f);
     force = kept_if(same, force) - f;
     store(j[0], force);
     if constexpr (friction) {
       const Vec4 m = load4(moment_of_lane[lane]);
-      if (i) store(i[1], load4(i[1]) + m);
+      if (kept) store(i[1], load4(i[1]) + m);
       moment = kept_if(same, moment) + m;
       store(j[1], moment);
     }

@@ -189,7 +189,7 @@ class ContactPipeline {
 
   ParticleOrder order;
   ParticleRecords particles;
-  std::vector<int> frontier;                 ///< owned slots that other parts than theirs read
+  std::vector<int> frontier;                 ///< slots that other parts than theirs read
   std::vector<unsigned char> at_frontier;    ///< by slot; empty if none is
   std::vector<int> copy_of_slot;             ///< of those of the frontier: where its copy stands
   std::vector<int> ghost_slots;              ///< in ascending order

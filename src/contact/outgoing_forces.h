@@ -23,10 +23,10 @@ class OutgoingForces {
   void clear() { noted = with_couple = 0; }
 
   /// Notes force and, in scenes with friction, moment on a slot; see stream().
-  TALUS_INLINE void note(int slot, Vec4 force, Vec4 moment)
+  TALUS_INLINE void note(int slot, const Record &force, const Record &moment)
   {
-    stream(load[stride * noted], force);
-    if (stride == 2) stream(load[stride * noted + 1], moment);
+    stream(load[stride * noted], load4(force));
+    if (stride == 2) stream(load[stride * noted + 1], load4(moment));
     slots[noted++] = slot;
   }
   /// The same for couples, of the same contacts, a while later.

@@ -112,7 +112,7 @@ class ParticleOrder {
 
   /// On either side of the border between the ranges of two threads, and how much of the work of a
   /// thread each of them is.
-  static constexpr int small_parts = 2;
+  static constexpr int small_parts = 1;
   static constexpr double small_part = 0.05;
 
   int parts = 1;
