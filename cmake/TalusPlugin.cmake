@@ -12,7 +12,7 @@ list(REMOVE_ITEM talus_style_sources ${talus_exchange_sources})
 # Counts of pairs and of bytes pass 2^31: where they are used, no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
 foreach(name candidate_list contact_history contact_part contact_part_lanes contact_pipeline contact_survey
-    narrow_phase neighbour_search particle_order particle_records partner_lists)
+    narrow_phase neighbour_search outgoing_forces particle_order particle_records partner_lists)
   set_source_files_properties(src/contact/${name}.cpp PROPERTIES COMPILE_OPTIONS "${talus_index_flags}")
 endforeach()
 if(TALUS_SANITIZE)

@@ -172,7 +172,8 @@ void ParticleOrder::assign_ranges(PairCounts &pairs, int threads)
   part_of_slot.resize(size());
   std::vector<std::vector<int>> begins(threads, std::vector<int>(parts + 1, size()));
   in_ranges(size(), threads, [&](int t, int begin, int end) {
-    auto done = static_cast<double>(std::accumulate(sums.begin(), sums.begin() + t, 0L));
+    auto done =
+        static_cast<double>(std::accumulate(sums.begin(), sums.begin() + t, std::int64_t{0}));
     int its = 0;
     for (int s = begin; s < end; s++) {
       while (done >= work_before[its + 1]) its++;
@@ -185,8 +186,8 @@ void ParticleOrder::assign_ranges(PairCounts &pairs, int threads)
   for (int p = parts - 1; p >= 0; p--) {
     const int next = p + 1 < parts ? range_of_part[p + 1].begin : size();
     range_of_part[p] = {next, next};
-    for (const std::vector<int> &of_thread : begins)
-      range_of_part[p].begin = std::min(range_of_part[p].begin, of_thread[p]);
+    for (const std::vector<int> &begin : begins)
+      range_of_part[p].begin = std::min(range_of_part[p].begin, begin[p]);
   }
 }
 

@@ -110,6 +110,10 @@ class ParticleOrder {
   void assign_phases(PairCounts &pairs, const Flags &late, int threads);
   void assign_ranges(PairCounts &pairs, int threads);
 
+  /// Slots in at most 64 classes of neighbours in the order, as bits.
+  std::uint64_t classes_of(Range slots) const;
+  int class_of(int slot) const { return slot >> class_bits; }
+
   /// On either side of the border between the ranges of two threads, and how much of the work of a
   /// thread each of them is.
   static constexpr int small_parts = 1;
@@ -119,9 +123,6 @@ class ParticleOrder {
   bool two_phases = false;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
-  /// Slots in 64 classes of neighbours in the order, as bits.
-  std::uint64_t classes_of(Range slots) const;
-  int class_of(int slot) const { return slot >> class_bits; }
   int class_bits = 0;
   std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows of the neighbours
 };
