@@ -50,7 +50,7 @@ template <class Visit> void KeptContacts::for_each_pair(int p, bool of_own_first
 template <class Visit> void KeptContacts::for_each_follower(int threads, Visit visit) const
 {
   in_parallel(num_parts(), threads, [&](int p) { for_each_pair(p, true, visit); });
-  for (int p = 0; p < num_parts() && !both_have_pairs; p++) for_each_pair(p, false, visit);
+  for (int p = 1; p < num_parts() && !both_have_pairs; p++) for_each_pair(p, false, visit);
 }
 
 void KeptContacts::finish(int threads)
