@@ -64,6 +64,8 @@ void ContactPipeline::find_frontier()
   for (int s = 0; s < static_cast<int>(at_frontier.size()); s++)
     if (at_frontier[s]) frontier.push_back(s);
   if (in_two_phases() || frontier.empty()) return;
+  // copies are numbered behind the slots
+  ParticleOrder::require_countable(order.size() + frontier.size());
   copy_of_slot.resize(order.size());
   for (int n = 0; n < static_cast<int>(frontier.size()); n++)
     copy_of_slot[frontier[n]] = order.size() + n;

@@ -142,7 +142,7 @@ class ParticleRecords {
     const std::size_t from = slot, to = copy;
     stream(position[to], load4(position[from]));
     for (std::size_t n = 0; n < stride; n++)
-      Talus::stream(motion[stride * to + n], load4(motion[stride * from + n]));
+      stream(motion[stride * to + n], load4(motion[stride * from + n]));
   }
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
