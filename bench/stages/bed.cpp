@@ -120,30 +120,22 @@ class Cells {
   }
 };
 
-/// Rows of the first spheres with the neighbors j for which wanted(i, j).
-template <class Wanted>
-Lists make_lists(const Bed &bed, const Cells &cells, int rows, Wanted wanted)
+/// Rows of all spheres with the owned neighbors of a lower index.
+Lists make_lists(const Bed &bed)
 {
+  const Cells cells(bed);
   Lists lists;
   std::vector<std::size_t> begin;
-  for (int i = 0; i < rows; i++) {
+  for (int i = 0; i < bed.size(); i++) {
     begin.push_back(lists.entries.size());
     cells.around(&bed.x[3 * i], [&](int j) {
-      if (i != j && wanted(i, j) && near(bed, i, j)) lists.entries.push_back(j);
+      if (j < i && j < bed.owned && near(bed, i, j)) lists.entries.push_back(j);
     });
     lists.row.push_back(i);
     lists.size.push_back(static_cast<int>(lists.entries.size() - begin.back()));
   }
   for (const std::size_t b : begin) lists.begin.push_back(lists.entries.data() + b);
   return lists;
-}
-
-void list_pairs(Bed &bed)
-{
-  const Cells cells(bed);
-  bed.later = make_lists(bed, cells, bed.owned, [](int i, int j) { return j > i; });
-  bed.earlier =
-      make_lists(bed, cells, bed.size(), [&](int i, int j) { return j < i && j < bed.owned; });
 }
 
 Bed in_order_of_keys(const Bed &bed)
@@ -192,7 +184,7 @@ Bed make_bed(int spheres)
   bed.owned = bed.size();
   bed = in_order_of_keys(bed);
   complete(bed);
-  list_pairs(bed);
+  bed.neighbours = make_lists(bed);
   return bed;
 }
 
@@ -214,7 +206,7 @@ std::vector<Bed> two_ranks(const Bed &bed)
       if (!is_owned(i) && std::abs(bed.x[3 * i] - middle) < largest + skin)
         copy_sphere(rank, bed, i);
     complete(rank);
-    list_pairs(rank);
+    rank.neighbours = make_lists(rank);
   }
   return ranks;
 }

@@ -36,8 +36,7 @@ struct Bed {
   std::vector<std::uint64_t> key;
   std::vector<std::int64_t> tag;
   std::vector<int> type;
-  Lists later;      ///< each pair in the row of its member with the lower index, as in LAMMPS
-  Lists earlier;    ///< in the row of the other one, which may be a ghost
+  Lists neighbours;    ///< each pair in the row of its second member, which may be a ghost
 
   int size() const { return static_cast<int>(radius.size()); }
   Talus::ParticleView view();

@@ -42,7 +42,7 @@ struct Prepared {
   }
 
   SlotChoice all() const { return {0, order.size()}; }
-  void collect() { part.pairs.collect(order, bed.later.view(), 0); }
+  void collect() { part.pairs.collect(order, PairRows(order, bed.neighbours.view()), 0); }
   FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
   void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()

@@ -9,62 +9,75 @@
 
 namespace Talus {
 
-void CandidateList::collect(const ParticleOrder &order, const NeighbourView &neighbours,
-                            int which_part)
+void CandidateList::collect(const ParticleOrder &order, const PairRows &rows, int which_part)
 {
   particles = &order;
   part = which_part;
-  const bool all = !shared(), of_both = order.in_two_phases();
-  // second slots are among these
-  const ParticleOrder::Range seconds =
-      of_both ? ParticleOrder::Range{0, order.size()} : order.range(part);
-  const std::vector<ParticleOrder::Range> rows = order.rows_of(neighbours, part);
-  const auto for_each_of_part = [&](auto visit) {
-    for (const ParticleOrder::Range &piece : rows)
-      neighbours.for_each_pair(piece.begin, piece.end, [&](int i, int j, double weight) {
-        const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-        const int first_of_both = std::min(a, b), second_of_both = std::max(a, b);
-        if (all || serves(second_of_both) || (of_both && serves(first_of_both)))
-          visit(first_of_both, second_of_both, weight);
-      });
-  };
-
-  bool all_unit = true;
-  // pairs with the n-th second: row_start[n] ... row_start[n+1]-1
-  const int rows_in_all = seconds.end - seconds.begin;
-  std::vector<std::int64_t> row_start(static_cast<std::size_t>(rows_in_all) + 2, 0);
-  for_each_of_part([&](int, int b, double weight) {
-    row_start[b - seconds.begin + 2]++;
-    all_unit = all_unit && weight == 1.0;
-  });
-  for (std::size_t s = 2; s < row_start.size(); s++) row_start[s] += row_start[s - 1];
-  const std::int64_t count = row_start.back();
-  require_countable(count);
-
+  crossing.clear();
   copy_of_first.clear();
-  renew(first, count);
-  renew(second, count);
-  renew(weights, all_unit ? 0 : count);
-  for_each_of_part([&](int a, int b, double weight) {
-    // which ends as the end of the row
-    const std::int64_t c = row_start[b - seconds.begin + 1]++;
-    first[c] = a;
-    second[c] = b;
-    if (!all_unit) weights[c] = weight;
-  });
-  row_start.pop_back();
-  for (int row = 0; row < rows_in_all; row++) sort_row(row_start[row], row_start[row + 1]);
-  look_around();
-  find_crossing();
+  distant.clear();
+  foreign.clear();
+  if (order.in_two_phases()) {
+    take_served(rows);
+    look_around();
+  } else {
+    take_rows(rows);
+    look_back();
+  }
 }
 
-void CandidateList::find_crossing()
+void CandidateList::make_room(std::int64_t count, bool with_weights)
 {
-  crossing.clear();
-  if (!hands_over()) return;
-  const int begin = slots().begin;
-  for (std::int64_t c = 0; c < num_pairs(); c++)
-    if (first[c] < begin) crossing.push_back(static_cast<std::uint32_t>(c));
+  require_countable(count);
+  renew(first, count);
+  renew(second, count);
+  renew(weights, with_weights ? count : 0);
+}
+
+/* Parts that follow each other have all pairs of their rows. */
+
+void CandidateList::take_rows(const PairRows &rows)
+{
+  const ParticleOrder::Range its = slots();
+  std::int64_t count = 0;
+  for (int s = its.begin; s < its.end; s++) count += rows.size(s);
+  make_room(count, rows.weighted());
+  std::int64_t c = 0;
+  for (int s = its.begin; s < its.end; s++) {
+    const int size = rows.size(s);
+    rows.copy(s, first.data() + c, weighted() ? weights.data() + c : nullptr);
+    std::fill_n(second.data() + c, size, s);
+    c += size;
+  }
+}
+
+/* With two phases, those of which they serve either particle. */
+
+void CandidateList::take_served(const PairRows &rows)
+{
+  const std::vector<ParticleOrder::Range> pieces = particles->rows_of(part);
+  std::int64_t count = 0;
+  for (const ParticleOrder::Range &piece : pieces)
+    for (int s = piece.begin; s < piece.end; s++)
+      rows.for_each(s, [&](int a, double) { count += serves(s) || serves(a); });
+  make_room(count, rows.weighted());
+  std::vector<int> firsts;
+  std::vector<double> scales;
+  std::int64_t c = 0;
+  for (const ParticleOrder::Range &piece : pieces)
+    for (int s = piece.begin; s < piece.end; s++) {
+      const int size = rows.size(s);
+      firsts.resize(size);
+      scales.resize(size);
+      rows.copy(s, firsts.data(), weighted() ? scales.data() : nullptr);
+      for (int n = 0; n < size; n++) {
+        if (!serves(s) && !serves(firsts[n])) continue;
+        first[c] = firsts[n];
+        second[c] = s;
+        if (weighted()) weights[c] = scales[n];
+        c++;
+      }
+    }
 }
 
 void CandidateList::read_copies(const std::vector<int> &copy_of_slot)
@@ -77,15 +90,17 @@ void CandidateList::read_copies(const std::vector<int> &copy_of_slot)
     if (its.slot < slots().begin) its.slot = copy_of_slot[its.slot];
 }
 
+namespace {
+/// Of particles that follow each other.
+constexpr int records_in_cache = 2048;
+}    // namespace
+
 /* Which particles are far away in memory, and which belong to others: these may stand in the cache
    of another core, however near they are in memory. */
 
 void CandidateList::look_around()
 {
-  constexpr int records_in_cache = 2048;
-  distant.clear();
-  foreign.clear();
-  std::vector<unsigned char> seen(shared() ? particles->size() : 0, 0);
+  std::vector<unsigned char> seen(particles->size(), 0);
   for (std::int64_t c = 0; c < num_pairs(); c++) {
     const auto call = [&](int slot) { distant.push_back({static_cast<std::uint32_t>(c), slot}); };
     const auto look_at = [&](int slot) {
@@ -95,9 +110,27 @@ void CandidateList::look_around()
       if (particles->part(slot) != ParticleOrder::no_part) foreign.push_back(slot);
     };
     if (second[c] - first[c] > records_in_cache) call(first[c]);
-    if (!shared()) continue;
     look_at(first[c]);
     look_at(second[c]);
+  }
+  std::sort(foreign.begin(), foreign.end());
+}
+
+/* The same where others are those before this part. */
+
+void CandidateList::look_back()
+{
+  const int begin = slots().begin;
+  std::vector<unsigned char> seen(begin, 0);
+  for (std::int64_t c = 0; c < num_pairs(); c++) {
+    const int a = first[c];
+    const auto pair = static_cast<std::uint32_t>(c);
+    if (second[c] - a > records_in_cache) distant.push_back({pair, a});
+    if (a >= begin) continue;
+    crossing.push_back(pair);
+    if (std::exchange(seen[a], 1)) continue;
+    distant.push_back({pair, a});
+    foreign.push_back(a);
   }
   std::sort(foreign.begin(), foreign.end());
 }
@@ -108,30 +141,6 @@ void CandidateList::require_countable(std::int64_t pairs)
 {
   if (pairs > std::int64_t{std::numeric_limits<std::uint32_t>::max()} - 8)
     throw std::length_error("more than 2^32 pairs of neighbors on one rank");
-}
-
-/* Rows hold a few pairs, often in order already; those of a sphere much larger than the others may
-   be long. */
-
-void CandidateList::sort_row(std::int64_t begin, std::int64_t end)
-{
-  constexpr std::int64_t few = 32;
-  if (end - begin > few) {
-    std::vector<std::pair<int, double>> row;
-    for (std::int64_t c = begin; c < end; c++)
-      row.emplace_back(first[c], weighted() ? weights[c] : 1.0);
-    std::sort(row.begin(), row.end());
-    for (std::int64_t c = begin; c < end; c++) {
-      first[c] = row[c - begin].first;
-      if (weighted()) weights[c] = row[c - begin].second;
-    }
-    return;
-  }
-  for (std::int64_t c = begin + 1; c < end; c++)
-    for (std::int64_t k = c; k > begin && first[k] < first[k - 1]; k--) {
-      std::swap(first[k], first[k - 1]);
-      if (weighted()) std::swap(weights[k], weights[k - 1]);
-    }
 }
 
 std::int64_t CandidateList::find(int slot_a, int slot_b) const

@@ -10,7 +10,7 @@
 #define TALUS_CONTACT_CANDIDATE_LIST_H
 
 #include "contact/big_vector.h"
-#include "contact/neighbour_view.h"
+#include "contact/pair_rows.h"
 #include "contact/particle_order.h"
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class CandidateList {
   /// At a rebuild, after order.arrange() and order.divide(): the pairs that belong to `part`.
   /// `order` must live as long as this list. Throws what require_countable() throws. May be
   /// called for different parts at the same time.
-  void collect(const ParticleOrder &order, const NeighbourView &neighbours, int part);
+  void collect(const ParticleOrder &order, const PairRows &rows, int part);
 
   /// Contacts are numbered with 32 bits, to halve the traffic of their list: throws
   /// std::length_error if `pairs` are too many for that.
@@ -126,9 +126,11 @@ class CandidateList {
   std::vector<int> foreign;
 
  private:
-  void sort_row(std::int64_t begin, std::int64_t end);
+  void make_room(std::int64_t count, bool weighted);
+  void take_rows(const PairRows &rows);
+  void take_served(const PairRows &rows);
   void look_around();
-  void find_crossing();
+  void look_back();
 
   const ParticleOrder *particles = nullptr;
   int part = 0;

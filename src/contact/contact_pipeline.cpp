@@ -26,7 +26,8 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
   in_records = prepared = move_pending = false;
   threads = next_threads;
   order.arrange(given.owned, given.key, given.tag, threads);
-  order.divide(neighbours, threads, next_in_phases);
+  const PairRows rows(order, neighbours, threads);
+  order.divide(rows, threads, next_in_phases);
   scene.slot_type.clear();
   if (!scene.laws.uniform()) {
     scene.slot_type.resize(order.size());
@@ -42,8 +43,7 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
       late_slots.push_back(s);
 
   travels.assign(order.num_parts(), RecordTravel{});
-  in_parallel(order.num_parts(), threads,
-              [&](int p) { parts[p].pairs.collect(order, neighbours, p); });
+  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].pairs.collect(order, rows, p); });
   ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
   std::sort(ghost_slots.begin(), ghost_slots.end());
   find_frontier();

@@ -154,6 +154,7 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
+  double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void make_room();
   void start_step(const ContactStep &step);

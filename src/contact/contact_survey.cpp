@@ -58,11 +58,17 @@ void ContactPipeline::account_for_move(const double *v, const double *omega, dou
   to.end_step();
 }
 
-double ContactPipeline::overlap_of(int slot_a, int slot_b) const
+double ContactPipeline::squared_distance(int slot_a, int slot_b) const
 {
   const double *a = particles.position[slot_a].c, *b = particles.position[slot_b].c;
   const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
-  return a[3] + b[3] - std::sqrt(dx * dx + dy * dy + dz * dz);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+double ContactPipeline::overlap_of(int slot_a, int slot_b) const
+{
+  return particles.position[slot_a].c[3] + particles.position[slot_b].c[3] -
+         std::sqrt(squared_distance(slot_a, slot_b));
 }
 
 /* The largest result(part) of all parts, which are asked at the same time; of equal ones the
@@ -84,7 +90,11 @@ DeepestContact ContactPipeline::deepest_contact() const
     DeepestContact deepest;
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair];
-      const double smaller = std::min(particles.position[i].c[3], particles.position[j].c[3]);
+      const double ri = particles.position[i].c[3], rj = particles.position[j].c[3];
+      // neither root nor quotient for those that are less deep beyond doubt
+      constexpr double beyond_rounding = 1.0 + 1.0e-9;
+      const double smaller = std::min(ri, rj), near = ri + rj - deepest.overlap_ratio * smaller;
+      if (squared_distance(i, j) > near * near * beyond_rounding) return;
       const double ratio = overlap_of(i, j) / smaller;
       if (ratio > deepest.overlap_ratio)
         deepest = {ratio, order.atom_of_slot[i], order.atom_of_slot[j]};

@@ -20,19 +20,22 @@ struct NeighbourView {
       kind_shift = 31;    ///< index = entry & index_mask, kind = entry >> shift & 3
   double scale[4] = {1.0, 1.0, 1.0, 1.0};
 
-  /// Calls visit(i, j, scale) for every pair, in the order of the list.
-  template <class Visit> void for_each_pair(Visit visit) const { for_each_pair(0, rows, visit); }
-
-  /// The same for the rows begin ... end-1.
-  template <class Visit> void for_each_pair(int begin, int end, Visit visit) const
+  double scale_of(int entry) const { return scale[entry >> kind_shift & 3]; }
+  /// Not all pairs have a scale of 1.
+  bool scales() const
   {
-    for (int r = begin; r < end; r++) {
+    return scale[0] != 1.0 || scale[1] != 1.0 || scale[2] != 1.0 || scale[3] != 1.0;
+  }
+
+  /// Calls visit(i, j, scale) for every pair, in the order of the list.
+  template <class Visit> void for_each_pair(Visit visit) const
+  {
+    for (int r = 0; r < rows; r++) {
       const int i = particle ? particle[r] : r;
       const int *row = entries[i];
-      for (int n = 0; n < size[i]; n++) {
-        const double weight = scale[row[n] >> kind_shift & 3];
-        if (weight != 0.0) visit(i, row[n] & index_mask, weight);
-      }
+      for (int n = 0; n < size[i]; n++)
+        if (const double weight = scale_of(row[n]); weight != 0.0)
+          visit(i, row[n] & index_mask, weight);
     }
   }
 };

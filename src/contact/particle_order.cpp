@@ -3,6 +3,7 @@
 #include "contact/particle_order.h"
 
 #include "contact/in_parallel.h"
+#include "contact/pair_rows.h"
 #include "contact/simd.h"
 
 #include <algorithm>
@@ -22,30 +23,15 @@ void set(std::atomic<unsigned char> &flag)
 
 constexpr int rows_in_block = 64;
 
-int num_blocks(const NeighbourView &neighbours)
+int num_blocks(int rows)
 {
-  return neighbours.rows / rows_in_block + (neighbours.rows % rows_in_block ? 1 : 0);
+  return rows / rows_in_block + (rows % rows_in_block ? 1 : 0);
 }
 
-ParticleOrder::Range rows_of_block(const NeighbourView &neighbours, int block)
+ParticleOrder::Range rows_of_block(int rows, int block)
 {
   const int begin = block * rows_in_block;
-  return {begin, begin + std::min(rows_in_block, neighbours.rows - begin)};
-}
-
-template <class Visit>
-void for_each_pair_of_block(const NeighbourView &neighbours, int block, Visit visit)
-{
-  const ParticleOrder::Range rows = rows_of_block(neighbours, block);
-  neighbours.for_each_pair(rows.begin, rows.end, visit);
-}
-
-/// work(thread, block) for every block of rows: each thread takes some that follow each other.
-template <class Work> void in_blocks(const NeighbourView &neighbours, int threads, Work work)
-{
-  in_ranges(num_blocks(neighbours), threads, [&](int t, int begin, int end) {
-    for (int b = begin; b < end; b++) work(t, b);
-  });
+  return {begin, begin + std::min(rows_in_block, rows - begin)};
 }
 
 }    // namespace
@@ -90,72 +76,78 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   });
 }
 
-/* Pairs of each slot, without two phases those of which it is the second, are counted by up to
-   eight threads, each for itself. */
+/* Work is one for each owned particle and for each of its pairs, without two phases for those of
+   which it is the second. */
 
-void ParticleOrder::divide(const NeighbourView &neighbours, int threads, bool in_phases)
+void ParticleOrder::divide(const PairRows &rows, int threads, bool in_phases)
 {
   two_phases = in_phases;
   parts = two_phases ? 2 * threads : threads + 2 * small_parts * (threads - 1);
   part_of_slot.clear();
   classes_of_block.clear();
   if (parts == 1) return;
-  for (class_bits = 0; size() >> class_bits >= 64;) class_bits++;
+  Work work(size());
+  if (two_phases) {
+    Flags late(size());
+    count_in_phases(rows, threads, work, late);
+    assign_phases(work, late, threads);
+    return;
+  }
+  in_ranges(size(), threads, [&](int, int begin, int end) {
+    for (int s = begin; s < end; s++) work[s] = rows.size(s) + (is_owned(atom_of_slot[s]) ? 1 : 0);
+  });
+  assign_ranges(work, threads);
+}
 
+/* Pairs of each slot are counted by up to eight threads, each for itself. Nothing is done for
+   ghosts. */
+
+void ParticleOrder::count_in_phases(const PairRows &rows, int threads, Work &work, Flags &late)
+{
+  for (class_bits = 0; size() >> class_bits >= 64;) class_bits++;
+  classes_of_block.resize(num_blocks(size()));
   constexpr int enough = 8;
   std::vector<std::vector<int>> pairs(std::min(threads, enough));
   for (auto &one : pairs) one.resize(size());
-  Flags late(two_phases ? size() : 0);
-  classes_of_block.resize(num_blocks(neighbours));
-  in_blocks(neighbours, static_cast<int>(pairs.size()), [&](int thread, int block) {
+  const auto count_row = [&](int second, std::vector<int> &mine) {
     std::uint64_t classes = 0;
-    for_each_pair_of_block(neighbours, block, [&](int i, int j, double) {
-      const int a = slot_of_atom[i], b = slot_of_atom[j];
-      const int second = std::max(a, b), first = std::min(a, b);
-      pairs[thread][second]++;
-      classes |= std::uint64_t{1} << class_of(second);
-      if (!two_phases) return;
-      pairs[thread][first]++;
-      classes |= std::uint64_t{1} << class_of(first);
-      if (!is_owned(j)) set(late[a]);
-      if (!is_owned(i)) set(late[b]);
+    rows.for_each(second, [&](int first, double) {
+      mine[first]++;
+      mine[second]++;
+      classes |= std::uint64_t{1} << class_of(first) | std::uint64_t{1} << class_of(second);
+      if (!is_owned(atom_of_slot[first])) set(late[second]);
+      if (!is_owned(atom_of_slot[second])) set(late[first]);
     });
-    classes_of_block[block] = classes;
+    return classes;
+  };
+  in_ranges(num_blocks(size()), static_cast<int>(pairs.size()), [&](int t, int begin, int end) {
+    for (int b = begin; b < end; b++) {
+      const Range its = rows_of_block(size(), b);
+      for (int s = its.begin; s < its.end; s++) classes_of_block[b] |= count_row(s, pairs[t]);
+    }
   });
-  if (two_phases)
-    assign_phases(pairs, late, threads);
-  else
-    assign_ranges(pairs, threads);
+  in_ranges(size(), threads, [&](int, int begin, int end) {
+    for (int s = begin; s < end; s++) {
+      work[s] = is_owned(atom_of_slot[s]) ? 1 : 0;
+      for (const auto &one : pairs) work[s] += work[s] ? one[s] : 0;
+    }
+  });
 }
 
-/* Adds the counts of all threads up in those of the first one, and makes work of them: one for
-   each owned particle and for each of its pairs; in two phases nothing is done for ghosts. */
-
-ParticleOrder::Sums ParticleOrder::add_counts(PairCounts &pairs, int threads) const
+ParticleOrder::Sums ParticleOrder::sums_of(const Work &work, int threads) const
 {
-  std::vector<int> &work = pairs[0];
-  Sums sums(threads, 0);
+  Sums sums(threads);
   in_ranges(size(), threads, [&](int t, int begin, int end) {
-    std::int64_t sum = 0;
-    for (int s = begin; s < end; s++) {
-      for (std::size_t other = 1; other < pairs.size(); other++) work[s] += pairs[other][s];
-      if (is_owned(atom_of_slot[s]))
-        work[s]++;
-      else if (two_phases)
-        work[s] = 0;
-      sum += work[s];
-    }
-    sums[t] = sum;
+    sums[t] = std::accumulate(work.begin() + begin, work.begin() + end, std::int64_t{0});
   });
   return sums;
 }
 
 /* Ranges of the order: large ones with the same work, between them small ones. */
 
-void ParticleOrder::assign_ranges(PairCounts &pairs, int threads)
+void ParticleOrder::assign_ranges(const Work &work, int threads)
 {
-  const Sums sums = add_counts(pairs, threads);
-  const std::vector<int> &work = pairs[0];
+  const Sums sums = sums_of(work, threads);
   const double of_thread =
       static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::int64_t{0})) / threads;
 
@@ -193,10 +185,9 @@ void ParticleOrder::assign_ranges(PairCounts &pairs, int threads)
 
 /* Ranges of the order with the same work, and of each what waits for ghosts apart. */
 
-void ParticleOrder::assign_phases(PairCounts &pairs, const Flags &late, int threads)
+void ParticleOrder::assign_phases(const Work &work, const Flags &late, int threads)
 {
-  const Sums sums = add_counts(pairs, threads);
-  const std::vector<int> &work = pairs[0];
+  const Sums sums = sums_of(work, threads);
   const std::int64_t total = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
 
   part_of_slot.resize(size());
@@ -243,15 +234,13 @@ std::uint64_t ParticleOrder::classes_of(Range slots) const
   return ~std::uint64_t{0} << first & ~std::uint64_t{0} >> (63 - last);
 }
 
-std::vector<ParticleOrder::Range> ParticleOrder::rows_of(const NeighbourView &neighbours,
-                                                         int part) const
+std::vector<ParticleOrder::Range> ParticleOrder::rows_of(int part) const
 {
-  if (parts == 1) return {{0, neighbours.rows}};
   const std::uint64_t wanted = classes_of(range(part));
   std::vector<Range> pieces;
   for (int block = 0; block < static_cast<int>(classes_of_block.size()); block++) {
     if (!(classes_of_block[block] & wanted)) continue;
-    const Range rows = rows_of_block(neighbours, block);
+    const Range rows = rows_of_block(size(), block);
     if (!pieces.empty() && pieces.back().end == rows.begin)
       pieces.back().end = rows.end;
     else

@@ -6,13 +6,15 @@
 #ifndef TALUS_CONTACT_PARTICLE_ORDER_H
 #define TALUS_CONTACT_PARTICLE_ORDER_H
 
-#include "contact/neighbour_view.h"
+#include "contact/big_vector.h"
 
 #include <atomic>
 #include <cstdint>
 #include <vector>
 
 namespace Talus {
+
+class PairRows;
 
 class ParticleOrder {
  public:
@@ -32,7 +34,7 @@ class ParticleOrder {
   /// With `two_phases` into ranges with about the same number of pairs, and each of them into
   /// owned particles without any ghost partner (parts 0 ... threads-1) and the others (parts
   /// threads ... 2 threads-1). Ghosts are in none. Pairs belong to the parts of both.
-  void divide(const NeighbourView &neighbours, int threads, bool two_phases);
+  void divide(const PairRows &rows, int threads, bool two_phases);
 
   /// visit(part) for the parts that a thread may do, the most wanted first: its own one, then small
   /// ones by distance. All parts in ascending order if one thread after the other claims its own.
@@ -77,9 +79,9 @@ class ParticleOrder {
   std::size_t nowhere(int part) const { return (std::size_t(size()) + 1) / 2 * 2 + 2UL * part; }
   std::size_t num_places() const { return nowhere(parts); }
 
-  /// Rows of the neighbours that divide() has seen, in ascending order: all pairs of a part are in
-  /// them.
-  std::vector<Range> rows_of(const NeighbourView &neighbours, int part) const;
+  /// With two phases: ranges of second slots, in ascending order, among which are those of all
+  /// pairs of a part.
+  std::vector<Range> rows_of(int part) const;
 
   /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
   double share(int slot_a, int slot_b) const
@@ -103,14 +105,15 @@ class ParticleOrder {
   std::vector<int> slot_of_atom;    ///< host's index -> slot
 
  private:
-  using PairCounts = std::vector<std::vector<int>>;         // by slot, of several threads
+  using Work = BigVector<int>;                              // by slot
   using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
   using Sums = std::vector<std::int64_t>;                   // of the slots of each thread
-  Sums add_counts(PairCounts &pairs, int threads) const;
-  void assign_phases(PairCounts &pairs, const Flags &late, int threads);
-  void assign_ranges(PairCounts &pairs, int threads);
+  void count_in_phases(const PairRows &rows, int threads, Work &work, Flags &late);
+  Sums sums_of(const Work &work, int threads) const;
+  void assign_phases(const Work &work, const Flags &late, int threads);
+  void assign_ranges(const Work &work, int threads);
 
-  /// Slots in at most 64 classes of neighbours in the order, as bits.
+  /// In two phases: slots in at most 64 classes of neighbours in the order, as bits.
   std::uint64_t classes_of(Range slots) const;
   int class_of(int slot) const { return slot >> class_bits; }
 
@@ -124,7 +127,7 @@ class ParticleOrder {
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
   int class_bits = 0;
-  std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows of the neighbours
+  std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows
 };
 
 }    // namespace Talus

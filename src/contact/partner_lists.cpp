@@ -43,6 +43,7 @@ void PartnerLists::resize(int capacity)
 
 void PartnerLists::begin()
 {
+  if (empty()) return;
   std::fill(range.begin(), range.end(), Range{});
   pool.clear();
 }

@@ -47,6 +47,8 @@ class PartnerLists {
   void copy_entry(int atom, int n, double *to) const;
 
   int size(int atom) const { return range[atom].size; }
+  /// All lists are empty.
+  bool empty() const { return pool.empty(); }
   void clear(int atom) { range[atom] = {0, 0}; }
   void copy(int from, int to) { range[to] = range[from]; }
 

@@ -214,7 +214,8 @@ void FixContactStore::file_kept()
 void FixContactStore::find_maxexchange()
 {
   int mine = kept.most_contacts(), most = 0;
-  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, partners.size(i));
+  for (int i = 0; !partners.empty() && i < atom->nlocal; i++)
+    mine = std::max(mine, partners.size(i));
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   maxexchange = 5 + partners.packed_size_of(most);
 }

@@ -123,7 +123,7 @@ TEST(CandidateList, SortsPairsAndKeepsTheirWeights)
     const Particles p = random_particles(n, random);
     order.arrange(p.owned, p.key, p.tag);
     Pairs pairs(order, 0.2, 0.25, random);    // 300: rows of more than the few that are usual
-    list.collect(order, pairs.lists.view(), 0);
+    list.collect(order, PairRows(order, pairs.lists.view()), 0);
 
     ASSERT_EQ(list.num_pairs(), static_cast<std::int64_t>(pairs.by_slots.size()));
     std::int64_t c = 0;
@@ -160,7 +160,7 @@ TEST(CandidateList, NamesDistantPairs)
     lists.add(i, i + 1 + random.below(n - i - 1), 1.0);
   }
   CandidateList list;
-  list.collect(order, lists.view(), 0);
+  list.collect(order, PairRows(order, lists.view()), 0);
   std::size_t found = 0;
   for (std::int64_t c = 0; c < list.num_pairs(); c++) {
     if (list.second[c] - list.first[c] <= 2048) continue;
@@ -181,11 +181,11 @@ TEST(CandidateList, CallsForeignParticlesWhereTheyComeFirst)
     ParticleOrder order;
     order.arrange(p.owned, p.key, p.tag);
     Pairs pairs(order, 0.02, 1.0, random);
-    order.divide(pairs.lists.view(), 3, two_phases);
+    order.divide(PairRows(order, pairs.lists.view()), 3, two_phases);
     std::size_t called = 0;
     for (int part = 0; part < order.num_parts(); part++) {
       CandidateList list;
-      list.collect(order, pairs.lists.view(), part);
+      list.collect(order, PairRows(order, pairs.lists.view()), part);
       std::set<int> seen;
       std::vector<std::pair<std::uint32_t, int>> expected, found;
       for (std::uint32_t c = 0; c < list.num_pairs(); c++)
@@ -215,7 +215,7 @@ TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
       ParticleOrder order;
       order.arrange(p.owned, p.key, p.tag);
       Pairs pairs(order, 0.02, 1.0, random);
-      order.divide(pairs.lists.view(), threads, two_phases);
+      order.divide(PairRows(order, pairs.lists.view(), threads), threads, two_phases);
       for (int s = 0; s < order.size(); s++) {
         const int part = order.part(s);
         const bool is_ghost = !order.is_owned(order.atom_of_slot[s]);
@@ -239,7 +239,7 @@ TEST(CandidateList, ForeignSlotsAreThoseOfOtherParts)
           c++;
         }
         CandidateList list;
-        list.collect(order, pairs.lists.view(), part);
+        list.collect(order, PairRows(order, pairs.lists.view()), part);
         EXPECT_EQ(list.foreign, std::vector<int>(expected.begin(), expected.end()));
         EXPECT_EQ(list.handed_over(), handed_over);
         EXPECT_EQ(list.hands_over(), !two_phases && part > 0);
@@ -256,7 +256,7 @@ TEST(CandidateList, StoresWeightsOnlyIfOneIsNotOne)
     slow::NeighbourLists lists(3);
     lists.add(0, 1, 1.0);
     lists.add(2, 0, weight);
-    list.collect(order, lists.view(), 0);
+    list.collect(order, PairRows(order, lists.view()), 0);
     EXPECT_EQ(list.weighted(), weight != 1.0);
     EXPECT_GT(list.memory_usage(), 0.0);
   }
@@ -270,7 +270,7 @@ TEST(ParticleOrder, RangesOfThreadsHaveTheSameWork)
     ParticleOrder order;
     order.arrange(p.owned, p.key, p.tag);
     Pairs pairs(order, 0.02, 1.0, random);
-    order.divide(pairs.lists.view(), threads, false);
+    order.divide(PairRows(order, pairs.lists.view(), threads), threads, false);
     std::vector<int> work(order.size());
     for (int s = 0; s < order.size(); s++) work[s] = order.is_owned(order.atom_of_slot[s]);
     for (const auto &[slots, weight] : pairs.by_slots) work[slots.second]++;
@@ -303,7 +303,7 @@ TEST(ParticleOrder, EveryPartIsWanted)
     const Particles p = random_particles(100, random);
     ParticleOrder order;
     order.arrange(p.owned, p.key, p.tag);
-    order.divide(Pairs(order, 0.1, 1.0, random).lists.view(), threads, false);
+    order.divide(PairRows(order, Pairs(order, 0.1, 1.0, random).lists.view()), threads, false);
     std::set<int> first_wanted;
     std::vector<int> done;    // by one thread after the other
     for (int t = 0; t < threads; t++) {
@@ -332,7 +332,7 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
       ParticleOrder order;
       order.arrange(p.owned, p.key, p.tag);
       Pairs pairs(order, 0.02, 1.0, random);
-      order.divide(pairs.lists.view(), threads, two_phases);
+      order.divide(PairRows(order, pairs.lists.view(), threads), threads, two_phases);
       if (two_phases) {
         ASSERT_EQ(order.num_parts(), 2 * threads);
       }
@@ -341,7 +341,7 @@ TEST(CandidateList, PartsHoldEveryPairOfTheirParticles)
       std::vector<int> particles_of_part(order.num_parts(), 0);
       for (int part = 0; part < order.num_parts(); part++) {
         CandidateList list;
-        list.collect(order, pairs.lists.view(), part);
+        list.collect(order, PairRows(order, pairs.lists.view()), part);
         BySlots<double> expected;
         for (const auto &pair : pairs.by_slots)
           if (belongs_to(part, pair.first, order)) expected.insert(pair);

@@ -48,7 +48,7 @@ struct Rank {
           for (double &value : touching[{a, b}]) value = random.uniform(-1.0, 1.0);
       }
     order.arrange(owned, key, tag);
-    order.divide(neighbours.view(), threads, two_phases);
+    order.divide(PairRows(order, neighbours.view(), threads), threads, two_phases);
 
     lists.set_values(with_onsets ? 8 : 4);
     lists.resize(owned);
@@ -63,7 +63,7 @@ struct Rank {
     pairs.resize(order.num_parts());
     histories.resize(order.num_parts());
     for (int p = 0; p < order.num_parts(); p++) {
-      pairs[p].collect(order, neighbours.view(), p);
+      pairs[p].collect(order, PairRows(order, neighbours.view()), p);
       histories[p].fetch(pairs[p], {lists, tag, KeptContacts(), {}}, {});
     }
   }

@@ -41,7 +41,7 @@ struct RandomPairs {
     random.shuffle(all);
     slow::NeighbourLists lists(num_particles);
     for (int c = 0; c < count; c++) lists.add(all[c].first, all[c].second, 1.0);
-    list.collect(order, lists.view(), 0);
+    list.collect(order, PairRows(order, lists.view()), 0);
   }
 };
 

@@ -1,0 +1,92 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The pairs of a half neighbor list as the canonical order has them: in rows by their second slot,
+// and in these by their first one. Lists of NeighbourSearch have them so, or nearly: of most pairs
+// the row is known without a look at any other. Those in the row of their first particle are turned
+// round: sorted by their second one, by all threads.
+
+#ifndef TALUS_CONTACT_PAIR_ROWS_H
+#define TALUS_CONTACT_PAIR_ROWS_H
+
+#include "contact/big_vector.h"
+#include "contact/neighbour_view.h"
+#include "contact/particle_order.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+class PairRows {
+ public:
+  /// At a rebuild, after order.arrange(). Both must live as long as this.
+  PairRows(const ParticleOrder &order, const NeighbourView &neighbours, int threads = 1);
+
+  int num_slots() const { return order.size(); }
+  /// Number of pairs with that second slot.
+  int size(int second) const { return sizes[second]; }
+  /// The force of at least one pair is scaled by something else than 1.
+  bool weighted() const { return with_weights; }
+
+  /// Writes the first slots of a row, in ascending order, and unless nullptr the scales of the
+  /// forces.
+  void copy(int second, int *firsts, double *weights) const;
+
+  /// visit(first, scale) for the pairs of a row, in the order of the list.
+  template <class Visit> void for_each(int second, Visit visit) const
+  {
+    const int atom = order.atom_of_slot[second];
+    if (has_row(atom))
+      for (int n = 0; n < view.size[atom]; n++) take(view.entries[atom][n], second, visit);
+    if (turned.empty()) return;
+    const Turned &its = turned[range_of(second)];
+    if (its.begin.empty()) return;
+    const std::size_t row = second - range_begin(range_of(second));
+    for (std::size_t n = its.begin[row]; n < its.begin[row + 1]; n++)
+      take(its.entries[n], second, visit);
+  }
+
+ private:
+  /// Pairs as entries of rows where the list does not have them, of the seconds in one range.
+  struct Turned {
+    std::vector<std::size_t> begin;    // of each row and the end of the last; empty without pairs
+    BigVector<int> entries;
+  };
+  struct Found {
+    int second, entry;
+  };
+  using Finds = std::vector<std::vector<Found>>;    // by range of the second
+
+  bool has_row(int atom) const { return listed.empty() || listed[atom]; }
+  int slot_of(int entry) const { return order.slot_of_atom[entry & view.index_mask]; }
+  template <class Visit> void take(int entry, int second, Visit visit) const
+  {
+    const double scale = scaled ? view.scale_of(entry) : 1.0;
+    const int first = slot_of(entry);
+    if (first < second && scale != 0.0) visit(first, scale);
+  }
+  int range_begin(int range) const
+  {
+    return static_cast<int>(std::int64_t{num_slots()} * range / ranges);
+  }
+  int range_of(int slot) const
+  {
+    return static_cast<int>(((slot + std::int64_t{1}) * ranges - 1) / num_slots());
+  }
+  bool look_through(int range, Finds &finds);
+  void take_turned(int range, const std::vector<Finds> &finds);
+
+  const ParticleOrder &order;
+  const NeighbourView view;
+  const int ranges;    // of slots, one for each thread
+  const bool scaled;
+  bool with_weights = false;
+  std::vector<unsigned char> listed;    // by host's index: has a row; empty if all have
+  BigVector<int> sizes;                 // by slot
+  std::vector<Turned> turned;           // by range; empty if no pair is
+};
+
+}    // namespace Talus
+
+#endif
