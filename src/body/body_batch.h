@@ -13,12 +13,11 @@
 #include "body/contact_memory.h"
 #include "body/large_body_shape.h"
 #include "body/sparse_history.h"
+#include "contact/big_vector.h"
 #include "contact/contact_batch.h"
 #include "contact/contact_energy.h"
 #include "contact/law_table.h"
 #include "contact/record.h"
-
-#include <vector>
 
 namespace Talus {
 
@@ -65,11 +64,11 @@ class BodyBatch {
 
   /// Where histories go: records by candidate, or lists of this batch.
   SparseHistory *sparse = nullptr;
-  std::vector<RememberedContact> remembered;
+  BigVector<RememberedContact> remembered;
 
   BodyLoad load;
   ExactLoad exact;
-  std::vector<TouchedPart> touched;
+  BigVector<TouchedPart> touched;
   double largest_overlap = 0.0;    ///< over radius; only with energies
 
  private:

@@ -27,7 +27,7 @@ void ContactMemory::start_step()
   next.clear();
 }
 
-int ContactMemory::append(std::vector<RememberedContact> &piece)
+int ContactMemory::append(BigVector<RememberedContact> &piece)
 {
   const int first = static_cast<int>(next.size());
   if (first == 0) {

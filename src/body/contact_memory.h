@@ -8,6 +8,7 @@
 #define TALUS_BODY_CONTACT_MEMORY_H
 
 #include "body/large_body_shape.h"
+#include "contact/big_vector.h"
 #include "contact/record.h"
 
 #include <vector>
@@ -49,7 +50,7 @@ class ContactMemory {
   /// different threads may have made.
   void start_step();
   void set_list(int particle, int first, int count) { lists[particle] = {first, count}; }
-  int append(std::vector<RememberedContact> &piece);    ///< which is used up
+  int append(BigVector<RememberedContact> &piece);    ///< which is used up
   void end_step();
 
   /// For migration and restart: count, contacts. Returns the number of doubles.
@@ -64,7 +65,7 @@ class ContactMemory {
     int first, count;
   };
   std::vector<List> lists;    // by particle
-  std::vector<RememberedContact> contacts, next;
+  BigVector<RememberedContact> contacts, next;
 };
 
 }    // namespace Talus

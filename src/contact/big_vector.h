@@ -2,7 +2,9 @@
 //
 // std::vector whose storage begins at a cache line, and at a huge page if it is large: contacts
 // touch their partners in no order that the hardware could foresee, and with pages of 4 kB the
-// search for the page costs as much as the load itself. New elements of plain types are not set.
+// search for the page costs as much as the load itself. Nothing else stands in its cache lines:
+// what a thread writes in every step, however small it is, must not share one with what others
+// read, or all of them wait for each other. New elements of plain types are not set.
 
 #ifndef TALUS_CONTACT_BIG_VECTOR_H
 #define TALUS_CONTACT_BIG_VECTOR_H

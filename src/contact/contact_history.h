@@ -101,10 +101,10 @@ class ContactHistory {
                 bool of_first) const;
 
   bool onset_kept = false;
-  std::vector<std::uint8_t> touching;    // one bit for each pair
-  BigVector<std::uint32_t> places;       // by pair, valid if it touches
-  BigVector<Record> records, onsets;     // by place
-  std::vector<std::uint32_t> vacant;     // places of pairs that have separated
+  BigVector<std::uint8_t> touching;     // one bit for each pair
+  BigVector<std::uint32_t> places;      // by pair, valid if it touches
+  BigVector<Record> records, onsets;    // by place
+  BigVector<std::uint32_t> vacant;      // places of pairs that have separated
 };
 
 }    // namespace Talus

@@ -155,7 +155,7 @@ class ContactPart {
   ContactBatch batch;
   std::uint32_t pair_of_lane[ContactBatch::width];
   int lane_of_contact[ContactBatch::width];
-  std::vector<LawRange> ranges;
+  BigVector<LawRange> ranges;
   Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
       couple_of_lane[ContactBatch::width];
   alignas(64) double second_radius[ContactBatch::width];

@@ -36,7 +36,7 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
     });
   }
   parts.resize(order.num_parts());
-  claimed = std::vector<std::atomic<unsigned char>>(order.num_parts());
+  claims = std::vector<Claim>(order.num_parts());
   late_slots.clear();
   for (int s = 0; order.in_two_phases() && s < order.size(); s++)
     if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
@@ -258,7 +258,7 @@ void ContactPipeline::for_each_part_of(int thread, int first_part, Visit visit)
 {
   if (in_two_phases()) return visit(first_part + thread);
   order.for_each_wanted(thread, [&](int p) {
-    if (claimed[p].exchange(1, std::memory_order_relaxed) == 0) visit(p);
+    if (!claims[p].taken.exchange(true, std::memory_order_relaxed)) visit(p);
   });
 }
 
@@ -281,7 +281,7 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
                                 bool with_ghosts)
 {
   const bool last = !in_two_phases() || first_part > 0;
-  for (auto &one : claimed) one.store(0, std::memory_order_relaxed);
+  for (Claim &one : claims) one.taken.store(false, std::memory_order_relaxed);
   const auto prepare = [&](int t) {
     if (first_part)
       of_thread(late_slots, t).for_each([&](std::size_t slot) {

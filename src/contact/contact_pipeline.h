@@ -206,9 +206,12 @@ class ContactPipeline {
   BigVector<Record> held;                        ///< by slot, or empty
   std::vector<RecordTravel> travels;             ///< by part
 
-  std::vector<ContactPart> parts;                     ///< see ParticleOrder::divide()
-  std::vector<std::atomic<unsigned char>> claimed;    ///< by part: a thread does it
-  std::vector<int> late_slots;                        ///< particles of the second phase
+  std::vector<ContactPart> parts;    ///< see ParticleOrder::divide()
+  struct alignas(64) Claim {
+    std::atomic<bool> taken{false};
+  };
+  std::vector<Claim> claims;      ///< by part: a thread does it
+  std::vector<int> late_slots;    ///< particles of the second phase
 };
 
 }    // namespace Talus

@@ -16,16 +16,17 @@ namespace {
 constexpr int usual = 16;
 typedef std::int32_t Ints __attribute__((vector_size(4 * usual)));
 
-/* Every number goes where it belongs: as far as there are smaller ones. No branch, since nobody
-   could foresee it. */
+/* Every number goes where it belongs: as far as there are smaller ones, or equal ones before it.
+   No branch, since nobody could foresee it. */
 
 inline void sort_usual(const std::int32_t *numbers, int count, int *sorted)
 {
   alignas(64) std::int32_t rank[usual];
   const Ints all = *reinterpret_cast<const Ints *>(numbers);
-  Ints smaller{};
-  for (int k = 0; k < count; k++) smaller -= all > numbers[k];
-  *reinterpret_cast<Ints *>(rank) = smaller;
+  constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  Ints before{};
+  for (int k = 0; k < count; k++) before -= (all > numbers[k]) | ((all == numbers[k]) & (lane > k));
+  *reinterpret_cast<Ints *>(rank) = before;
   for (int k = 0; k < count; k++) sorted[rank[k]] = numbers[k];
 }
 

@@ -92,6 +92,20 @@ TEST(PairRows, KnowScalesAndLeaveOutZero)
   expect_rows(rows, none.order, none.rows);
 }
 
+/// Nobody's list has that, but nothing must be left unset.
+TEST(PairRows, SamePairTwice)
+{
+  ParticleOrder order;
+  order.arrange(3, {1, 2, 3}, {1, 2, 3});
+  slow::NeighbourLists lists(3);
+  for (const int first : {1, 0, 1, 0, 0}) lists.add(2, first, 1.0);
+  const PairRows rows(order, lists.view());
+  ASSERT_EQ(rows.size(2), 5);
+  std::vector<int> firsts(5, -1);
+  rows.copy(2, firsts.data(), nullptr);
+  EXPECT_EQ(firsts, (std::vector<int>{0, 0, 0, 1, 1}));
+}
+
 /// As NeighbourSearch has them: all particles have a row, of lower ones.
 TEST(PairRows, RowsThatAreInOrderAlready)
 {
