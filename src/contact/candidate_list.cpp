@@ -51,33 +51,37 @@ void CandidateList::take_rows(const PairRows &rows)
   }
 }
 
-/* With two phases, those of which they serve either particle. */
+/* With two phases, those of which they serve either particle: all of their own rows, and some of
+   others. */
 
 void CandidateList::take_served(const PairRows &rows)
 {
-  const std::vector<ParticleOrder::Range> pieces = particles->rows_of(part);
-  std::int64_t count = 0;
-  for (const ParticleOrder::Range &piece : pieces)
-    for (int s = piece.begin; s < piece.end; s++)
-      rows.for_each(s, [&](int a, double) { count += serves(s) || serves(a); });
-  make_room(count, rows.weighted());
-  std::vector<int> firsts;
-  std::vector<double> scales;
-  std::int64_t c = 0;
-  for (const ParticleOrder::Range &piece : pieces)
-    for (int s = piece.begin; s < piece.end; s++) {
-      const int size = rows.size(s);
-      firsts.resize(size);
-      scales.resize(size);
-      rows.copy(s, firsts.data(), weighted() ? scales.data() : nullptr);
-      for (int n = 0; n < size; n++) {
-        if (!serves(s) && !serves(firsts[n])) continue;
-        first[c] = firsts[n];
-        second[c] = s;
-        if (weighted()) weights[c] = scales[n];
-        c++;
-      }
+  const std::vector<int> &beyond = particles->rows_beyond(part);
+  const std::uint16_t *part_of = particles->part_of_slots();
+  const auto for_each_row = [&](auto visit) {
+    auto next = beyond.begin();
+    for (int s = slots().begin; s < slots().end; s++) {
+      if (!serves(s)) continue;
+      while (next != beyond.end() && *next < s) visit(*next++);
+      visit(s);
     }
+    while (next != beyond.end()) visit(*next++);
+  };
+  std::int64_t count = 0;
+  for_each_row([&](int s) { count += rows.size(s); });
+  make_room(count, rows.weighted());
+  std::int64_t end = 0;
+  for_each_row([&](int s) {
+    const std::int64_t begin = end;
+    rows.copy(s, first.data() + begin, weighted() ? weights.data() + begin : nullptr);
+    for (std::int64_t c = begin; c < begin + rows.size(s); c++) {
+      first[end] = first[c];
+      if (weighted()) weights[end] = weights[c];
+      second[end] = s;
+      end += part_of[s] == part || part_of[first[end]] == part;
+    }
+  });
+  make_room(end, rows.weighted());
 }
 
 void CandidateList::read_copies(const std::vector<int> &copy_of_slot)
@@ -100,14 +104,15 @@ constexpr int records_in_cache = 2048;
 
 void CandidateList::look_around()
 {
+  const std::uint16_t *part_of = particles->part_of_slots();
   std::vector<unsigned char> seen(particles->size(), 0);
   for (std::int64_t c = 0; c < num_pairs(); c++) {
     const auto call = [&](int slot) { distant.push_back({static_cast<std::uint32_t>(c), slot}); };
     const auto look_at = [&](int slot) {
-      if (serves(slot) || seen[slot]) return;
+      if (part_of[slot] == part || seen[slot]) return;
       seen[slot] = 1;
       call(slot);
-      if (particles->part(slot) != ParticleOrder::no_part) foreign.push_back(slot);
+      if (part_of[slot] != ParticleOrder::no_part) foreign.push_back(slot);
     };
     if (second[c] - first[c] > records_in_cache) call(first[c]);
     look_at(first[c]);

@@ -47,29 +47,45 @@ template <class Visit> void KeptContacts::for_each_pair(int p, bool of_own_first
    the second for each of them. Parts at the same time visit each their own; the few pairs between
    parts, if the part of the first does not have them as well, follow. */
 
-template <class Visit> void KeptContacts::for_each_follower(int threads, Visit visit) const
+template <class Visit> void KeptContacts::for_each_follower(Visit visit) const
 {
   in_parallel(num_parts(), threads, [&](int p) { for_each_pair(p, true, visit); });
   for (int p = 1; p < num_parts() && !both_have_pairs; p++) for_each_pair(p, false, visit);
 }
 
-void KeptContacts::finish(int threads)
+void KeptContacts::finish(int num_threads)
 {
   if (!may_leave) return;
+  threads = num_threads;
+  listed = false;
   followers_begin.assign(tag.size() + 2, 0);
-  for_each_follower(threads, [this](int first, int) { followers_begin[first + 2]++; });
-  const int total = static_cast<int>(tag.size());
-  for (int s = 0; s < total; s++) {
+  const auto count = [this](int p, bool of_own_first) {
+    const Part &its = parts[p];
+    for (std::uint32_t e = 0; e < its.rows.back(); e++)
+      if ((part_of(its.first[e]) == p) == of_own_first) followers_begin[its.first[e] + 2]++;
+  };
+  in_parallel(num_parts(), threads, [&](int p) { count(p, true); });
+  for (int p = 1; p < num_parts() && !both_have_pairs; p++) count(p, false);
+  for (int s = 0; s < static_cast<int>(tag.size()); s++) {
     const int p = part_of(s);
     if (p == ParticleOrder::no_part) continue;
     const std::uint32_t before = parts[p].row_end(s) - parts[p].row_begin(s);
     most = std::max(most, static_cast<int>(before + followers_begin[s + 2]));
   }
-  for (int s = 0; s < total; s++) followers_begin[s + 2] += followers_begin[s + 1];
+}
+
+/* From the number of followers of each particle to lists: when the first one leaves, for often
+   nobody does. */
+
+void KeptContacts::list_followers()
+{
+  listed = true;
+  for (std::size_t s = 2; s < followers_begin.size(); s++)
+    followers_begin[s] += followers_begin[s - 1];
   renew(followers, followers_begin.back());
   // the begin of a row moves on to its end
   for_each_follower(
-      threads, [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
+      [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
   followers_begin.pop_back();
 }
 
@@ -79,6 +95,7 @@ int KeptContacts::pack(int slot, int values, double *buffer)
     buffer[0] = 0.0;
     return 1;
   }
+  if (!listed) list_followers();
   slot_by_name[tag[slot]] = slot;
   double *to = buffer + 1;
   int count = 0;

@@ -100,10 +100,11 @@ class KeptContacts {
     return p != ParticleOrder::no_part ? p : part_of(first);
   }
   template <class Visit> void for_each_pair(int p, bool of_own_first, Visit visit) const;
-  template <class Visit> void for_each_follower(int threads, Visit visit) const;
+  template <class Visit> void for_each_follower(Visit visit) const;
+  void list_followers();
 
-  bool filled = false, may_leave = false, both_have_pairs = false;
-  int most = 0;
+  bool filled = false, may_leave = false, both_have_pairs = false, listed = false;
+  int most = 0, threads = 1;
   std::vector<Part> parts;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
 

@@ -28,9 +28,12 @@ struct NeighbourView {
   }
 
   /// Calls visit(i, j, scale) for every pair, in the order of the list.
-  template <class Visit> void for_each_pair(Visit visit) const
+  template <class Visit> void for_each_pair(Visit visit) const { for_each_pair(0, rows, visit); }
+
+  /// The same for the rows begin ... end-1.
+  template <class Visit> void for_each_pair(int begin, int end, Visit visit) const
   {
-    for (int r = 0; r < rows; r++) {
+    for (int r = begin; r < end; r++) {
       const int i = particle ? particle[r] : r;
       const int *row = entries[i];
       for (int n = 0; n < size[i]; n++)

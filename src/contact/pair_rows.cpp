@@ -40,10 +40,9 @@ PairRows::PairRows(const ParticleOrder &particles, const NeighbourView &neighbou
     for (int row = 0; row < view.rows; row++) listed[view.particle[row]] = 1;
   }
   renew(sizes, num_slots());
-  std::vector<Finds> finds(ranges, Finds(ranges));
-  std::vector<unsigned char> with_weights_in(ranges, 0);
-  in_parallel(ranges, ranges, [&](int r) { with_weights_in[r] = look_through(r, finds[r]); });
-  for (const unsigned char some : with_weights_in) with_weights = with_weights || some;
+  beside_ghosts.resize(ranges);
+  std::vector<Finds> finds(ranges);
+  in_parallel(ranges, ranges, [&](int r) { look_through(r, finds[r]); });
   const auto any = [](const Finds &its) {
     return std::any_of(its.begin(), its.end(), [](const auto &one) { return !one.empty(); });
   };
@@ -52,14 +51,16 @@ PairRows::PairRows(const ParticleOrder &particles, const NeighbourView &neighbou
   in_parallel(ranges, ranges, [&](int r) { take_turned(r, finds); });
 }
 
-/* Counts the pairs in the rows of a range of slots, and notes those that belong to others. Returns
-   whether there are scales other than 1. */
+/* Counts the pairs in the rows of a range of slots, and notes those that belong to others. */
 
-bool PairRows::look_through(int range, Finds &finds)
+void PairRows::look_through(int range, Finds &finds)
 {
+  Finds mine(ranges);
+  std::vector<int> beside;
   bool some = false;
   for (int slot = range_begin(range); slot < range_begin(range + 1); slot++) {
     const int atom = order.atom_of_slot[slot];
+    const bool is_owned = order.is_owned(atom);
     int count = 0;
     for (int n = 0; has_row(atom) && n < view.size[atom]; n++) {
       const int entry = view.entries[atom][n], other = slot_of(entry);
@@ -67,12 +68,16 @@ bool PairRows::look_through(int range, Finds &finds)
       if (scale == 0.0) continue;
       some = some || scale != 1.0;
       count += other < slot;
-      if (other > slot)
-        finds[range_of(other)].push_back({other, atom | (entry & ~view.index_mask)});
+      if (other > slot) mine[range_of(other)].push_back({other, atom | (entry & ~view.index_mask)});
+      if (order.is_owned(entry & view.index_mask) != is_owned)
+        beside.push_back(is_owned ? slot : other);
     }
     sizes[slot] = count;
   }
-  return some;
+  // written here alone: vectors side by side would share cache lines
+  finds = std::move(mine);
+  beside_ghosts[range] = std::move(beside);
+  if (some) with_weights = true;
 }
 
 /* Sorts what has been found for a range by the second slot. */

@@ -12,6 +12,8 @@
 #include "contact/neighbour_view.h"
 #include "contact/particle_order.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,6 +26,7 @@ class PairRows {
   PairRows(const ParticleOrder &order, const NeighbourView &neighbours, int threads = 1);
 
   int num_slots() const { return order.size(); }
+  const NeighbourView &neighbours() const { return view; }
   /// Number of pairs with that second slot.
   int size(int second) const { return sizes[second]; }
   /// The force of at least one pair is scaled by something else than 1.
@@ -33,18 +36,31 @@ class PairRows {
   /// forces.
   void copy(int second, int *firsts, double *weights) const;
 
+  /// visit(slot) for every owned particle that has a pair with a ghost, once for each such pair.
+  template <class Visit> void for_each_beside_ghosts(Visit visit) const
+  {
+    for (const auto &slots : beside_ghosts) std::for_each(slots.begin(), slots.end(), visit);
+  }
+
   /// visit(first, scale) for the pairs of a row, in the order of the list.
   template <class Visit> void for_each(int second, Visit visit) const
   {
     const int atom = order.atom_of_slot[second];
+    int left = size(second);    // and once it is zero, there is nothing to look for elsewhere
+    const auto take = [&](int entry) {
+      const double scale = scaled ? view.scale_of(entry) : 1.0;
+      const int first = slot_of(entry);
+      if (first > second || scale == 0.0) return;
+      visit(first, scale);
+      left--;
+    };
     if (has_row(atom))
-      for (int n = 0; n < view.size[atom]; n++) take(view.entries[atom][n], second, visit);
-    if (turned.empty()) return;
-    const Turned &its = turned[range_of(second)];
-    if (its.begin.empty()) return;
-    const std::size_t row = second - range_begin(range_of(second));
-    for (std::size_t n = its.begin[row]; n < its.begin[row + 1]; n++)
-      take(its.entries[n], second, visit);
+      for (int n = 0; n < view.size[atom]; n++) take(view.entries[atom][n]);
+    if (left == 0) return;
+    const int range = range_of(second);
+    const Turned &its = turned[range];
+    const std::size_t row = second - range_begin(range);
+    for (std::size_t n = its.begin[row]; n < its.begin[row + 1]; n++) take(its.entries[n]);
   }
 
  private:
@@ -60,12 +76,6 @@ class PairRows {
 
   bool has_row(int atom) const { return listed.empty() || listed[atom]; }
   int slot_of(int entry) const { return order.slot_of_atom[entry & view.index_mask]; }
-  template <class Visit> void take(int entry, int second, Visit visit) const
-  {
-    const double scale = scaled ? view.scale_of(entry) : 1.0;
-    const int first = slot_of(entry);
-    if (first < second && scale != 0.0) visit(first, scale);
-  }
   int range_begin(int range) const
   {
     return static_cast<int>(std::int64_t{num_slots()} * range / ranges);
@@ -74,17 +84,18 @@ class PairRows {
   {
     return static_cast<int>(((slot + std::int64_t{1}) * ranges - 1) / num_slots());
   }
-  bool look_through(int range, Finds &finds);
+  void look_through(int range, Finds &finds);
   void take_turned(int range, const std::vector<Finds> &finds);
 
   const ParticleOrder &order;
   const NeighbourView view;
   const int ranges;    // of slots, one for each thread
   const bool scaled;
-  bool with_weights = false;
+  std::atomic<bool> with_weights{false};
   std::vector<unsigned char> listed;    // by host's index: has a row; empty if all have
   BigVector<int> sizes;                 // by slot
   std::vector<Turned> turned;           // by range; empty if no pair is
+  std::vector<std::vector<int>> beside_ghosts;
 };
 
 }    // namespace Talus

@@ -3,6 +3,7 @@
 #include "contact/particle_order.h"
 
 #include "contact/in_parallel.h"
+#include "contact/nearly_sorted.h"
 #include "contact/pair_rows.h"
 #include "contact/simd.h"
 
@@ -14,27 +15,6 @@
 #include <utility>
 
 namespace Talus {
-namespace {
-
-void set(std::atomic<unsigned char> &flag)
-{
-  flag.store(1, std::memory_order_relaxed);
-}
-
-constexpr int rows_in_block = 64;
-
-int num_blocks(int rows)
-{
-  return rows / rows_in_block + (rows % rows_in_block ? 1 : 0);
-}
-
-ParticleOrder::Range rows_of_block(int rows, int block)
-{
-  const int begin = block * rows_in_block;
-  return {begin, begin + std::min(rows_in_block, rows - begin)};
-}
-
-}    // namespace
 
 void ParticleOrder::require_countable(std::size_t particles)
 {
@@ -42,7 +22,27 @@ void ParticleOrder::require_countable(std::size_t particles)
     throw std::length_error("more than 2^31 particles and ghosts on one rank");
 }
 
+namespace {
+
 /* The host's particles are usually in order already, since the contact store sorts them by key. */
+
+template <class Before>
+std::vector<int> sorted(int begin_all, int end_all, int threads, Before before)
+{
+  std::vector<int> atoms(end_all - begin_all);
+  std::atomic<bool> in_order{true};
+  in_ranges(end_all - begin_all, threads, [&](int, int begin, int end) {
+    for (int n = begin; n < end; n++) {
+      atoms[n] = begin_all + n;
+      if (n > 0 && before(begin_all + n, begin_all + n - 1))
+        in_order.store(false, std::memory_order_relaxed);
+    }
+  });
+  if (!in_order) sort_nearly_sorted(atoms, before);
+  return atoms;
+}
+
+}    // namespace
 
 void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key,
                             std::vector<std::int64_t> tag_of_atom, int threads)
@@ -54,84 +54,59 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
   parts = 1;
   two_phases = false;
   part_of_slot.clear();
+  beyond.clear();
 
   const auto before = [&](int a, int b) {
     return std::tie(key[a], tag[a], a) < std::tie(key[b], tag[b], b);
   };
-  std::atomic<bool> in_order{true};
+  const std::vector<int> ours = sorted(0, owned, threads, before),
+                         ghosts = sorted(owned, total, threads, before);
   atom_of_slot.resize(total);
-  in_ranges(total, threads, [&](int, int begin, int end) {
-    std::iota(atom_of_slot.begin() + begin, atom_of_slot.begin() + end, begin);
-    for (int a = std::max(begin, 1); a < std::min(end, owned); a++)
-      if (before(a, a - 1)) in_order.store(false, std::memory_order_relaxed);
-  });
-  const auto middle = atom_of_slot.begin() + owned;
-  if (!in_order) std::sort(atom_of_slot.begin(), middle, before);
-  std::sort(middle, atom_of_slot.end(), before);
-  std::inplace_merge(atom_of_slot.begin(), middle, atom_of_slot.end(), before);
-
   slot_of_atom.resize(total);
-  in_ranges(total, threads, [&](int, int begin, int end) {
-    for (int s = begin; s < end; s++) slot_of_atom[atom_of_slot[s]] = s;
+  const auto put = [&](int slot, int atom) {
+    atom_of_slot[slot] = atom;
+    slot_of_atom[atom] = slot;
+  };
+  // merges them: each ghost finds its place, owned ones fill the rest
+  std::vector<int> ours_before(ghosts.size());
+  in_ranges(total - owned, threads, [&](int, int begin, int end) {
+    for (int g = begin; g < end; g++) {
+      const auto next = std::lower_bound(ours.begin(), ours.end(), ghosts[g], before);
+      ours_before[g] = static_cast<int>(next - ours.begin());
+      put(ours_before[g] + g, ghosts[g]);
+    }
+  });
+  in_ranges(owned, threads, [&](int, int begin, int end) {
+    int g = 0;
+    for (int n = begin; n < end; n++) {
+      while (g < total - owned && ours_before[g] <= n) g++;
+      put(n + g, ours[n]);
+    }
   });
 }
 
-/* Work is one for each owned particle and for each of its pairs, without two phases for those of
-   which it is the second. */
+/* Work is one for each owned particle and for each pair of which it is the second. With two phases
+   nothing is done for ghosts. */
 
 void ParticleOrder::divide(const PairRows &rows, int threads, bool in_phases)
 {
   two_phases = in_phases;
   parts = two_phases ? 2 * threads : threads + 2 * small_parts * (threads - 1);
   part_of_slot.clear();
-  classes_of_block.clear();
+  beyond.clear();
   if (parts == 1) return;
   Work work(size());
-  if (two_phases) {
-    Flags late(size());
-    count_in_phases(rows, threads, work, late);
-    assign_phases(work, late, threads);
-    return;
-  }
-  in_ranges(size(), threads, [&](int, int begin, int end) {
-    for (int s = begin; s < end; s++) work[s] = rows.size(s) + (is_owned(atom_of_slot[s]) ? 1 : 0);
-  });
-  assign_ranges(work, threads);
-}
-
-/* Pairs of each slot are counted by up to eight threads, each for itself. Nothing is done for
-   ghosts. */
-
-void ParticleOrder::count_in_phases(const PairRows &rows, int threads, Work &work, Flags &late)
-{
-  for (class_bits = 0; size() >> class_bits >= 64;) class_bits++;
-  classes_of_block.resize(num_blocks(size()));
-  constexpr int enough = 8;
-  std::vector<std::vector<int>> pairs(std::min(threads, enough));
-  for (auto &one : pairs) one.resize(size());
-  const auto count_row = [&](int second, std::vector<int> &mine) {
-    std::uint64_t classes = 0;
-    rows.for_each(second, [&](int first, double) {
-      mine[first]++;
-      mine[second]++;
-      classes |= std::uint64_t{1} << class_of(first) | std::uint64_t{1} << class_of(second);
-      if (!is_owned(atom_of_slot[first])) set(late[second]);
-      if (!is_owned(atom_of_slot[second])) set(late[first]);
-    });
-    return classes;
-  };
-  in_ranges(num_blocks(size()), static_cast<int>(pairs.size()), [&](int t, int begin, int end) {
-    for (int b = begin; b < end; b++) {
-      const Range its = rows_of_block(size(), b);
-      for (int s = its.begin; s < its.end; s++) classes_of_block[b] |= count_row(s, pairs[t]);
-    }
-  });
   in_ranges(size(), threads, [&](int, int begin, int end) {
     for (int s = begin; s < end; s++) {
-      work[s] = is_owned(atom_of_slot[s]) ? 1 : 0;
-      for (const auto &one : pairs) work[s] += work[s] ? one[s] : 0;
+      const bool is_ghost = !is_owned(atom_of_slot[s]);
+      work[s] = is_ghost && two_phases ? 0 : rows.size(s) + (is_ghost ? 0 : 1);
     }
   });
+  if (!two_phases) return assign_ranges(work, threads);
+  Flags late(size(), 0);
+  rows.for_each_beside_ghosts([&](int slot) { late[slot] = 1; });
+  assign_phases(work, late, threads);
+  find_rows_beyond(rows.neighbours(), threads);
 }
 
 ParticleOrder::Sums ParticleOrder::sums_of(const Work &work, int threads) const
@@ -227,34 +202,39 @@ ParticleOrder::Range ParticleOrder::range_of_thread(int thread) const
   return {std::min(early.begin, late.begin), std::max(early.end, late.end)};
 }
 
-std::uint64_t ParticleOrder::classes_of(Range slots) const
-{
-  if (slots.begin >= slots.end) return 0;
-  const int first = class_of(slots.begin), last = class_of(slots.end - 1);
-  return ~std::uint64_t{0} << first & ~std::uint64_t{0} >> (63 - last);
-}
+/* Of most pairs both members are of one part, which is seen without a look at their slots. */
 
-std::vector<ParticleOrder::Range> ParticleOrder::rows_of(int part) const
+void ParticleOrder::find_rows_beyond(const NeighbourView &neighbours, int threads)
 {
-  const std::uint64_t wanted = classes_of(range(part));
-  std::vector<Range> pieces;
-  for (int block = 0; block < static_cast<int>(classes_of_block.size()); block++) {
-    if (!(classes_of_block[block] & wanted)) continue;
-    const Range rows = rows_of_block(size(), block);
-    if (!pieces.empty() && pieces.back().end == rows.begin)
-      pieces.back().end = rows.end;
-    else
-      pieces.push_back(rows);
-  }
-  return pieces;
+  std::vector<std::uint16_t> part_of_atom(size());
+  in_ranges(size(), threads, [&](int, int begin, int end) {
+    for (int a = begin; a < end; a++) part_of_atom[a] = part_of_slot[slot_of_atom[a]];
+  });
+  std::vector<std::vector<std::vector<int>>> found(threads);
+  in_ranges(neighbours.rows, threads, [&](int t, int begin, int end) {
+    std::vector<std::vector<int>> mine(parts);
+    neighbours.for_each_pair(begin, end, [&](int i, int j, double) {
+      if (part_of_atom[i] == part_of_atom[j]) return;
+      const auto [first, second] = std::minmax({slot_of_atom[i], slot_of_atom[j]});
+      if (part_of_slot[first] != no_part) mine[part_of_slot[first]].push_back(second);
+    });
+    found[t] = std::move(mine);
+  });
+  beyond.resize(parts);
+  in_parallel(parts, threads, [&](int p) {
+    for (const auto &of_thread : found)
+      beyond[p].insert(beyond[p].end(), of_thread[p].begin(), of_thread[p].end());
+    std::sort(beyond[p].begin(), beyond[p].end());
+    beyond[p].erase(std::unique(beyond[p].begin(), beyond[p].end()), beyond[p].end());
+  });
 }
 
 double ParticleOrder::memory_usage() const
 {
-  return static_cast<double>(sizeof(int) * (atom_of_slot.capacity() + slot_of_atom.capacity()) +
-                             sizeof(std::int64_t) * tag.capacity() +
-                             sizeof(std::uint16_t) * part_of_slot.capacity() +
-                             sizeof(std::uint64_t) * classes_of_block.capacity());
+  std::size_t numbers = atom_of_slot.capacity() + slot_of_atom.capacity();
+  for (const auto &rows : beyond) numbers += rows.capacity();
+  return static_cast<double>(sizeof(int) * numbers + sizeof(std::int64_t) * tag.capacity() +
+                             sizeof(std::uint16_t) * part_of_slot.capacity());
 }
 
 }    // namespace Talus

@@ -15,6 +15,7 @@
 namespace Talus {
 
 class PairRows;
+struct NeighbourView;
 
 class ParticleOrder {
  public:
@@ -79,9 +80,9 @@ class ParticleOrder {
   std::size_t nowhere(int part) const { return (std::size_t(size()) + 1) / 2 * 2 + 2UL * part; }
   std::size_t num_places() const { return nowhere(parts); }
 
-  /// With two phases: ranges of second slots, in ascending order, among which are those of all
-  /// pairs of a part.
-  std::vector<Range> rows_of(int part) const;
+  /// With two phases: slots that are not of a part, but second ones of pairs with first ones that
+  /// are; in ascending order.
+  const std::vector<int> &rows_beyond(int part) const { return beyond[part]; }
 
   /// 1/2 for a pair with a ghost, which another rank computes as well, else 1.
   double share(int slot_a, int slot_b) const
@@ -105,17 +106,13 @@ class ParticleOrder {
   std::vector<int> slot_of_atom;    ///< host's index -> slot
 
  private:
-  using Work = BigVector<int>;                              // by slot
-  using Flags = std::vector<std::atomic<unsigned char>>;    // by slot, set by any thread
-  using Sums = std::vector<std::int64_t>;                   // of the slots of each thread
-  void count_in_phases(const PairRows &rows, int threads, Work &work, Flags &late);
+  using Work = BigVector<int>;                 // by slot
+  using Sums = std::vector<std::int64_t>;      // of the slots of each thread
+  using Flags = std::vector<unsigned char>;    // by slot
   Sums sums_of(const Work &work, int threads) const;
   void assign_phases(const Work &work, const Flags &late, int threads);
   void assign_ranges(const Work &work, int threads);
-
-  /// In two phases: slots in at most 64 classes of neighbours in the order, as bits.
-  std::uint64_t classes_of(Range slots) const;
-  int class_of(int slot) const { return slot >> class_bits; }
+  void find_rows_beyond(const NeighbourView &neighbours, int threads);
 
   /// On either side of the border between the ranges of two threads, and how much of the work of a
   /// thread each of them is.
@@ -126,8 +123,7 @@ class ParticleOrder {
   bool two_phases = false;
   std::vector<std::uint16_t> part_of_slot;    // empty if there is one part only
   std::vector<Range> range_of_part;
-  int class_bits = 0;
-  std::vector<std::uint64_t> classes_of_block;    // of the pairs in some rows
+  std::vector<std::vector<int>> beyond;    // by part; empty without two phases
 };
 
 }    // namespace Talus

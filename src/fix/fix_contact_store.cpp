@@ -3,6 +3,7 @@
 #include "fix/fix_contact_store.h"
 
 #include "contact/canonical_key.h"
+#include "contact/in_parallel.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -90,7 +91,9 @@ void FixContactStore::pre_exchange()
   if (client) client->release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
-  for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
+    for (int i = begin; i < end; i++) refresh_key(i);
+  });
   sort_particles();
   next_reneighbor = next_refresh(update->ntimestep);
 }

@@ -4,11 +4,14 @@
 
 #include "fix/fix_contact_store.h"
 
+#include "contact/in_parallel.h"
+#include "contact/nearly_sorted.h"
+
 #include "atom.h"
 #include "atom_vec.h"
+#include "comm.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -30,13 +33,22 @@ void FixContactStore::sort_particles()
 {
   if (!host_sorts_every) return;
   const int n = atom->nlocal;
-  const auto before = [this](int i, int j) {
-    return keys[i] != keys[j] ? keys[i] < keys[j] : atom->tag[i] < atom->tag[j];
+  struct Place {
+    std::uint64_t key;
+    tagint tag;
+    int from;
   };
+  const auto before = [](const Place &a, const Place &b) {
+    return a.key != b.key ? a.key < b.key : a.tag < b.tag;
+  };
+  std::vector<Place> places(n);
+  Talus::in_ranges(n, comm->nthreads, [&](int, int begin, int end) {
+    for (int i = begin; i < end; i++) places[i] = {keys[i], atom->tag[i], i};
+  });
+  if (std::is_sorted(places.begin(), places.end(), before)) return;
+  Talus::sort_nearly_sorted(places, before);
   std::vector<int> from(n);    // which particle goes to each place
-  std::iota(from.begin(), from.end(), 0);
-  if (std::is_sorted(from.begin(), from.end(), before)) return;
-  std::sort(from.begin(), from.end(), before);
+  for (int i = 0; i < n; i++) from[i] = places[i].from;
 
   // every cycle of the permutation turns through one spare place behind the last particle
   if (n == atom->nmax) atom->avec->grow(0);
