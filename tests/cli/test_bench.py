@@ -144,6 +144,7 @@ class Profile(unittest.TestCase):
                 ("contact force", "talusstyles.so", "Talus::ContactPart::gather<true, true>"),
                 ("contact force", "liblammps.so.0", "LAMMPS_NS::PairGranHertzHistory::compute"),
                 ("broad phase", "talusstyles.so", "Talus::CandidateList::collect(Talus::ParticleOrder const&)"),
+                ("broad phase", "talusstyles.so", "Talus::PairRows::copy(int, int*, double*) const"),
                 ("broad phase", "liblammps.so.0", "LAMMPS_NS::NPairBin<1, 0, 0, 1, 1>::build"),
                 ("floor and walls", "talusstyles.so", "Talus::BodyBatch::apply"),
                 ("floor and walls", "talusstyles.so", "Talus::RestingBodyBatch::gather"),
