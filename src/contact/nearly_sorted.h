@@ -10,7 +10,7 @@ namespace Talus {
 
 /// Sorts values of which most stand in ascending order already, as particles do after a few have
 /// come from elsewhere or have moved a little: those in the way are taken out, sorted, and merged
-/// with the others. All in all not slower than std::sort for any order.
+/// with the others. Any order is sorted; it takes room for two more copies.
 template <class T, class Before> void sort_nearly_sorted(std::vector<T> &values, Before before)
 {
   std::vector<T> ascending, others;

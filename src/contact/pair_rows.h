@@ -66,7 +66,7 @@ class PairRows {
  private:
   /// Pairs as entries of rows where the list does not have them, of the seconds in one range.
   struct Turned {
-    std::vector<std::size_t> begin;    // of each row and the end of the last; empty without pairs
+    std::vector<std::size_t> begin;    // of each row and the end of the last
     BigVector<int> entries;
   };
   struct Found {
