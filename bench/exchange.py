@@ -66,7 +66,7 @@ def plan(bench, size):
     return steps, max(5, bench.size(24, 8) * 20000 // max(20000, size))
 
 
-def modelled(network, turns):
+def modeled(network, turns):
     """What the model adds to a blocking exchange (us)."""
     latency, bandwidth = network
     return latency + 1e-3 * turns.sent / bandwidth
@@ -82,7 +82,7 @@ def gains(turns):
 
 def share_hidden(without, found, network):
     """By how much more overlap gains with the network than without it, over the time of the network: quartiles."""
-    time = modelled(network, found["direct"])
+    time = modeled(network, found["direct"])
     low, middle, high = statistics.quantiles([(a - b) / time for a, b in zip(gains(found), gains(without))], n=4)
     return paired.Ratio(middle, low, high)
 
@@ -105,7 +105,7 @@ def hidden(bench, runner):
     added = [statistics.median(b - a for a, b in zip(without[m].step, found[m].step)) for m in ("direct", "overlapped")]
     bench.section.text(f"""{size} spheres per rank, settled, between walls; two ranks in the model of a network of
 {network[0]:g} us and {network[1]:g} GB/s, in which a message of {found["direct"].sent:.0f} bytes takes
-{modelled(network, found["direct"]):.0f} us. {len(found["direct"].step)} cycles of short runs in one process, all exchanges with and
+{modeled(network, found["direct"]):.0f} us. {len(found["direct"].step)} cycles of short runs in one process, all exchanges with and
 without the network in turns; medians over cycles (quartiles). The network adds {added[0]:.0f} us to a step of the blocking
 direct exchange and {added[1]:.0f} us to an overlapped one. Hidden, by time per step: what overlap gains with the network
 less what it gains without it (its price, negative), over the time of a message: **{by_time}**; over what was added to
@@ -125,7 +125,7 @@ def model(bench, runner):
         bed = Bed(bench, runner, 2 * size)
         for network in [(latency, bandwidth) for bandwidth in bandwidths for latency in latencies]:
             without, found = in_model(bench, runner, bed, size, network, max(3, plan(bench, size)[1] // 3))
-            share = modelled(network, found["direct"]) / without["direct"].median
+            share = modeled(network, found["direct"]) / without["direct"].median
             rows.append([size, *network, share, *(without[m].median for m in METHODS), *(found[m].median for m in METHODS),
                          ratio(found["overlapped"], found["direct"]).median,
                          share_hidden(without, found, network).median if share > 0.05 else float("nan")])
@@ -140,10 +140,10 @@ def model(bench, runner):
                        "blocking step loses more than the time of a message, because ranks wait for each other's delays "
                        "or, where the latency is longer than a step, for the answer whether to make new lists. " +
                        where_it_pays(rows))
-    bench.section.plot("model", "Time of a step over the latency of the modelled network",
+    bench.section.plot("model", "Time of a step over the latency of the modeled network",
                        lambda plt: draw_model(plt, rows, sizes, bandwidths))
-    bench.section.plot("overlap", "Where overlap pays: overlapped over blocking step (pays below 1), and share of the modelled "
-                                  "time that it hides, over the modelled time as a share of a step",
+    bench.section.plot("overlap", "Where overlap pays: overlapped over blocking step (pays below 1), and share of the modeled "
+                                  "time that it hides, over the modeled time as a share of a step",
                        lambda plt: draw_overlap(plt, rows, sizes))
 
 
@@ -187,7 +187,7 @@ def draw_overlap(plt, rows, sizes):
     left.set_ylabel("overlapped over blocking step")
     right.set_ylabel("share hidden")
     for axis in left, right:
-        axis.set_xlabel("modelled time of the network over step")
+        axis.set_xlabel("modeled time of the network over step")
     left.legend()
 
 

@@ -135,7 +135,7 @@ step, needed or not; direct: measured with comm_proxy on two ranks, which leaves
 
 
 def exchange(bench):
-    """What it costs to have neighbours at all: one rank, a box periodic in x and y against four walls."""
+    """What it costs to have neighbors at all: one rank, a box periodic in x and y against four walls."""
     if not bench.wants("exchange"):
         return
     bench.note("exchange")
@@ -199,7 +199,7 @@ def errors(bench):
         section.record(feature="heap: " + name, height=state.height, runout=state.runout, creep=state.creep)
     section.heading("What is wrong without it: a heap")
     section.table(["law", "mean height (d)", "run-out (d)", "creep (d/s)", "height, difference (%)"], rows)
-    section.text(f"""A column of {heap.COUNT} spheres falls apart on a floor, {steps} steps of {heap.DT:g} s. mean height of the centres and
+    section.text(f"""A column of {heap.COUNT} spheres falls apart on a floor, {steps} steps of {heap.DT:g} s. mean height of the centers and
 run-out (radius that holds 95 % of the spheres) at the end, in diameters; creep: mean horizontal way in the last quarter of the
 time over that time. The first row is the full law; a heap of spheres without friction, or with friction that has no memory,
 does not stand.""")

@@ -88,7 +88,7 @@ def stages(bench, series, sizes, sample):
     section.heading("Stages")
     rows = [[words, *(series[name, size].median for size in sizes)] for name, words in STAGES.items() if bench.wants(name)]
     section.table(["ns per sphere", *(f"{size} spheres" for size in sizes)], rows)
-    section.text(f"""One thread, medians of {bench.rounds} rounds. Spheres near the sites of a body-centred lattice, in the order of their
+    section.text(f"""One thread, medians of {bench.rounds} rounds. Spheres near the sites of a body-centerd lattice, in the order of their
 keys, {sample["contacts"]:.2f} contacts and {sample["candidates"]:.2f} candidate pairs per sphere, as in a settled bed. contacts: narrow
 phase, gathering, kernel and summing together. A stage that runs alone finds in the cache what it left there; in a whole step
 of a large bed it does not, and stages that follow each other there share what they bring into it.""")

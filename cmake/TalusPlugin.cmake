@@ -1,31 +1,35 @@
 # The plugin: libraries of what needs no LAMMPS, which tests use as well, and the files that LAMMPS opens.
 # Sets talus_variants, the files that only a portable build has.
 
-file(GLOB talus_contact_sources CONFIGURE_DEPENDS src/contact/*.cpp src/body/*.cpp)
-file(GLOB talus_style_sources CONFIGURE_DEPENDS src/pair/*.cpp src/fix/*.cpp src/compute/*.cpp src/comm/*.cpp)
-# The transfer half of src/comm: MPI, but no LAMMPS.
-set(talus_exchange_sources
-  src/comm/exchange_plan.cpp src/comm/motion_forecast.cpp src/comm/proxy_exchange.cpp)
-list(TRANSFORM talus_exchange_sources PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
-list(REMOVE_ITEM talus_style_sources ${talus_exchange_sources})
+# Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI; then those of LAMMPS.
+set(talus_core_folders base laws material particles neighbors history contact body/shape body/motion body/contact)
+set(talus_style_folders system pair fix compute comm run)
 
-# Counts of pairs and of bytes pass 2^31: where they are used, no 64-bit number becomes an int unseen.
+function(talus_glob result)
+  set(patterns ${ARGN})
+  list(TRANSFORM patterns PREPEND "${PROJECT_SOURCE_DIR}/src/")
+  list(TRANSFORM patterns APPEND "/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  set(${result} "${sources}" PARENT_SCOPE)
+endfunction()
+talus_glob(talus_core_sources ${talus_core_folders})
+talus_glob(talus_exchange_sources exchange)
+talus_glob(talus_style_sources ${talus_style_folders})
+
+# Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
-foreach(name candidate_list contact_history contact_part contact_part_lanes contact_pipeline contact_survey
-    narrow_phase neighbour_search outgoing_forces particle_order particle_records partner_lists)
-  set_source_files_properties(src/contact/${name}.cpp PROPERTIES COMPILE_OPTIONS "${talus_index_flags}")
-endforeach()
 if(TALUS_SANITIZE)
   # A thousand kernels with checks in them: optimized, they take the compiler more than a quarter of an hour.
-  set_source_files_properties(src/contact/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O0;-g1")
+  set_source_files_properties(src/laws/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O0;-g1")
 endif()
 
-# talus_add_code(suffix): libraries talus_contact and talus_exchange with the flags talus_flags, each name with the suffix.
+# talus_add_code(suffix): libraries talus_core and talus_exchange with the flags talus_flags, each name with the suffix.
 function(talus_add_code suffix)
   # Contact laws, batch kernel and geometry: no LAMMPS include, so that tests need no host.
-  set(contact talus_contact${suffix})
-  add_library(${contact} STATIC ${talus_contact_sources})
-  target_link_libraries(${contact} PUBLIC talus_flags${suffix} Eigen3::Eigen)
+  set(core talus_core${suffix})
+  add_library(${core} STATIC ${talus_core_sources})
+  target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen)
+  target_compile_options(${core} PRIVATE ${talus_index_flags})
 
   # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.
   set(exchange talus_exchange${suffix})
@@ -35,7 +39,7 @@ function(talus_add_code suffix)
   target_link_libraries(${exchange} PUBLIC talus_flags${suffix})
   target_compile_options(${exchange} PRIVATE ${talus_index_flags})
 
-  foreach(library ${contact} ${exchange})
+  foreach(library ${core} ${exchange})
     set_target_properties(${library} PROPERTIES
       POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     target_include_directories(${library} PUBLIC src)
@@ -64,7 +68,7 @@ endfunction()
 function(talus_add_styles module suffix)
   talus_add_module(${module} "talus_register_*" src/talusstyles.cpp ${talus_style_sources})
   target_include_directories(${module} PRIVATE src)
-  target_link_libraries(${module} PRIVATE talus_contact${suffix} talus_exchange${suffix} lammps_host)
+  target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
 endfunction()
 
 # The plugin is two files. LAMMPS opens plugins with all symbols bound at once, so one that uses

@@ -53,10 +53,10 @@ function(talus_set_test_properties test)
   endif()
 endfunction()
 
-# talus_add_unit_test(name): tests/unit/name.cpp with GoogleTest, linked to talus_contact.
+# talus_add_unit_test(name): tests/unit/name.cpp with GoogleTest, linked to talus_core.
 function(talus_add_unit_test name)
   add_executable(${name} "${PROJECT_SOURCE_DIR}/tests/unit/${name}.cpp")
-  target_link_libraries(${name} PRIVATE talus_contact GTest::gtest GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE talus_core GTest::gtest GTest::gtest_main)
   add_test(NAME unit/${name} COMMAND ${name})
   talus_set_test_properties(unit/${name} LABELS unit ${ARGN})
 endfunction()

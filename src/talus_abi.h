@@ -6,8 +6,8 @@
 // portable build talusstyles.so is talusdispatch.cpp, and the styles are in files of their own,
 // talusstyles-WORD.so, whose function ends in the word of their instruction set.
 
-#ifndef TALUS_ABI_H
-#define TALUS_ABI_H
+#ifndef TALUS_TALUS_ABI_H
+#define TALUS_TALUS_ABI_H
 
 #include "lammps_compat.h"
 

@@ -4,7 +4,6 @@
 // known to be the one this file was compiled for; may be called again after `clear`.
 
 #include "comm/proxy_command.h"
-#include "comm/verlet_proxy.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
 #include "fix/fix_contact_store.h"
@@ -12,6 +11,7 @@
 #include "fix/fix_nve_sphere_symplectic.h"
 #include "lammps_compat.h"
 #include "pair/pair_gran_penalty.h"
+#include "run/verlet_proxy.h"
 #include "talus_abi.h"
 
 #include "command.h"

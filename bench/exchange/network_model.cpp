@@ -10,7 +10,7 @@
 //
 // Through the profiling interface of MPI: each message is preceded by a small one with the time of
 // sending, on a duplicate of the communicator. All ranks must share one clock. Only what LAMMPS and
-// Talus use in their time steps is modelled: point to point, (i)allreduce.
+// Talus use in their time steps is modeled: point to point, (i)allreduce.
 
 #include "preloaded_sends.h"
 

@@ -201,7 +201,7 @@ def make_bed(bench, count, relax, path):
     _, rows, velocities = read_data(tile(bench))
     nx, ny = layout(count)
     bench.note(f"laying out and settling a bed of {count} spheres, once")
-    margin = 0.53 * D    # the outermost centres are on the border of the tile
+    margin = 0.53 * D    # the outermost centers are on the border of the tile
     box = ((-margin, nx * WIDTH + margin), (-margin, ny * WIDTH + margin), tile_box()[2])
     spheres = []
     for place in range(nx * ny):

@@ -80,7 +80,7 @@ class Bed:
         """Continues the bed: short runs of all methods in turns, every second cycle in reverse order.  The machine
         changes its speed from second to second, so the turns must be shorter.  every: see beds.neighbors();
         networks: latency (us) and bandwidth (GB/s) of the model of a network, whose library must be preloaded."""
-        turns = [f"{modelled_by(networks[n])}{command}\nprint 'TURN {name} {n}'\nrun {steps} post no\n"
+        turns = [f"{modeled_by(networks[n])}{command}\nprint 'TURN {name} {n}'\nrun {steps} post no\n"
                  for n in range(len(networks)) for name, command in methods.items()]
         return (self.start(f"read_restart {self.file}") + self.physics +
                 f"neighbor {beds.SKIN} bin\n{beds.neighbors(every)}timestep {beds.DT}\nthermo 1000000\n"
@@ -88,7 +88,7 @@ class Bed:
                 "".join("".join(turns[::1 if k % 2 == 0 else -1]) for k in range(cycles)))
 
 
-def modelled_by(network):
+def modeled_by(network):
     if not network:
         return ""
     return f"shell putenv TALUS_LATENCY={1e-6 * network[0]!r} TALUS_BANDWIDTH={1e9 * network[1]!r}\n"

@@ -171,7 +171,7 @@ def impact(name, law, normal=1.0, across=0.0, second=None, **more):
     """Two spheres meet; second: diameter and density of the one at the right, which is at rest if heavy."""
     diameter, density = second or (1.0, 1000.0)
     gap = 0.01 * min(1.0, diameter)
-    share = 1 / (1 + (density * diameter**3) / 1000.0)      # centre of mass at rest
+    share = 1 / (1 + (density * diameter**3) / 1000.0)      # center of mass at rest
     right = Ball((0.5 * diameter + gap / 2, 0, 0), (-normal * share, -across * share, 0), diameter=diameter, density=density)
     left = Ball((-0.5 - gap / 2, 0, 0), (normal * (1 - share), across * (1 - share), 0))
     options = {"steps": 100, "box": WIDE, "skin": 0.1 * min(1.0, diameter), **more}

@@ -44,7 +44,7 @@ def cage(n, ratio=1.0):
 
 
 def lattice(kind):
-    """(moving spheres, box edge): simple, body-centred or face-centred cubic, 6, 8, 12 contacts."""
+    """(moving spheres, box edge): simple, body-centerd or face-centerd cubic, 6, 8, 12 contacts."""
     basis, edge, cells = {"sc": ([(0, 0, 0)], 1.0, 4), "bcc": ([(0, 0, 0), (.5, .5, .5)], 2 / math.sqrt(3), 4),
                           "fcc": ([(0, 0, 0), (.5, .5, 0), (.5, 0, .5), (0, .5, .5)], math.sqrt(2), 3)}[kind]
     edge *= 1 - OVERLAP

@@ -128,7 +128,7 @@ def chain(length=20):
 
 
 def cluster():
-    """200 spheres on jittered sites that fly towards their centre and spin."""
+    """200 spheres on jittered sites that fly towards their center and spin."""
     draw = random.Random(11)
     sites = sorted(((i, j, k) for i in range(-4, 5) for j in range(-4, 5) for k in range(-4, 5)),
                    key=lambda s: (s[0]**2 + s[1]**2 + s[2]**2, s))[:200]

@@ -2,7 +2,7 @@
 
 #include "bed.h"
 
-#include "contact/canonical_key.h"
+#include "particles/canonical_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,9 +151,9 @@ Bed in_order_of_keys(const Bed &bed)
 
 }    // namespace
 
-Talus::NeighbourView Lists::view() const
+Talus::NeighborView Lists::view() const
 {
-  Talus::NeighbourView v;
+  Talus::NeighborView v;
   v.rows = static_cast<int>(row.size());
   v.particle = row.data();
   v.size = size.data();
@@ -184,7 +184,7 @@ Bed make_bed(int spheres)
   bed.owned = bed.size();
   bed = in_order_of_keys(bed);
   complete(bed);
-  bed.neighbours = make_lists(bed);
+  bed.neighbors = make_lists(bed);
   return bed;
 }
 
@@ -206,7 +206,7 @@ std::vector<Bed> two_ranks(const Bed &bed)
       if (!is_owned(i) && std::abs(bed.x[3 * i] - middle) < largest + skin)
         copy_sphere(rank, bed, i);
     complete(rank);
-    rank.neighbours = make_lists(rank);
+    rank.neighbors = make_lists(rank);
   }
   return ranks;
 }
@@ -227,7 +227,7 @@ Talus::ContactScene scene_of(const Talus::LawTable &laws)
   scene.laws = laws;
   scene.with_friction = laws.has_friction();
   scene.with_history = laws.has_history();
-  scene.with_onset = laws.has_onset();
+  scene.with_impact = laws.has_impact();
   scene.with_resistance = laws.has_resistance();
   return scene;
 }

@@ -6,9 +6,9 @@
 #ifndef TALUS_BENCH_BED_H
 #define TALUS_BENCH_BED_H
 
-#include "contact/contact_part.h"
-#include "contact/neighbour_view.h"
-#include "contact/particle_records.h"
+#include "contact/contact_chunk.h"
+#include "neighbors/neighbor_view.h"
+#include "particles/particle_records.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,7 +22,7 @@ struct Lists {
   std::vector<int> row, size, entries;
   std::vector<const int *> begin;
 
-  Talus::NeighbourView view() const;
+  Talus::NeighborView view() const;
 };
 
 /// One rank: owned spheres in the order of their keys, as LAMMPS sorts them for Talus, then ghosts.
@@ -36,13 +36,13 @@ struct Bed {
   std::vector<std::uint64_t> key;
   std::vector<std::int64_t> tag;
   std::vector<int> type;
-  Lists neighbours;    ///< each pair in the row of its second member, which may be a ghost
+  Lists neighbors;    ///< each pair in the row of its second member, which may be a ghost
 
   int size() const { return static_cast<int>(radius.size()); }
   Talus::ParticleView view();
 };
 
-/// Spheres on a body-centred cubic lattice that fills a cube, at random near their sites, with 2.1
+/// Spheres on a body-centerd cubic lattice that fills a cube, at random near their sites, with 2.1
 /// contacts and 4.0 candidate pairs per sphere (a settled bed: 2.2 and 3.5). `spheres` is rounded
 /// down to what fills the cube.
 Bed make_bed(int spheres);

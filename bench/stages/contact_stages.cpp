@@ -4,8 +4,8 @@
 
 #include "stages.h"
 
-#include "body/body_contacts.h"
-#include "body/plane.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/plane.h"
 #include "contact/narrow_phase.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Prepared {
   ParticleRecords records;
   PartnerLists partners;
   KeptContacts kept;
-  ContactPart part;
+  ContactChunk part;
 
   Prepared(Bed &given, NormalLaw normal, TangentialLaw tangential) :
       bed(given), scene(scene_of(one_law(normal, tangential)))
@@ -42,7 +42,7 @@ struct Prepared {
   }
 
   SlotChoice all() const { return {0, order.size()}; }
-  void collect() { part.pairs.collect(order, PairRows(order, bed.neighbours.view()), 0); }
+  void collect() { part.pairs.collect(order, PairRows(order, bed.neighbors.view()), 0); }
   FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
   void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()
@@ -135,7 +135,7 @@ BENCHMARK(read_particles)->Apply(sizes);
 void advance_records(benchmark::State &state)
 {
   Prepared p = prepared(state);
-  BigVector<Record> held(p.records.position.begin(), p.records.position.end());
+  AlignedVector<Record> held(p.records.position.begin(), p.records.position.end());
   const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
   repeat(state, p,
          [&] { benchmark::DoNotOptimize(p.records.advance(at_rest, {}, held.data(), p.all())); });

@@ -57,7 +57,7 @@ struct Canonical {
     if (pipeline.num_particles()) pipeline.keep_history(kept, bed.size() > bed.owned);
     kept_slot = pipeline.particle_order().slot_of_atom;
     pipeline.release();
-    pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data()}, bed.neighbours.view());
+    pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data()}, bed.neighbors.view());
     pipeline.start_pairs({partners, bed.tag, kept, kept_slot});
   }
   void run(const ContactStep &how)
@@ -88,8 +88,8 @@ struct AsListed {
   ParticleRecords records;
   PartnerLists partners;
   KeptContacts kept;
-  ContactPart part;
-  BigVector<Record> held, of_other_thread;
+  ContactChunk part;
+  AlignedVector<Record> held, of_other_thread;
   std::vector<std::uint64_t> index;
   std::vector<ParticleRecords::Role> role;
 
@@ -97,7 +97,7 @@ struct AsListed {
   {
     std::iota(index.begin(), index.end(), 0);
     order.arrange(bed.owned, index, bed.tag);
-    part.pairs.collect(order, PairRows(order, bed.neighbours.view()),
+    part.pairs.collect(order, PairRows(order, bed.neighbors.view()),
                        0);    // knows the order from now on
     records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
@@ -128,10 +128,10 @@ struct AsListed {
   /// Rows and entries, one after the other.
   void take_pairs()
   {
-    const NeighbourView view = bed.neighbours.view();
-    CandidateList &pairs = part.pairs;
-    renew(pairs.first, bed.neighbours.entries.size());
-    renew(pairs.second, bed.neighbours.entries.size());
+    const NeighborView view = bed.neighbors.view();
+    PairList &pairs = part.pairs;
+    renew(pairs.first, bed.neighbors.entries.size());
+    renew(pairs.second, bed.neighbors.entries.size());
     pairs.distant.clear();
     std::uint32_t c = 0;
     view.for_each_pair([&](int i, int j, double) {

@@ -5,9 +5,9 @@
 //   g++ -std=c++17 -O3 -march=native -ffp-contract=off -shared -fPIC -I TALUS/src torus.cpp -o
 //   torus.so fix ring all large/body custom ./torus.so 8  0 0 0  0 0 1  2.0 0.4  contact ...
 //
-// Arguments: centre (3), axis (3), radius of the ring, radius of its wire.
+// Arguments: center (3), axis (3), radius of the ring, radius of its wire.
 
-#include "body/custom_shape.h"
+#include "body/shape/custom_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ using Vector = Talus::Vector3<double>;
 
 class Torus : public Talus::LargeBodyShape {
  public:
-  Torus(const Vector &centre, const Vector &axis, double ring, double wire) :
-      centre(centre), axis(axis), ring(ring), wire(wire)
+  Torus(const Vector &center, const Vector &axis, double ring, double wire) :
+      center(center), axis(axis), ring(ring), wire(wire)
   {
   }
 
@@ -44,19 +44,19 @@ class Torus : public Talus::LargeBodyShape {
     return std::max(0.0, std::sqrt(dot(away, away)) - wire);
   }
 
-  Vector reference_point() const override { return centre; }
+  Vector reference_point() const override { return center; }
 
  private:
   /// From the nearest point of the middle line of the wire.
   Vector from_wire(const Vector &x) const
   {
-    const Vector d = x - centre;
+    const Vector d = x - center;
     const Vector flat = d - dot(d, axis) * axis;
     const double rho = std::sqrt(dot(flat, flat));
     return rho > 0.0 ? d - ring / rho * flat : d - Vector{ring, 0.0, 0.0};
   }
 
-  Vector centre, axis;
+  Vector center, axis;
   double ring, wire;
 };
 

@@ -9,7 +9,7 @@
 #ifndef TALUS_COMM_ATOM_PACKERS_H
 #define TALUS_COMM_ATOM_PACKERS_H
 
-#include "comm/proxy_packer.h"
+#include "exchange/proxy_packer.h"
 
 #include "pointers.h"
 

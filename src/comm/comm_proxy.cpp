@@ -2,9 +2,9 @@
 
 #include "comm/comm_proxy.h"
 
-#include "comm/exchange_tags.h"
 #include "comm/proxy_reader.h"
 #include "comm/spin_readers.h"
+#include "exchange/exchange_tags.h"
 
 #include "atom.h"
 #include "atom_vec.h"

@@ -4,7 +4,7 @@
 // the stock CommBrick. doc/comm_proxy.md is the user's page.
 //
 // Migration, borders and all exchanges of single styles stay the host's staged ones, so that the
-// order of ghost particles, and with it every neighbour list, is the stock one. At the end of
+// order of ghost particles, and with it every neighbor list, is the stock one. At the end of
 // borders() a plan is derived that goes from owner to proxy without stages; forward_comm(), which
 // runs in every other step, uses it.
 //
@@ -16,7 +16,7 @@
 
 #include "comm/atom_packers.h"
 #include "comm/pending_exchange.h"
-#include "comm/proxy_exchange.h"
+#include "exchange/proxy_exchange.h"
 
 #include "comm_brick.h"
 
@@ -61,7 +61,7 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   bool has_plan() const { return have_plan; }
 
   /// Starts the update of all proxies; the caller sees to it that nobody reads them before
-  /// finish(). Collective among neighbours, like forward_comm(). `packer`: if states are not in the
+  /// finish(). Collective among neighbors, like forward_comm(). `packer`: if states are not in the
   /// host's arrays, on all ranks.
   void begin(Talus::ProxyPacker *packer = nullptr);
 

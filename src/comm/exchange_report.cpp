@@ -48,7 +48,7 @@ std::string Talus::describe_exchange(CommProxy &comm, MPI_Comm world)
   text += fmt::format("  {:<34} {:>12} {:>12} {:>12}\n", "per rank", "least", "mean", "largest");
   text += line("owned particles", owned, world);
   text += line("proxies", plan.num_proxies(), world);
-  text += line("neighbour ranks", static_cast<double>(plan.neighbors().size()), world);
+  text += line("neighbor ranks", static_cast<double>(plan.neighbors().size()), world);
   text += line("messages per exchange", comm.messages_per_exchange(), world);
   text += line("bytes per exchange", comm.bytes_per_exchange(), world);
   text += line("share of owned that are no proxies",

@@ -5,7 +5,7 @@
 #ifndef TALUS_COMM_EXCHANGE_REPORT_H
 #define TALUS_COMM_EXCHANGE_REPORT_H
 
-#include "comm/exchange_counters.h"
+#include "exchange/exchange_counters.h"
 
 #include <mpi.h>
 

@@ -2,7 +2,7 @@
 
 #include "comm/record_packer.h"
 
-#include "contact/particle_records.h"
+#include "particles/particle_records.h"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #define TALUS_COMM_RECORD_PACKER_H
 
 #include "comm/atom_packers.h"
-#include "comm/proxy_packer.h"
+#include "exchange/proxy_packer.h"
 
 namespace Talus {
 

@@ -7,7 +7,7 @@
 #define LMP_COMPUTE_TIMESTEP_GRAN_H
 
 #include "compute.h"
-#include "pair/critical_time_step.h"
+#include "system/critical_time_step.h"
 
 namespace LAMMPS_NS {
 

@@ -11,7 +11,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.laws = table;
   scene.with_friction = table.has_friction();
   scene.with_history = table.has_history();
-  scene.with_onset = table.has_onset();
+  scene.with_impact = table.has_impact();
   scene.with_resistance = table.has_resistance();
 }
 
@@ -21,12 +21,12 @@ void ContactPipeline::set_work(int num_threads, bool in_phases)
   next_in_phases = in_phases;
 }
 
-void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &neighbours)
+void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neighbors)
 {
   in_records = prepared = move_pending = false;
   threads = next_threads;
   order.arrange(given.owned, given.key, given.tag, threads);
-  const PairRows rows(order, neighbours, threads);
+  const PairRows rows(order, neighbors, threads);
   order.divide(rows, threads, next_in_phases);
   scene.slot_type.clear();
   if (!scene.laws.uniform()) {
@@ -35,15 +35,15 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighbourView &nei
       for (int s = begin; s < end; s++) scene.slot_type[s] = given.type[order.atom_of_slot[s]];
     });
   }
-  parts.resize(order.num_parts());
-  claims = std::vector<Claim>(order.num_parts());
+  parts.resize(order.num_chunks());
+  claims = std::vector<Claim>(order.num_chunks());
   late_slots.clear();
   for (int s = 0; order.in_two_phases() && s < order.size(); s++)
-    if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_part)
+    if (order.part(s) >= threads && order.part(s) != ParticleOrder::no_chunk)
       late_slots.push_back(s);
 
-  travels.assign(order.num_parts(), RecordTravel{});
-  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].pairs.collect(order, rows, p); });
+  travels.assign(order.num_chunks(), RecordTravel{});
+  in_parallel(order.num_chunks(), threads, [&](int p) { parts[p].pairs.collect(order, rows, p); });
   ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
   std::sort(ghost_slots.begin(), ghost_slots.end());
   find_frontier();
@@ -59,7 +59,7 @@ void ContactPipeline::sort_and_unite(std::vector<int> &slots)
 void ContactPipeline::find_frontier()
 {
   at_frontier.clear();
-  for (const ContactPart &part : parts) mark(part.pairs.foreign, at_frontier);
+  for (const ContactChunk &part : parts) mark(part.pairs.foreign, at_frontier);
   frontier.clear();
   for (int s = 0; s < static_cast<int>(at_frontier.size()); s++)
     if (at_frontier[s]) frontier.push_back(s);
@@ -69,13 +69,14 @@ void ContactPipeline::find_frontier()
   copy_of_slot.resize(order.size());
   for (int n = 0; n < static_cast<int>(frontier.size()); n++)
     copy_of_slot[frontier[n]] = order.size() + n;
-  in_parallel(order.num_parts(), threads, [&](int p) { parts[p].pairs.read_copies(copy_of_slot); });
+  in_parallel(order.num_chunks(), threads,
+              [&](int p) { parts[p].pairs.read_copies(copy_of_slot); });
 }
 
 void ContactPipeline::start_pairs(const FiledHistories &filed)
 {
   const std::vector<int> slots = slots_then(filed);
-  in_parallel(order.num_parts(), threads,
+  in_parallel(order.num_chunks(), threads,
               [&](int p) { parts[p].start_pairs(scene, filed, slots); });
   make_room();
 }
@@ -107,7 +108,7 @@ void ContactPipeline::release_records()
   if (memory_usage() < worth_giving_back) return;
   particles.release_sums();
   Talus::release(held);
-  for (ContactPart &part : parts) part.forget_contacts();
+  for (ContactChunk &part : parts) part.forget_contacts();
 }
 
 void ContactPipeline::release()
@@ -125,7 +126,7 @@ void ContactPipeline::keep_history(KeptContacts &to, bool particles_may_leave)
   pairs_known = false;
   if (!scene.with_history) return;
   to.begin(order, particles_may_leave);
-  in_parallel(order.num_parts(), threads,
+  in_parallel(order.num_chunks(), threads,
               [&](int p) { parts[p].history.keep(parts[p].pairs, to.part(p)); });
   to.finish(threads);
 }
@@ -134,13 +135,13 @@ void ContactPipeline::file_history(PartnerLists &partners) const
 {
   partners.begin();
   if (!scene.with_history) return;
-  const int num_parts = static_cast<int>(parts.size());
-  in_parallel(num_parts, threads,
+  const int num_chunks = static_cast<int>(parts.size());
+  in_parallel(num_chunks, threads,
               [&](int p) { parts[p].history.announce(parts[p].pairs, partners); });
-  for (const ContactPart &part : parts) part.history.announce_handed_over(part.pairs, partners);
+  for (const ContactChunk &part : parts) part.history.announce_handed_over(part.pairs, partners);
   partners.layout();
-  in_parallel(num_parts, threads, [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
-  for (const ContactPart &part : parts) part.history.file_handed_over(part.pairs, partners);
+  in_parallel(num_chunks, threads, [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
+  for (const ContactChunk &part : parts) part.history.file_handed_over(part.pairs, partners);
 }
 
 void ContactPipeline::adopt_first_copies(
@@ -148,7 +149,7 @@ void ContactPipeline::adopt_first_copies(
     const std::function<const double *(int, std::int64_t)> &ghost_values) const
 {
   if (!scene.with_history) return;
-  for (const ContactPart &part : parts)
+  for (const ContactChunk &part : parts)
     part.history.adopt_first_copies(part.pairs, partners, ghost_values);
 }
 
@@ -234,7 +235,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
     return v.empty() ? nullptr : v.data();
   };
   SlotChoice slots{
-      begin, end, nullptr, order.part_of_slots(), part, nullptr, order.range(part).end};
+      begin, end, nullptr, order.chunk_of_slots(), part, nullptr, order.range(part).end};
   if (step.read) {
     slots.marked = flags(at_frontier);
     particles.read(order, host, slots);
@@ -267,7 +268,7 @@ void ContactPipeline::for_each_part_of(int thread, int first_part, Visit visit)
 void ContactPipeline::take_over(int thread)
 {
   const ParticleOrder::Range its = order.range_of_thread(thread);
-  for (const ContactPart &part : parts) {
+  for (const ContactChunk &part : parts) {
     const std::vector<int> &foreign = part.pairs.foreign;
     if (foreign.empty() || foreign.back() < its.begin || foreign.front() >= its.end) continue;
     part.handed_over().add_to(particles, its);
@@ -306,7 +307,7 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
     if (last && step.add_more) (*step.add_more)(t, its.begin, its.end);
   };
   in_parallel(threads, step.report || step.account ? 1 : threads, prepare, work, finish);
-  parts_moved = last ? order.num_parts() : threads;
+  parts_moved = last ? order.num_chunks() : threads;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -323,8 +324,8 @@ ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
 {
   if (!scene.with_history || std::max(i, j) >= num_particles()) return {nullptr, -1};
   const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-  const int p = order.part_with_pair(std::min(a, b), std::max(a, b));
-  if (p == ParticleOrder::no_part) return {nullptr, -1};
+  const int p = order.chunk_with_pair(std::min(a, b), std::max(a, b));
+  if (p == ParticleOrder::no_chunk) return {nullptr, -1};
   const std::int64_t pair = parts[p].pairs.find(a, b);
   return {pair < 0 ? nullptr : &parts[p], pair};
 }
@@ -339,19 +340,19 @@ TangentialHistory<double> ContactPipeline::history_of(int i, int j) const
   return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
 }
 
-ContactOnset<double> ContactPipeline::onset_of(int i, int j) const
+ContactImpact<double> ContactPipeline::impact_of(int i, int j) const
 {
   const Place place = place_of(i, j);
-  if (!place.part || !place.part->history.with_onsets()) return {};
+  if (!place.part || !place.part->history.with_impacts()) return {};
   if (!place.part->history.touches(place.pair)) return {};
-  const Record &o = place.part->history.onset(place.pair);
+  const Record &o = place.part->history.impact(place.pair);
   return {o.c[0], o.c[1], o.c[2]};
 }
 
 double ContactPipeline::memory_usage() const
 {
   double bytes = order.memory_usage() + particles.memory_usage();
-  for (const ContactPart &part : parts) bytes += part.memory_usage();
+  for (const ContactChunk &part : parts) bytes += part.memory_usage();
   return bytes;
 }
 

@@ -8,16 +8,16 @@
 //   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
 //   state
 //
-// The work is divided into parts (see ContactPart) for the threads and for the two phases; how
+// The work is divided into parts (see ContactChunk) for the threads and for the two phases; how
 // many there are changes no bit of the result.
 
 #ifndef TALUS_CONTACT_CONTACT_PIPELINE_H
 #define TALUS_CONTACT_CONTACT_PIPELINE_H
 
-#include "contact/contact_part.h"
-#include "contact/in_parallel.h"
-#include "contact/neighbour_view.h"
-#include "contact/particle_order.h"
+#include "base/in_parallel.h"
+#include "contact/contact_chunk.h"
+#include "neighbors/neighbor_view.h"
+#include "particles/particle_order.h"
 
 #include <atomic>
 #include <cstdint>
@@ -46,7 +46,7 @@ class ContactPipeline {
   /// compute_early() and compute_late() will be called instead of compute().
   void set_work(int threads, bool two_phases);
 
-  /// What a rebuild needs besides the neighbours, in the host's numbering of owned particles and
+  /// What a rebuild needs besides the neighbors, in the host's numbering of owned particles and
   /// ghosts: order and names of particles, one tag for each of them, and their types (not needed if
   /// the laws are uniform).
   struct Particles {
@@ -55,8 +55,8 @@ class ContactPipeline {
     const std::vector<std::int64_t> &tag;
     const int *type;
   };
-  void set_pairs(const Particles &particles, const NeighbourView &neighbours);
-  /// After set_pairs(), when the neighbours are no longer needed.
+  void set_pairs(const Particles &particles, const NeighborView &neighbors);
+  /// After set_pairs(), when the neighbors are no longer needed.
   void start_pairs(const FiledHistories &filed);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the sums in the
@@ -117,10 +117,10 @@ class ContactPipeline {
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
 
-  /// History and onset of the pair (i, j) in the host's numbering as i sees it; zero if the pair is
+  /// History and impact of the pair (i, j) in the host's numbering as i sees it; zero if the pair is
   /// unknown.
   TangentialHistory<double> history_of(int i, int j) const;
-  ContactOnset<double> onset_of(int i, int j) const;
+  ContactImpact<double> impact_of(int i, int j) const;
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.
@@ -135,7 +135,7 @@ class ContactPipeline {
   /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without
   /// contacts.
   double smallest_contact_period() const;
-  /// Largest relative speed of the centres of candidate pairs.
+  /// Largest relative speed of the centers of candidate pairs.
   double largest_relative_speed() const;
 
   /// Pairs are known: not after release() or keep_history().
@@ -150,7 +150,7 @@ class ContactPipeline {
 
  private:
   struct Place {
-    const ContactPart *part;    ///< nullptr if the pair is unknown
+    const ContactChunk *part;    ///< nullptr if the pair is unknown
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
@@ -203,10 +203,10 @@ class ContactPipeline {
   std::vector<int> moved_at_once;                ///< slots that are sent
   std::vector<int> moved_first;                  ///< others that several parts read
   std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
-  BigVector<Record> held;                        ///< by slot, or empty
+  AlignedVector<Record> held;                    ///< by slot, or empty
   std::vector<RecordTravel> travels;             ///< by part
 
-  std::vector<ContactPart> parts;    ///< see ParticleOrder::divide()
+  std::vector<ContactChunk> parts;    ///< see ParticleOrder::divide()
   struct alignas(64) Claim {
     std::atomic<bool> taken{false};
   };

@@ -73,11 +73,11 @@ void ContactPipeline::return_state(double *x, double *v, double *omega, double *
     for (int t = 0; t < threads; t++)
       particles.advance(move, role, nullptr, of_thread(moved_first, t));
   // an error may have come between the two phases, when the first parts have already moved theirs
-  for (int p = parts_moved; move_pending && p < order.num_parts(); p++) {
+  for (int p = parts_moved; move_pending && p < order.num_chunks(); p++) {
     const ParticleOrder::Range its = order.range(p);
     in_ranges(its.end - its.begin, [&](int begin, int end) {
       particles.advance(move, role, nullptr,
-                        {its.begin + begin, its.begin + end, nullptr, order.part_of_slots(), p,
+                        {its.begin + begin, its.begin + end, nullptr, order.chunk_of_slots(), p,
                          is_moved_before.empty() ? nullptr : is_moved_before.data()});
     });
   }

@@ -5,7 +5,7 @@
 
 #include "contact/contact_pipeline.h"
 
-#include "contact/in_parallel.h"
+#include "base/in_parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace Talus {
 double ContactPipeline::count_contacts() const
 {
   double count = 0.0;
-  for (const ContactPart &part : parts)
+  for (const ContactChunk &part : parts)
     part.for_each_contact([&](std::int64_t pair) {
       count += order.share(part.pairs.first[pair], part.pairs.second[pair]);
     });
@@ -25,7 +25,7 @@ double ContactPipeline::count_contacts() const
 double ContactPipeline::count_candidates() const
 {
   double count = 0.0;
-  for (const ContactPart &part : parts)
+  for (const ContactChunk &part : parts)
     for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++)
       if (part.pairs.counts(c)) count += order.share(part.pairs.first[c], part.pairs.second[c]);
   return count;
@@ -86,7 +86,7 @@ Value ContactPipeline::largest_of_parts(Value none, Result result) const
 
 DeepestContact ContactPipeline::deepest_contact() const
 {
-  return largest_of_parts(DeepestContact{}, [this](const ContactPart &part) {
+  return largest_of_parts(DeepestContact{}, [this](const ContactChunk &part) {
     DeepestContact deepest;
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair];
@@ -106,7 +106,7 @@ DeepestContact ContactPipeline::deepest_contact() const
 double ContactPipeline::smallest_contact_period() const
 {
   // the largest of the inverse squares
-  const double largest = largest_of_parts(0.0, [this](const ContactPart &part) {
+  const double largest = largest_of_parts(0.0, [this](const ContactChunk &part) {
     double of_part = 0.0;
     part.for_each_contact([&](std::int64_t pair) {
       const int i = part.pairs.first[pair], j = part.pairs.second[pair], row = scene.row_of(i, j);
@@ -124,7 +124,7 @@ double ContactPipeline::smallest_contact_period() const
 
 double ContactPipeline::largest_relative_speed() const
 {
-  return std::sqrt(largest_of_parts(0.0, [this](const ContactPart &part) {
+  return std::sqrt(largest_of_parts(0.0, [this](const ContactChunk &part) {
     double largest = 0.0;
     for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++) {
       const double *a = particles.velocity(part.pairs.first[c]).c,

@@ -46,7 +46,7 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
 
 }    // namespace
 
-std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
+std::int64_t find_contacts(const PairList &pairs, std::int64_t begin, std::int64_t end,
                            const Record *position, ContactHistory *history, std::uint32_t *contacts)
 {
   const int *first = pairs.state_of_first(), *second = pairs.second.data();

@@ -5,9 +5,9 @@
 #ifndef TALUS_CONTACT_NARROW_PHASE_H
 #define TALUS_CONTACT_NARROW_PHASE_H
 
-#include "contact/candidate_list.h"
-#include "contact/contact_history.h"
-#include "contact/record.h"
+#include "history/contact_history.h"
+#include "neighbors/pair_list.h"
+#include "particles/record.h"
 
 #include <cstdint>
 
@@ -17,7 +17,7 @@ namespace Talus {
 /// r_j), in ascending order, and returns their number; `begin` must be a multiple of 8 and
 /// `contacts` have room for end - begin + 8. Pairs that overlapped at the last call and do not now
 /// lose their history. `history` may be nullptr.
-std::int64_t find_contacts(const CandidateList &pairs, std::int64_t begin, std::int64_t end,
+std::int64_t find_contacts(const PairList &pairs, std::int64_t begin, std::int64_t end,
                            const Record *position, ContactHistory *history,
                            std::uint32_t *contacts);
 

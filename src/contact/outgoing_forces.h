@@ -8,8 +8,8 @@
 #ifndef TALUS_CONTACT_OUTGOING_FORCES_H
 #define TALUS_CONTACT_OUTGOING_FORCES_H
 
-#include "contact/big_vector.h"
-#include "contact/particle_records.h"
+#include "base/aligned_vector.h"
+#include "particles/particle_records.h"
 
 #include <cstddef>
 #include <vector>
@@ -40,8 +40,8 @@ class OutgoingForces {
 
  private:
   std::size_t stride = 1, noted = 0, with_couple = 0;
-  BigVector<int> slots;
-  BigVector<Record> load, couple;
+  AlignedVector<int> slots;
+  AlignedVector<Record> load, couple;
 };
 
 }    // namespace Talus

@@ -2,8 +2,8 @@
 
 #include "fix/fix_contact_store.h"
 
-#include "contact/canonical_key.h"
-#include "contact/in_parallel.h"
+#include "base/in_parallel.h"
+#include "particles/canonical_key.h"
 
 #include "atom.h"
 #include "comm.h"

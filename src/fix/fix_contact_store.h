@@ -70,7 +70,7 @@ class FixContactStore : public Fix {
   /// To be called by the pair style right after creation.
   void serve(Client *c) { client = c; }
   /// Impact speed and age of contacts are kept as well.
-  void keep_onsets(bool yes) { partners.set_values(yes ? 8 : 4); }
+  void keep_impacts(bool yes) { partners.set_values(yes ? 8 : 4); }
   /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
   /// history, and the lists need not.
   void pairs_are_current();

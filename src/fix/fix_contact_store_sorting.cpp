@@ -4,8 +4,8 @@
 
 #include "fix/fix_contact_store.h"
 
-#include "contact/in_parallel.h"
-#include "contact/nearly_sorted.h"
+#include "base/in_parallel.h"
+#include "base/nearly_sorted.h"
 
 #include "atom.h"
 #include "atom_vec.h"

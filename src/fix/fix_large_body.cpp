@@ -27,7 +27,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), watch(lmp), masses(lmp)
+    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -45,8 +45,8 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   motion.finish(words, shape->reference_point());
   with_history = std::any_of(specs.begin(), specs.end(),
                              [](const ContactSpec &s) { return s.law.has_history(); });
-  with_onset = std::any_of(specs.begin(), specs.end(),
-                           [](const ContactSpec &s) { return s.law.has_onset(); });
+  with_impact = std::any_of(specs.begin(), specs.end(),
+                            [](const ContactSpec &s) { return s.law.has_impact(); });
   offer_output();
   keep_history();
 }
@@ -154,7 +154,7 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
   if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
   if (own->law.resists) {
     particle.given.mu_roll = own->given.mu_roll;
-    particle.given.mu_spin = own->given.mu_spin;
+    particle.given.mu_twist = own->given.mu_twist;
   }
   return contact_coefficients(body, particle, pair->mix_rule());
 }
@@ -181,7 +181,7 @@ void FixLargeBody::init()
   if (thermo_energy) keeps_account = true;
   joined = false;    // a step that an error ended may have left it
   motion.init();
-  watch.start();
+  monitor.start();
   masses.find_fixes();
   find_region();
   find_frozen();
@@ -254,7 +254,7 @@ void FixLargeBody::post_run()
 
 void FixLargeBody::look_for_trouble()
 {
-  watch.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
+  monitor.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
 }
 
 void FixLargeBody::list_particles()

@@ -10,16 +10,16 @@
 #ifndef LMP_FIX_LARGE_BODY_H
 #define LMP_FIX_LARGE_BODY_H
 
-#include "body/body_contacts.h"
-#include "body/large_body_shape.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/large_body_shape.h"
 #include "fix.h"
+#include "fix/large_body_monitor.h"
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
-#include "fix/large_body_watch.h"
 #include "fix/large_body_words.h"
 #include "pair/contact_command.h"
-#include "pair/effective_masses.h"
-#include "pair/record_forces.h"
+#include "system/effective_masses.h"
+#include "system/record_forces.h"
 
 #include <memory>
 #include <vector>
@@ -116,11 +116,11 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   int max_packed() const;
 
   bool two_sided = false;
-  bool with_history = false, with_onset = false;
+  bool with_history = false, with_impact = false;
   std::unique_ptr<Talus::LargeBodyShape> shape;
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
-  LargeBodyWatch watch;
+  LargeBodyMonitor monitor;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;

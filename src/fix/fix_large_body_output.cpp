@@ -19,7 +19,7 @@ using namespace Talus;
 void FixLargeBody::collect_digits()
 {
   for (int k = 0; k < 6; k++) {
-    exact.component[k].normalise();
+    exact.component[k].normalize();
     const std::int64_t *digits = exact.component[k].data();
     std::copy(digits, digits + ExactSum::size, digits_here + k * ExactSum::size);
   }

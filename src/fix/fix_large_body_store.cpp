@@ -20,7 +20,7 @@ void FixLargeBody::keep_history()
   if (!with_history) return;
   restart_peratom = 1;
   create_attribute = 1;
-  contacts.history.keep_onsets(with_onset);
+  contacts.history.keep_impacts(with_impact);
   maxexchange = max_packed();
   FixLargeBody::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);

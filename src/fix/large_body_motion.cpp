@@ -108,7 +108,7 @@ void LargeBodyMotion::parse_free(LargeBodyWords &words)
     } else if (words.take("inertia")) {
       for (double &moment : rigid.inertia) moment = words.positive("inertia (Ixx Iyy Izz)");
     } else if (words.take("com")) {
-      centre_of_mass = std::make_unique<Vector3<double>>(words.vector("com (x y z)"));
+      center_of_mass = std::make_unique<Vector3<double>>(words.vector("com (x y z)"));
     } else if (words.take("velocity")) {
       initial.velocity = words.vector("velocity (vx vy vz)");
     } else if (words.take("spin")) {
@@ -167,7 +167,7 @@ void LargeBodyMotion::finish(LargeBodyWords &words, const Vector3<double> &refer
     error->all(FLERR, "fix large/body: load acts on bodies with 'move free' only");
   if (domain->dimension == 2) rigid.locked[2] = rigid.locked[3] = rigid.locked[4] = true;
   now.moves = moves();
-  now.origin = centre_of_mass ? *centre_of_mass : reference;
+  now.origin = center_of_mass ? *center_of_mass : reference;
   now.inverse_mass = kind == Kind::FREE && rigid.translates() ? 1.0 / rigid.mass : 0.0;
   initial.position = now.origin;
   now.set(initial);

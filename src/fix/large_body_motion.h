@@ -3,14 +3,14 @@
 // How a large body moves: the words `move`, `servo`, `gravity` and `load` of fix large/body, and
 // the state of the body from step to step. Everything that a restart needs is in to_array().
 
-#ifndef TALUS_LARGE_BODY_MOTION_H
-#define TALUS_LARGE_BODY_MOTION_H
+#ifndef TALUS_FIX_LARGE_BODY_MOTION_H
+#define TALUS_FIX_LARGE_BODY_MOTION_H
 
-#include "body/body_load.h"
-#include "body/body_state.h"
-#include "body/guided_motion.h"
-#include "body/prescribed_motion.h"
-#include "body/rigid_body.h"
+#include "body/contact/body_load.h"
+#include "body/motion/body_state.h"
+#include "body/motion/guided_motion.h"
+#include "body/motion/prescribed_motion.h"
+#include "body/motion/rigid_body.h"
 #include "fix/constant_gravity.h"
 #include "fix/large_body_words.h"
 #include "lmptype.h"
@@ -88,7 +88,7 @@ class LargeBodyMotion : protected Pointers {
   Talus::RigidBody rigid;
   Talus::Servo servo;
   Talus::BodyState initial;    // velocity and spin of a free body
-  std::unique_ptr<Talus::Vector3<double>> centre_of_mass;
+  std::unique_ptr<Talus::Vector3<double>> center_of_mass;
   ConstantGravity gravity;
   bool has_load = false;
   Quantity given_load[6];

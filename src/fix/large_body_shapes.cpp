@@ -2,15 +2,15 @@
 
 #include "fix/large_body_shapes.h"
 
-#include "body/ball.h"
-#include "body/body_state.h"
-#include "body/box.h"
-#include "body/custom_shape.h"
-#include "body/frustum.h"
-#include "body/mesh_shape.h"
-#include "body/plane.h"
-#include "body/rectangle.h"
-#include "body/stl_file.h"
+#include "body/motion/body_state.h"
+#include "body/shape/ball.h"
+#include "body/shape/box.h"
+#include "body/shape/custom_shape.h"
+#include "body/shape/frustum.h"
+#include "body/shape/mesh_shape.h"
+#include "body/shape/plane.h"
+#include "body/shape/rectangle.h"
+#include "body/shape/stl_file.h"
 #include "fix/region_shape.h"
 
 #include "comm.h"
@@ -58,7 +58,7 @@ LargeBodyShapes::Shape LargeBodyShapes::plane(bool two_sided)
 
 LargeBodyShapes::Shape LargeBodyShapes::rectangle(bool two_sided)
 {
-  const Vector3<double> centre = words.vector("centre (px py pz)");
+  const Vector3<double> center = words.vector("center (px py pz)");
   const Vector3<double> normal = words.direction("normal (nx ny nz)");
   const Vector3<double> edge = words.direction("first edge (ux uy uz)");
   const double lu = words.number("edge length lu"), lv = words.number("edge length lv");
@@ -68,7 +68,7 @@ LargeBodyShapes::Shape LargeBodyShapes::rectangle(bool two_sided)
   const Vector3<double> inside = edge - dot(edge, normal) * normal;
   const double length = std::sqrt(dot(inside, inside));
   if (length < 1.0e-6) words.fail(5, "first edge is parallel to the normal");
-  return std::make_unique<Rectangle>(centre, normal, 1.0 / length * inside, lu, lv, two_sided);
+  return std::make_unique<Rectangle>(center, normal, 1.0 / length * inside, lu, lv, two_sided);
 }
 
 bool LargeBodyShapes::parse_inside()
@@ -81,38 +81,38 @@ bool LargeBodyShapes::parse_inside()
 
 LargeBodyShapes::Shape LargeBodyShapes::box()
 {
-  const Vector3<double> centre = words.vector("centre (cx cy cz)");
+  const Vector3<double> center = words.vector("center (cx cy cz)");
   const double lx = words.positive("edge length lx"), ly = words.positive("edge length ly"),
                lz = words.positive("edge length lz");
-  return std::make_unique<Box>(centre, Vector3<double>{lx, ly, lz}, parse_inside());
+  return std::make_unique<Box>(center, Vector3<double>{lx, ly, lz}, parse_inside());
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::ball()
 {
-  const Vector3<double> centre = words.vector("centre (cx cy cz)");
+  const Vector3<double> center = words.vector("center (cx cy cz)");
   const double radius = words.positive("radius r");
-  return std::make_unique<Ball>(centre, radius, parse_inside());
+  return std::make_unique<Ball>(center, radius, parse_inside());
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::cylinder()
 {
-  const Vector3<double> centre = words.vector("centre (cx cy cz)");
+  const Vector3<double> center = words.vector("center (cx cy cz)");
   const Vector3<double> axis = words.direction("axis (ax ay az)");
   const double radius = words.positive("radius r");
   const double length =
       words.take("INF") ? std::numeric_limits<double>::infinity() : words.positive("length l");
-  return std::make_unique<Frustum>(centre, axis, radius, radius, length, parse_inside());
+  return std::make_unique<Frustum>(center, axis, radius, radius, length, parse_inside());
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::cone()
 {
-  const Vector3<double> centre = words.vector("centre (cx cy cz)");
+  const Vector3<double> center = words.vector("center (cx cy cz)");
   const Vector3<double> axis = words.direction("axis (ax ay az)");
   const double low = words.number("radius r1"), high = words.number("radius r2");
   if (low < 0.0 || high < 0.0 || low + high == 0.0)
     words.fail(2, "radii must not be negative, and one of them must be positive");
   const double length = words.positive("length l");
-  return std::make_unique<Frustum>(centre, axis, low, high, length, parse_inside());
+  return std::make_unique<Frustum>(center, axis, low, high, length, parse_inside());
 }
 
 /* Rank 0 reads, so that the file need not be visible elsewhere. */

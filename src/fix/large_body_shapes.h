@@ -2,10 +2,10 @@
 //
 // The word SHAPE of fix large/body and its arguments.
 
-#ifndef TALUS_LARGE_BODY_SHAPES_H
-#define TALUS_LARGE_BODY_SHAPES_H
+#ifndef TALUS_FIX_LARGE_BODY_SHAPES_H
+#define TALUS_FIX_LARGE_BODY_SHAPES_H
 
-#include "body/large_body_shape.h"
+#include "body/shape/large_body_shape.h"
 #include "fix/large_body_words.h"
 
 #include <memory>

@@ -3,12 +3,12 @@
 // The surface of a large body as triangles: pictures, files for ParaView, and what each triangle of
 // a mesh bears. Words `pressure` and `vtk` of fix large/body.
 
-#ifndef TALUS_LARGE_BODY_SURFACE_H
-#define TALUS_LARGE_BODY_SURFACE_H
+#ifndef TALUS_FIX_LARGE_BODY_SURFACE_H
+#define TALUS_FIX_LARGE_BODY_SURFACE_H
 
-#include "body/body_batch.h"
-#include "body/body_state.h"
-#include "body/mesh_shape.h"
+#include "body/contact/body_batch.h"
+#include "body/motion/body_state.h"
+#include "body/shape/mesh_shape.h"
 #include "fix/large_body_words.h"
 
 #include <string>

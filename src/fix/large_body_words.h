@@ -3,10 +3,10 @@
 // The words of a fix large/body command, read one after another. Bad and missing ones end in
 // error->all() naming the command, the word and what was expected.
 
-#ifndef TALUS_LARGE_BODY_WORDS_H
-#define TALUS_LARGE_BODY_WORDS_H
+#ifndef TALUS_FIX_LARGE_BODY_WORDS_H
+#define TALUS_FIX_LARGE_BODY_WORDS_H
 
-#include "contact/vector3.h"
+#include "base/vector3.h"
 #include "pointers.h"
 
 #include <string>

@@ -44,11 +44,11 @@ bool RegionShape::moves() const
   return region->dynamic_check() || region->varshape;
 }
 
-bool RegionShape::touches(const Vector3<double> &centre, double radius,
+bool RegionShape::touches(const Vector3<double> &center, double radius,
                           SurfaceContact &contact) const
 {
   SurfaceContact found[max_contacts];
-  const int count = find_contacts(centre, radius, {nullptr, nullptr}, found);
+  const int count = find_contacts(center, radius, {nullptr, nullptr}, found);
   if (count) contact = found[0];
   return count > 0;
 }
@@ -61,7 +61,7 @@ bool RegionShape::is_near(const Vector3<double> &x, double reach,
 
 /* Only is_near() is asked where there may be several contacts; a region does not know more. */
 
-double RegionShape::distance_bound(const Vector3<double> & /*centre*/) const
+double RegionShape::distance_bound(const Vector3<double> & /*center*/) const
 {
   return 0.0;
 }

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_REGION_SHAPE_H
-#define TALUS_REGION_SHAPE_H
+#ifndef TALUS_FIX_REGION_SHAPE_H
+#define TALUS_FIX_REGION_SHAPE_H
 
-#include "body/large_body_shape.h"
+#include "body/shape/large_body_shape.h"
 
 #include <string>
 
@@ -23,15 +23,15 @@ class RegionShape : public Talus::LargeBodyShape {
   /// Its place or shape follows variables.
   bool moves() const;
 
-  bool touches(const Talus::Vector3<double> &centre, double radius,
+  bool touches(const Talus::Vector3<double> &center, double radius,
                Talus::SurfaceContact &contact) const override;
-  double distance_bound(const Talus::Vector3<double> &centre) const override;
+  double distance_bound(const Talus::Vector3<double> &center) const override;
   Talus::Vector3<double> reference_point() const override { return middle; }
   bool one_contact() const override { return false; }
   bool thread_safe() const override { return false; }
-  int find_contacts(const Talus::Vector3<double> &centre, double radius, Talus::NearParts parts,
+  int find_contacts(const Talus::Vector3<double> &center, double radius, Talus::NearParts parts,
                     Talus::SurfaceContact *found) const override;
-  bool is_near(const Talus::Vector3<double> &centre, double reach,
+  bool is_near(const Talus::Vector3<double> &center, double reach,
                std::vector<Talus::NearPart> &parts) const override;
 
  private:

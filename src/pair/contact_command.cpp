@@ -35,7 +35,7 @@ class Parser {
     }
     // resistance that holds a body needs no threshold
     const bool given = std::find(seen.begin(), seen.end(), "vmin") != seen.end();
-    if (spec.law.delayed && !given) c.roll_min = c.spin_min = default_threshold;
+    if (spec.law.delayed && !given) c.roll_min = c.twist_min = default_threshold;
     return spec;
   }
 
@@ -225,7 +225,7 @@ class Parser {
     spec.law.delayed = delayed;
   }
   void rolling() { resistance(spec.given.mu_roll, "mu_r"); }
-  void spinning() { resistance(spec.given.mu_spin, "mu_s"); }
+  void spinning() { resistance(spec.given.mu_twist, "mu_s"); }
 
   void adhesion()
   {
@@ -246,7 +246,7 @@ class Parser {
   {
     spec.given.slip_min = not_negative("slip speed");
     spec.given.roll_min = not_negative("roll speed");
-    spec.given.spin_min = not_negative("spin speed");
+    spec.given.twist_min = not_negative("spin speed");
   }
 
   void limit_damping() { spec.limit_damping = true; }

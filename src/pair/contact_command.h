@@ -8,10 +8,10 @@
 //   mu_r [delayed]] [spinning mu_s [delayed]] [adhesion constant F | dmt W | perko S] [vmin slip
 //   roll spin] [limit_damping]
 
-#ifndef TALUS_CONTACT_COMMAND_H
-#define TALUS_CONTACT_COMMAND_H
+#ifndef TALUS_PAIR_CONTACT_COMMAND_H
+#define TALUS_PAIR_CONTACT_COMMAND_H
 
-#include "pair/contact_spec.h"
+#include "material/contact_spec.h"
 
 namespace LAMMPS_NS {
 

@@ -34,7 +34,7 @@ constexpr int num_extra = 11;    // svector, see single()
 /* ---------------------------------------------------------------------- */
 
 PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
-    Pair(lmp), neighbours(lmp), masses(lmp), radii(lmp), watch(lmp), time_step(lmp)
+    Pair(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -90,11 +90,11 @@ void PairGranPenalty::allocate()
 void PairGranPenalty::init_style()
 {
   check_host();
-  neighbours.init(this);
+  neighbors.init(this);
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
-  watch.start();
+  monitor.start();
   time_step.start();
   laws_current = false;    // init_one() will mix what is not set
 }
@@ -159,7 +159,7 @@ double PairGranPenalty::init_one(int i, int j)
 void PairGranPenalty::prepare_laws()
 {
   const LawTable table = book.table();
-  store->keep_onsets(table.has_onset());
+  store->keep_impacts(table.has_impact());
   pipeline.set_laws(table);
   laws_current = true;
 
@@ -191,7 +191,7 @@ void PairGranPenalty::warn_small_periods()
 
 void PairGranPenalty::look_at_pairs()
 {
-  watch.look(pipeline);
+  monitor.look(pipeline);
   time_step.look_for_smaller_particles(book);
 }
 
@@ -235,8 +235,8 @@ void PairGranPenalty::renumber_pairs()
   const auto *exchange = dynamic_cast<PendingExchange *>(comm);
   pipeline.set_work(comm->nthreads, exchange && exchange->overlaps());
   try {
-    pipeline.set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, neighbours.find(list));
-    neighbours.release();
+    pipeline.set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, neighbors.find(list));
+    neighbors.release();
     pipeline.start_pairs(store->histories());
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
@@ -365,7 +365,7 @@ void PairGranPenalty::count_contacts()
 
 double PairGranPenalty::memory_usage()
 {
-  return pipeline.memory_usage() + neighbours.memory_usage();
+  return pipeline.memory_usage() + neighbors.memory_usage();
 }
 
 double PairGranPenalty::atom2cut(int i)

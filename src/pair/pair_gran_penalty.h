@@ -13,15 +13,15 @@
 #include "contact/contact_pipeline.h"
 #include "fix/fix_contact_store.h"
 #include "lammps_compat.h"
+#include "material/law_book.h"
 #include "pair.h"
 #include "pair/contact_command.h"
-#include "pair/contact_watch.h"
-#include "pair/effective_masses.h"
-#include "pair/largest_radii.h"
-#include "pair/law_book.h"
-#include "pair/neighbour_source.h"
-#include "pair/record_forces.h"
-#include "pair/time_step_watch.h"
+#include "system/contact_monitor.h"
+#include "system/effective_masses.h"
+#include "system/largest_radii.h"
+#include "system/neighbor_source.h"
+#include "system/record_forces.h"
+#include "system/time_step_monitor.h"
 
 #include <string>
 #include <utility>
@@ -115,7 +115,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void warn_small_periods();
 
   Talus::TangentialHistory<double> history_of(int i, int j,
-                                              Talus::ContactOnset<double> &onset) const;
+                                              Talus::ContactImpact<double> &impact) const;
   void finish_exchange();
   std::size_t others_that_join();
   Talus::ParticleView view() const;
@@ -135,11 +135,11 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   bool keeps_account = false;
   Talus::EnergyAccount account;
 
-  NeighbourSource neighbours;
+  NeighborSource neighbors;
   EffectiveMasses masses;
   LargestRadii radii;
-  ContactWatch watch;
-  TimeStepWatch time_step;
+  ContactMonitor monitor;
+  TimeStepMonitor time_step;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

@@ -26,10 +26,10 @@ Vector3<double> row(const double *p)
 /* Between two runs histories are with the store. */
 
 TangentialHistory<double> PairGranPenalty::history_of(int i, int j,
-                                                      ContactOnset<double> &onset) const
+                                                      ContactImpact<double> &impact) const
 {
   if (pipeline.has_pairs()) {
-    onset = pipeline.onset_of(i, j);
+    impact = pipeline.impact_of(i, j);
     return pipeline.history_of(i, j);
   }
   const FiledHistories filed = store->histories();
@@ -38,8 +38,8 @@ TangentialHistory<double> PairGranPenalty::history_of(int i, int j,
       filed.kept.find(filed.slot_then(i, i < atom->nlocal), filed.slot_then(j, j < atom->nlocal));
   if (!found.known) return {};
   const Record h = found.by_a ? *found.record : mirrored(*found.record);
-  const auto &o = found.onset->c;
-  onset = {o[0], o[1], o[2]};
+  const auto &o = found.impact->c;
+  impact = {o[0], o[1], o[2]};
   return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
 }
 
@@ -60,16 +60,16 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
   s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
-  s.relative_spin = row(atom->omega[i]) - row(atom->omega[j]);
+  s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = circle_of_intersection(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
 
-  ContactOnset<double> onset;
-  const TangentialHistory<double> history = history_of(i, j, onset);
+  ContactImpact<double> impact;
+  const TangentialHistory<double> history = history_of(i, j, impact);
   const int row_of_types = pipeline.law_table().row(itype, jtype);
   const ContactForce<double> out = single_contact(pipeline.law_table().law(row_of_types),
                                                   pipeline.law_table().coefficients(row_of_types),
-                                                  s, update->dt, history, onset);
+                                                  s, update->dt, history, impact);
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;

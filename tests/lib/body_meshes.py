@@ -52,14 +52,14 @@ def box(low, high, n, inward=False):
     return found
 
 
-def sphere(centre, radius, n):
+def sphere(center, radius, n):
     """A closed sphere of n rings, normals outward."""
     def at(i, j):
         if i in (0, n):
-            return (centre[0], centre[1], centre[2] + (radius if i == 0 else -radius))
+            return (center[0], center[1], center[2] + (radius if i == 0 else -radius))
         a, b = math.pi * i / n, 2 * math.pi * (j % (2 * n)) / (2 * n)
-        return (centre[0] + radius * math.sin(a) * math.cos(b),
-                centre[1] + radius * math.sin(a) * math.sin(b), centre[2] + radius * math.cos(a))
+        return (center[0] + radius * math.sin(a) * math.cos(b),
+                center[1] + radius * math.sin(a) * math.sin(b), center[2] + radius * math.cos(a))
 
     return grid(at, n, 2 * n)
 

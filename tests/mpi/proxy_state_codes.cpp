@@ -5,7 +5,7 @@
 // hold what its owner has. The same is then asked of the host's staged exchange, bit for bit.
 //
 // proxy_state_codes FILE...: each file is an input script that ends with a box, particles and a
-// neighbour list ('run 0'), with 'comm_proxy yes'. Prints "codes right" when all were.
+// neighbor list ('run 0'), with 'comm_proxy yes'. Prints "codes right" when all were.
 
 #include "comm_brick.h"
 

@@ -3,7 +3,7 @@
 // ProxyExchange without LAMMPS: random proxies between any ranks, each with a code that tells
 // owner, particle, shift and round. Prints "codes right" on rank 0; any other end is a failure.
 
-#include "comm/proxy_exchange.h"
+#include "exchange/proxy_exchange.h"
 
 #include "../unit/random_source.h"
 

@@ -73,7 +73,7 @@ def physics(middle="", overlap="p11"):
 
 
 def grains():
-    """A jittered lattice of spheres; neighbours in space are not neighbours by number."""
+    """A jittered lattice of spheres; neighbors in space are not neighbors by number."""
     draw = random.Random(1)
     sites = [(i, j, k) for k in range(15) for j in range(9) for i in range(10)]
     draw.shuffle(sites)

@@ -166,7 +166,7 @@ def spheres_on_plane():
 
 
 def pairs_of_spheres():
-    """Spheres 2 n and 2 n + 1 collide as case n says; their centre of mass is at rest."""
+    """Spheres 2 n and 2 n + 1 collide as case n says; their center of mass is at rest."""
     found, masses = [], [mass(r) for r in RADII]
     for case, (x, y) in zip(CASES, places()):
         angle = math.radians(case.angle)

@@ -39,7 +39,7 @@ def mass(radius, density=RHO):
 
 
 def place(n):
-    """Centre of case n, far from all others."""
+    """Center of case n, far from all others."""
     return 4.0 * (n % 8), 4.0 * (n // 8), 0.0
 
 
@@ -385,7 +385,7 @@ class Adhesion(Scene):
                 self.assertLess(z, -R - 1e-4, laws[n])
 
     def test_pair_local(self):
-        """Pair::single(): force along the line of centres with adhesion, as in f."""
+        """Pair::single(): force along the line of centers with adhesion, as in f."""
         spheres = [Sphere((s * (R - 1e-4), 0, 0), (-0.1 * s, 0, 0), diameter=2 * R, density=RHO) for s in (-1, 1)]
         write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
         for words in f"constant {F_A}", f"dmt {F_A}", f"perko {F_A}":

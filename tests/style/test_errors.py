@@ -116,7 +116,7 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
     ("plane 0 0 0 0 0 " + LAW, "plane: expected a number for normal (nx ny nz) instead of 'contact'",
      "contact"),
     ("plane 1 1 1 0 0 0 " + LAW, "fix large/body plane: normal (nx ny nz) must not be zero", "0"),
-    ("rectangle 1 1", "fix large/body rectangle: missing centre (px py pz)", "1"),
+    ("rectangle 1 1", "fix large/body rectangle: missing center (px py pz)", "1"),
     ("rectangle 1 1 1 0 0 nan", "rectangle: expected a number for normal (nx ny nz) instead of 'nan'",
      "nan"),
     ("rectangle 1 1 1 0 0 5", "fix large/body rectangle: missing first edge (ux uy uz)", "5"),

@@ -19,16 +19,28 @@ constexpr double dt = 2e-5;
 constexpr int width = ContactBatch::width;
 using Triple = std::array<double, 3>;
 
-Triple row_of(const Lanes &v, int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
-Triple row_of(const Vector3<double> &v) { return {v.x, v.y, v.z}; }
-Triple negated(const Triple &v) { return {-v[0], -v[1], -v[2]}; }
+Triple row_of(const Lanes &v, int lane)
+{
+  return {v[0][lane], v[1][lane], v[2][lane]};
+}
+Triple row_of(const Vector3<double> &v)
+{
+  return {v.x, v.y, v.z};
+}
+Triple negated(const Triple &v)
+{
+  return {-v[0], -v[1], -v[2]};
+}
 
 struct Result {
-  Triple force, moment, couple, history, onset;
-  double at_limit;
+  Triple force, moment, couple, history, impact;
+  double sliding;
 };
 
-bool same_bits(const Result &a, const Result &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const Result &a, const Result &b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 class LawBits : public testing::TestWithParam<ContactLaw> {
  protected:
@@ -51,8 +63,9 @@ class LawBits : public testing::TestWithParam<ContactLaw> {
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
-    return {row_of(batch.force, lane),        row_of(batch.moment, lane), row_of(batch.couple, lane),
-            row_of(batch.displacement, lane), row_of(batch.onset, lane),  batch.at_limit[lane]};
+    return {row_of(batch.force, lane),  row_of(batch.moment, lane),
+            row_of(batch.couple, lane), row_of(batch.displacement, lane),
+            row_of(batch.impact, lane), batch.sliding[lane]};
   }
 
   RandomSource random{4711};
@@ -69,7 +82,8 @@ TEST_P(LawBits, DoNotDependOnTheLaneOrTheKindOfKernel)
     const bool advance = random.chance(0.5);
     const Result first = run(0, c, true, advance);
     for (int lane = 1; lane < width; lane++)
-      ASSERT_TRUE(same_bits(first, run(lane, c, lane % 2 == 0, advance))) << title(law) << " lane " << lane;
+      ASSERT_TRUE(same_bits(first, run(lane, c, lane % 2 == 0, advance)))
+          << title(law) << " lane " << lane;
   }
 }
 
@@ -80,44 +94,44 @@ TEST_P(LawBits, QueriesAgreeWithKernels)
     const Result kernel = run(n % width, c, true, false);
     const ContactForce<double> query =
         single_contact(law, p, state_of(c), dt, history_of(c),
-                       law.has_onset() ? onset_of(c) : ContactOnset<double>{});
+                       law.has_impact() ? impact_of(c) : ContactImpact<double>{});
     ASSERT_EQ(kernel.force, row_of(query.force)) << title(law);
     ASSERT_EQ(kernel.moment, row_of(query.moment)) << title(law);
     ASSERT_EQ(kernel.couple, row_of(query.couple)) << title(law);
     // and leave what is remembered
     ASSERT_EQ(kernel.history, row_of(history_of(c).displacement)) << title(law);
-    ASSERT_EQ(kernel.onset[0], onset_of(c).speed) << title(law);
-    ASSERT_EQ(kernel.onset[1], onset_of(c).age) << title(law);
-    ASSERT_EQ(kernel.onset[2], onset_of(c).begun) << title(law);
+    ASSERT_EQ(kernel.impact[0], impact_of(c).speed) << title(law);
+    ASSERT_EQ(kernel.impact[1], impact_of(c).age) << title(law);
+    ASSERT_EQ(kernel.impact[2], impact_of(c).begun) << title(law);
   }
 }
 
 // A run that stops and starts again computes the force of its last step from what is stored.
 TEST_P(LawBits, ForceIsReproducedFromTheStoredHistory)
 {
-  int at_limit = 0, below = 0, fresh = 0;
+  int sliding = 0, below = 0, fresh = 0;
   for (int n = 0; n < 10000; n++) {
     next();
     const Result before = run(n % width, c, true, true);
     fresh += !c.begun;
-    (before.at_limit > 0.0 ? at_limit : below)++;
+    (before.sliding > 0.0 ? sliding : below)++;
     Contact stored = c;
     for (int d = 0; d < 3; d++) stored.history[d] = -before.history[d];
-    stored.at_limit = before.at_limit > 0.0;
-    stored.impact_speed = before.onset[0];
-    stored.age = before.onset[1];
-    stored.begun = before.onset[2] > 0.0;
+    stored.sliding = before.sliding > 0.0;
+    stored.impact_speed = before.impact[0];
+    stored.age = before.impact[1];
+    stored.begun = before.impact[2] > 0.0;
     const Result after = run((n + 3) % width, stored, false, false);
     ASSERT_TRUE(std::memcmp(&before, &after, sizeof before) == 0) << title(law) << " " << n;
-    ASSERT_EQ(before.onset[2] > 0.0, law.has_onset() || c.begun) << title(law);
+    ASSERT_EQ(before.impact[2] > 0.0, law.has_impact() || c.begun) << title(law);
   }
   EXPECT_GT(fresh, 1000);
   if (!GetParam().has_history()) return;
-  EXPECT_GT(at_limit, 1000);
+  EXPECT_GT(sliding, 1000);
   EXPECT_GT(below, 1000);
 }
 
-// Either body may come first: force, couple and displacement change sign, moment and onset stay. (Zeros may differ
+// Either body may come first: force, couple and displacement change sign, moment and impact stay. (Zeros may differ
 // in sign: no sum notices.)
 TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
 {
@@ -139,8 +153,8 @@ TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
     ASSERT_EQ(a.moment, b.moment) << title(law);
     ASSERT_EQ(a.couple, negated(b.couple)) << title(law);
     ASSERT_EQ(a.history, negated(b.history)) << title(law);
-    ASSERT_EQ(a.onset, b.onset) << title(law);
-    ASSERT_EQ(a.at_limit, b.at_limit) << title(law);
+    ASSERT_EQ(a.impact, b.impact) << title(law);
+    ASSERT_EQ(a.sliding, b.sliding) << title(law);
   }
 }
 

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Every combination of laws against the slow twin, from the words of the user (two ContactSpecs, mixed) to force,
-// torques, history and onset of random contacts. Errors are relative to the sum of the magnitudes of the terms of
+// torques, history and impact of random contacts. Errors are relative to the sum of the magnitudes of the terms of
 // a result: kn overlap + gn |v| for the normal force, kt |d| + gt (|v| + r |omega|) and mu times the former for the
 // tangential one, and so on (scales in law_twin.h). States in which rounding decides on which side of a
 // threshold a contact is are left out, and counted.
@@ -20,7 +20,8 @@ using namespace twin;
 namespace {
 
 constexpr Number tolerance = 1e-13L;
-constexpr int num_contacts = 100000;    // of each pair of laws, with and without advancing histories
+constexpr int num_contacts =
+    100000;    // of each pair of laws, with and without advancing histories
 constexpr int num_rows = 32;
 
 /// A pair of materials as the twin and as the kernels see it.
@@ -33,7 +34,8 @@ struct Table {
     for (int r = 0; r < num_rows; r++) {
       const bool limited = random.chance(0.3);
       const ContactSpec a = random_spec(random, normal, limited);
-      const ContactSpec b = random.chance(0.5) ? a : random_spec(random, normal, random.chance(0.3));
+      const ContactSpec b =
+          random.chance(0.5) ? a : random_spec(random, normal, random.chance(0.3));
       const auto rule = static_cast<LAMMPS_NS::FrictionMix>(random.below(3));
       composite.push_back(compose(a, b, rule));
       row.push_back(contact_coefficients(a, b, rule));
@@ -43,8 +45,8 @@ struct Table {
 
 /// What the states of a test covered, to be sure that no case is missing.
 struct Coverage {
-  int contacts = 0, unclear = 0, slides = 0, sticks = 0, attracts = 0, floored = 0, rolls = 0, spins = 0,
-      delayed = 0, resists_late = 0, begun = 0;
+  int contacts = 0, unclear = 0, slides = 0, sticks = 0, attracts = 0, floored = 0, rolls = 0,
+      spins = 0, delayed = 0, resists_late = 0, begun = 0;
   std::set<int> kernels;
 
   void count(const Contact &c, const Outcome &o, const Composite &p, ContactLaw law)
@@ -75,9 +77,9 @@ Number error_of(const Vector &found, const Vector &expected, Number scale)
 }
 
 struct Worst {
-  Number force = 0, torque = 0, history = 0, onset = 0;
+  Number force = 0, torque = 0, history = 0, impact = 0;
   std::string where;
-  Number largest() const { return std::max({force, torque, history, onset}); }
+  Number largest() const { return std::max({force, torque, history, impact}); }
 };
 
 void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outcome &expected,
@@ -90,21 +92,22 @@ void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outco
     for (int body = 0; body < 2; body++) {
       const Vector couple = law.resists ? lane_of(b.couple, lane) : Vector{};
       const Vector torque = Number(-1) * c.radius[body] * lane_of(b.moment, lane) +
-          Number(body == 0 ? 1 : -1) * couple;
+                            Number(body == 0 ? 1 : -1) * couple;
       keep(worst.torque, error_of(torque, expected.torque[body], expected.torque_scale[body]));
     }
   const Vector history = Number(-1) * lane_of(b.displacement, lane);
   keep(worst.history, error_of(history, expected.history, expected.history_scale));
-  if ((b.at_limit[lane] > 0.0) != expected.at_limit) worst.history = infinity;
-  if (law.has_onset() && advance) {
-    keep(worst.onset, error_of({b.onset[0][lane], 0, 0}, {expected.impact_speed, 0, 0}, expected.speed_scale));
-    keep(worst.onset, error_of({b.onset[1][lane], 0, 0}, {expected.age, 0, 0}, expected.age));
-    if ((b.onset[2][lane] > 0.0) != expected.begun) worst.onset = infinity;
+  if ((b.sliding[lane] > 0.0) != expected.sliding) worst.history = infinity;
+  if (law.has_impact() && advance) {
+    keep(worst.impact,
+         error_of({b.impact[0][lane], 0, 0}, {expected.impact_speed, 0, 0}, expected.speed_scale));
+    keep(worst.impact, error_of({b.impact[1][lane], 0, 0}, {expected.age, 0, 0}, expected.age));
+    if ((b.impact[2][lane] > 0.0) != expected.begun) worst.impact = infinity;
   }
   if (!(worst.largest() > before)) return;
   std::ostringstream text;
-  text << std::setprecision(17) << title(law) << " overlap " << c.overlap << " masses " << c.mass[0] << " "
-       << c.mass[1] << " radii " << c.radius[0] << " " << c.radius[1] << " normal force "
+  text << std::setprecision(17) << title(law) << " overlap " << c.overlap << " masses " << c.mass[0]
+       << " " << c.mass[1] << " radii " << c.radius[0] << " " << c.radius[1] << " normal force "
        << expected.normal_force << "\n";
   for (int d = 0; d < 3; d++)
     text << "force " << b.force[d][lane] << " expected " << expected.force[d] << " moment "
@@ -150,14 +153,15 @@ TEST_P(AllLaws, AgreeWithTheSlowTwin)
     }
 
   std::cout << std::left << std::setw(34) << title(GetParam()) << std::setprecision(2) << " force "
-            << worst.force << " torque " << worst.torque << " history " << worst.history << " onset "
-            << worst.onset << " left out " << seen.unclear << "\n";
+            << worst.force << " torque " << worst.torque << " history " << worst.history
+            << " impact " << worst.impact << " left out " << seen.unclear << "\n";
   EXPECT_LE(worst.largest(), tolerance) << worst.where;
   EXPECT_GE(seen.contacts, 2 * num_contacts);
   EXPECT_EQ(seen.kernels.size(), 24U);
   EXPECT_LT(seen.unclear, seen.contacts / 100);
   const int many = seen.contacts / 100;
-  for (int count : {seen.attracts, seen.floored, seen.rolls, seen.spins, seen.delayed, seen.resists_late})
+  for (int count :
+       {seen.attracts, seen.floored, seen.rolls, seen.spins, seen.delayed, seen.resists_late})
     EXPECT_GT(count, many);
   EXPECT_GT(seen.contacts - seen.begun, many);
   if (GetParam().tangential == TangentialLaw::NONE) return;
@@ -179,7 +183,8 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
     for (ContactLaw law : variants(pair)) {
       count++;
       const Table table(random, law.normal);
-      EXPECT_EQ(contact_kernel(law, true, true) == contact_kernel(law, true, false), !law.has_history());
+      EXPECT_EQ(contact_kernel(law, true, true) == contact_kernel(law, true, false),
+                !law.has_history());
       for (bool uniform : {false, true})
         for (bool advance : {false, true}) {
           const ContactKernel kernel = contact_kernel(law, uniform, advance);
@@ -189,8 +194,10 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
           kernel(batch, 0, ContactBatch::width, table.row.data(), 1e-5);
           for (int lane = 0; lane < ContactBatch::width; lane++)
             for (int d = 0; d < 3; d++)
-              ASSERT_TRUE(std::isfinite(batch.force[d][lane]) && std::isfinite(batch.moment[d][lane]) &&
-                          std::isfinite(batch.couple[d][lane]) && std::isfinite(batch.displacement[d][lane]))
+              ASSERT_TRUE(std::isfinite(batch.force[d][lane]) &&
+                          std::isfinite(batch.moment[d][lane]) &&
+                          std::isfinite(batch.couple[d][lane]) &&
+                          std::isfinite(batch.displacement[d][lane]))
                   << title(law);
         }
     }

@@ -3,9 +3,9 @@
 // Contacts of particles with a large body: forces against the slow twin, balance of forces and
 // torques, life and death of the history.
 
-#include "body/body_contacts.h"
-#include "body/plane.h"
-#include "body/rectangle.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/plane.h"
+#include "body/shape/rectangle.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
 TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
 {
   std::vector<Vector> displacement(p.size());
-  std::vector<char> at_limit(p.size(), 0);
+  std::vector<char> sliding(p.size(), 0);
   find();
   int touching = 0;
   for (int step = 0; step < 15; step++) {
@@ -121,7 +121,7 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
       if (in_contact) {
         Contact c = contact_of(i, surface);
         c.history = displacement[i];
-        c.at_limit = at_limit[i];
+        c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
         expected = evaluate(c, laws.law(row), laws.coefficients(row), dt, advance);
         touching++;
@@ -130,7 +130,7 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
       ASSERT_LE(norm(axpy(-1.0, expected.force, force[i])), error) << i << " step " << step;
       ASSERT_LE(norm(axpy(-1.0, expected.torque[0], torque[i])), error * p.radius[i]) << i;
       displacement[i] = expected.history;
-      at_limit[i] = expected.at_limit;
+      sliding[i] = expected.sliding;
       if (contacts.keeps_history()) {
         const Record h = contacts.history.of_particle(i);
         const Vector found{h.c[0], h.c[1], h.c[2]};

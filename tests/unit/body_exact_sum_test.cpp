@@ -2,7 +2,7 @@
 //
 // The exact sum: no order, no grouping and no cancellation changes a bit of it.
 
-#include "body/exact_sum.h"
+#include "base/exact_sum.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(ExactSum, OrderAndGroupsDoNotMatter)
     ExactSum all, digits;
     for (ExactSum &r : ranks) {
       all.add(r);
-      r.normalise();
+      r.normalize();
       for (int k = 0; k < ExactSum::size; k++) digits.data()[k] += r.data()[k];
     }
     EXPECT_EQ(all.value(), expected);

@@ -4,8 +4,8 @@
 // contacts per particle are those of the same scene at rest, seen from elsewhere; histories follow
 // their contacts; the load is that of Newton's third law, with and without rounding.
 
-#include "body/body_contacts.h"
-#include "body/box.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/box.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ LawTable resisting_law()
   c.gt = 2.0;
   c.mu = 0.3;
   c.mu_roll = 0.1;
-  c.mu_spin = 0.1;
+  c.mu_twist = 0.1;
   c.force_floor = -1.0e300;
   ContactLaw law{NormalLaw::HERTZ, TangentialLaw::MULTISTEP};
   law.resists = true;

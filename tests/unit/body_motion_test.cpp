@@ -3,10 +3,10 @@
 // How bodies move: rotations, prescribed motions and their clock, guided motion, free rigid bodies,
 // and bodies that hold a force.
 
-#include "body/body_state.h"
-#include "body/guided_motion.h"
-#include "body/prescribed_motion.h"
-#include "body/rigid_body.h"
+#include "body/motion/body_state.h"
+#include "body/motion/guided_motion.h"
+#include "body/motion/prescribed_motion.h"
+#include "body/motion/rigid_body.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 //
 // Box, ball, cylinder and cone against closed forms, and against the same solids made of triangles.
 
-#include "body/ball.h"
-#include "body/box.h"
-#include "body/frustum.h"
-#include "body/mesh_shape.h"
+#include "body/shape/ball.h"
+#include "body/shape/box.h"
+#include "body/shape/frustum.h"
+#include "body/shape/mesh_shape.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST(Primitives, BoxFromInside)
   expect_contact(f.contact[0], {0, 0, -1}, 0.2);
   expect_contact(f.contact[1], {0, -1, 0}, 0.1);
   expect_contact(f.contact[2], {1, 0, 0}, 0.05);
-  f = contacts_of(box, {-0.1, 2.0, 3.0}, 0.3);    // centre behind a face
+  f = contacts_of(box, {-0.1, 2.0, 3.0}, 0.3);    // center behind a face
   ASSERT_EQ(f.count, 1);
   expect_contact(f.contact[0], {1, 0, 0}, 0.4);
   EXPECT_EQ(contacts_of(box, {-0.31, 2.0, 3.0}, 0.3).count, 0);
@@ -206,7 +206,7 @@ TEST(Primitives, BoxOfTrianglesAgrees)
       const double r = random.uniform(0.05, 0.4);
       const V d = x - V{0.1, 0.2, -0.1};
       const bool within = std::fabs(d.x) < 1.0 && std::fabs(d.y) < 0.8 && std::fabs(d.z) < 0.6;
-      if (within != inside) continue;    // centres behind the surface: no contact with a mesh
+      if (within != inside) continue;    // centers behind the surface: no contact with a mesh
       const Found a = contacts_of(box, x, r), b = contacts_of(mesh, x, r);
       ASSERT_EQ(a.count, b.count);
       for (int k = 0; k < a.count; k++) {

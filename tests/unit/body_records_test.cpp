@@ -3,10 +3,10 @@
 // Contacts with bodies of particles that live in the records, against the same in the host's
 // arrays: every bit, the histories, and the load.
 
-#include "body/ball.h"
-#include "body/body_contacts.h"
-#include "body/plane.h"
-#include "contact/in_parallel.h"
+#include "base/in_parallel.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/ball.h"
+#include "body/shape/plane.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ LawTable resisting(bool delayed)
   law.delayed = delayed;
   ContactCoefficients c{800.0, 3.0, 300.0, 5.0, 0.3, -infinity};
   c.mu_roll = 0.1;
-  c.mu_spin = 0.2;
+  c.mu_twist = 0.2;
   for (int i = 1; i <= num_types; i++)
     for (int j = i; j <= num_types; j++) table.set(i, j, law, c);
   table.finish();
@@ -72,7 +72,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
       body.frame.origin = body.shape->reference_point();
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records}) {
         contacts->set_laws(laws, true);
-        contacts->history.keep_onsets(laws.has_onset());
+        contacts->history.keep_impacts(laws.has_impact());
         if (laws.has_history()) contacts->history.grow(p.size());
       }
     }
@@ -204,10 +204,9 @@ TEST_P(BodyRecordsTest, SameBitsAsInArrays)
       // now and then a step is made in the arrays, by the same contacts
       const bool stays = n % 5 != 4;
       const std::vector<Vector> its_force = force, its_torque = torque;
-      const BodyLoad found =
-          stays && n % 3 == 2
-              ? add_in_ranges(body, step)
-              : body.in_records.compute(*body.shape, body.frame, view(stays), threaded);
+      const BodyLoad found = stays && n % 3 == 2 ? add_in_ranges(body, step)
+                                                 : body.in_records.compute(*body.shape, body.frame,
+                                                                           view(stays), threaded);
       force = its_force;
       torque = its_torque;
       ASSERT_EQ(found.contacts, expected.contacts);

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "contact/canonical_key.h"
+#include "particles/canonical_key.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -26,9 +26,9 @@ std::uint64_t naive_key(const std::int64_t (&cell)[3])
 
 std::uint64_t key_of_cell(std::int64_t x, std::int64_t y, std::int64_t z)
 {
-  const double centre[3] = {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5,
+  const double center[3] = {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5,
                             static_cast<double>(z) + 0.5};
-  return canonical_key(centre, 1.0);
+  return canonical_key(center, 1.0);
 }
 
 TEST(CanonicalKey, SpreadsBitsAsANaiveLoop)
@@ -98,7 +98,7 @@ TEST(CanonicalKey, MapsNotANumberToTheLowestCell)
   EXPECT_EQ(canonical_key(lost, 1.0), key_of_cell(-half, 0, -half));
 }
 
-// Neighbours in order are neighbours in space: consecutive cells of a block of 2^3k cells fill the
+// Neighbors in order are neighbors in space: consecutive cells of a block of 2^3k cells fill the
 // block.
 TEST(CanonicalKey, IsLocal)
 {

@@ -6,7 +6,7 @@
 // hertz and flores take sqrt(R) from Chrono's factor R sqrt(overlap) (ours: sqrt(R overlap)), the friction of mode None
 // vanishes above the Coulomb limit, and the age of a PlainCoulomb contact counts in mode MultiStep.
 
-#include "pair/contact_spec.h"
+#include "material/contact_spec.h"
 #include "two_spheres.h"
 
 #include <gtest/gtest.h>
@@ -74,8 +74,8 @@ ContactLaw law_of(const Case &c)
   const auto n = std::find(std::begin(names), std::end(names), c.law) - std::begin(names);
   law.normal = static_cast<NormalLaw>(n + (c.kind == "props" ? 4 : 0));
   law.tangential = c.law == "PlainCoulomb" ? TangentialLaw::TANH
-      : c.mode == "None"                   ? TangentialLaw::DASHPOT
-      : c.mode == "OneStep"                ? TangentialLaw::ONESTEP
+                   : c.mode == "None"      ? TangentialLaw::DASHPOT
+                   : c.mode == "OneStep"   ? TangentialLaw::ONESTEP
                                            : TangentialLaw::MULTISTEP;
   law.resists = law.delayed = law.adheres = true;
   return law;
@@ -92,11 +92,11 @@ ContactSpec material(const Case &c, int which)
   s.restitution = pick(0.6F, 0.5F);
   s.given.mu = pick(0.3F, 0.4F);
   s.given.mu_roll = pick(0.04F, 0.05F);
-  s.given.mu_spin = pick(0.06F, 0.03F);
+  s.given.mu_twist = pick(0.06F, 0.03F);
   if (c.adhesion == "Constant") s.given.adhesion = pick(2.0F, 3.0F);
   if (c.adhesion == "DMT") s.given.adhesion_dmt = pick(8.0F, 7.0F);
   s.given.speed = 0.4;
-  s.given.slip_min = s.given.roll_min = s.given.spin_min = 1e-4;
+  s.given.slip_min = s.given.roll_min = s.given.twist_min = 1e-4;
   if (c.kind == "props") return s;
   s.kt_given = s.gt_given = true;
   s.given.kn = pick(2e3F, 3e3F);
@@ -130,7 +130,8 @@ class Scene : public TwoSpheres {
     gravity = {0.0, 0.0, -1.0};
     dt = 1e-4;
     law = law_of(c);
-    coefficients = contact_coefficients(material(c, 0), material(c, 1), LAMMPS_NS::FrictionMix::MINIMUM);
+    coefficients =
+        contact_coefficients(material(c, 0), material(c, 1), LAMMPS_NS::FrictionMix::MINIMUM);
     if (c.kind == "props") {
       EXPECT_NEAR(coefficients.kn, single_young(), 3e-7 * coefficients.kn);
       EXPECT_NEAR(coefficients.kt, single_shear(), 3e-7 * coefficients.kt);
@@ -153,7 +154,8 @@ class Scene : public TwoSpheres {
       compute();
       coefficients.mu = mu;
     }
-    resisted = resisted || norm(Triple{batch.couple[0][0], batch.couple[1][0], batch.couple[2][0]}) > 0.0;
+    resisted =
+        resisted || norm(Triple{batch.couple[0][0], batch.couple[1][0], batch.couple[2][0]}) > 0.0;
     move();
   }
 
@@ -168,7 +170,7 @@ class Scene : public TwoSpheres {
   double normal_force() const
   {
     return inner(contact_force(), contact_normal()) + coefficients.adhesion +
-        coefficients.adhesion_dmt * std::sqrt(effective_radius());
+           coefficients.adhesion_dmt * std::sqrt(effective_radius());
   }
 
   /// The friction of mode None reaches the limit.
@@ -176,7 +178,7 @@ class Scene : public TwoSpheres {
   {
     const Triple f = contact_force(), n = contact_normal();
     return overlap() > 0.0 &&
-        norm(f - inner(f, n) * n) > coefficients.mu * std::fabs(normal_force()) * (1.0 - 1e-12);
+           norm(f - inner(f, n) * n) > coefficients.mu * std::fabs(normal_force()) * (1.0 - 1e-12);
   }
 
   /// Resistance of a contact that is old enough; our law without memory waits for ever.
@@ -187,8 +189,9 @@ class Scene : public TwoSpheres {
     const double push = normal_force();
     const auto m = rolling_moment(coefficients.mu_roll * push, coefficients.roll_min, vector(spin),
                                   vector(contact_normal()));
-    const auto c = spinning_couple(coefficients.mu_spin * batch.circle[0] * push, coefficients.spin_min,
-                                   vector(body[0].omega - body[1].omega), vector(contact_normal()));
+    const auto c =
+        twisting_torque(coefficients.mu_twist * batch.circle[0] * push, coefficients.twist_min,
+                        vector(body[0].omega - body[1].omega), vector(contact_normal()));
     const double moment[3] = {m.x, m.y, m.z}, couple[3] = {c.x, c.y, c.z};
     for (int d = 0; d < 3; d++) {
       batch.moment[d][0] += moment[d];
@@ -203,7 +206,8 @@ class Scene : public TwoSpheres {
     if (overlap() <= 0.0) return false;
     age = begun ? age + dt : 0.0;
     begun = true;
-    const double m = effective_mass(), k = coefficients.kn, g = coefficients.gn * std::pow(overlap(), 0.25);
+    const double m = effective_mass(), k = coefficients.kn,
+                 g = coefficients.gn * std::pow(overlap(), 0.25);
     const double d = g / (2.0 * m * std::sqrt(k / m));
     return d >= 1.0 || age > std::acos(-1.0) * std::sqrt(m / (k * (1.0 - d * d)));
   }
@@ -217,8 +221,9 @@ TEST(ChronoGolden, TrajectoriesAgree)
 {
   const std::vector<Case> cases = read_cases();
   ASSERT_EQ(cases.size(), 20U) << "TALUS_SOURCE_DIR must name the source tree";
-  std::cout << "largest deviation relative to the length of each vector\n"
-            << "case                                   x        v        omega    force    remarks\n";
+  std::cout
+      << "largest deviation relative to the length of each vector\n"
+      << "case                                   x        v        omega    force    remarks\n";
   for (const Case &c : cases) {
     ASSERT_EQ(c.snapshots.back().step, 1200);
     Scene scene(c);
@@ -240,7 +245,8 @@ TEST(ChronoGolden, TrajectoriesAgree)
     std::cout << std::left << std::setw(38) << name << std::scientific << std::setprecision(1);
     for (double w : worst) std::cout << " " << w << " ";
     std::cout << (scene.resisted ? " resists" : "");
-    if (scene.steps_above_limit) std::cout << " " << scene.steps_above_limit << " steps above the limit";
+    if (scene.steps_above_limit)
+      std::cout << " " << scene.steps_above_limit << " steps above the limit";
     std::cout << "\n";
     EXPECT_GE(in_contact, 12) << name;
     for (double w : worst) EXPECT_LE(w, tolerance) << name;

@@ -4,7 +4,7 @@
 // Young's modulus 2e5, Poisson's ratio .3, mu .3, time step 3e-5, .5 time units. With displacement history the
 // characteristic speed of hooke/material is the impact speed (2), else the setting (1): its default in Chrono.
 
-#include "pair/contact_spec.h"
+#include "material/contact_spec.h"
 #include "two_spheres.h"
 
 #include <gtest/gtest.h>
@@ -52,20 +52,25 @@ Impact collide(ContactLaw law, double e, bool limited)
 TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 {
   const NormalLaw hooke = NormalLaw::HOOKE_MATERIAL, hertz = NormalLaw::HERTZ_MATERIAL;
-  const ContactLaw laws[] = {
-      {hooke, TangentialLaw::ONESTEP},   {hooke, TangentialLaw::MULTISTEP}, {hertz, TangentialLaw::ONESTEP},
-      {hertz, TangentialLaw::MULTISTEP}, {NormalLaw::PLAINCOULOMB_MATERIAL, TangentialLaw::TANH}};
-  std::cout << "e_out - e for e =            0        .25       .5        .75       1      limited: .25, .5, .75, 1\n"
+  const ContactLaw laws[] = {{hooke, TangentialLaw::ONESTEP},
+                             {hooke, TangentialLaw::MULTISTEP},
+                             {hertz, TangentialLaw::ONESTEP},
+                             {hertz, TangentialLaw::MULTISTEP},
+                             {NormalLaw::PLAINCOULOMB_MATERIAL, TangentialLaw::TANH}};
+  std::cout << "e_out - e for e =            0        .25       .5        .75       1      "
+               "limited: .25, .5, .75, 1\n"
             << std::setprecision(1) << std::scientific << std::left;
   for (const ContactLaw &law : laws) {
-    std::cout << std::setw(14) << name_of(law.normal) << " " << std::setw(9) << name_of(law.tangential);
+    std::cout << std::setw(14) << name_of(law.normal) << " " << std::setw(9)
+              << name_of(law.tangential);
     for (bool limited : {false, true})
       for (double e : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         if (limited && e == 0.0) continue;    // no finite damping does that
         const Impact out = collide(law, e, limited);
         std::cout << std::setw(9) << std::showpos << out.restitution - e << std::noshowpos << " ";
         EXPECT_LE(std::fabs(out.restitution - e), 1e-3)
-            << name_of(law.normal) << " " << e << " limited " << limited << " contact of " << out.duration;
+            << name_of(law.normal) << " " << e << " limited " << limited << " contact of "
+            << out.duration;
       }
     std::cout << "\n";
   }
@@ -74,10 +79,14 @@ TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 // The impact speed of a history law enters: elastic contacts last pi sqrt(m/k) with k ~ v^(2/5).
 TEST(ChronoImpact, CharacteristicSpeedIsAtLeastTheImpactSpeed)
 {
-  const double one = collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::ONESTEP}, 1.0, false).duration;
-  const double two = collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::MULTISTEP}, 1.0, false).duration;
+  const double one =
+      collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::ONESTEP}, 1.0, false).duration;
+  const double two =
+      collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::MULTISTEP}, 1.0, false).duration;
   const double scale = 16.0 / 15.0 * 0.5 * (2e5 / (2.0 * 0.91));    // 16/15 sqrt(R) E
-  const auto expected = [=](double v) { return std::acos(-1.0) * std::sqrt(0.5 / (scale * std::pow(0.5 * v * v / scale, 0.2))); };
+  const auto expected = [=](double v) {
+    return std::acos(-1.0) * std::sqrt(0.5 / (scale * std::pow(0.5 * v * v / scale, 0.2)));
+  };
   EXPECT_NEAR(one, expected(1.0), 1e-4);
   EXPECT_NEAR(two, expected(2.0), 1e-4);
 }

@@ -21,7 +21,7 @@ constexpr int width = ContactBatch::width;
 
 struct Result {
   Vector force, moment, history;
-  double at_limit;
+  double sliding;
 };
 
 bool same_bits(const Result &a, const Result &b)
@@ -32,7 +32,7 @@ bool same_bits(const Result &a, const Result &b)
 Result result_of(const ContactBatch &batch, int lane)
 {
   return {slow::lane_of(batch.force, lane), slow::lane_of(batch.moment, lane),
-          slow::lane_of(batch.displacement, lane), batch.at_limit[lane]};
+          slow::lane_of(batch.displacement, lane), batch.sliding[lane]};
 }
 
 /// One contact in one lane of a batch whose other lanes hold whatever they held before.
@@ -84,7 +84,7 @@ TEST_P(KernelBits, KernelsComputeOnlyTheRangeTheyAreGiven)
   const Result computed = result_of(batch, 16);
   for (int lane = 0; lane < width; lane++) {
     const bool inside = lane >= 16 && lane < 40;
-    const Result untouched{{}, {}, c.history, c.at_limit ? 1.0 : 0.0};
+    const Result untouched{{}, {}, c.history, c.sliding ? 1.0 : 0.0};
     EXPECT_TRUE(same_bits(inside ? computed : untouched, result_of(batch, lane))) << lane;
   }
 }
@@ -95,12 +95,12 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
     next();
     const Result kernel = run_in_lane(batch, n % width, law, c, p, true, false);
     const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]},
-                                      c.at_limit ? 1.0 : 0.0};
+                                      c.sliding ? 1.0 : 0.0};
     const ContactForce<double> query = single_contact(law, p, slow::state_of(c), dt, h);
     const Result other{{query.force.x, query.force.y, query.force.z},
                        {query.moment.x, query.moment.y, query.moment.z},
                        c.history,
-                       h.at_limit};
+                       h.sliding};
     ASSERT_TRUE(same_bits(kernel, other)) << n;
   }
 }
@@ -108,19 +108,19 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
 // A run that stops and starts again computes the force of its last step from the stored history.
 TEST_P(KernelBits, ForceIsReproducedFromTheStoredHistory)
 {
-  int at_limit = 0, below = 0;
+  int sliding = 0, below = 0;
   for (int n = 0; n < 20000; n++) {
     next();
     const Result before = run_in_lane(batch, n % width, law, c, p, true, true);
     Contact stored = c;
     stored.history = before.history;
-    stored.at_limit = before.at_limit > 0.0;
-    (stored.at_limit ? at_limit : below)++;
+    stored.sliding = before.sliding > 0.0;
+    (stored.sliding ? sliding : below)++;
     const Result after = run_in_lane(batch, (n + 3) % width, law, stored, p, true, false);
     ASSERT_TRUE(std::memcmp(&before, &after, sizeof before) == 0) << n;
   }
   if (law.has_history()) {
-    EXPECT_GT(at_limit, 2000);
+    EXPECT_GT(sliding, 2000);
     EXPECT_GT(below, 2000);
   }
 }
@@ -131,7 +131,7 @@ TEST_P(KernelBits, QueriesLeaveTheHistory)
     next();
     const Result out = run_in_lane(batch, 0, law, c, p, false, false);
     ASSERT_EQ(out.history, c.history);
-    ASSERT_EQ(out.at_limit, c.at_limit ? 1.0 : 0.0);
+    ASSERT_EQ(out.sliding, c.sliding ? 1.0 : 0.0);
   }
 }
 
@@ -155,7 +155,7 @@ TEST_P(KernelBits, SwappingTheBodiesNegatesTheForceExactly)
     ASSERT_EQ(a.force, negated(b.force)) << n;
     ASSERT_EQ(a.moment, b.moment) << n;
     ASSERT_EQ(a.history, negated(b.history)) << n;
-    ASSERT_EQ(a.at_limit, b.at_limit) << n;
+    ASSERT_EQ(a.sliding, b.sliding) << n;
   }
 }
 

@@ -70,7 +70,7 @@ void expect_same_contacts(const TestRank &rank, const BruteForce &slow_twin, con
       ASSERT_NEAR(h.c[d], side * expected.out.history[d],
                   tolerance * expected.out.history_scale * expected.scale /
                       expected.out.force_scale);
-    ASSERT_TRUE(!expected.out.clear_case || (h.c[3] > 0.0) == expected.out.at_limit);
+    ASSERT_TRUE(!expected.out.clear_case || (h.c[3] > 0.0) == expected.out.sliding);
   }
 }
 
@@ -136,7 +136,7 @@ TEST_P(Pipeline, EmptyRank)
   }
 }
 
-TEST_P(Pipeline, CoincidentCentresGiveNoForce)
+TEST_P(Pipeline, CoincidentCentersGiveNoForce)
 {
   RandomSource random(7);
   Packing p = random_packing(40, random);
@@ -162,7 +162,7 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   pipeline.set_laws(laws);
   EXPECT_FALSE(pipeline.keeps_history());
   EXPECT_FALSE(pipeline.keeps_spins());
-  NeighbourLists lists(2);
+  NeighborLists lists(2);
   lists.add(1, 0, 1.0);
   pipeline.set_pairs({2, {0, 0}, {1, 2}, nullptr}, lists.view());
   pipeline.start_pairs({PartnerLists(), {1, 2}, KeptContacts(), {}});
@@ -182,7 +182,7 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
   std::vector<double> x, v, omega, radius(n, 1.0), mass(n, 2.0);
   std::vector<std::uint64_t> key;
   std::vector<std::int64_t> tag;
-  NeighbourLists lists(n);
+  NeighborLists lists(n);
   for (int i = 0; i < n; i++) {
     x.insert(x.end(), {1.99 * i, 0.0, 0.0});
     v.insert(v.end(), {0.0, 0.01 * (i % 7), 0.0});

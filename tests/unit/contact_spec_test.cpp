@@ -2,8 +2,8 @@
 //
 // Mixing of materials: from what the user gave for I I and J J to the coefficients of I J, rule by rule.
 
-#include "contact/restitution.h"
-#include "pair/contact_spec.h"
+#include "laws/restitution.h"
+#include "material/contact_spec.h"
 
 #include <gtest/gtest.h>
 
@@ -59,13 +59,13 @@ TEST(Mixing, FrictionAndResistanceFollowTheRule)
   b.given.mu = 0.8;
   a.given.mu_roll = 0.09;
   b.given.mu_roll = 0.01;
-  a.given.mu_spin = 0.0;
-  b.given.mu_spin = 0.5;
+  a.given.mu_twist = 0.0;
+  b.given.mu_twist = 0.5;
   const auto expect = [&](FrictionMix rule, double mu, double roll, double spin) {
     const ContactCoefficients c = contact_coefficients(a, b, rule);
     EXPECT_DOUBLE_EQ(c.mu, mu);
     EXPECT_DOUBLE_EQ(c.mu_roll, roll);
-    EXPECT_DOUBLE_EQ(c.mu_spin, spin);
+    EXPECT_DOUBLE_EQ(c.mu_twist, spin);
   };
   expect(FrictionMix::MINIMUM, 0.2, 0.01, 0.0);
   expect(FrictionMix::ARITHMETIC, 0.5, 0.05, 0.25);
@@ -82,8 +82,8 @@ TEST(Mixing, AdhesionTakesTheMinimumAndSpeedsTheMaximum)
   a.given.adhesion_perko = 1.0;    // and b none
   a.given.speed = 0.1;
   b.given.speed = 0.2;
-  a.given.slip_min = a.given.roll_min = a.given.spin_min = 1e-4;
-  b.given.slip_min = b.given.roll_min = b.given.spin_min = 1e-5;
+  a.given.slip_min = a.given.roll_min = a.given.twist_min = 1e-4;
+  b.given.slip_min = b.given.roll_min = b.given.twist_min = 1e-5;
   const ContactCoefficients c = contact_coefficients(a, b, FrictionMix::MINIMUM);
   EXPECT_EQ(c.adhesion, 2.0);
   EXPECT_EQ(c.adhesion_dmt, 7.0);
@@ -91,7 +91,7 @@ TEST(Mixing, AdhesionTakesTheMinimumAndSpeedsTheMaximum)
   EXPECT_EQ(c.speed, 0.2);
   EXPECT_EQ(c.slip_min, 1e-4);
   EXPECT_EQ(c.roll_min, 1e-4);
-  EXPECT_EQ(c.spin_min, 1e-4);
+  EXPECT_EQ(c.twist_min, 1e-4);
 }
 
 TEST(Mixing, ModuliByComplianceRestitutionByMinimum)
@@ -108,8 +108,8 @@ TEST(Mixing, ModuliByComplianceRestitutionByMinimum)
 
 TEST(Mixing, DampingIsLimitedIfEitherAsksForIt)
 {
-  for (NormalLaw law : {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL, NormalLaw::FLORES_MATERIAL,
-                        NormalLaw::PLAINCOULOMB_MATERIAL}) {
+  for (NormalLaw law : {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL,
+                        NormalLaw::FLORES_MATERIAL, NormalLaw::PLAINCOULOMB_MATERIAL}) {
     const ContactSpec a = material(law, 2e4, 0.6, 0.3);
     ContactSpec b = a;
     EXPECT_EQ(contact_coefficients(a, b, FrictionMix::MINIMUM).force_floor,
@@ -117,9 +117,9 @@ TEST(Mixing, DampingIsLimitedIfEitherAsksForIt)
     b.limit_damping = true;
     const ContactCoefficients c = contact_coefficients(a, b, FrictionMix::MINIMUM);
     EXPECT_EQ(c.force_floor, 0.0);
-    const double expected = law == NormalLaw::HOOKE_MATERIAL ? linear_damping_factor_limited(0.6)
-        : law == NormalLaw::FLORES_MATERIAL                  ? flores_damping_factor(0.6)
-                                                             : hertz_damping_factor_limited(0.6);
+    const double expected = law == NormalLaw::HOOKE_MATERIAL    ? linear_damping_factor_limited(0.6)
+                            : law == NormalLaw::FLORES_MATERIAL ? flores_damping_factor(0.6)
+                                                                : hertz_damping_factor_limited(0.6);
     EXPECT_EQ(c.gn, expected);
   }
 }
@@ -128,7 +128,8 @@ TEST(Mixing, DampingIsLimitedIfEitherAsksForIt)
 // gt the factor of sqrt(S_t m) (hooke/material: sqrt(kn m)).
 TEST(Mixing, NumbersReplaceWhatTheMaterialGives)
 {
-  for (NormalLaw law : {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL, NormalLaw::FLORES_MATERIAL}) {
+  for (NormalLaw law :
+       {NormalLaw::HOOKE_MATERIAL, NormalLaw::HERTZ_MATERIAL, NormalLaw::FLORES_MATERIAL}) {
     ContactSpec a = material(law, 2e4, 0.6, 0.3), b = a;
     const ContactCoefficients plain = contact_coefficients(a, b, FrictionMix::MINIMUM);
     a.kt_given = a.gt_given = true;
@@ -144,8 +145,12 @@ TEST(Mixing, NumbersReplaceWhatTheMaterialGives)
     EXPECT_EQ(c.gt, 0.5);
     EXPECT_EQ(c.gn, plain.gn);
     // the grammar takes no kt for hooke/material
-    if (law == NormalLaw::HERTZ_MATERIAL) { EXPECT_DOUBLE_EQ(c.kt, 200.0 / 8.0); }
-    if (law == NormalLaw::FLORES_MATERIAL) { EXPECT_DOUBLE_EQ(c.kt, 200.0 * 3.0 / 16.0); }
+    if (law == NormalLaw::HERTZ_MATERIAL) {
+      EXPECT_DOUBLE_EQ(c.kt, 200.0 / 8.0);
+    }
+    if (law == NormalLaw::FLORES_MATERIAL) {
+      EXPECT_DOUBLE_EQ(c.kt, 200.0 * 3.0 / 16.0);
+    }
   }
 }
 

@@ -3,7 +3,7 @@
 // The plan of the direct exchange, for several ranks in one process: what the owners would send is
 // followed to the proxies.
 
-#include "comm/exchange_plan.h"
+#include "exchange/exchange_plan.h"
 
 #include "random_source.h"
 

@@ -3,12 +3,12 @@
 // Counts of pairs and of bytes near and above 2^31 on one rank. Limits are checked on the counts
 // alone; arrays are above 2^31 bytes (4 GB in all) if TALUS_LARGE_TESTS is set in the environment.
 
-#include "comm/exchange_plan.h"
-#include "contact/big_vector.h"
-#include "contact/candidate_list.h"
-#include "contact/contact_history.h"
+#include "base/aligned_vector.h"
 #include "contact/narrow_phase.h"
-#include "contact/partner_lists.h"
+#include "exchange/exchange_plan.h"
+#include "history/contact_history.h"
+#include "history/partner_lists.h"
+#include "neighbors/pair_list.h"
 
 #include <gtest/gtest.h>
 
@@ -27,23 +27,22 @@ namespace {
 constexpr std::int64_t two31 = std::int64_t{1} << 31, two32 = std::int64_t{1} << 32;
 
 // what counts or numbers pairs, blocks of pairs and entries is 64 bits wide
+static_assert(std::is_same<decltype(std::declval<PairList>().num_pairs()), std::int64_t>::value,
+              "");
+static_assert(std::is_same<decltype(std::declval<PairList>().find(0, 0)), std::int64_t>::value, "");
 static_assert(
-    std::is_same<decltype(std::declval<CandidateList>().num_pairs()), std::int64_t>::value, "");
-static_assert(std::is_same<decltype(std::declval<CandidateList>().find(0, 0)), std::int64_t>::value,
-              "");
-static_assert(std::is_same<decltype(find_contacts(std::declval<CandidateList>(), 0, 0, nullptr,
-                                                  nullptr, nullptr)),
-                           std::int64_t>::value,
-              "");
+    std::is_same<decltype(find_contacts(std::declval<PairList>(), 0, 0, nullptr, nullptr, nullptr)),
+                 std::int64_t>::value,
+    "");
 static_assert(
     std::is_invocable<decltype(&ContactHistory::touches), ContactHistory, std::int64_t>::value, "");
 
 TEST(IndexArithmetic, PairsAreCountedUpTo32Bits)
 {
   for (const std::int64_t n : {std::int64_t{0}, two31 - 1, two31, two31 + 1, two32 - 9})
-    EXPECT_NO_THROW(CandidateList::require_countable(n)) << n;
+    EXPECT_NO_THROW(PairList::require_countable(n)) << n;
   for (const std::int64_t n : {two32 - 8, two32, 3 * two32})
-    EXPECT_THROW(CandidateList::require_countable(n), std::length_error) << n;
+    EXPECT_THROW(PairList::require_countable(n), std::length_error) << n;
 }
 
 TEST(IndexArithmetic, ParticlesAreCountedUpTo31Bits)
@@ -79,11 +78,11 @@ TEST(IndexArithmetic, BigMemoryAbove2GBytesIsReachable)
 {
   const std::size_t bytes = std::size_t{5}
                             << 30;    // only the pages that are written become resident
-  auto *memory = static_cast<unsigned char *>(allocate_big(bytes));
+  auto *memory = static_cast<unsigned char *>(allocate_aligned(bytes));
   const std::size_t places[] = {0, std::size_t{1} << 31, std::size_t{1} << 32, bytes - 1};
   for (std::size_t k = 0; k < 4; k++) memory[places[k]] = static_cast<unsigned char>(k + 1);
   for (std::size_t k = 0; k < 4; k++) EXPECT_EQ(memory[places[k]], k + 1);
-  release_big(memory);
+  release_aligned(memory);
 }
 
 /// Every pair of n particles is a candidate. All touch, and then the last few particles only.
@@ -98,15 +97,15 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
     size[i] = n - 1 - i;
     entries[i] = particle.data() + i + 1;
   }
-  const NeighbourView view{n,  particle.data(),     size.data(), entries.data(), ~0,
-                           30, {1.0, 0.0, 0.0, 0.0}};
+  const NeighborView view{n,  particle.data(),     size.data(), entries.data(), ~0,
+                          30, {1.0, 0.0, 0.0, 0.0}};
   std::vector<std::int64_t> tag(n);
   std::iota(tag.begin(), tag.end(), 1);
   ParticleOrder order;
   order.arrange(n, std::vector<std::uint64_t>(n, 0), tag);
   order.divide(PairRows(order, view), 1, false);
 
-  CandidateList pairs;
+  PairList pairs;
   pairs.collect(order, PairRows(order, view), 0);
   ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
   EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
@@ -117,10 +116,10 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   partners.layout();
   ContactHistory history;
   history.fetch(pairs, {partners, tag, KeptContacts(), {}}, {});
-  BigVector<Record> position(n);
+  AlignedVector<Record> position(n);
   for (int i = 0; i < n; i++) position[i] = {{1.0e-5 * i, 0.0, 0.0, 0.5}};
   const std::int64_t end = pairs.num_pairs();
-  BigVector<std::uint32_t> contacts;
+  AlignedVector<std::uint32_t> contacts;
   renew(contacts, end + 8);
   ASSERT_EQ(find_contacts(pairs, 0, end, position.data(), &history, contacts.data()), end);
   const std::int64_t last = reinterpret_cast<const char *>(&history.record(end - 1)) -

@@ -4,7 +4,7 @@
 
 #include "instruction_sets.h"
 
-#include "contact/simd.h"
+#include "base/simd.h"
 
 #include <gtest/gtest.h>
 
@@ -39,8 +39,9 @@ TEST(InstructionSets, ComplaintsNameVariableWordAndCure)
   EXPECT_EQ(complaint_about_isa("sse2", 2),
             "the environment variable TALUS_ISA is 'sse2', which is no instruction set of Talus; "
             "use one of: baseline, avx2, avx512; or unset it, and Talus takes the fastest of them");
-  EXPECT_EQ(complaint_about_isa("avx512", 1),
-            "the environment variable TALUS_ISA is 'avx512', which not all ranks of this run can "
-            "execute; use one of: baseline, avx2; or unset it, and Talus takes the fastest of them");
+  EXPECT_EQ(
+      complaint_about_isa("avx512", 1),
+      "the environment variable TALUS_ISA is 'avx512', which not all ranks of this run can "
+      "execute; use one of: baseline, avx2; or unset it, and Talus takes the fastest of them");
   EXPECT_NE(complaint_about_isa("avx2", 0), "");
 }

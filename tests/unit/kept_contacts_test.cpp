@@ -2,8 +2,8 @@
 //
 // Histories that stay where they are over a rebuild: found by the slots of two particles, packed for those that leave.
 
-#include "contact/contact_history.h"
-#include "neighbour_lists.h"
+#include "history/contact_history.h"
+#include "neighbor_lists.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -26,44 +26,45 @@ struct Rank {
   std::vector<std::int64_t> tag;
   std::map<std::pair<int, int>, Values> touching;
   std::vector<std::pair<int, int>> apart;
-  std::vector<CandidateList> pairs;
+  std::vector<PairList> pairs;
   std::vector<ContactHistory> histories;
   PartnerLists lists;
 
-  Rank(int threads, bool two_phases, bool with_onsets, RandomSource &random)
+  Rank(int threads, bool two_phases, bool with_impacts, RandomSource &random)
   {
     std::vector<std::uint64_t> key;
     for (int a = 0; a < total; a++) {
       key.push_back(random.below(20));
       tag.push_back(1000 - 3 * a);
     }
-    slow::NeighbourLists neighbours(owned);
+    slow::NeighborLists neighbors(owned);
     for (int a = 0; a < owned; a++)
       for (int b = a + 1; b < total; b++) {
         if (!random.chance(a == popular || b == popular ? 0.8 : 0.1)) continue;
-        neighbours.add(a, b, 1.0);
+        neighbors.add(a, b, 1.0);
         if (random.chance(0.5))
           apart.emplace_back(a, b);
         else
           for (double &value : touching[{a, b}]) value = random.uniform(-1.0, 1.0);
       }
     order.arrange(owned, key, tag);
-    order.divide(PairRows(order, neighbours.view(), threads), threads, two_phases);
+    order.divide(PairRows(order, neighbors.view(), threads), threads, two_phases);
 
-    lists.set_values(with_onsets ? 8 : 4);
+    lists.set_values(with_impacts ? 8 : 4);
     lists.resize(owned);
     lists.begin();
-    for (const auto &contact : touching) for_each_end(contact.first, [&](int atom, int) { lists.count(atom); });
+    for (const auto &contact : touching)
+      for_each_end(contact.first, [&](int atom, int) { lists.count(atom); });
     lists.layout();
     for (const auto &[pair, values] : touching)
       for_each_end(pair, [&, its = values](int atom, int partner) {
         const Values seen = seen_by(atom == std::min(atom, partner), its);
         std::copy_n(seen.begin(), lists.num_values(), lists.append(atom, tag[partner]));
       });
-    pairs.resize(order.num_parts());
-    histories.resize(order.num_parts());
-    for (int p = 0; p < order.num_parts(); p++) {
-      pairs[p].collect(order, PairRows(order, neighbours.view()), p);
+    pairs.resize(order.num_chunks());
+    histories.resize(order.num_chunks());
+    for (int p = 0; p < order.num_chunks(); p++) {
+      pairs[p].collect(order, PairRows(order, neighbors.view()), p);
       histories[p].fetch(pairs[p], {lists, tag, KeptContacts(), {}}, {});
     }
   }
@@ -84,7 +85,7 @@ struct Rank {
   void keep(KeptContacts &kept, bool particles_may_leave)
   {
     kept.begin(order, particles_may_leave);
-    for (int p = 0; p < order.num_parts(); p++) histories[p].keep(pairs[p], kept.part(p));
+    for (int p = 0; p < order.num_chunks(); p++) histories[p].keep(pairs[p], kept.part(p));
     kept.finish(1);
   }
 
@@ -93,12 +94,15 @@ struct Rank {
 
 struct Division {
   int threads;
-  bool two_phases, with_onsets;
+  bool two_phases, with_impacts;
 };
 
 class KeptContactsOf : public testing::TestWithParam<Division> {
  protected:
-  KeptContactsOf() : rank(GetParam().threads, GetParam().two_phases, GetParam().with_onsets, random) {}
+  KeptContactsOf() :
+      rank(GetParam().threads, GetParam().two_phases, GetParam().with_impacts, random)
+  {
+  }
   RandomSource random{17};
   Rank rank;
   KeptContacts kept;
@@ -120,8 +124,8 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
         ASSERT_TRUE(found.known) << pair.first << " " << pair.second;
         ASSERT_EQ(found.by_a, (a < b) != swapped);
         ASSERT_TRUE(std::equal(found.record->c, found.record->c + 4, expected.begin()));
-        if (GetParam().with_onsets) {
-          ASSERT_TRUE(std::equal(found.onset->c, found.onset->c + 4, expected.begin() + 4));
+        if (GetParam().with_impacts) {
+          ASSERT_TRUE(std::equal(found.impact->c, found.impact->c + 4, expected.begin() + 4));
         }
       }
       ASSERT_FALSE(kept.find(a, KeptContacts::unknown).known);
@@ -131,7 +135,7 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
     for (const auto &[i, j] : rank.apart) ASSERT_FALSE(kept.find(rank.slot(i), rank.slot(j)).known);
     const int g = KeptContacts::was_ghost(rank.slot(owned));
     EXPECT_FALSE(kept.find(g, KeptContacts::was_ghost(rank.slot(owned + 1))).known);
-    for (int p = 0; p < kept.num_parts(); p++) {    // rows that are not there
+    for (int p = 0; p < kept.num_chunks(); p++) {    // rows that are not there
       const KeptContacts::Part &part = kept.part(p);
       const int rows = static_cast<int>(part.rows.size()) - 1;
       for (const int second : {part.first_row - 1, part.first_row + rows})
@@ -139,7 +143,7 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
     }
     kept.clear();
     EXPECT_TRUE(kept.empty());
-    for (int p = 0; p < rank.order.num_parts(); p++)
+    for (int p = 0; p < rank.order.num_chunks(); p++)
       rank.histories[p].fetch(rank.pairs[p], {rank.lists, rank.tag, KeptContacts(), {}}, {});
   }
 }
@@ -167,7 +171,8 @@ TEST_P(KeptContactsOf, LeaveWithTheirParticles)
     rank.for_each_end(contact.first, [&](int atom, int partner) {
       const double *values = arrived.find(atom, rank.tag[partner]);
       ASSERT_NE(values, nullptr);
-      ASSERT_TRUE(std::equal(values, values + arrived.num_values(), rank.lists.find(atom, rank.tag[partner])));
+      ASSERT_TRUE(std::equal(values, values + arrived.num_values(),
+                             rank.lists.find(atom, rank.tag[partner])));
     });
   for (int g = owned; g < total; g++)
     EXPECT_EQ(kept.slot_named(rank.tag[g]), KeptContacts::was_ghost(rank.slot(g)));
@@ -184,12 +189,14 @@ TEST_P(KeptContactsOf, NothingToPackIfNobodyMayLeave)
 }
 
 INSTANTIATE_TEST_SUITE_P(Divisions, KeptContactsOf,
-                         testing::Values(Division{1, false, false}, Division{1, false, true}, Division{3, false, true},
-                                         Division{1, true, false}, Division{2, true, true}),
+                         testing::Values(Division{1, false, false}, Division{1, false, true},
+                                         Division{3, false, true}, Division{1, true, false},
+                                         Division{2, true, true}),
                          [](const auto &info) {
                            const Division &d = info.param;
-                           return std::to_string(d.threads) + (d.two_phases ? "_two_phases" : "_one_phase") +
-                               (d.with_onsets ? "_onsets" : "");
+                           return std::to_string(d.threads) +
+                                  (d.two_phases ? "_two_phases" : "_one_phase") +
+                                  (d.with_impacts ? "_onsets" : "");
                          });
 
 }    // namespace

@@ -2,8 +2,8 @@
 //
 // Plane and rectangle against closed forms and against a search for the nearest point.
 
-#include "body/plane.h"
-#include "body/rectangle.h"
+#include "body/shape/plane.h"
+#include "body/shape/rectangle.h"
 #include "random_source.h"
 #include "slow_contact.h"
 
@@ -65,13 +65,13 @@ Placed placed(RandomSource &random, bool rectangle, bool two_sided)
 Vector nearest_sample(const Placed &p, const Vector &x)
 {
   constexpr int n = 12;
-  double centre[2] = {0.0, 0.0}, reach[2] = {p.half[0], p.half[1]};
+  double center[2] = {0.0, 0.0}, reach[2] = {p.half[0], p.half[1]};
   for (int zoom = 0; zoom < 24; zoom++) {
     double best[2] = {0.0, 0.0}, least = 1e300;
     for (int i = -n; i <= n; i++)
       for (int j = -n; j <= n; j++) {
-        const double a = std::clamp(centre[0] + reach[0] * i / n, -p.half[0], p.half[0]);
-        const double b = std::clamp(centre[1] + reach[1] * j / n, -p.half[1], p.half[1]);
+        const double a = std::clamp(center[0] + reach[0] * i / n, -p.half[0], p.half[0]);
+        const double b = std::clamp(center[1] + reach[1] * j / n, -p.half[1], p.half[1]);
         const double distance = norm(axpy(-1.0, p.point(a, b, 0.0), x));
         if (distance >= least) continue;
         least = distance;
@@ -79,11 +79,11 @@ Vector nearest_sample(const Placed &p, const Vector &x)
         best[1] = b;
       }
     for (int d = 0; d < 2; d++) {
-      centre[d] = best[d];
+      center[d] = best[d];
       reach[d] *= 0.25;
     }
   }
-  return p.point(centre[0], centre[1], 0.0);
+  return p.point(center[0], center[1], 0.0);
 }
 
 TEST(Plane, AgreesWithItsEquation)
@@ -96,7 +96,7 @@ TEST(Plane, AgreesWithItsEquation)
       const Vector x = p.point(random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0), height);
       ASSERT_NEAR(p.shape->distance_bound(talus(x)), std::fabs(height), 1e-13);
       SurfaceContact c;
-      // one-sided it acts on centres up to one radius behind it, too
+      // one-sided it acts on centers up to one radius behind it, too
       ASSERT_EQ(p.shape->touches(talus(x), radius, c), std::fabs(height) < radius);
       if (std::fabs(height) >= radius) continue;
       const double side = two_sided && height < 0.0 ? -1.0 : 1.0;
@@ -105,7 +105,7 @@ TEST(Plane, AgreesWithItsEquation)
     }
 }
 
-/// Eight spheres around the shape, some of which just reach it or have their centre in it.
+/// Eight spheres around the shape, some of which just reach it or have their center in it.
 EightSpheres spheres_around(const Placed &p, RandomSource &random)
 {
   EightSpheres spheres{};
@@ -114,7 +114,7 @@ EightSpheres spheres_around(const Placed &p, RandomSource &random)
     const double heights[] = {radius, -radius, 0.0, random.uniform(-2.0, 2.0)};
     const Vector x =
         p.point(random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), heights[random.below(4)]);
-    for (int d = 0; d < 3; d++) spheres.centre[d][k] = x[d];
+    for (int d = 0; d < 3; d++) spheres.center[d][k] = x[d];
     spheres.radius[k] = radius;
   }
   return spheres;
@@ -133,7 +133,7 @@ TEST(LargeBodyShape, EightAtATimeHaveTheBitsOfOne)
     ASSERT_EQ(bits >> count, 0U);
     for (int k = 0; k < count; k++) {
       SurfaceContact c;
-      const auto &x = spheres.centre;
+      const auto &x = spheres.center;
       const bool expected = p.shape->touches({x[0][k], x[1][k], x[2][k]}, spheres.radius[k], c);
       ASSERT_EQ(bits >> k & 1U, expected ? 1U : 0U);
       if (!expected) continue;
@@ -171,7 +171,7 @@ TEST(Rectangle, FaceEdgeAndCornerHaveClosedForms)
   EXPECT_NEAR(c.normal.x, -1.0 / 3.0, 1e-15);
   EXPECT_NEAR(c.normal.y, -2.0 / 3.0, 1e-15);
   EXPECT_NEAR(c.normal.z, -2.0 / 3.0, 1e-15);
-  ASSERT_TRUE(r.touches({1.0, 0.5, 0.0}, 1.0, c));    // centre in the face
+  ASSERT_TRUE(r.touches({1.0, 0.5, 0.0}, 1.0, c));    // center in the face
   EXPECT_EQ(plain(c.normal), (Vector{0.0, 0.0, 1.0}));
   EXPECT_EQ(c.overlap, 1.0);
   EXPECT_FALSE(r.touches({3.0, 0.0, 0.0}, 1.0, c));    // just reaches the edge

@@ -5,8 +5,8 @@
 #ifndef TALUS_TEST_LAW_STATES_H
 #define TALUS_TEST_LAW_STATES_H
 
-#include "contact/contact_kernel.h"
 #include "law_twin.h"
+#include "laws/contact_kernel.h"
 #include "random_source.h"
 
 #include <string>
@@ -17,7 +17,10 @@ namespace twin {
 using LAMMPS_NS::ContactSpec;
 using Talus::ContactLaw;
 
-inline bool is_material(NormalLaw law) { return law >= NormalLaw::HOOKE_MATERIAL; }
+inline bool is_material(NormalLaw law)
+{
+  return law >= NormalLaw::HOOKE_MATERIAL;
+}
 inline bool is_plaincoulomb(NormalLaw law)
 {
   return law == NormalLaw::PLAINCOULOMB || law == NormalLaw::PLAINCOULOMB_MATERIAL;
@@ -30,7 +33,8 @@ inline std::vector<ContactLaw> law_pairs()
   for (int n = 0; n < Talus::num_normal_laws; n++)
     for (int t = 0; t < Talus::num_tangential_laws; t++) {
       const ContactLaw law{static_cast<NormalLaw>(n), static_cast<TangentialLaw>(t)};
-      if (is_plaincoulomb(law.normal) == (law.tangential == TangentialLaw::TANH)) laws.push_back(law);
+      if (is_plaincoulomb(law.normal) == (law.tangential == TangentialLaw::TANH))
+        laws.push_back(law);
     }
   return laws;
 }
@@ -51,7 +55,8 @@ inline std::vector<ContactLaw> variants(ContactLaw law)
 inline std::string title(ContactLaw law)
 {
   return std::string(name_of(law.normal)) + " " + name_of(law.tangential) +
-      (law.resists ? law.delayed ? " delayed" : " resists" : "") + (law.adheres ? " adheres" : "");
+         (law.resists ? law.delayed ? " delayed" : " resists" : "") +
+         (law.adheres ? " adheres" : "");
 }
 
 /// Name of a law as GoogleTest allows it.
@@ -90,17 +95,20 @@ inline ContactSpec random_spec(RandomSource &random, NormalLaw normal, bool limi
   }
   c.mu = zero_or(random.uniform(0.05, 1.5));
   c.mu_roll = zero_or(random.uniform(0.01, 0.5));
-  c.mu_spin = zero_or(random.uniform(0.01, 0.5));
+  c.mu_twist = zero_or(random.uniform(0.01, 0.5));
   c.adhesion = zero_or(random.decade(-3.0, 1.0));
   c.adhesion_dmt = zero_or(random.decade(-3.0, 1.0));
   c.adhesion_perko = zero_or(random.decade(-3.0, 1.0));
   c.slip_min = zero_or(random.decade(-6.0, -1.0));
   c.roll_min = zero_or(random.decade(-6.0, -1.0));
-  c.spin_min = zero_or(random.decade(-6.0, 0.0));
+  c.twist_min = zero_or(random.decade(-6.0, 0.0));
   return s;
 }
 
-inline Vector widen(const std::array<double, 3> &v) { return {v[0], v[1], v[2]}; }
+inline Vector widen(const std::array<double, 3> &v)
+{
+  return {v[0], v[1], v[2]};
+}
 
 /// Velocities and history are in proportion to overlap, collision time and damping, so that contacts stick and
 /// slide, approach and separate, in comparable numbers; one in three is degenerate in some way. All numbers
@@ -114,8 +122,8 @@ inline Contact random_contact(RandomSource &random, ContactLaw law, const Compos
   }
   double overlap = std::min(radius[0], radius[1]) * random.decade(-6.0, -0.5);
   const Number m = reduced(mass[0], mass[1]);
-  const Stiffness k =
-      stiffness(law.normal, p, overlap, m, reduced(radius[0], radius[1]), std::max(p.speed, Number(1e-3)));
+  const Stiffness k = stiffness(law.normal, p, overlap, m, reduced(radius[0], radius[1]),
+                                std::max(p.speed, Number(1e-3)));
   double speed = static_cast<double>(overlap * std::sqrt(k.kn / m));
   if (random.chance(0.5) && k.gn > 0)    // where damping balances the spring
     speed = std::min(1e6 * speed, static_cast<double>(k.kn * overlap / k.gn));
@@ -130,7 +138,7 @@ inline Contact random_contact(RandomSource &random, ContactLaw law, const Compos
 
   Contact c;
   c.normal = widen(random.unit_vector());
-  c.at_limit = random.chance(0.3);
+  c.sliding = random.chance(0.3);
   c.begun = random.chance(0.8);
   c.age = c.begun ? static_cast<double>(collision_time * random.decade(-1.0, 1.0)) : 0.0;
   double impact_speed = c.begun ? speed * random.decade(-0.5, 1.0) : 0.0;
@@ -139,21 +147,53 @@ inline Contact random_contact(RandomSource &random, ContactLaw law, const Compos
   double scale = 1.0;
   const std::array<double, 3> none{};
   switch (random.below(42)) {
-    case 0: velocity[0] = velocity[1] = none; break;
-    case 1: omega[0] = omega[1] = none; break;
-    case 2: velocity[0] = velocity[1] = omega[0] = omega[1] = none; break;
-    case 3: history = none; c.at_limit = c.begun = false; break;
-    case 4: history = none; break;
-    case 5: velocity[0] = velocity[1] = omega[0] = omega[1] = history = none; break;
-    case 6: overlap = 0.0; break;
-    case 7: overlap = 0.0; c.normal = {}; break;    // coincident centres
-    case 8: mass[0] = infinity; break;
-    case 9: mass[0] = mass[1] = infinity; break;
-    case 10: scale = 1e40; break;
-    case 11: scale = 1e-40; break;
-    case 12: radius[1] = radius[0]; mass[1] = mass[0]; break;
-    case 13: omega[1] = omega[0]; break;
-    default: break;
+  case 0:
+    velocity[0] = velocity[1] = none;
+    break;
+  case 1:
+    omega[0] = omega[1] = none;
+    break;
+  case 2:
+    velocity[0] = velocity[1] = omega[0] = omega[1] = none;
+    break;
+  case 3:
+    history = none;
+    c.sliding = c.begun = false;
+    break;
+  case 4:
+    history = none;
+    break;
+  case 5:
+    velocity[0] = velocity[1] = omega[0] = omega[1] = history = none;
+    break;
+  case 6:
+    overlap = 0.0;
+    break;
+  case 7:
+    overlap = 0.0;
+    c.normal = {};
+    break;    // coincident centers
+  case 8:
+    mass[0] = infinity;
+    break;
+  case 9:
+    mass[0] = mass[1] = infinity;
+    break;
+  case 10:
+    scale = 1e40;
+    break;
+  case 11:
+    scale = 1e-40;
+    break;
+  case 12:
+    radius[1] = radius[0];
+    mass[1] = mass[0];
+    break;
+  case 13:
+    omega[1] = omega[0];
+    break;
+  default:
+    break;
   }
   if (!c.begun) c.age = impact_speed = 0.0;
   c.overlap = std::min(radius[0], radius[1]) < overlap ? 0.1 * overlap * scale : overlap * scale;
@@ -187,7 +227,7 @@ inline Talus::ContactState<double> state_of(const Contact &c)
   s.spin = {w[0], w[1], w[2]};
   s.inverse_mass = 1.0 / static_cast<double>(c.mass[0]) + 1.0 / static_cast<double>(c.mass[1]);
   s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
-  s.relative_spin = {relative[0], relative[1], relative[2]};
+  s.relative_omega = {relative[0], relative[1], relative[2]};
   const bool apart = norm(c.normal) > 0;    // from the sum of radii, as the kernels' callers
   s.inverse_distance = apart ? 1.0 / (r[0] + r[1] - s.overlap) : 0.0;
   s.circle = Talus::circle_of_intersection(r[0], r[1], s.overlap);
@@ -197,10 +237,10 @@ inline Talus::ContactState<double> state_of(const Contact &c)
 inline Talus::TangentialHistory<double> history_of(const Contact &c)
 {
   const auto d = [&](int n) { return static_cast<double>(-c.history[n]); };
-  return {{d(0), d(1), d(2)}, c.at_limit ? 1.0 : 0.0};
+  return {{d(0), d(1), d(2)}, c.sliding ? 1.0 : 0.0};
 }
 
-inline Talus::ContactOnset<double> onset_of(const Contact &c)
+inline Talus::ContactImpact<double> impact_of(const Contact &c)
 {
   return {static_cast<double>(c.impact_speed), static_cast<double>(c.age), c.begun ? 1.0 : 0.0};
 }
@@ -218,24 +258,28 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
 {
   const Talus::ContactState<double> s = state_of(c);
   const Talus::TangentialHistory<double> h = history_of(c);
-  const Talus::ContactOnset<double> o = onset_of(c);
+  const Talus::ContactImpact<double> o = impact_of(c);
   put(batch.normal, lane, s.normal);
   put(batch.velocity, lane, s.velocity);
   put(batch.spin, lane, s.spin);
-  put(batch.relative_spin, lane, s.relative_spin);
+  put(batch.relative_omega, lane, s.relative_omega);
   put(batch.displacement, lane, h.displacement);
-  put(batch.onset, lane, {o.speed, o.age, o.begun});
-  for (Lanes *result : {&batch.force, &batch.moment, &batch.couple}) put(*result, lane, {0.0, 0.0, 0.0});
+  put(batch.impact, lane, {o.speed, o.age, o.begun});
+  for (Lanes *result : {&batch.force, &batch.moment, &batch.couple})
+    put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;
   batch.inverse_radius[lane] = s.inverse_radius;
   batch.circle[lane] = s.circle;
   batch.inverse_distance[lane] = s.inverse_distance;
-  batch.at_limit[lane] = h.at_limit;
+  batch.sliding[lane] = h.sliding;
   batch.coefficients[lane] = row;
 }
 
-inline Vector lane_of(const Lanes &v, int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
+inline Vector lane_of(const Lanes &v, int lane)
+{
+  return {v[0][lane], v[1][lane], v[2][lane]};
+}
 
 }    // namespace twin
 

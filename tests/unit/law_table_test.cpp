@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "contact/law_table.h"
+#include "material/law_table.h"
 
 #include <gtest/gtest.h>
 

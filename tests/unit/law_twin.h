@@ -9,7 +9,7 @@
 #ifndef TALUS_TEST_LAW_TWIN_H
 #define TALUS_TEST_LAW_TWIN_H
 
-#include "pair/contact_spec.h"
+#include "material/contact_spec.h"
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,14 @@ inline Vector operator+(const Vector &a, const Vector &b)
 {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-inline Vector operator*(Number s, const Vector &a) { return {s * a[0], s * a[1], s * a[2]}; }
-inline Vector operator-(const Vector &a, const Vector &b) { return a + Number(-1) * b; }
+inline Vector operator*(Number s, const Vector &a)
+{
+  return {s * a[0], s * a[1], s * a[2]};
+}
+inline Vector operator-(const Vector &a, const Vector &b)
+{
+  return a + Number(-1) * b;
+}
 inline Number inner(const Vector &a, const Vector &b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -41,7 +47,10 @@ inline Vector outer(const Vector &a, const Vector &b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline Number norm(const Vector &a) { return std::sqrt(inner(a, a)); }
+inline Number norm(const Vector &a)
+{
+  return std::sqrt(inner(a, a));
+}
 
 /// Composite material of a contact.
 struct Composite {
@@ -50,8 +59,8 @@ struct Composite {
   bool kt_given = false, gt_given = false;    // of material laws
   bool limited = false;
   Number damping = 0, damping_flores = 0;    // damping ratios
-  Number speed = 0, mu = 0, mu_roll = 0, mu_spin = 0;
-  Number adhesion = 0, dmt = 0, perko = 0, slip_min = 0, roll_min = 0, spin_min = 0;
+  Number speed = 0, mu = 0, mu_roll = 0, mu_twist = 0;
+  Number adhesion = 0, dmt = 0, perko = 0, slip_min = 0, roll_min = 0, twist_min = 0;
 };
 
 /// ln(1/e) of a linear contact of damping ratio z that ends when its force vanishes (Schwager and Poeschel 2007).
@@ -113,14 +122,14 @@ inline Composite compose(const LAMMPS_NS::ContactSpec &a, const LAMMPS_NS::Conta
   c.limited = a.limit_damping || b.limit_damping;
   c.mu = friction(p.mu, q.mu);
   c.mu_roll = friction(p.mu_roll, q.mu_roll);
-  c.mu_spin = friction(p.mu_spin, q.mu_spin);
+  c.mu_twist = friction(p.mu_twist, q.mu_twist);
   c.adhesion = std::min(p.adhesion, q.adhesion);
   c.dmt = std::min(p.adhesion_dmt, q.adhesion_dmt);
   c.perko = std::min(p.adhesion_perko, q.adhesion_perko);
   c.speed = std::max(p.speed, q.speed);
   c.slip_min = std::max(p.slip_min, q.slip_min);
   c.roll_min = std::max(p.roll_min, q.roll_min);
-  c.spin_min = std::max(p.spin_min, q.spin_min);
+  c.twist_min = std::max(p.twist_min, q.twist_min);
   return c;
 }
 
@@ -135,55 +144,60 @@ inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Nu
   const Number sn = 2 * c.young * disc, st = c.kt_given ? c.kt * disc : 8 * c.shear * disc;
   const Number hertz = 2 * std::sqrt(Number(5) / 6) * c.damping;
   switch (law) {
-    case NormalLaw::HOOKE: return {c.kn, mass * c.gn, c.kt, mass * c.gt};
-    case NormalLaw::HERTZ: return {disc * c.kn, disc * mass * c.gn, disc * c.kt, disc * mass * c.gt};
-    case NormalLaw::FLORES:
-      return {disc * c.kn, disc * mass * c.gn * overlap, disc * c.kt, disc * mass * c.gt};
-    case NormalLaw::PLAINCOULOMB: return {c.kn * root, c.gn * root, 0, 0};
-    case NormalLaw::HOOKE_MATERIAL: {
-      const Number scale = Number(16) / 15 * std::sqrt(radius) * c.young;
-      const Number kn = scale * std::pow(mass * speed * speed / scale, Number(1) / 5);
-      const Number gn = 2 * c.damping * std::sqrt(mass * kn);
-      return {kn, gn, kn, c.gt_given ? c.gt * std::sqrt(mass * kn) : gn};
-    }
-    case NormalLaw::HERTZ_MATERIAL:
-      return {2 * sn / 3, hertz * std::sqrt(sn * mass), st,
-              (c.gt_given ? c.gt : hertz) * std::sqrt(st * mass)};
-    case NormalLaw::FLORES_MATERIAL: {
-      const Number e = std::clamp(c.restitution, Number(0.01), Number(1.0 - epsilon));
-      const Number shear = c.kt_given ? c.kt * disc * 3 / 2 : st;    // the number given is the stiffness
-      const Number h = 2 * std::sqrt(Number(5) / 6) * c.damping_flores;
-      return {2 * sn / 3, 8 * (1 - e) * (2 * sn / 3) * overlap / (5 * e * speed), 2 * shear / 3,
-              (c.gt_given ? c.gt : h) * std::sqrt(shear * mass)};
-    }
-    default: {
-      const Number plain = 2 * c.young * root;
-      return {2 * plain / 3, hertz * std::sqrt(plain * mass), 0, 0};
-    }
+  case NormalLaw::HOOKE:
+    return {c.kn, mass * c.gn, c.kt, mass * c.gt};
+  case NormalLaw::HERTZ:
+    return {disc * c.kn, disc * mass * c.gn, disc * c.kt, disc * mass * c.gt};
+  case NormalLaw::FLORES:
+    return {disc * c.kn, disc * mass * c.gn * overlap, disc * c.kt, disc * mass * c.gt};
+  case NormalLaw::PLAINCOULOMB:
+    return {c.kn * root, c.gn * root, 0, 0};
+  case NormalLaw::HOOKE_MATERIAL: {
+    const Number scale = Number(16) / 15 * std::sqrt(radius) * c.young;
+    const Number kn = scale * std::pow(mass * speed * speed / scale, Number(1) / 5);
+    const Number gn = 2 * c.damping * std::sqrt(mass * kn);
+    return {kn, gn, kn, c.gt_given ? c.gt * std::sqrt(mass * kn) : gn};
+  }
+  case NormalLaw::HERTZ_MATERIAL:
+    return {2 * sn / 3, hertz * std::sqrt(sn * mass), st,
+            (c.gt_given ? c.gt : hertz) * std::sqrt(st * mass)};
+  case NormalLaw::FLORES_MATERIAL: {
+    const Number e = std::clamp(c.restitution, Number(0.01), Number(1.0 - epsilon));
+    const Number shear =
+        c.kt_given ? c.kt * disc * 3 / 2 : st;    // the number given is the stiffness
+    const Number h = 2 * std::sqrt(Number(5) / 6) * c.damping_flores;
+    return {2 * sn / 3, 8 * (1 - e) * (2 * sn / 3) * overlap / (5 * e * speed), 2 * shear / 3,
+            (c.gt_given ? c.gt : h) * std::sqrt(shear * mass)};
+  }
+  default: {
+    const Number plain = 2 * c.young * root;
+    return {2 * plain / 3, hertz * std::sqrt(plain * mass), 0, 0};
+  }
   }
 }
 
 /// Two bodies in contact, [0] is body 1 of the reference. Infinite masses are allowed.
 struct Contact {
-  Vector normal{};    ///< from body 1 to body 2; zero if the centres coincide
+  Vector normal{};    ///< from body 1 to body 2; zero if the centers coincide
   Number overlap = 0;
   std::array<Number, 2> radius{1, 1}, mass{1, 1};
   std::array<Vector, 2> velocity{}, omega{};
   Vector history{};    ///< displacement of body 2 relative to body 1
-  bool at_limit = false, begun = false;
+  bool sliding = false, begun = false;
   Number impact_speed = 0, age = 0;
 };
 
 struct Outcome {
-  Vector force{};                   ///< on body 1
+  Vector force{};    ///< on body 1
   std::array<Vector, 2> torque{};
   Vector history{};
-  bool at_limit = false, begun = false;
+  bool sliding = false, begun = false;
   Number impact_speed = 0, age = 0;
 
   Number force_scale = 0, history_scale = 0, speed_scale = 0;
   std::array<Number, 2> torque_scale{};
-  bool clear_case = true;    ///< false if rounding decides on which side of a threshold the contact is
+  bool clear_case =
+      true;    ///< false if rounding decides on which side of a threshold the contact is
   // what happened
   Number normal_force = 0;
   bool slides = false, sticks = false, rolls = false, spins = false, delayed = false;
@@ -205,7 +219,8 @@ inline Number circle(Number a, Number b, Number overlap)
 }
 
 /// 0 before one collision time of an under-damped contact, else 1.
-inline Number delay(NormalLaw law, const Stiffness &s, Number overlap, Number mass, Number age, bool &clear)
+inline Number delay(NormalLaw law, const Stiffness &s, Number overlap, Number mass, Number age,
+                    bool &clear)
 {
   Number k = s.kn, g = s.gn;
   if (law != NormalLaw::HOOKE && law != NormalLaw::HOOKE_MATERIAL) {
@@ -245,13 +260,15 @@ inline Step step_half_way(const Contact &c, Number v_n, Number dt)
   const Number length = norm(n);
   const Number enlarged = length > 0 ? 1 + (distance + dt * norm(v)) / length : Number(1);
   n = (length > 0 ? 1 / length : Number(0)) * n;
-  const Vector surface = v - outer(c.omega[1], c.radius[1] * n) - outer(c.omega[0], c.radius[0] * n);
+  const Vector surface =
+      v - outer(c.omega[1], c.radius[1] * n) - outer(c.omega[0], c.radius[0] * n);
   // a contact that began on the way lasted overlap/|v_n|
   const Number lasted = -v_n * dt > c.overlap ? c.overlap / -v_n : dt;
-  const Number centres = norm(c.velocity[0]) + norm(c.velocity[1]);
-  const Number speeds = centres + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
-  const Number uncertain = lasted < dt ? 1 + centres / std::fabs(v_n) : Number(1);
-  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain, lasted};
+  const Number centers = norm(c.velocity[0]) + norm(c.velocity[1]);
+  const Number speeds = centers + c.radius[0] * norm(c.omega[0]) + c.radius[1] * norm(c.omega[1]);
+  const Number uncertain = lasted < dt ? 1 + centers / std::fabs(v_n) : Number(1);
+  return {lasted * (surface - inner(surface, n) * n), lasted * speeds * enlarged * uncertain,
+          lasted};
 }
 
 inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
@@ -260,14 +277,14 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
   Outcome out;
   const Number mass = reduced(c.mass[0], c.mass[1]), radius = reduced(c.radius[0], c.radius[1]);
   Vector arm[2], surface[2];
-  Number centres = 0, turning = 0;
+  Number centers = 0, turning = 0;
   for (int b = 0; b < 2; b++) {
     arm[b] = (b == 0 ? c.radius[b] : -c.radius[b]) * c.normal;
     surface[b] = c.velocity[b] + outer(c.omega[b], arm[b]);
-    centres += norm(c.velocity[b]);
+    centers += norm(c.velocity[b]);
     turning += c.radius[b] * norm(c.omega[b]);
   }
-  const Number speeds = centres + turning;
+  const Number speeds = centers + turning;
   const Vector relative = surface[1] - surface[0];
   const Number v_n = inner(c.velocity[1] - c.velocity[0], c.normal);
   const Vector v_t = relative - inner(relative, c.normal) * c.normal;
@@ -275,18 +292,18 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
   out.begun = advance || c.begun;
   out.impact_speed = c.begun ? c.impact_speed : std::fabs(v_n);
   out.age = c.begun ? c.age + (advance ? dt : Number(0)) : Number(0);
-  out.speed_scale = c.begun ? c.impact_speed : centres;
-  const bool onset = law.has_onset();
-  const Number v_c = onset ? std::max(out.impact_speed, p.speed) : p.speed;
+  out.speed_scale = c.begun ? c.impact_speed : centers;
+  const bool impact = law.has_impact();
+  const Number v_c = impact ? std::max(out.impact_speed, p.speed) : p.speed;
   const Stiffness k = stiffness(law.normal, p, c.overlap, mass, radius, v_c);
 
-  const Number normal_scale = k.kn * c.overlap + k.gn * centres;
+  const Number normal_scale = k.kn * c.overlap + k.gn * centers;
   Number f_n = k.kn * c.overlap - k.gn * v_n;
   if (p.limited) f_n = std::max(f_n, Number(0));
   const Number limit = p.mu * std::fabs(f_n);
   out.normal_force = f_n;
   out.history = c.history;
-  out.at_limit = c.at_limit;
+  out.sliding = c.sliding;
 
   Vector f_t{};
   Number scale_t = 0;
@@ -310,15 +327,15 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     out.sticks = !out.slides;
     if (out.slides) f_t = (p.mu * std::tanh(5 * slip) * f_n / slip) * v_t;
     scale_t = p.mu * normal_scale +
-        limit * (slip > 0 ? std::min(Number(5), 1 / slip) : Number(5)) * speeds;
+              limit * (slip > 0 ? std::min(Number(5), 1 / slip) : Number(5)) * speeds;
   } else if (law.has_history()) {
     Vector s = c.history;
     Number reach = norm(c.history);
     bool moved = norm(s) > 0;
     const bool slider =
         law.tangential == TangentialLaw::SLIDER || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
-    const bool midpoint =
-        law.tangential == TangentialLaw::MIDPOINT || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+    const bool midpoint = law.tangential == TangentialLaw::MIDPOINT ||
+                          law.tangential == TangentialLaw::SLIDER_MIDPOINT;
     Number lasted = dt;
     if (advance && !midpoint) {
       s = s + dt * v_t;
@@ -335,7 +352,8 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     f_t = k.kt * s + k.gt * v_t;
     const Number size = norm(f_t);
     const Number trial_scale = k.kt * reach + k.gt * speeds;
-    if (std::fabs(size - limit) < 1e-13 * (trial_scale + p.mu * normal_scale)) out.clear_case = false;
+    if (std::fabs(size - limit) < 1e-13 * (trial_scale + p.mu * normal_scale))
+      out.clear_case = false;
     const bool exceeds = size > limit;
     bool capped = exceeds && moved;
     out.history_scale = norm(c.history);
@@ -352,17 +370,17 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
         out.history_scale += (trial_scale + p.mu * normal_scale) / k.kt;
       }
       out.history = s;
-      out.at_limit = capped;
+      out.sliding = capped;
     }
     const bool near_limit = size + 1e-12 * (k.kt * norm(s) + k.gt * norm(v_t) + limit) >= limit;
-    capped = capped || (!advance && c.at_limit && near_limit);
+    capped = capped || (!advance && c.sliding && near_limit);
     // a force that was at the limit stays there, along the trial force
     if (capped)
       f_t = size > 0 ? (limit / size) * f_t : Vector{};
     else if (exceeds)
       f_t = {};
     scale_t = trial_scale * (capped && size > 0 ? std::max(limit / size, Number(1)) : Number(1)) +
-        p.mu * normal_scale;
+              p.mu * normal_scale;
     out.slides = capped;
     out.sticks = !capped;
   }
@@ -376,13 +394,14 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
   if (law.resists) {
     Number acts = 1;
     if (law.delayed)
-      acts = delay(law.normal, k, c.overlap, mass, onset ? out.age : Number(0), out.clear_case);
+      acts = delay(law.normal, k, c.overlap, mass, impact ? out.age : Number(0), out.clear_case);
     out.delayed = acts == 0;
 
     const Number presses = law.delayed ? f_n : std::max(f_n, Number(0));
     const Number quarter = Number(1) / 4;    // of the rotation may be taken away in a step
-    const Number turns = Number(5) / 2 * dt * ((std::isinf(c.mass[0]) ? 0 : 1 / c.mass[0]) +
-                                               (std::isinf(c.mass[1]) ? 0 : 1 / c.mass[1]));
+    const Number turns =
+        Number(5) / 2 * dt *
+        ((std::isinf(c.mass[0]) ? 0 : 1 / c.mass[0]) + (std::isinf(c.mass[1]) ? 0 : 1 / c.mass[1]));
     const Vector v_rot = outer(c.omega[1], arm[1]) - outer(c.omega[0], arm[0]);
     const Number rolling = norm(v_rot);
     if (p.roll_min > 0 && std::fabs(rolling - p.roll_min) < 1e-13 * turning) out.clear_case = false;
@@ -413,18 +432,20 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     }
     const Vector w = c.omega[1] - c.omega[0];
     const Number spinning = norm(w), w_scale = norm(c.omega[0]) + norm(c.omega[1]);
-    if (p.spin_min > 0 && std::fabs(spinning - p.spin_min) < 1e-13 * w_scale) out.clear_case = false;
-    const bool above = law.delayed ? spinning > p.spin_min : spinning >= p.spin_min && turns > 0;
+    if (p.twist_min > 0 && std::fabs(spinning - p.twist_min) < 1e-13 * w_scale)
+      out.clear_case = false;
+    const bool above = law.delayed ? spinning > p.twist_min : spinning >= p.twist_min && turns > 0;
     if (above && spinning > 0 && acts > 0) {
       out.spins = true;
-      const Number strength = p.mu_spin * circle(c.radius[0], c.radius[1], c.overlap);
+      const Number strength = p.mu_twist * circle(c.radius[0], c.radius[1], c.overlap);
       Number factor = strength * presses / spinning;
       const Number bend = 1 / c.radius[0] + 1 / c.radius[1];
       if (!law.delayed) factor = std::min(factor, quarter / (turns * bend * bend));
       const Vector couple = (factor * inner(w, c.normal)) * c.normal;
       out.torque[0] = out.torque[0] + couple;
       out.torque[1] = out.torque[1] - couple;
-      for (Number &scale : out.torque_scale) scale += strength * normal_scale + std::fabs(factor) * w_scale;
+      for (Number &scale : out.torque_scale)
+        scale += strength * normal_scale + std::fabs(factor) * w_scale;
     }
   }
 

@@ -3,9 +3,9 @@
 // Meshes are seamless: a sphere that drops, slides and rolls over a plane cut into triangles
 // follows the same path as over a plane; convex and concave edges against closed forms.
 
-#include "body/body_contacts.h"
-#include "body/mesh_shape.h"
-#include "body/plane.h"
+#include "body/contact/body_contacts.h"
+#include "body/shape/mesh_shape.h"
+#include "body/shape/plane.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -105,9 +105,9 @@ class Roller {
 
   void step(double dt)
   {
-    if (travelled + dt * length(v) > 0.5 * skin || steps++ == 0) {
+    if (traveled + dt * length(v) > 0.5 * skin || steps++ == 0) {
       contacts.find_candidates(shape, frame, view(), &mask, 1, skin);
-      travelled = 0.0;
+      traveled = 0.0;
     }
     f = t = {0.0, 0.0, 0.0};
     BodyStep how;
@@ -116,7 +116,7 @@ class Roller {
     v = v + dt * (1.0 / mass * f + gravity);
     w = w + (dt / (0.4 * mass * radius * radius)) * t;
     x = x + dt * v;
-    travelled += dt * length(v);
+    traveled += dt * length(v);
   }
 
   const LargeBodyShape &shape;
@@ -133,7 +133,7 @@ class Roller {
   BodyContacts contacts;
   BodyFrame frame;
   V f{}, t{};
-  double travelled = 0.0;
+  double traveled = 0.0;
   int steps = 0, mask = 1, type = 1;
   double size = radius, weight = mass;
 };
@@ -364,7 +364,7 @@ TEST(MeshReportTest, SaysWhatIsWrong)
   const TriangleMesh closed(tetrahedron);
   EXPECT_TRUE(closed.report().closed());
   EXPECT_NEAR(closed.volume(), 1.0 / 6.0, 1e-15);
-  EXPECT_NEAR(length(closed.centre() - V{0.25, 0.25, 0.25}), 0.0, 1e-15);
+  EXPECT_NEAR(length(closed.center() - V{0.25, 0.25, 0.25}), 0.0, 1e-15);
 
   std::vector<Triangle> soup = tetrahedron;
   soup.push_back({{a, b, 2.0 * b}});    // no area

@@ -2,7 +2,7 @@
 //
 // STL files: what is read, and the reason given for what is not.
 
-#include "body/stl_file.h"
+#include "body/shape/stl_file.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // The forecast behind the rebuild check of verlet/proxy.
 
-#include "comm/motion_forecast.h"
+#include "exchange/motion_forecast.h"
 
 #include "random_source.h"
 

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "contact/narrow_phase.h"
-#include "neighbour_lists.h"
+#include "neighbor_lists.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ constexpr int num_particles = 30;
 /// A list of exactly `count` pairs of random particles, all different.
 struct RandomPairs {
   ParticleOrder order;
-  CandidateList list;
+  PairList list;
 
   RandomPairs(int count, RandomSource &random)
   {
@@ -39,14 +39,14 @@ struct RandomPairs {
     for (int i = 0; i < num_particles; i++)
       for (int j = i + 1; j < num_particles; j++) all.emplace_back(i, j);
     random.shuffle(all);
-    slow::NeighbourLists lists(num_particles);
+    slow::NeighborLists lists(num_particles);
     for (int c = 0; c < count; c++) lists.add(all[c].first, all[c].second, 1.0);
     list.collect(order, PairRows(order, lists.view()), 0);
   }
 };
 
 /// All at once, or in stretches of a few pairs.
-std::vector<std::uint32_t> find_all(const CandidateList &pairs, const std::vector<Record> &position,
+std::vector<std::uint32_t> find_all(const PairList &pairs, const std::vector<Record> &position,
                                     ContactHistory *history, std::int64_t stretch = 1 << 20)
 {
   std::vector<std::uint32_t> found(pairs.num_pairs() + 8);
@@ -68,7 +68,7 @@ std::vector<Record> random_positions(RandomSource &random)
   return position;
 }
 
-std::vector<std::uint32_t> by_brute_force(const CandidateList &pairs,
+std::vector<std::uint32_t> by_brute_force(const PairList &pairs,
                                           const std::vector<Record> &position)
 {
   std::vector<std::uint32_t> found;
@@ -84,7 +84,7 @@ TEST(NarrowPhase, FindsWhatTouchesForAnyNumberOfPairs)
   for (int count = 0; count <= 40; count++)
     for (int round = 0; round < 50; round++) {
       const RandomPairs random_pairs(count, random);
-      const CandidateList &pairs = random_pairs.list;
+      const PairList &pairs = random_pairs.list;
       const std::vector<Record> position = random_positions(random);
       const std::vector<std::uint32_t> found = find_all(pairs, position, nullptr);
       ASSERT_EQ(found, by_brute_force(pairs, position)) << count << " pairs";
@@ -102,12 +102,12 @@ TEST(NarrowPhase, SpheresThatJustReachEachOtherDoNotTouch)
   RandomSource random(2);
   constexpr int all = num_particles * (num_particles - 1) / 2;
   const RandomPairs random_pairs(all, random);
-  const CandidateList &pairs = random_pairs.list;
+  const PairList &pairs = random_pairs.list;
   const auto count = [&](const std::vector<Record> &p) {
     return find_all(pairs, p, nullptr).size();
   };
   std::vector<Record> position(num_particles, Record{{0.0, 0.0, 0.0, 0.5}});
-  EXPECT_EQ(count(position), static_cast<std::size_t>(all));    // even with the same centre
+  EXPECT_EQ(count(position), static_cast<std::size_t>(all));    // even with the same center
   for (int a = 0; a < num_particles; a++) position[a].c[0] = a;
   EXPECT_EQ(count(position), static_cast<std::size_t>(0));
   for (Record &p : position) p.c[3] = std::nextafter(0.5, 1.0);
@@ -120,11 +120,12 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
   int forgotten = 0;
   for (int count = 0; count <= 40; count++) {
     const RandomPairs random_pairs(count, random);
-    const CandidateList &pairs = random_pairs.list;
+    const PairList &pairs = random_pairs.list;
     PartnerLists none;
     none.resize(num_particles);
     ContactHistory history;
-    history.fetch(pairs, {none, std::vector<std::int64_t>(num_particles, 0), KeptContacts(), {}}, {});
+    history.fetch(pairs, {none, std::vector<std::int64_t>(num_particles, 0), KeptContacts(), {}},
+                  {});
     std::vector<Record> expected(count);
     for (int step = 0; step < 20; step++) {
       const std::vector<Record> position = random_positions(random);

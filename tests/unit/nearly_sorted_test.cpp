@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "contact/nearly_sorted.h"
+#include "base/nearly_sorted.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>

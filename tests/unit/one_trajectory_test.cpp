@@ -149,7 +149,8 @@ void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interva
     }
     constexpr Machine::Way ways[] = {Machine::SLABS, Machine::AT_RANDOM, Machine::MOST_STAY};
     // now and then by lists in between, as after a restart file
-    if (refresh || step % interval == 0) b.rebuild(p, ways[step % 3], division.keep && step % 7 != 6);
+    if (refresh || step % interval == 0)
+      b.rebuild(p, ways[step % 3], division.keep && step % 7 != 6);
     a.compute(p, step > 0);
     b.compute(p, step > 0);
     ASSERT_GT(a.contacts, 300.0);

@@ -62,7 +62,8 @@ TEST(OutgoingForces, AreAddedInTheOrderOfTheContacts)
         }
         EXPECT_EQ(outgoing.size(), static_cast<std::size_t>(contacts - 50 * step));
         streams_are_done();
-        for (const ParticleOrder::Range range : {ParticleOrder::Range{0, 7}, {7, 7}, {7, particles}})
+        for (const ParticleOrder::Range range :
+             {ParticleOrder::Range{0, 7}, {7, 7}, {7, particles}})
           outgoing.add_to(records, range);
       }
       for (std::size_t n = 0; n < load.size(); n++) ASSERT_TRUE(same(records.load[n], load[n]));

@@ -7,8 +7,8 @@
 #ifndef TALUS_TEST_PACKING_H
 #define TALUS_TEST_PACKING_H
 
-#include "contact/canonical_key.h"
-#include "contact/law_table.h"
+#include "material/law_table.h"
+#include "particles/canonical_key.h"
 #include "random_contact.h"
 
 #include <cstdint>
@@ -97,15 +97,15 @@ inline Talus::LawTable single_law(Talus::ContactLaw law, bool spread)
   return table;
 }
 
-struct Neighbours {
+struct Neighbors {
   int i, j;
   double weight;
 };
 
 /// All pairs that are closer than their radii plus skin. With `weighted` some forces are scaled.
-inline std::vector<Neighbours> candidates(const Packing &p, double skin, bool weighted)
+inline std::vector<Neighbors> candidates(const Packing &p, double skin, bool weighted)
 {
-  std::vector<Neighbours> list;
+  std::vector<Neighbors> list;
   for (int i = 0; i < p.size(); i++)
     for (int j = i + 1; j < p.size(); j++) {
       if (norm(axpy(-1.0, p.x[j], p.x[i])) >= p.radius[i] + p.radius[j] + skin) continue;
@@ -131,7 +131,7 @@ class BruteForce {
                bool weighted)
   {
     contacts.clear();
-    for (const Neighbours &n : candidates(p, 0.0, weighted)) {
+    for (const Neighbors &n : candidates(p, 0.0, weighted)) {
       const Contact c = contact_of(p, n.i, n.j);
       const int row = laws.row(p.type[n.i], p.type[n.j]);
       const Outcome out = evaluate(c, laws.law(row), laws.coefficients(row), dt, advance);
@@ -143,7 +143,7 @@ class BruteForce {
     if (!advance) return;
     histories.clear();    // whoever does not touch loses the history
     for (const auto &[pair, contact] : contacts)
-      histories[pair] = {contact.out.history, contact.out.at_limit};
+      histories[pair] = {contact.out.history, contact.out.sliding};
   }
 
   struct Sums {
@@ -186,7 +186,7 @@ class BruteForce {
     c.velocity = {p.v[i], p.v[j]};
     c.omega = {p.omega[i], p.omega[j]};
     const auto known = histories.find({i, j});
-    if (known != histories.end()) std::tie(c.history, c.at_limit) = known->second;
+    if (known != histories.end()) std::tie(c.history, c.sliding) = known->second;
     return c;
   }
 };

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "contact/pair_rows.h"
-#include "neighbour_lists.h"
+#include "neighbor_lists.h"
+#include "neighbors/pair_rows.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using Rows = std::map<int, std::map<int, double>>;    // second -> first -> scal
 /// Particles in random order; pairs at random, in the row of either particle.
 struct Scene {
   ParticleOrder order;
-  slow::NeighbourLists lists;
+  slow::NeighborLists lists;
   Rows rows;
 
   Scene(int owned, int total, double chance, std::vector<double> scales, RandomSource &random) :
@@ -97,7 +97,7 @@ TEST(PairRows, SamePairTwice)
 {
   ParticleOrder order;
   order.arrange(3, {1, 2, 3}, {1, 2, 3});
-  slow::NeighbourLists lists(3);
+  slow::NeighborLists lists(3);
   for (const int first : {1, 0, 1, 0, 0}) lists.add(2, first, 1.0);
   const PairRows rows(order, lists.view());
   ASSERT_EQ(rows.size(2), 5);
@@ -106,7 +106,7 @@ TEST(PairRows, SamePairTwice)
   EXPECT_EQ(firsts, (std::vector<int>{0, 0, 0, 1, 1}));
 }
 
-/// As NeighbourSearch has them: all particles have a row, of lower ones.
+/// As NeighborSearch has them: all particles have a row, of lower ones.
 TEST(PairRows, RowsThatAreInOrderAlready)
 {
   constexpr int n = 100;
@@ -131,7 +131,7 @@ TEST(PairRows, RowsThatAreInOrderAlready)
     size.push_back(static_cast<int>(entries[i].size()));
     begin.push_back(entries[i].data());
   }
-  const NeighbourView view{n, nullptr, size.data(), begin.data()};
+  const NeighborView view{n, nullptr, size.data(), begin.data()};
   for (const int threads : {1, 2, 7}) expect_rows(PairRows(order, view, threads), order, expected);
 }
 

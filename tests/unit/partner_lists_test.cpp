@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "contact/partner_lists.h"
-#include "contact/record.h"
+#include "history/partner_lists.h"
+#include "particles/record.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,8 @@ void fill(PartnerLists &lists, const Model &model, RandomSource &random)
   lists.begin();
   for (const auto &item : all) lists.count(item.first);
   lists.layout();
-  for (const auto &[atom, entry] : all) std::copy_n(entry.history.c, 4, lists.append(atom, entry.tag));
+  for (const auto &[atom, entry] : all)
+    std::copy_n(entry.history.c, 4, lists.append(atom, entry.tag));
 }
 
 void expect_holds(const PartnerLists &lists, int atom, const std::vector<Entry> &entries)

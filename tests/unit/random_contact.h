@@ -5,7 +5,7 @@
 #ifndef TALUS_TEST_RANDOM_CONTACT_H
 #define TALUS_TEST_RANDOM_CONTACT_H
 
-#include "contact/contact_kernel.h"
+#include "laws/contact_kernel.h"
 #include "random_source.h"
 #include "slow_contact.h"
 
@@ -72,7 +72,7 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
   }
   const double slip = c.overlap * random.decade(-2.0, 1.0);
   c.history = random.in_cube(slip);
-  c.at_limit = random.chance(0.3);
+  c.sliding = random.chance(0.3);
 
   double scale = 1.0;
   switch (random.below(36)) {
@@ -88,7 +88,7 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
     break;
   case 3:
     c.history = {};
-    c.at_limit = false;
+    c.sliding = false;
     break;
   case 4:
     c.history = {};
@@ -104,7 +104,7 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
   case 7:
     c.overlap = 0.0;
     c.normal = {};
-    break;    // coincident centres
+    break;    // coincident centers
   case 8:
     c.mass[0] = infinity;
     break;
@@ -162,7 +162,7 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;
   batch.inverse_radius[lane] = s.inverse_radius;
-  batch.at_limit[lane] = c.at_limit ? 1.0 : 0.0;
+  batch.sliding[lane] = c.sliding ? 1.0 : 0.0;
   batch.coefficients[lane] = row;
 }
 

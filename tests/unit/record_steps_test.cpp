@@ -4,7 +4,7 @@
 // any division of the work, whoever is sent, and whenever the host looks at the particles. The twin
 // is the plain loop of the integrator around a pipeline that reads and delivers in every step.
 
-#include "neighbour_lists.h"
+#include "neighbor_lists.h"
 #include "packing.h"
 
 #include "contact/contact_pipeline.h"
@@ -103,8 +103,8 @@ class RecordSteps : public testing::TestWithParam<Division> {
 
   void number_pairs(ContactPipeline &pipeline)
   {
-    NeighbourLists lists(p.size());
-    for (const Neighbours &n : candidates(p, skin, true)) lists.add(n.i, n.j, n.weight);
+    NeighborLists lists(p.size());
+    for (const Neighbors &n : candidates(p, skin, true)) lists.add(n.i, n.j, n.weight);
     pipeline.set_pairs({p.size(), p.key, p.tag, p.type.data()}, lists.view());
     pipeline.start_pairs({partners, p.tag, KeptContacts(), {}});
   }

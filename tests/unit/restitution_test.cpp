@@ -4,10 +4,10 @@
 // was asked for. Measured by integrating an impact with a Runge-Kutta scheme of its own around the
 // kernels' own normal forces.
 
-#include "contact/contact_energy.h"
-#include "contact/contact_kernel.h"
-#include "contact/restitution.h"
-#include "pair/contact_spec.h"
+#include "laws/contact_energy.h"
+#include "laws/contact_kernel.h"
+#include "laws/restitution.h"
+#include "material/contact_spec.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #ifndef TALUS_TEST_SLOW_CONTACT_H
 #define TALUS_TEST_SLOW_CONTACT_H
 
-#include "contact/contact_law.h"
+#include "laws/contact_law.h"
 
 #include <array>
 #include <cmath>
@@ -40,12 +40,12 @@ inline Vector outer(const Vector &a, const Vector &b)
 /// Two bodies in contact. Infinite masses and radii are allowed; a body of infinite radius does not
 /// spin.
 struct Contact {
-  Vector normal{};    ///< from body 1 to body 0; zero if the centres coincide
+  Vector normal{};    ///< from body 1 to body 0; zero if the centers coincide
   double overlap = 0.0;
   std::array<double, 2> radius{1.0, 1.0}, mass{1.0, 1.0};
   std::array<Vector, 2> velocity{}, omega{};
   Vector history{};    ///< displacement as body 0 sees it
-  bool at_limit = false;
+  bool sliding = false;
 };
 
 /// Force on body 0 (body 1: the opposite), torques on both, and the history afterwards. The scales
@@ -55,7 +55,7 @@ struct Outcome {
   double normal_force = 0.0;
   std::array<Vector, 2> torque{};
   Vector history{};
-  bool at_limit = false;
+  bool sliding = false;
   bool clear_case = true;    ///< false if the trial force is the limit up to rounding
   double force_scale = 0.0, history_scale = 0.0;
 };
@@ -99,7 +99,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
 
   Outcome out;
   out.history = c.history;
-  out.at_limit = c.at_limit;
+  out.sliding = c.sliding;
   Vector f_t{};
   double tangential_scale = 0.0;
 
@@ -130,12 +130,12 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
         for (int d = 0; d < 3; d++)
           s[d] = limit / size * (s[d] + gt * v_t[d] / kt) - gt * v_t[d] / kt;
       out.history = s;
-      out.at_limit = slides;
+      out.sliding = slides;
       const double slip = kt > 0.0 ? (gt * speeds + p.mu * normal_scale) / kt : 0.0;
       out.history_scale = reach + slip;
     } else {
       const double parts = kt * norm(s) + gt * norm(v_t) + limit;
-      slides = slides || (c.at_limit && size + 1e-12 * parts >= limit);
+      slides = slides || (c.sliding && size + 1e-12 * parts >= limit);
     }
 
     // a force at the limit points along the trial force, whatever the size of that is

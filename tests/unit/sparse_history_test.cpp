@@ -2,7 +2,7 @@
 //
 // Histories of the candidates of a body, on their way with the particles.
 
-#include "body/sparse_history.h"
+#include "body/contact/sparse_history.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class SparseHistoryTest : public testing::TestWithParam<bool> {
  protected:
   SparseHistoryTest()
   {
-    history.keep_onsets(GetParam());
+    history.keep_impacts(GetParam());
     history.grow(20);
     history.follow({3, 17, 5, 11});
     for (int c = 0; c < 4; c++) set(c, 10.0 * (c + 1));
@@ -26,7 +26,7 @@ class SparseHistoryTest : public testing::TestWithParam<bool> {
   void set(int candidate, double value)
   {
     history.record(candidate) = {{value, value + 1.0, value + 2.0, 1.0}};
-    if (GetParam()) history.onset(candidate) = {{value + 3.0, value + 4.0, 1.0, 0.0}};
+    if (GetParam()) history.impact(candidate) = {{value + 3.0, value + 4.0, 1.0, 0.0}};
   }
 
   std::vector<double> packed(int particle) const

@@ -7,7 +7,7 @@
 #define TALUS_TEST_TEST_RANK_H
 
 #include "contact/contact_pipeline.h"
-#include "neighbour_lists.h"
+#include "neighbor_lists.h"
 #include "packing.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ class TestRank {
 
   /// Takes the given particles in an order of its own, and what it needs of the others as ghosts.
   /// `old_tag`: the tags under which the luggage was packed, if they have changed since.
-  void rebuild(const Packing &p, std::vector<int> mine, const std::vector<Neighbours> &near,
+  void rebuild(const Packing &p, std::vector<int> mine, const std::vector<Neighbors> &near,
                const Luggage &luggage, RandomSource &random,
                const std::vector<std::int64_t> *old_tag = nullptr)
   {
@@ -82,7 +82,7 @@ class TestRank {
     std::vector<int> number(p.size(), -1);
     for (int a = 0; a < owned; a++) number[mine[a]] = a;
     const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
-    for (const Neighbours &n : near)
+    for (const Neighbors &n : near)
       for (const auto &[i, j] : {std::pair(n.i, n.j), std::pair(n.j, n.i)})
         if (is_mine(i) && number[j] < 0) {
           number[j] = static_cast<int>(particle.size());
@@ -137,11 +137,11 @@ class TestRank {
                               particle.begin());
     };
     const auto h = pipeline.history_of(number(i), number(j));
-    return {{h.displacement.x, h.displacement.y, h.displacement.z, h.at_limit}};
+    return {{h.displacement.x, h.displacement.y, h.displacement.z, h.sliding}};
   }
 
  private:
-  void start(const Packing &p, const std::vector<Neighbours> &near, const std::vector<int> &number,
+  void start(const Packing &p, const std::vector<Neighbors> &near, const std::vector<int> &number,
              RandomSource &random, const std::vector<std::int64_t> *old_tag)
   {
     const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
@@ -156,10 +156,10 @@ class TestRank {
       const auto slot = slot_of.find(i);
       kept_slot.push_back(slot == slot_of.end() ? -1 : slot->second);
     }
-    slow::NeighbourLists lists(owned);
-    std::vector<Neighbours> shuffled = near;
+    slow::NeighborLists lists(owned);
+    std::vector<Neighbors> shuffled = near;
     random.shuffle(shuffled);
-    for (Neighbours n : shuffled) {
+    for (Neighbors n : shuffled) {
       if (!is_mine(n.i) && !is_mine(n.j)) continue;
       if (random.chance(0.5)) std::swap(n.i, n.j);
       lists.add(number[n.i], number[n.j], n.weight);

@@ -5,7 +5,7 @@
 #ifndef TALUS_TEST_TWO_SPHERES_H
 #define TALUS_TEST_TWO_SPHERES_H
 
-#include "contact/contact_kernel.h"
+#include "laws/contact_kernel.h"
 
 #include <array>
 #include <cmath>
@@ -14,11 +14,26 @@ namespace twin {
 
 using Triple = std::array<double, 3>;
 
-inline Triple operator+(const Triple &a, const Triple &b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Triple operator*(double s, const Triple &a) { return {s * a[0], s * a[1], s * a[2]}; }
-inline Triple operator-(const Triple &a, const Triple &b) { return a + -1.0 * b; }
-inline double inner(const Triple &a, const Triple &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline double norm(const Triple &a) { return std::sqrt(inner(a, a)); }
+inline Triple operator+(const Triple &a, const Triple &b)
+{
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Triple operator*(double s, const Triple &a)
+{
+  return {s * a[0], s * a[1], s * a[2]};
+}
+inline Triple operator-(const Triple &a, const Triple &b)
+{
+  return a + -1.0 * b;
+}
+inline double inner(const Triple &a, const Triple &b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline double norm(const Triple &a)
+{
+  return std::sqrt(inner(a, a));
+}
 struct Sphere {
   double radius, mass;
   Triple x, v, omega{};
@@ -38,7 +53,10 @@ class TwoSpheres {
 
   Triple separation() const { return body[0].x - body[1].x; }
   double overlap() const { return body[0].radius + body[1].radius - norm(separation()); }
-  double effective_mass() const { return body[0].mass * body[1].mass / (body[0].mass + body[1].mass); }
+  double effective_mass() const
+  {
+    return body[0].mass * body[1].mass / (body[0].mass + body[1].mass);
+  }
   double effective_radius() const
   {
     return body[0].radius * body[1].radius / (body[0].radius + body[1].radius);
@@ -49,8 +67,8 @@ class TwoSpheres {
   {
     for (int d = 0; d < 3; d++) batch.force[d][0] = batch.moment[d][0] = batch.couple[d][0] = 0.0;
     if (overlap() <= 0.0) {
-      for (int d = 0; d < 3; d++) batch.displacement[d][0] = batch.onset[d][0] = 0.0;
-      batch.at_limit[0] = 0.0;
+      for (int d = 0; d < 3; d++) batch.displacement[d][0] = batch.impact[d][0] = 0.0;
+      batch.sliding[0] = 0.0;
     } else {
       fill();
       Talus::contact_kernel(law, true, true)(batch, 0, Talus::lanes, &coefficients, dt);
@@ -78,13 +96,14 @@ class TwoSpheres {
   void fill()
   {
     const Sphere &a = body[0], &b = body[1];
-    const Triple n = (1.0 / norm(separation())) * separation(), v = a.v - b.v, w = a.omega - b.omega;
+    const Triple n = (1.0 / norm(separation())) * separation(), v = a.v - b.v,
+                 w = a.omega - b.omega;
     const Triple spin = a.radius * a.omega + b.radius * b.omega;
     for (int d = 0; d < 3; d++) {
       batch.normal[d][0] = n[d];
       batch.velocity[d][0] = v[d];
       batch.spin[d][0] = spin[d];
-      batch.relative_spin[d][0] = w[d];
+      batch.relative_omega[d][0] = w[d];
     }
     batch.overlap[0] = overlap();
     batch.inverse_mass[0] = 1.0 / effective_mass();

@@ -1,0 +1,69 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// std::vector whose storage begins at a cache line, and at a huge page if it is large: contacts
+// touch their partners in no order that the hardware could foresee, and with pages of 4 kB the
+// search for the page costs as much as the load itself. Nothing else stands in its cache lines:
+// what a thread writes in every step, however small it is, must not share one with what others
+// read, or all of them wait for each other. New elements of plain types are not set.
+
+#ifndef TALUS_BASE_ALIGNED_VECTOR_H
+#define TALUS_BASE_ALIGNED_VECTOR_H
+
+#include <cstddef>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace Talus {
+
+/// Throws std::bad_alloc. Memory of release_aligned() must come from allocate_aligned().
+void *allocate_aligned(std::size_t bytes);
+void release_aligned(void *memory) noexcept;
+
+template <class T> struct AlignedAllocator {
+  using value_type = T;
+  AlignedAllocator() = default;
+  template <class Other> AlignedAllocator(const AlignedAllocator<Other> &) noexcept {}
+  T *allocate(std::size_t n) { return static_cast<T *>(allocate_aligned(n * sizeof(T))); }
+  void deallocate(T *memory, std::size_t) noexcept { release_aligned(memory); }
+  /// Elements that a vector makes by itself, as resize() does, are left as the memory is: most
+  /// arrays are filled right after, by several threads.
+  template <class Element, class... Arguments>
+  void construct(Element *element, Arguments &&...arguments)
+  {
+    if constexpr (sizeof...(Arguments) == 0)
+      ::new (static_cast<void *>(element)) Element;
+    else
+      ::new (static_cast<void *>(element)) Element(std::forward<Arguments>(arguments)...);
+  }
+  bool operator==(const AlignedAllocator &) const { return true; }
+  bool operator!=(const AlignedAllocator &) const { return false; }
+};
+
+template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+
+/// Memory that is needed again and again is given back in between only if it is more than this
+/// (bytes): the system zeroes what it hands out anew, which is felt where lists are made often.
+constexpr double worth_giving_back = 64 << 20;
+
+/// Gives the memory of a vector back.
+template <class Vector> void release(Vector &v)
+{
+  Vector().swap(v);
+}
+
+/// Gives a vector `n` elements, the old content being of no interest: old and new storage never
+/// stand side by side, so that rebuilds do not double the peak of memory. A little room is left,
+/// for counts of pairs that grow from one rebuild to the next.
+template <class Vector> void renew(Vector &v, std::size_t n)
+{
+  if (v.capacity() < n) {
+    release(v);
+    v.reserve(n + n / 32);
+  }
+  v.resize(n);
+}
+
+}    // namespace Talus
+
+#endif

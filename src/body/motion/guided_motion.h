@@ -1,0 +1,34 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_BODY_MOTION_GUIDED_MOTION_H
+#define TALUS_BODY_MOTION_GUIDED_MOTION_H
+
+#include "body/motion/body_state.h"
+
+namespace Talus {
+
+/// Motion of a body that another program steers. The program gives states that the body is to have
+/// a number of steps later; on the way there its position goes along a straight line, its
+/// orientation turns about one axis, both at constant speed, while velocity and spin change
+/// linearly from the old values to the given ones. After that it goes on with the last velocity and
+/// spin. The state that was given is reached with all its bits.
+class GuidedMotion {
+ public:
+  /// `steps` 0: the body has this state at once.
+  void guide(BodyState &now, const BodyState &target, int steps);
+
+  void advance(BodyState &state, double dt);
+
+  /// For restart files: steps, steps left, start and target.
+  static constexpr int size = 2 + 2 * BodyState::size;
+  void to_array(double *a) const;
+  void from_array(const double *a);
+
+ private:
+  int steps = 0, left = 0;
+  BodyState start, target;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,54 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_BODY_MOTION_RIGID_BODY_H
+#define TALUS_BODY_MOTION_RIGID_BODY_H
+
+#include "body/motion/body_state.h"
+
+namespace Talus {
+
+/// A free rigid body whose reference point is its center of mass.
+///
+/// Semi-implicit Euler, as for particles: velocities first, from the force at the old place; then
+/// the place, with the new velocity. The angular momentum L is kicked in the axes of space and then
+/// kept: the body turns by exp(dt omega) with omega = I^-1 L taken half way (explicit midpoint), so
+/// that L is kept to rounding, the energy of free rotation to second order in dt, and a body with
+/// three equal moments of inertia turns as a particle does.
+class RigidBody {
+ public:
+  double mass = 0.0;
+  double inertia[3] = {0.0, 0.0, 0.0};    ///< principal moments, axes of the body
+  /// x y z and rotations about the axes x y z of space that do not happen.
+  bool locked[6] = {false, false, false, false, false, false};
+
+  bool translates() const { return !(locked[0] && locked[1] && locked[2]); }
+
+  /// `acceleration` and `torque` (in units of mass, length, time) act during dt.
+  void advance(BodyState &state, const Vector3<double> &acceleration, const Vector3<double> &torque,
+               double dt) const;
+
+  /// Angular momentum about the center of mass, without the parts that locks take up.
+  Vector3<double> angular_momentum(const BodyState &state) const;
+  /// mass v^2/2 + omega . L/2.
+  double kinetic_energy(const BodyState &state) const;
+
+ private:
+  Vector3<double> spin_of(const Vector3<double> &momentum, const Quaternion &orientation) const;
+};
+
+/// Holds a force or torque by moving along, or turning about, one axis: the velocity is
+/// vmax gain (target - pressed)/|target|, at most vmax either way, where `pressed` is what the
+/// body exerts on the particles along the axis.
+struct Servo {
+  bool turns = false;                     ///< holds a torque
+  Vector3<double> axis{0.0, 0.0, 1.0};    ///< unit vector
+  double target = 0.0, vmax = 0.0, gain = 1.0;
+
+  /// `force` and `torque`: of the particles on the body.
+  void advance(BodyState &state, const Vector3<double> &force, const Vector3<double> &torque,
+               double dt) const;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_BODY_SHAPE_FRUSTUM_H
+#define TALUS_BODY_SHAPE_FRUSTUM_H
+
+#include "body/shape/large_body_shape.h"
+
+namespace Talus {
+
+/// A truncated cone with two flat caps; a cylinder if both radii are equal; an endless cylinder if
+/// the length is infinite as well.
+///
+/// Outside: a sphere touches the nearest point; the normal turns continuously around the rims. A
+/// center inside is pushed out through the nearest face, up to one radius deep. Inside: a sphere
+/// touches the mantle (part 0) and each cap (1 and 2) that it reaches, taken as continued beyond
+/// the rims, up to a center one radius behind; it touches the mantle at one point only, so that a
+/// sphere wider than the cone is not held. A cap of radius 0 is not there. Where the nearest point
+/// of the mantle is undefined, on the axis, a fixed direction is taken.
+class Frustum : public LargeBodyShape {
+ public:
+  /// `axis`: unit vector; `low`: radius at -length/2 along it, `high` at +length/2. Radii >= 0, one
+  /// of them > 0; length > 0; infinite only if the radii are equal.
+  Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
+          double length, bool inside);
+
+  bool touches(const Vector3<double> &center, double radius,
+               SurfaceContact &contact) const override;
+  double distance_bound(const Vector3<double> &center) const override;
+  Vector3<double> reference_point() const override { return middle; }
+  bool one_contact() const override { return !inside || endless; }
+  int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
+                    SurfaceContact *found) const override;
+  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+
+ private:
+  /// A point in the plane through the axis: rho from the axis, s along it; and the unit vector away
+  /// from the axis.
+  struct Meridian {
+    double rho, s;
+    Vector3<double> away;
+  };
+  Meridian meridian(const Vector3<double> &center) const;
+  /// Heights above mantle, low cap and high cap, positive inside.
+  void depths(const Meridian &m, double (&depth)[3]) const;
+  Vector3<double> inward(const Meridian &m, int face) const;
+  /// Vector (rho, s) from the nearest point of the outline, for points outside.
+  void from_outline(const Meridian &m, double &rho, double &s) const;
+
+  bool touches_from_outside(const Vector3<double> &center, double radius,
+                            SurfaceContact &contact) const;
+  int touched_from_inside(const Vector3<double> &center, double radius,
+                          SurfaceContact *found) const;
+
+  Vector3<double> middle, axis, side;    // side: unit vector normal to the axis
+  double low, high, half;
+  double lean_rho, lean_s;    // outward normal of the mantle
+  bool inside, endless;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,167 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Geometry of a large body: a body that spans sub-domains, is known to every rank and never becomes
+// a ghost. Derive from this class to add a shape of your own; examples/custom_shape does.
+//
+// All points are given in the frame of the body, which is that of the input script at the beginning
+// of the run: a body that moves is asked with coordinates turned and shifted back. Lengths are in
+// the units of the caller. No function but focus() may change the object, and unless thread_safe()
+// says no, all others may be called from several threads.
+//
+// A shape that touches a sphere at one point at most (one_contact()) implements touches() and
+// distance_bound(), and touches_eight() if it is to be fast. One that may touch it at several
+// points, such as the inside of a box, implements find_contacts() as well, and is_near() if it
+// wants to remember which parts of it are near.
+
+#ifndef TALUS_BODY_SHAPE_LARGE_BODY_SHAPE_H
+#define TALUS_BODY_SHAPE_LARGE_BODY_SHAPE_H
+
+#include "base/vector3.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace Talus {
+
+/// Where a sphere touches a body.
+struct SurfaceContact {
+  Vector3<double> normal;    ///< unit vector from the body to the center of the sphere
+  double overlap;            ///< radius minus distance of the center from the surface, > 0
+  int part = 0;              ///< the part that is touched; of a mesh, a triangle
+};
+
+/// Eight spheres, or less, side by side: `center` by component.
+struct EightSpheres {
+  static constexpr int width = 8;
+  alignas(64) double center[3][width], radius[width];
+};
+
+/// Where they touch a body; see SurfaceContact.
+struct EightContacts {
+  alignas(64) double normal[3][EightSpheres::width], overlap[EightSpheres::width];
+};
+
+/// A part of a body near some particle, and its distance at the time when it was listed.
+struct NearPart {
+  int part;
+  int group;    ///< what the shape wants to know of it without looking
+  double distance;
+};
+
+/// The parts that may touch a sphere, as listed by is_near() and thinned out since.
+struct NearParts {
+  const NearPart *begin, *end;
+};
+
+struct Triangle {
+  Vector3<double> corner[3];
+};
+
+/// A box parallel to the axes.
+struct Bounds {
+  Vector3<double> low, high;
+};
+
+/// The box around both.
+inline Bounds joined(const Bounds &a, const Bounds &b)
+{
+  return {
+      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+class LargeBodyShape {
+ public:
+  /// No sphere touches a body at more points than this.
+  static constexpr int max_contacts = 8;
+
+  virtual ~LargeBodyShape() = default;
+
+  /// Does the sphere touch the body? Fills `contact` (the deepest) only if it does. Called for
+  /// every candidate particle in every step if one_contact().
+  virtual bool touches(const Vector3<double> &center, double radius,
+                       SurfaceContact &contact) const = 0;
+
+  /// A lower bound of the distance at which touches() measures the surface, for the broad phase: a
+  /// sphere further away than its radius plus the skin is not looked at until the next rebuild.
+  virtual double distance_bound(const Vector3<double> &center) const = 0;
+
+  /// Point about which torques on the body are taken, in the frame of the body.
+  virtual Vector3<double> reference_point() const = 0;
+
+  /// No sphere touches the body at more than one point.
+  virtual bool one_contact() const { return true; }
+
+  /// Fills found[0 ...] with at most max_contacts contacts, in an order that depends on nothing but
+  /// the sphere, and returns their number.
+  virtual int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
+                            SurfaceContact *found) const
+  {
+    (void) parts;
+    return touches(center, radius, *found) ? 1 : 0;
+  }
+
+  /// Is the surface nearer than `reach`? Appends the parts which are, nearest first, if the shape
+  /// has any.
+  virtual bool is_near(const Vector3<double> &center, double reach,
+                       std::vector<NearPart> &parts) const
+  {
+    (void) parts;
+    return distance_bound(center) < reach;
+  }
+
+  /// Starts to load into the cache what find_contacts() will read of a part; a hint, no more.
+  virtual void call_ahead(int part) const { (void) part; }
+
+  /// Has so many parts that it wants to know which may be asked for.
+  virtual bool wants_focus() const { return false; }
+
+  /// From now on only spheres are asked for that stay within `bounds`, until this is called again:
+  /// parts that were listed before are no longer valid then. Returns whether anything changed.
+  virtual bool focus(const Bounds &bounds)
+  {
+    (void) bounds;
+    return false;
+  }
+
+  virtual bool thread_safe() const { return true; }
+
+  /// For pictures: the surface as triangles; what is infinite ends at `visible`.
+  virtual void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+  {
+    (void) visible;
+    (void) triangles;
+  }
+
+  /// touches() for the first `count` of eight spheres: returns one bit for each, and fills the
+  /// contacts whose bits are set. Called instead of touches() where a body is at rest, so it must
+  /// yield the same bits. To implement it pays for a shape that is computed in a few nanoseconds.
+  virtual unsigned touches_eight(const EightSpheres &spheres, int count,
+                                 EightContacts &contacts) const
+  {
+    unsigned touching = 0;
+    for (int k = 0; k < count; k++) {
+      SurfaceContact one;
+      const auto &x = spheres.center;
+      if (!touches({x[0][k], x[1][k], x[2][k]}, spheres.radius[k], one)) continue;
+      touching |= 1U << k;
+      contacts.normal[0][k] = one.normal.x;
+      contacts.normal[1][k] = one.normal.y;
+      contacts.normal[2][k] = one.normal.z;
+      contacts.overlap[k] = one.overlap;
+    }
+    return touching;
+  }
+};
+
+/// Puts contacts in the order that find_contacts() may return: deepest first, then by part.
+inline void sort_contacts(SurfaceContact *found, int count)
+{
+  std::sort(found, found + count, [](const SurfaceContact &a, const SurfaceContact &b) {
+    return a.overlap != b.overlap ? a.overlap > b.overlap : a.part < b.part;
+  });
+}
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,110 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What contacts need to know about the triangles of a mesh near some place: geometry and neighbors
+// of each, and a tree to find them. Made from the mesh that all ranks hold, for that part of it
+// which is within reach of the particles of this rank.
+//
+// Triangles have numbers of their own here, ascending with those of the mesh. Whether a point of
+// the surface is nearest to a particle, and which triangle says so, does not depend on the part:
+// all neighbors of its triangles are known too.
+
+#ifndef TALUS_BODY_SHAPE_MESH_DETAIL_H
+#define TALUS_BODY_SHAPE_MESH_DETAIL_H
+
+#include "body/shape/box_tree.h"
+#include "body/shape/triangle_mesh.h"
+
+#include <memory>
+#include <vector>
+
+namespace Talus {
+
+/// The nearest point of one triangle to some point.
+struct NearestPoint {
+  enum Feature : int { FACE, EDGE, CORNER };
+  Vector3<double> away;    ///< from the nearest point to the point
+  double square;           ///< its length squared
+  Feature feature;
+  int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
+};
+
+class MeshDetail {
+ public:
+  /// Of all triangles whose boxes touch `cover`.
+  MeshDetail(const TriangleMesh &mesh, const Bounds &cover);
+
+  /// Calls visit(t) for every triangle whose box is nearer to the point than `reach`, perhaps for
+  /// some others.
+  template <class Visitor>
+  void visit_near(const Vector3<double> &point, double reach, Visitor visit) const
+  {
+    if (tree) tree->visit_near(point, reach, [&](int thing) { visit(near[thing]); });
+  }
+
+  /// Triangles that visit_near() may find.
+  int size() const { return static_cast<int>(near.size()); }
+  /// Number in the mesh.
+  int number(int t) const { return faces[t].number; }
+  const Vector3<double> &normal(int t) const { return faces[t].normal; }
+  NearestPoint nearest(int t, const Vector3<double> &point) const;
+
+  /// Is the nearest point of triangle t a point of the whole surface from which the distance grows
+  /// in all directions, and is t the triangle that reports it, once for all that share it? `height`
+  /// receives a number whose sign tells on which side of the surface the point is; of a face the
+  /// distance.
+  bool is_local_minimum(int t, const NearestPoint &nearest, double &height) const;
+
+  /// Starts to load what nearest() reads.
+  void call_ahead(int t) const
+  {
+    const char *const at = reinterpret_cast<const char *>(&faces[t]);
+    for (std::size_t byte = 0; byte < sizeof(Face); byte += 64) __builtin_prefetch(at + byte);
+  }
+
+  double memory_usage() const;
+
+ private:
+  struct alignas(64) Face {    // what every step looks at, in one place
+    Vector3<double> corner[3];
+    Vector3<double> normal;    // of its plane,
+    double offset;             // whose points have this product with the normal
+    // of each edge: an edge is no minimum if the square of the cosine between the normal and the
+    // way to the point is less than this
+    float least_square_cosine[3];
+    float least_at_corners;    // the same for all three corners
+    int number;
+    unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
+  };
+  struct Neighbors {
+    int over[3];    // over each edge: a triangle, `none`, or crowded[-2 - this]
+  };
+  static constexpr int none = -1;
+
+  std::vector<int> members(const Bounds &cover);
+  void make_faces(const std::vector<int> &numbers);
+  void find_neighbors(const MeshEdges &edges);
+  void find_vertices(const std::vector<int> &numbers);
+  void find_rings(const MeshEdges &edges);
+  float corner_limit(int vertex, const Vector3<double> &normal) const;
+  void look_at_corners();
+  void grow_tree();
+  bool edge_is_minimum(int t, const NearestPoint &nearest, double &height) const;
+  bool corner_is_minimum(int t, const NearestPoint &nearest, double &height) const;
+  bool edge_user(int user, int t, const NearestPoint &nearest, Vector3<double> &outward) const;
+
+  const TriangleMesh &mesh;
+  std::vector<Face> faces;
+  std::vector<int> near;    // faces within the cover; the others are their neighbors
+  std::unique_ptr<BoxTree> tree;
+  std::vector<Neighbors> neighbors;
+  std::vector<std::vector<int>> crowded;    // all triangles of an edge, ascending
+  // vertices: numbers of their own; which of the mesh, those joined to them by an edge, normal
+  // weighted by angle
+  std::vector<Corners> corners;
+  std::vector<int> vertex_numbers, ring_begin, ring;
+  std::vector<Vector3<double>> vertex_normals;
+};
+
+}    // namespace Talus
+
+#endif

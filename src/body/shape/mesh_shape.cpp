@@ -1,0 +1,216 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "body/shape/mesh_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace Talus {
+namespace {
+
+constexpr int max_minima = 64;    // of one sphere, before they are merged
+
+constexpr int max_planes = 4;    // that are remembered to be touched
+
+// A cover is so much longer than what has to be in it, at each end, so that it need not be made
+// anew soon; old and new are joined if this does not make it larger than so many times the new one.
+constexpr double spare = 0.1;
+constexpr double joins = 4.0;
+
+bool contains(const Bounds &outer, const Bounds &inner)
+{
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
+         inner.high.x <= outer.high.x && inner.high.y <= outer.high.y &&
+         inner.high.z <= outer.high.z;
+}
+
+double volume(const Bounds &b)
+{
+  const Vector3<double> span = b.high - b.low;
+  return span.x * span.y * span.z;
+}
+
+/// Keeps the deepest.
+void keep(SurfaceContact *raw, int &count, const SurfaceContact &contact)
+{
+  if (count < max_minima) {
+    raw[count++] = contact;
+    return;
+  }
+  SurfaceContact *flattest =
+      std::min_element(raw, raw + count, [](const SurfaceContact &a, const SurfaceContact &b) {
+        return a.overlap < b.overlap;
+      });
+  if (contact.overlap > flattest->overlap) *flattest = contact;
+}
+
+}    // namespace
+
+MeshShape::MeshShape(TriangleMesh m, bool both, bool focused) :
+    mesh(std::move(m)), cover(mesh.bounds()), two_sided(both)
+{
+  if (!focused) look_at(mesh.bounds());
+}
+
+void MeshShape::look_at(const Bounds &bounds)
+{
+  cover = bounds;
+  covers_all = contains(cover, mesh.bounds());
+  detail.reset();    // both would be a waste of memory
+  detail = std::make_unique<MeshDetail>(mesh, cover);
+}
+
+bool MeshShape::focus(const Bounds &bounds)
+{
+  if (bounds.low.x > bounds.high.x) return false;    // no particles: nothing will be asked
+  if (detail && (covers_all || contains(cover, bounds))) return false;
+  const Vector3<double> more = spare * (bounds.high - bounds.low);
+  Bounds wide{bounds.low - more, bounds.high + more};
+  if (detail && volume(joined(cover, wide)) <= joins * volume(wide)) wide = joined(cover, wide);
+  look_at(wide);
+  return true;
+}
+
+double MeshShape::memory_usage() const
+{
+  return mesh.memory_usage() + (detail ? detail->memory_usage() : 0.0);
+}
+
+/* `face_height`: of a contact with the inside of a triangle. */
+
+bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius,
+                             SurfaceContact &contact, double &face_height) const
+{
+  const NearestPoint nearest = detail->nearest(t, center);
+  if (nearest.square >= radius * radius) return false;
+  double height;
+  if (!detail->is_local_minimum(t, nearest, height)) return false;
+  if (height < 0.0 && !two_sided) return false;
+  const double distance = std::sqrt(nearest.square);
+  const bool on_face = nearest.feature == NearestPoint::FACE;
+  face_height = on_face ? std::fabs(height) : 0.0;
+  contact.overlap = radius - distance;
+  contact.part = detail->number(t);
+  if (on_face || distance == 0.0)
+    contact.normal = height < 0.0 ? -detail->normal(t) : detail->normal(t);    // also in the plane
+  else
+    contact.normal = 1.0 / distance * nearest.away;
+  return true;
+}
+
+/* Two minima that are one: facets of a smooth patch, or an edge and a face on it that rounding has
+   both admitted. */
+
+bool MeshShape::same_contact(const SurfaceContact &a, const SurfaceContact &b, double radius) const
+{
+  const double cosine = dot(a.normal, b.normal);
+  if (mesh.patch(a.part) == mesh.patch(b.part) && cosine > TriangleMesh::smooth_cosine) return true;
+  return cosine > 1.0 - 1.0e-12 && std::fabs(a.overlap - b.overlap) < 1.0e-9 * radius;
+}
+
+int MeshShape::merge(SurfaceContact *raw, int count, double radius, SurfaceContact *found) const
+{
+  sort_contacts(raw, count);
+  int kept = 0;
+  for (int k = 0; k < count && kept < max_contacts; k++) {
+    const bool known = std::any_of(found, found + kept, [&](const SurfaceContact &other) {
+      return same_contact(raw[k], other, radius);
+    });
+    if (!known) found[kept++] = raw[k];
+  }
+  return kept;
+}
+
+/* Where the foot on a plane is known, the other triangles of this plane add nothing: what else they
+   touch has nearly the same normal, is of the same patch and less deep. */
+
+template <class Take>
+void MeshShape::each_minimum(const Vector3<double> &center, double radius, NearParts parts,
+                             Take take) const
+{
+  SurfaceContact contact;
+  int planes[max_planes], num_planes = 0;
+  for (const NearPart *p = parts.begin; p != parts.end; p++) {
+    if (std::find(planes, planes + num_planes, p->group) != planes + num_planes) continue;
+    double height;
+    if (!contact_with(p->part, center, radius, contact, height)) continue;
+    take(contact);
+    if (height > TriangleMesh::smooth_cosine * radius && num_planes < max_planes)
+      planes[num_planes++] = p->group;
+  }
+}
+
+int MeshShape::find_contacts(const Vector3<double> &center, double radius, NearParts parts,
+                             SurfaceContact *found) const
+{
+  int count = 0;
+  each_minimum(center, radius, parts, [&](const SurfaceContact &contact) {
+    if (count < max_contacts) found[count] = contact;
+    count++;
+  });
+  if (count < 2) return count;
+  if (count <= max_contacts) return merge(found, count, radius, found);
+  return find_many(center, radius, parts, found);
+}
+
+int MeshShape::find_many(const Vector3<double> &center, double radius, NearParts parts,
+                         SurfaceContact *found) const
+{
+  SurfaceContact raw[max_minima];
+  int count = 0;
+  each_minimum(center, radius, parts,
+               [&](const SurfaceContact &contact) { keep(raw, count, contact); });
+  return merge(raw, count, radius, found);
+}
+
+bool MeshShape::is_near(const Vector3<double> &center, double reach,
+                        std::vector<NearPart> &parts) const
+{
+  const std::size_t before = parts.size();
+  if (!detail) return false;
+  detail->visit_near(center, reach, [&](int t) {
+    const double square = detail->nearest(t, center).square;
+    if (square < reach * reach)
+      parts.push_back({t, mesh.plane_of(detail->number(t)), std::sqrt(square)});
+  });
+  const auto first = parts.begin() + static_cast<std::ptrdiff_t>(before);
+  std::sort(first, parts.end(), [](const NearPart &a, const NearPart &b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.part < b.part;
+  });
+  return parts.size() > before;
+}
+
+bool MeshShape::touches(const Vector3<double> &center, double radius, SurfaceContact &contact) const
+{
+  std::vector<NearPart> parts;
+  if (!is_near(center, radius, parts)) return false;
+  SurfaceContact found[max_contacts];
+  const int count =
+      find_contacts(center, radius, {parts.data(), parts.data() + parts.size()}, found);
+  if (count) contact = found[0];
+  return count > 0;
+}
+
+double MeshShape::distance_bound(const Vector3<double> &center) const
+{
+  // a first guess that is doubled until something is found
+  const Vector3<double> span = mesh.bounds().high - mesh.bounds().low;
+  double reach = 0.01 * std::sqrt(dot(span, span));
+  double least = std::numeric_limits<double>::infinity();
+  while (std::isinf(least)) {
+    detail->visit_near(center, reach,
+                       [&](int t) { least = std::min(least, detail->nearest(t, center).square); });
+    if (least >= reach * reach) least = std::numeric_limits<double>::infinity();
+    reach *= 2.0;
+  }
+  return std::sqrt(least);
+}
+
+void MeshShape::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangles) const
+{
+  for (int t = 0; t < mesh.size(); t++) triangles.push_back(mesh.triangle(t));
+}
+
+}    // namespace Talus

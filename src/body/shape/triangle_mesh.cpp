@@ -1,0 +1,207 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "body/shape/triangle_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace Talus {
+namespace {
+
+// Corners are in one plane if they are as near to it as rounding of the coordinates leaves them;
+// over the extent of the mesh.
+constexpr double plane_tolerance = 1.0e-12;
+
+void note(int &count, int &first, int number)
+{
+  if (count++ == 0) first = number + 1;
+}
+
+struct CoordinateHash {
+  std::size_t operator()(const std::array<double, 3> &x) const
+  {
+    std::size_t h = 0;
+    for (const double c : x) h = 1000003 * h + std::hash<double>{}(c);
+    return h;
+  }
+};
+
+}    // namespace
+
+Bounds bounds_of(const Triangle &t)
+{
+  Bounds box{t.corner[0], t.corner[0]};
+  for (const Vector3<double> &p : t.corner) box = joined(box, {p, p});
+  return box;
+}
+
+TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
+{
+  join_corners(soup);
+  if (triangles.empty()) throw std::runtime_error("all its triangles are without area");
+  vertices.shrink_to_fit();
+  triangles.shrink_to_fit();
+  if (triangles.size() == soup.size()) file_numbers.clear();
+  file_numbers.shrink_to_fit();
+  extent = {vertices[0], vertices[0]};
+  for (const Vector3<double> &p : vertices) extent = joined(extent, {p, p});
+  const MeshEdges edges(triangles);
+  look_at_edges(edges);
+  find_patches(edges);
+  find_planes(edges);
+  find_volume();
+}
+
+void TriangleMesh::join_corners(const std::vector<Triangle> &soup)
+{
+  std::unordered_map<std::array<double, 3>, int, CoordinateHash> known;
+  std::set<std::array<int, 3>> seen;
+  const auto vertex_at = [&](const Vector3<double> &p) {
+    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};    // -0 is 0
+    const auto [place, is_new] = known.try_emplace(key, static_cast<int>(vertices.size()));
+    if (is_new) vertices.push_back(p);
+    return place->second;
+  };
+  triangles.reserve(soup.size());
+  for (std::size_t n = 0; n < soup.size(); n++) {
+    const int number = static_cast<int>(n);
+    const Vector3<double> *p = soup[n].corner;
+    const Vector3<double> a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
+    const double longest = std::max({length(a), length(b), length(c)});
+    // thinner than rounding leaves a direction to the normal
+    if (!(length(cross(a, b)) > 1.0e-12 * longest * longest)) {
+      note(findings.degenerate, findings.first_degenerate, number);
+      continue;
+    }
+    const Corners corners{{vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])}};
+    std::array<int, 3> sorted{corners.vertex[0], corners.vertex[1], corners.vertex[2]};
+    std::sort(sorted.begin(), sorted.end());
+    if (!seen.insert(sorted).second) {
+      note(findings.duplicate, findings.first_duplicate, number);
+      continue;
+    }
+    triangles.push_back(corners);
+    file_numbers.push_back(number);
+  }
+}
+
+Triangle TriangleMesh::triangle(int t) const
+{
+  const int *v = triangles[t].vertex;
+  return {{vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
+}
+
+Vector3<double> TriangleMesh::normal(int t) const
+{
+  const Triangle its = triangle(t);
+  const Vector3<double> twice = cross(its.corner[1] - its.corner[0], its.corner[2] - its.corner[0]);
+  return 1.0 / length(twice) * twice;
+}
+
+double TriangleMesh::area(int t) const
+{
+  const Triangle its = triangle(t);
+  return 0.5 * length(cross(its.corner[1] - its.corner[0], its.corner[2] - its.corner[0]));
+}
+
+void TriangleMesh::look_at_edges(const MeshEdges &edges)
+{
+  for (const MeshEdges::Edge &e : edges.all()) {
+    const int *user = edges.users(e);
+    if (e.num_users == 1) findings.open_edges++;
+    if (e.num_users > 2)
+      note(findings.crowded_edges, findings.first_crowded, number_in_file(user[2]));
+    if (e.num_users == 2 && triangles[user[0]].runs_along(e.vertex[0], e.vertex[1]) ==
+                                triangles[user[1]].runs_along(e.vertex[0], e.vertex[1]))
+      note(findings.turned_edges, findings.first_turned, number_in_file(user[1]));
+  }
+}
+
+void TriangleMesh::find_patches(const MeshEdges &edges)
+{
+  patches.resize(triangles.size());
+  std::iota(patches.begin(), patches.end(), 0);
+  const auto root = [this](int t) {
+    while (patches[t] != t) t = patches[t] = patches[patches[t]];
+    return t;
+  };
+  for (const MeshEdges::Edge &e : edges.all())
+    for (int k = 1; k < e.num_users; k++) {
+      const int a = edges.users(e)[0], b = edges.users(e)[k];
+      if (std::fabs(dot(normal(a), normal(b))) < smooth_cosine) continue;
+      const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
+      patches[high] = low;
+    }
+  for (int t = 0; t < size(); t++) patches[t] = root(t);
+}
+
+/* From each triangle that is in no plane yet over its edges to all that are in its own: the plane
+   is always that of the first, so that errors do not add up. */
+
+void TriangleMesh::find_planes(const MeshEdges &edges)
+{
+  planes.assign(triangles.size(), -1);
+  std::vector<int> to_do;
+  for (int first = 0; first < size(); first++)
+    if (planes[first] < 0) spread_plane(first, edges, to_do);
+}
+
+void TriangleMesh::spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do)
+{
+  const double allowed = plane_tolerance * length(extent.high - extent.low);
+  const Vector3<double> n = normal(first), origin = vertices[triangles[first].vertex[0]];
+  planes[first] = first;
+  to_do.assign(1, first);
+  while (!to_do.empty()) {
+    const int t = to_do.back();
+    to_do.pop_back();
+    for (int k = 0; k < 3; k++) {
+      const MeshEdges::Edge &edge = edges.of(t, k);
+      if (edge.num_users != 2) continue;
+      const int *user = edges.users(edge);
+      const int other = user[0] == t ? user[1] : user[0];
+      if (planes[other] >= 0 || dot(normal(other), n) < 0.999999) continue;
+      const int *v = triangles[other].vertex;
+      const bool is_flat = std::all_of(v, v + 3, [&](int corner) {
+        return std::fabs(dot(vertices[corner] - origin, n)) <= allowed;
+      });
+      if (!is_flat) continue;
+      planes[other] = first;
+      to_do.push_back(other);
+    }
+  }
+}
+
+void TriangleMesh::find_volume()
+{
+  const Vector3<double> origin = vertices[0];
+  Vector3<double> by_volume{0.0, 0.0, 0.0}, by_area{0.0, 0.0, 0.0};
+  double total = 0.0, volume = 0.0;
+  for (int t = 0; t < size(); t++) {
+    const Triangle tri = triangle(t);
+    const Vector3<double> a = tri.corner[0] - origin, b = tri.corner[1] - origin,
+                          c = tri.corner[2] - origin;
+    const double v = dot(a, cross(b, c)) / 6.0;
+    volume += v;
+    by_volume = by_volume + 0.25 * v * (a + b + c);
+    const double its = area(t);
+    total += its;
+    by_area = by_area + (its / 3.0) * (a + b + c);
+  }
+  const bool has_volume = findings.closed() && std::fabs(volume) > 1.0e-12 * std::pow(total, 1.5);
+  enclosed = has_volume ? volume : 0.0;
+  middle = origin + (has_volume ? 1.0 / volume * by_volume : 1.0 / total * by_area);
+}
+
+double TriangleMesh::memory_usage() const
+{
+  const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
+  return bytes(vertices) + bytes(triangles) + bytes(patches) + bytes(planes) + bytes(file_numbers);
+}
+
+}    // namespace Talus

@@ -1,0 +1,85 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The triangles of a mesh as every rank holds them: vertices that triangles share, and a few
+// numbers by triangle. What contacts need to know besides is in MeshDetail.
+
+#ifndef TALUS_BODY_SHAPE_TRIANGLE_MESH_H
+#define TALUS_BODY_SHAPE_TRIANGLE_MESH_H
+
+#include "body/shape/large_body_shape.h"
+#include "body/shape/mesh_edges.h"
+
+#include <vector>
+
+namespace Talus {
+
+/// What was found wrong with the triangles of a mesh, and what was done about it. Numbers of
+/// triangles count from 1 in the order of the file.
+struct MeshReport {
+  int degenerate = 0, first_degenerate = 0;    ///< without area: left out
+  int duplicate = 0, first_duplicate = 0;      ///< with the corners of an earlier one: left out
+  int open_edges = 0;                          ///< edges of one triangle only: used
+  int crowded_edges = 0, first_crowded = 0;    ///< edges of three or more triangles: used
+  int turned_edges = 0, first_turned = 0;      ///< whose two triangles face opposite sides
+  bool closed() const { return open_edges + crowded_edges + turned_edges == 0; }
+};
+
+class TriangleMesh {
+ public:
+  /// Joins corners that have equal coordinates. The angle between the normals of two triangles
+  /// below which their common edge counts as part of one smooth patch is smooth_angle. Throws
+  /// std::runtime_error if no triangle is left.
+  explicit TriangleMesh(const std::vector<Triangle> &soup);
+
+  static constexpr double smooth_angle = 30.0;          // degrees
+  static constexpr double smooth_cosine = 0.8660254;    // its cosine
+
+  int size() const { return static_cast<int>(triangles.size()); }
+  int num_vertices() const { return static_cast<int>(vertices.size()); }
+  const MeshReport &report() const { return findings; }
+  const Corners &corners(int t) const { return triangles[t]; }
+  const Vector3<double> &vertex(int v) const { return vertices[v]; }
+  Triangle triangle(int t) const;
+  double area(int t) const;
+  /// Of the corners as they are; contacts use that of the plane, see plane_of().
+  Vector3<double> normal(int t) const;
+  /// Number of the triangle in the file, from 0.
+  int number_in_file(int t) const { return file_numbers.empty() ? t : file_numbers[t]; }
+  /// Triangles that are connected over smooth edges have the same patch.
+  int patch(int t) const { return patches[t]; }
+  /// Triangles that are connected and lie in one plane but for rounding have the same: the first of
+  /// them, whose normal and plane stand for all.
+  int plane_of(int t) const { return planes[t]; }
+
+  /// Volume enclosed (negative if normals point inward) and its center; without enclosed volume the
+  /// center of the area.
+  double volume() const { return enclosed; }
+  const Vector3<double> &center() const { return middle; }
+  const Bounds &bounds() const { return extent; }
+
+  double memory_usage() const;
+
+ private:
+  void join_corners(const std::vector<Triangle> &soup);
+  void look_at_edges(const MeshEdges &edges);
+  void find_patches(const MeshEdges &edges);
+  void find_planes(const MeshEdges &edges);
+  void spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do);
+  void find_volume();
+
+  std::vector<Vector3<double>> vertices;
+  std::vector<Corners> triangles;
+  std::vector<int> patches, planes;
+  std::vector<int> file_numbers;    // empty: those of the file
+  MeshReport findings;
+  Bounds extent{};
+  double enclosed = 0.0;
+  Vector3<double> middle{0.0, 0.0, 0.0};
+};
+
+/// The box around a triangle.
+Bounds bounds_of(const Triangle &t);
+
+}    // namespace Talus
+
+#endif

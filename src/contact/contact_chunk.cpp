@@ -1,0 +1,293 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/contact_chunk.h"
+
+#include "contact/narrow_phase.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+namespace Talus {
+
+ContactChunk::ContactChunk()
+{
+  batch.clear();
+}
+
+void ContactChunk::start_pairs(const ContactScene &scene, const FiledHistories &filed,
+                               const std::vector<int> &slots_then)
+{
+  // the contacts of each law fill whole vectors of the batch: leave room for the gaps
+  std::iota(std::begin(lane_of_contact), std::end(lane_of_contact), 0);
+  const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
+  block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
+  if (scene.with_history)
+    history.fetch(pairs, filed, slots_then);
+  else
+    history.release();
+  touching = 0;
+}
+
+void ContactChunk::forget_contacts()
+{
+  touching = 0;
+  release(contacts);
+  outgoing = OutgoingForces{};
+}
+
+void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles,
+                           const ContactStep &how, const Bring &bring)
+{
+  const Step step{how, scene, particles, bring};
+  const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
+  if (contacts.size() != room) renew(contacts, room);
+  outgoing.make_room(pairs.handed_over().size(), particles);
+  outgoing.clear();
+  pairs.with_target([&](auto target) {
+    if (scene.with_history)
+      compute_all<true, true>(step, target);
+    else if (scene.with_friction)
+      compute_all<true, false>(step, target);
+    else
+      compute_all<false, false>(step, target);
+  });
+}
+
+/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending
+   order of the second particle: memory is read straight ahead, and first particles, but for the
+   distant ones, are still in the cache. */
+
+template <bool friction, bool history_kept, class Target>
+void ContactChunk::compute_all(const Step &step, Target target)
+{
+  constexpr std::int64_t stretch = 8L * ContactBatch::width, between_calls = 16 * stretch;
+  // as many as are brought with some stretches; of a part with few particles in its range none
+  const int slots_ahead = pairs.order().may_fill_range(pairs.which()) ? 512 : 0;
+  const std::int64_t candidates = pairs.num_pairs();
+  const Record *position = step.particles.position.data();
+  ParticleOrder::Range to_bring = pairs.slots();
+  to_prefetch = {to_bring.begin, to_bring.begin};
+  std::size_t next_distant = 0;
+  std::int64_t done = 0;
+  touching = 0;
+  for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
+    const std::int64_t end = std::min(candidates, begin + stretch);
+    if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
+    prefetch_distant(step.particles, next_distant, end + stretch);
+    const int needed = std::min(pairs.second[end - 1] + 1, to_bring.end);
+    if (needed > to_bring.begin) step.bring(to_bring.begin, needed);
+    to_bring.begin = std::max(to_bring.begin, needed);
+    const int ahead = std::min(slots_ahead, to_bring.end - to_bring.begin);
+    to_prefetch = {std::max(to_prefetch.begin, to_bring.begin), to_bring.begin + ahead};
+    touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
+                              &contacts[touching]);
+    for (; touching - done >= block_size; done += block_size)
+      compute_block<friction, history_kept>(step, target, done, block_size);
+  }
+  if (done < touching)
+    compute_block<friction, history_kept>(step, target, done, static_cast<int>(touching - done));
+  if (pairs.hands_over()) streams_are_done();
+  if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
+}
+
+/* Calls the distant particles of pairs before `end` into the cache. */
+
+void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_t &next,
+                                    std::int64_t end) const
+{
+  for (; next < pairs.distant.size() && pairs.distant[next].pair < end; next++) {
+    const std::size_t s = pairs.distant[next].slot;
+    __builtin_prefetch(&particles.position[s]);
+    __builtin_prefetch(&particles.motion[particles.stride * s]);
+    // of those read where they copy their state nothing is added to
+    if (s < static_cast<std::size_t>(pairs.order().size()) && pairs.serves(static_cast<int>(s)))
+      __builtin_prefetch(&particles.load[particles.stride * s]);
+  }
+}
+
+template <bool friction, bool history_kept, class Target>
+void ContactChunk::compute_block(const Step &step, Target target, std::int64_t begin, int count)
+{
+  const std::uint32_t *block = &contacts[begin];
+  const ContactScene &scene = step.scene;
+  const int end = arrange(scene, block, count);
+  gather<friction, history_kept>(step.particles, end);
+  if (scene.with_impact) gather_impacts(end);
+  finish_geometry(end, friction);
+  if (scene.with_resistance) gather_resistance(step.particles, end);
+  run_kernels(step);
+  if (history_kept && step.advance) keep_history(end);
+  if (scene.with_impact && step.advance) keep_impacts(end);
+  transpose_results<friction>(end, scene.with_resistance);
+  if (pairs.weighted()) apply_weights(end);
+  if (scene.laws.num_laws() == 1)
+    add_up<friction, true>(step.particles, target, block, count);
+  else
+    add_up<friction, false>(step.particles, target, block, count);
+  if (scene.with_resistance) add_couples(step.particles, target, block, count);
+  if (step.report) report_block(step, block, count);
+  if (step.account) account_block(step, block, count);
+}
+
+void ContactChunk::place(std::uint32_t contact, int position, int lane)
+{
+  pair_of_lane[lane] = contact;
+  lane_of_contact[position] = lane;
+}
+
+/* Gives every contact of a block a lane. Contacts of one law stand together, and the last vector of
+   each law is filled up with copies of its last contact, which are computed but not added. Returns
+   the number of lanes in use, a multiple of `lanes`. */
+
+int ContactChunk::arrange(const ContactScene &scene, const std::uint32_t *contacts, int count)
+{
+  const LawTable &laws = scene.laws;
+  ranges.clear();
+  int lane = 0;
+  const auto close_range = [&](int law, int begin) {
+    for (; lane % lanes; lane++) pair_of_lane[lane] = pair_of_lane[lane - 1];
+    if (lane > begin) ranges.push_back({law, begin, lane});
+  };
+
+  if (laws.num_laws() == 1) {    // lanes are those of start_pairs()
+    std::copy(contacts, contacts + count, pair_of_lane);
+    lane = count;
+    close_range(0, 0);
+  }
+
+  for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
+    const int begin = lane;
+    for (int k = 0; k < count; k++)
+      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) place(contacts[k], k, lane++);
+    close_range(law, begin);
+  }
+
+  if (!laws.uniform())
+    for (int k = 0; k < lane; k++) batch.coefficients[k] = row_of_pair(scene, pair_of_lane[k]);
+  return lane;
+}
+
+namespace {
+void clear_lanes(double (&vector)[3][ContactBatch::width], int begin, int end)
+{
+  for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
+}
+}    // namespace
+
+void ContactChunk::run_kernels(const Step &step)
+{
+  const LawTable &laws = step.scene.laws;
+  for (const LawRange &range : ranges) {
+    laws.kernel(range.law, step.advance)(batch, range.begin, range.end, laws.coefficients(),
+                                         step.dt);
+    // not written by the kernels of laws that have none
+    const ContactLaw law = laws.distinct_law(range.law);
+    if (step.scene.with_friction && !law.has_friction())
+      clear_lanes(batch.moment, range.begin, range.end);
+    if (step.scene.with_resistance && !law.resists)
+      clear_lanes(batch.couple, range.begin, range.end);
+  }
+}
+
+void ContactChunk::apply_weights(int end)
+{
+  for (int k = 0; k < end; k++) {
+    const double weight = pairs.weights[pair_of_lane[k]];
+    for (int d = 0; d < 3; d++) {
+      force_of_lane[k].c[d] *= weight;
+      moment_of_lane[k].c[d] *= weight;
+      couple_of_lane[k].c[d] *= weight;
+    }
+  }
+}
+
+/* The contacts of one second particle follow each other, and nothing has been added to it before
+   the first of them: its sums stay in registers and are stored again and again, but not loaded. */
+
+template <bool friction, bool one_law, class Target>
+void ContactChunk::add_up(ParticleRecords &particles, Target target, const std::uint32_t *block,
+                          int count)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  const int *first = pairs.first.data(), *second = pairs.second.data();
+  Record *load = particles.load.data();
+  int last = second[block[0]];    // may have begun in the last block
+  const Record *begun = load + stride * target(last);
+  Vec4 force = load4(begun[0]), moment{};
+  if constexpr (friction) moment = load4(begun[1]);
+
+  for (int n = 0; n < count; n++) {
+    const std::uint32_t pair = block[n];
+    const int its = second[pair];
+    Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
+    const int lane = one_law ? n : lane_of_contact[n];
+    const bool same = its == last;
+    last = its;
+    const bool kept = target.keeps(first[pair]);
+    if (!kept) outgoing.note(first[pair], force_of_lane[lane], moment_of_lane[lane]);
+    const Vec4 f = load4(force_of_lane[lane]);
+    if (kept) store(i[0], load4(i[0]) + f);
+    force = kept_if(same, force) - f;
+    store(j[0], force);
+    if constexpr (friction) {
+      const Vec4 m = load4(moment_of_lane[lane]);
+      if (kept) store(i[1], load4(i[1]) + m);
+      moment = kept_if(same, moment) + m;
+      store(j[1], moment);
+    }
+  }
+}
+
+template <class Target>
+void ContactChunk::add_couples(ParticleRecords &particles, Target target,
+                               const std::uint32_t *block, int count)
+{
+  for (int n = 0; n < count; n++) {
+    const int first = pairs.first[block[n]];
+    Record &i = particles.couple[target(first)];
+    Record &j = particles.couple[target(pairs.second[block[n]])];
+    const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
+    if (!target.keeps(first))
+      outgoing.note_couple(c);
+    else
+      store(i, load4(i) + c);
+    store(j, load4(j) - c);
+  }
+}
+
+void ContactChunk::report_block(const Step &step, const std::uint32_t *block, int count)
+{
+  const ParticleOrder &order = pairs.order();
+  for (int n = 0; n < count; n++) {
+    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
+    ReportedContact out{
+        order.atom_of_slot[i], order.atom_of_slot[j], pairs.acts_on(i), pairs.acts_on(j), {}, {}};
+    for (int d = 0; d < 3; d++) {
+      out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
+      out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
+    }
+    (*step.report)(out);
+  }
+}
+
+void ContactChunk::account_block(const Step &step, const std::uint32_t *block, int count)
+{
+  const LawTable &laws = step.scene.laws;
+  const AlignedVector<Record> &position = step.particles.position;
+  for (int n = 0; n < count; n++) {
+    if (!pairs.counts(block[n])) continue;
+    const int lane = lane_of_contact[n], row = row_of_pair(step.scene, block[n]);
+    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
+    step.account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, step.dt),
+                      pairs.order().share(i, j), i, position[i].c[3], j, position[j].c[3]);
+  }
+}
+
+double ContactChunk::memory_usage() const
+{
+  return pairs.memory_usage() + history.memory_usage() + outgoing.memory_usage() +
+         static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
+}
+
+}    // namespace Talus

@@ -1,0 +1,198 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// From records to the lanes of a batch, and back. Four records of four numbers are a matrix that is
+// transposed.
+
+#include "contact/contact_chunk.h"
+
+#include "laws/resistance.h"
+
+#include <algorithm>
+
+namespace Talus {
+namespace {
+
+constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
+using Lanes = double[3][ContactBatch::width];
+
+/// Four records become lanes k ... k+3 of a vector and of a scalar.
+inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
+{
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
+  if (fourth) store(&fourth[k], rows[3]);
+}
+
+/// Lanes k ... k+3 become the records where(0) ... where(3).
+template <class Where>
+inline void to_records(const Lanes &vector, const double *fourth, int k, Where where)
+{
+  Vec4 rows[4];
+  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
+  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (int q = 0; q < 4; q++) store(where(q), rows[q]);
+}
+
+/// Histories that are called into the cache while others are gathered. They stand nearly in the
+/// order in which they are wanted; beyond the end there is nothing to call, and no harm in it.
+constexpr std::size_t histories_ahead = 128;
+
+TALUS_INLINE void prefetch_two_lines(const Record *records)
+{
+  __builtin_prefetch(records, 1);
+  __builtin_prefetch(records + 2, 1);
+}
+
+/// r w and 1/r of a spin record, with the position record of the particle.
+inline Vec4 surface_velocity(Vec4 position, Vec4 spin)
+{
+  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * spin;
+}
+
+}    // namespace
+
+/* Particles pass through memory while contacts are computed, not all at once where they are moved:
+   two for every four contacts, of which settled beds have about as many. */
+
+void ContactChunk::prefetch_own(const ParticleRecords &particles)
+{
+  if (to_prefetch.begin + 1 >= to_prefetch.end) return;
+  particles.prefetch_two_early(to_prefetch.begin);
+  to_prefetch.begin += 2;
+}
+
+/* Geometry and kinematics of the block. The sums of records give everything but the normal. */
+
+template <bool friction, bool history_kept>
+void ContactChunk::gather(const ParticleRecords &particles, int end)
+{
+  constexpr std::size_t stride = friction ? 2 : 1;
+  const Record *x = particles.position.data(), *motion = particles.motion.data();
+  const Record *h = history.all_records();
+  const std::uint32_t *place = history.all_places();
+
+  const int *first = pairs.state_of_first(), *second = pairs.second.data();
+
+  for (int k = 0; k < end; k += 4) {
+    prefetch_own(particles);
+    Vec4 a[4], b[4], c[4], d[4];
+    for (int q = 0; q < 4; q++) {
+      const std::uint32_t pair = pair_of_lane[k + q];
+      const int i = first[pair], j = second[pair];
+      const Record *mi = motion + stride * i, *mj = motion + stride * j;
+      const Vec4 xi = load4(x[i]), xj = load4(x[j]);
+      a[q] = xi + difference_and_sum * xj;
+      b[q] = load4(mi[0]) + difference_and_sum * load4(mj[0]);
+      if constexpr (friction)
+        c[q] = surface_velocity(xi, load4(mi[1])) + surface_velocity(xj, load4(mj[1]));
+      if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
+      if constexpr (history_kept) d[q] = load4(h[place[pair]]);
+    }
+    if constexpr (history_kept) prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
+    spread(a, batch.normal, batch.overlap, k);
+    spread(b, batch.velocity, batch.inverse_mass, k);
+    if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
+    if constexpr (history_kept) spread(d, batch.displacement, batch.sliding, k);
+  }
+}
+
+void ContactChunk::gather_impacts(int end)
+{
+  const auto impact = [this](int lane) { return load4(history.impact(pair_of_lane[lane])); };
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) row[q] = impact(k + q);
+    spread(row, batch.impact, nullptr, k);
+  }
+}
+
+/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the
+   inverse radius still hold the product of the radii. */
+
+void ContactChunk::finish_geometry(int end, bool radii_known)
+{
+  const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
+  for (int k = 0; k < end; k += lanes) {
+    const Vector3<Vec8> separation{load8(&batch.normal[0][k]), load8(&batch.normal[1][k]),
+                                   load8(&batch.normal[2][k])};
+    const Vec8 sum_of_radii = load8(&batch.overlap[k]);
+    const Vec8 distance = square_root(dot(separation, separation));
+    const auto apart = distance > zero;    // coincident centers have no normal and get no force
+    const Vec8 inverse = select(apart, one / distance, zero);
+    const Vector3<Vec8> normal = inverse * separation;
+    store(&batch.inverse_distance[k], inverse);
+    store(&batch.normal[0][k], normal.x);
+    store(&batch.normal[1][k], normal.y);
+    store(&batch.normal[2][k], normal.z);
+    store(&batch.overlap[k], select(apart, sum_of_radii - distance, zero));
+    if (!radii_known)
+      store(&batch.inverse_radius[k], sum_of_radii / load8(&batch.inverse_radius[k]));
+  }
+}
+
+/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces
+ * intersect. */
+
+void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
+{
+  const Record *x = particles.position.data();
+  const int *first = pairs.state_of_first();
+  const auto relative_omega = [&](int lane) {
+    const std::uint32_t pair = pair_of_lane[lane];
+    const int i = first[pair], j = pairs.second[pair];
+    batch.circle[lane] = x[i].c[3];
+    second_radius[lane] = x[j].c[3];
+    return load4(particles.spin(i)) - load4(particles.spin(j));
+  };
+  for (int k = 0; k < end; k += 4) {
+    Vec4 row[4];
+    for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
+    spread(row, batch.relative_omega, nullptr, k);
+  }
+  for (int k = 0; k < end; k += lanes)
+    store(&batch.circle[k],
+          circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
+                                 load8(&batch.overlap[k])));
+}
+
+/* Copies of a contact hold the same result, so writing them twice does no harm. */
+
+void ContactChunk::keep_history(int end)
+{
+  to_histories(batch.displacement, batch.sliding, end, history.all_records());
+}
+
+void ContactChunk::keep_impacts(int end)
+{
+  to_histories(batch.impact, nullptr, end, history.all_impacts());
+}
+
+void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width],
+                                const double *fourth, int end, Record *records)
+{
+  const std::uint32_t *place = history.all_places();
+  for (int k = 0; k < end; k += 4)
+    to_records(lanes_of, fourth, k,
+               [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
+}
+
+template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)
+{
+  const auto rows_of = [](const Lanes &vector, int k, Record *records) {
+    to_records(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
+  };
+  for (int k = 0; k < end; k += 4) {
+    rows_of(batch.force, k, force_of_lane);
+    if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
+    if (with_resistance) rows_of(batch.couple, k, couple_of_lane);
+  }
+}
+
+template void ContactChunk::gather<true, true>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, false>(const ParticleRecords &, int);
+template void ContactChunk::gather<false, false>(const ParticleRecords &, int);
+template void ContactChunk::transpose_results<true>(int, bool);
+template void ContactChunk::transpose_results<false>(int, bool);
+
+}    // namespace Talus

@@ -1,0 +1,45 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// A batch holds the state and the result of up to `width` contacts as structure of arrays.
+// Whoever knows the geometry fills the input arrays (pairs of spheres, or a sphere and a large
+// body), a kernel turns them into forces, and the owner adds these up in its canonical order.
+
+#ifndef TALUS_LAWS_CONTACT_BATCH_H
+#define TALUS_LAWS_CONTACT_BATCH_H
+
+namespace Talus {
+
+/// Lanes that hold no contact may contain anything finite: kernels always run over the full width,
+/// so that every contact is computed by the same vector instructions and no scalar tail exists.
+struct ContactBatch {
+  static constexpr int width = 64;
+
+  // input, see ContactState
+  alignas(64) double normal[3][width];
+  alignas(64) double overlap[width];
+  alignas(64) double velocity[3][width];
+  alignas(64) double spin[3][width];
+  alignas(64) double inverse_mass[width];
+  alignas(64) double inverse_radius[width];
+  alignas(64) double relative_omega[3][width];
+  alignas(64) double circle[width];
+  alignas(64) double inverse_distance[width];
+  alignas(64) int coefficients[width];    ///< row of the coefficient table
+
+  // input and output: TangentialHistory and ContactImpact; only laws that keep them touch them
+  alignas(64) double displacement[3][width];
+  alignas(64) double sliding[width];
+  alignas(64) double impact[3][width];    ///< speed, age, begun
+
+  // output, see ContactForce
+  alignas(64) double force[3][width];
+  alignas(64) double moment[3][width];
+  alignas(64) double couple[3][width];
+
+  /// Puts a harmless contact of overlap zero into every lane. Call once after construction.
+  void clear();
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,68 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The contact laws of all pairs of particle types, as set by `pair_coeff` and as mixed where they
+// are not set.
+
+#ifndef TALUS_MATERIAL_LAW_BOOK_H
+#define TALUS_MATERIAL_LAW_BOOK_H
+
+#include "material/contact_spec.h"
+#include "material/law_table.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LawBook {
+ public:
+  FrictionMix mix = FrictionMix::MINIMUM;
+
+  /// Forgets everything; types count from 1 to ntypes.
+  void resize(int ntypes);
+  int num_types() const { return types; }
+
+  /// Sets the pair (i, j) with i <= j.
+  void set(int i, int j, const ContactSpec &spec) { entry(i, j) = {spec, true}; }
+  bool is_set(int i, int j) const { return entry(i, j).set; }
+  const ContactSpec &spec(int i, int j) const { return entry(i, j).spec; }
+
+  /// Both types are set and have the same law, so that the pair can be mixed. Material laws must
+  /// also agree on whether kt and gt are numbers or NULL.
+  bool can_mix(int i, int j) const;
+
+  /// The pair is set or can be mixed; the functions below need that.
+  bool known(int i, int j) const { return is_set(i, j) || can_mix(i, j); }
+
+  Talus::ContactLaw law(int i, int j) const;
+  Talus::ContactCoefficients coefficients(int i, int j) const;
+
+  /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
+  std::string describe_pair(int i, int j) const;
+
+  /// For the log, several lines: kernels, pairs of types, and what `table` lets a scene do without.
+  std::string describe(const Talus::LawTable &table) const;
+
+  /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another
+  /// sub-style of pair hybrid and never come up: they get the row of one that does, so that uniform
+  /// laws are recognized.
+  Talus::LawTable table() const;
+
+ private:
+  struct Entry {
+    ContactSpec spec;
+    bool set = false;
+  };
+  Entry &entry(int i, int j) { return entries[i * (types + 1) + j]; }
+  const Entry &entry(int i, int j) const { return entries[i * (types + 1) + j]; }
+
+  int types = 0;
+  std::vector<Entry> entries;
+};
+
+/// A law in words, e.g. "hertz + multistep + resistance".
+std::string describe_law(Talus::ContactLaw law);
+
+}    // namespace LAMMPS_NS
+
+#endif

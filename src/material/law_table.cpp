@@ -1,0 +1,71 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "material/law_table.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace Talus {
+
+void LawTable::reset(int ntypes)
+{
+  types = ntypes;
+  rows.assign(static_cast<std::size_t>(ntypes) * ntypes, ContactCoefficients{});
+  laws.assign(rows.size(), ContactLaw{});
+  index_of_row.assign(rows.size(), 0);
+  distinct.clear();
+}
+
+void LawTable::set(int i, int j, ContactLaw law, const ContactCoefficients &coefficients)
+{
+  for (int r : {row(i, j), row(j, i)}) {
+    rows[r] = coefficients;
+    laws[r] = law;
+  }
+}
+
+void LawTable::finish()
+{
+  one_row = true;
+  distinct.clear();
+  for (std::size_t r = 0; r < rows.size(); r++) {
+    auto found = std::find(distinct.begin(), distinct.end(), laws[r]);
+    index_of_row[r] = static_cast<int>(found - distinct.begin());
+    if (found == distinct.end()) distinct.push_back(laws[r]);
+    one_row = one_row && laws[r] == laws[0] &&
+              std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
+  }
+  advancing.clear();
+  reading.clear();
+  for (const ContactLaw law : distinct) {
+    advancing.push_back(contact_kernel(law, one_row, true));
+    reading.push_back(contact_kernel(law, one_row, false));
+  }
+}
+
+template <class Predicate> bool LawTable::any(Predicate holds) const
+{
+  return std::any_of(distinct.begin(), distinct.end(), holds);
+}
+
+bool LawTable::has_friction() const
+{
+  return any([](ContactLaw law) { return law.has_friction(); });
+}
+
+bool LawTable::has_history() const
+{
+  return any([](ContactLaw law) { return law.has_history(); });
+}
+
+bool LawTable::has_impact() const
+{
+  return any([](ContactLaw law) { return law.has_impact(); });
+}
+
+bool LawTable::has_resistance() const
+{
+  return any([](ContactLaw law) { return law.resists; });
+}
+
+}    // namespace Talus

@@ -1,0 +1,61 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Laws and coefficients of all pairs of particle types, arranged for the kernels.
+
+#ifndef TALUS_MATERIAL_LAW_TABLE_H
+#define TALUS_MATERIAL_LAW_TABLE_H
+
+#include "laws/contact_kernel.h"
+#include "laws/contact_law.h"
+
+#include <vector>
+
+namespace Talus {
+
+class LawTable {
+ public:
+  /// Forgets everything and makes room for types 1 ... ntypes (kernels count from 0).
+  void reset(int ntypes);
+
+  /// Sets the pair (i, j) = (j, i); types count from 1 as in input scripts.
+  void set(int i, int j, ContactLaw law, const ContactCoefficients &coefficients);
+
+  /// Call once after the last set(): finds which laws occur, and whether one row serves all.
+  void finish();
+
+  int row(int type_i, int type_j) const { return (type_i - 1) * types + (type_j - 1); }
+  const ContactCoefficients *coefficients() const { return rows.data(); }
+  const ContactCoefficients &coefficients(int row) const { return rows[row]; }
+  ContactLaw law(int row) const { return laws[row]; }
+
+  /// Number of different laws, and the one that a row uses (0 ... count-1).
+  int num_laws() const { return static_cast<int>(distinct.size()); }
+  int law_index(int row) const { return index_of_row[row]; }
+  ContactKernel kernel(int law_index, bool advance) const
+  {
+    return advance ? advancing[law_index] : reading[law_index];
+  }
+  ContactLaw distinct_law(int law_index) const { return distinct[law_index]; }
+
+  /// All pairs of types have the same law and coefficients: types need not be looked up.
+  bool uniform() const { return one_row; }
+  bool has_friction() const;
+  bool has_history() const;
+  bool has_impact() const;
+  bool has_resistance() const;
+
+ private:
+  template <class Predicate> bool any(Predicate holds) const;
+
+  int types = 0;
+  bool one_row = true;
+  std::vector<ContactCoefficients> rows;
+  std::vector<ContactLaw> laws;
+  std::vector<int> index_of_row;
+  std::vector<ContactLaw> distinct;
+  std::vector<ContactKernel> advancing, reading;    // by law
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,88 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "particles/particle_records.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace Talus {
+namespace {
+
+/// Three doubles of a row and a fourth number.
+inline Vec4 record_of(const double *row, double fourth)
+{
+  return Vec4{row[0], row[1], row[2], fourth};
+}
+
+inline void add_to_row(double *row, Vec4 value)
+{
+  for (int d = 0; d < 3; d++) row[d] += value[d];
+}
+
+}    // namespace
+
+void ParticleRecords::resize(std::size_t n, std::size_t places, bool spins, bool couples,
+                             std::size_t copies)
+{
+  stride = spins ? 2 : 1;
+  renew(position, n + copies);
+  renew(motion, stride * (n + copies));
+  renew(load, stride * places);
+  renew(couple, couples ? places : 0);
+}
+
+void ParticleRecords::release_sums()
+{
+  for (AlignedVector<Record> *records : {&load, &couple}) release(*records);
+}
+
+/* Eight particles at a time, for the sake of the divisions. */
+
+void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
+                           const SlotChoice &slots)
+{
+  slots.in_groups([&](const int *slot, int count) { read_eight(order, host, slot, count); });
+}
+
+inline void ParticleRecords::read_eight(const ParticleOrder &order, const ParticleView &host,
+                                        const int *slots, int count)
+{
+  alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
+  for (int k = 0; k < lanes; k++) {
+    const int a = order.atom_of_slot[slots[std::min(k, count - 1)]];
+    const bool replaced = host.mass_override && host.mass_override[a] > 0.0;
+    inverse_mass[k] = replaced ? host.mass_override[a] : host.mass[a];
+    inverse_radius[k] = host.radius[a];
+  }
+  store(inverse_mass, splat<Vec8>(1.0) / load8(inverse_mass));
+  store(inverse_radius, splat<Vec8>(1.0) / load8(inverse_radius));
+
+  for (int k = 0; k < count; k++) {
+    const std::size_t s = slots[k];
+    const std::int64_t a = 3L * order.atom_of_slot[s];
+    store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
+    store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
+    if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
+    clear_sums(slots[k]);
+  }
+}
+
+void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,
+                             int end) const
+{
+  const bool spins = stride == 2;
+  for (int s = begin; s < end; s++) {
+    const int a = order.atom_of_slot[s];
+    if (!order.is_owned(a)) continue;
+    add_to_row(host.f + 3L * a, load4(load[stride * s]));
+    if (spins) add_to_row(host.torque + 3L * a, torque(s));
+  }
+}
+
+double ParticleRecords::memory_usage() const
+{
+  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
+                                               load.capacity() + couple.capacity()));
+}
+
+}    // namespace Talus

@@ -1,0 +1,224 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// State of all particles of a rank, owned and ghost, as records in canonical order, and the sums of
+// their contact forces. The host's arrays are read once and written once in a step; or, as long as
+// nobody but us looks at the particles, not at all: advance() then moves them here.
+//
+// What a contact needs of its partner apart from the position stands in one cache line, and so does
+// what it adds to it: (velocity, spin) and (force, moment). Scenes without friction have no second
+// halves.
+
+#ifndef TALUS_PARTICLES_PARTICLE_RECORDS_H
+#define TALUS_PARTICLES_PARTICLE_RECORDS_H
+
+#include "base/aligned_vector.h"
+#include "particles/particle_order.h"
+#include "particles/record.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+/// The host's arrays: rows of three doubles, owned particles first, then ghosts.
+struct ParticleView {
+  const double *x, *v, *omega;    ///< omega may be nullptr in a scene without friction
+  const double *radius, *mass;
+  const double
+      *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
+  double *f, *torque;    ///< added to; torque may be nullptr like omega
+};
+
+/// One step of semi-implicit Euler for spheres: v += kick (F/m) + fall, x += dt v,
+/// omega += kick T/(inertia m r^2).
+struct RecordStep {
+  double dt, kick;    ///< time; kick times the host's force/(mass acceleration)
+  double fall[3];     ///< change of velocity by gravity
+  double inertia;     ///< 2/5 for spheres, 1/2 for discs
+};
+
+/// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
+/// these only the slots of one part, if `chunk_of_slot` is given, that are not marked.
+struct SlotChoice {
+  int begin, end;
+  const int *list = nullptr;
+  const std::uint16_t *chunk_of_slot = nullptr;
+  int part = 0;
+  const unsigned char *marked = nullptr;
+  int next_end = 0;    ///< more slots may be asked for after these, up to this one
+
+  int at(int n) const { return list ? list[n] : n; }
+  bool holds(int slot) const
+  {
+    return (!chunk_of_slot || chunk_of_slot[slot] == part) && (!marked || !marked[slot]);
+  }
+  template <class Visit> void for_each(Visit visit) const
+  {
+    for (int n = begin; n < end; n++)
+      if (const int slot = at(n); holds(slot)) visit(static_cast<std::size_t>(slot));
+  }
+  /// The same as visit(slot, soon), where `soon` is probably visited `ahead` visits later.
+  template <class Visit> void for_each(int ahead, Visit visit) const
+  {
+    const int last = std::max(end, next_end) - 1;
+    for (int n = begin; n < end; n++) {
+      const int later = n + std::min(ahead, last - n);
+      const int soon = list ? list[later] : later;
+      if (const int slot = at(n); holds(slot))
+        visit(static_cast<std::size_t>(slot), static_cast<std::size_t>(soon));
+    }
+  }
+  /// visit(slots, count) for groups of up to eight.
+  template <class Visit> void in_groups(Visit visit) const
+  {
+    int group[lanes], count = 0;
+    for_each([&](std::size_t slot) {
+      group[count++] = static_cast<int>(slot);
+      if (count < lanes) return;
+      visit(group, count);
+      count = 0;
+    });
+    if (count) visit(group, count);
+  }
+};
+
+/// How far particles have gone: maxima over particles of the distance from where they were when
+/// lists were made, and of the speed (see MotionForecast). In a cache line of its own: each thread
+/// writes one every few hundred particles.
+struct alignas(64) RecordTravel {
+  double moved = 0.0, speed = 0.0;
+
+  void join(const RecordTravel &other)
+  {
+    moved = std::max(moved, other.moved);
+    speed = std::max(speed, other.speed);
+  }
+};
+
+class ParticleRecords {
+ public:
+  /// Makes room for `n` particles and their sums, whatever stood there before, and for sums that
+  /// nobody wants behind them: there are `places` for sums, at least n. `spins` is false in scenes
+  /// without friction: spin records and moments are then neither read nor kept. `couples`: laws
+  /// with resistance occur. `copies`: of the states of some particles, behind those of all.
+  void resize(std::size_t n, std::size_t places, bool spins, bool couples, std::size_t copies = 0);
+
+  /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
+  /// of what they need without sums, and the system takes its time to hand memory out anew.
+  void release_sums();
+  bool has_room() const { return !load.empty(); }
+
+  /// Reads the state of some slots and clears their sums.
+  void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
+
+  /// Forgets what has been added to a particle so far.
+  void clear_sums(int slot)
+  {
+    for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
+    if (!couple.empty()) store(couple[slot], Vec4{});
+  }
+
+  /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
+  /// rows of owned particles: f += F, torque += C - r M.
+  void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
+
+  /// Writes x, v and, if spins are kept, omega of a slot to the host's row.
+  void write_state(int slot, double *x, double *v, double *omega) const;
+  /// Sets the host's row of forces, and that of torques if spins are kept.
+  void write_forces(int slot, double *f, double *torque) const;
+
+  /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
+  /// `held`: position records when lists were made, or nullptr if nobody asks for the travel.
+  enum Role : unsigned char { GHOST, MOVES, RESTS };
+  RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
+                       const SlotChoice &slots);
+  /// Only clears sums.
+  void clear(int begin, int end);
+
+  /// Copies the state of a slot to where other cores read it; then streams_are_done().
+  void copy_state(int slot, int copy)
+  {
+    const std::size_t from = slot, to = copy;
+    stream(position[to], load4(position[from]));
+    for (std::size_t n = 0; n < stride; n++)
+      stream(motion[stride * to + n], load4(motion[stride * from + n]));
+  }
+
+  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
+  /// one order whoever adds them up: first those of the contacts, and of these first the lever
+  /// arms.
+  Vec4 torque(int slot) const
+  {
+    const std::size_t s = slot;
+    return torque_of(s, load4(position[s]), load4(load[2 * s]));
+  }
+  /// For forces other than contacts between particles: from here on until advance() the second half
+  /// of the load is the torque itself, which others may add to.
+  void settle_torque(int slot)
+  {
+    Record *loads = &load[2 * static_cast<std::size_t>(slot)];
+    if (loads[0].c[3] != 0.0) return;
+    store(loads[1], torque(slot));
+    loads[0].c[3] = 1.0;
+  }
+
+  double memory_usage() const;
+
+  /// Calls the state of a slot into the cache, before it is read or set; a hint. (A call that is
+  /// not inlined would be removed: to the compiler it has no effect.)
+  TALUS_INLINE void call(int slot) const
+  {
+    __builtin_prefetch(position.data() + slot, 1);
+    __builtin_prefetch(motion.data() + stride * slot, 1);
+  }
+
+  /// The same for all that advance() reads and sets of a slot and the next one, long before: into
+  /// the second cache.
+  TALUS_INLINE void prefetch_two_early(int slot) const
+  {
+    constexpr int second_cache = 2;
+    const Record *moves = motion.data() + stride * slot, *sums = load.data() + stride * slot;
+    __builtin_prefetch(position.data() + slot, 0, second_cache);
+    __builtin_prefetch(moves, 0, second_cache);
+    __builtin_prefetch(moves + stride, 0, second_cache);
+    __builtin_prefetch(sums, 0, second_cache);
+    __builtin_prefetch(sums + stride, 0, second_cache);
+  }
+
+  /// The same for what a contact reads and adds to, once its position is known.
+  TALUS_INLINE void prefetch_for_contact(int slot) const
+  {
+    __builtin_prefetch(motion.data() + stride * slot);
+    __builtin_prefetch(load.data() + stride * slot, 1);
+  }
+
+  const Record &velocity(int slot) const { return motion[stride * slot]; }
+  const Record &spin(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
+
+  std::size_t stride = 1;    ///< records per particle in motion and load: 2 with spins
+  AlignedVector<Record> position, motion, load, couple;    ///< see record.h
+
+ private:
+  void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
+                  int count);
+  struct Kick;
+  struct Moved {
+    Vec4 x, v;    // position and velocity records
+  };
+  template <bool spins> Moved kick(const Kick &with, std::size_t slot);
+  template <bool spins>
+  RecordTravel advance_all(const RecordStep &step, const std::vector<Role> &role,
+                           const Record *held, const SlotChoice &slots);
+  Vec4 torque_of(std::size_t slot, Vec4 its_position, Vec4 its_force) const
+  {
+    const Vec4 its_load = load4(load[2 * slot + 1]);
+    if (its_force[3] != 0.0) return its_load;
+    const Vec4 of_forces = Vec4{} - its_position[3] * its_load;
+    return couple.empty() ? of_forces : of_forces + load4(couple[slot]);
+  }
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,49 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// A record is four doubles in one aligned 32-byte block, so that whatever a contact needs of a
+// particle arrives with one load. The kinds (SI units or any consistent set):
+//
+//   position record  { x, y, z, r }                      length
+//   velocity record  { vx, vy, vz, 1/m }                 velocity, 1/mass
+//   spin record      { wx, wy, wz, 1/r }                 1/time, 1/length
+//   history record   { dx, dy, dz, at limit }            length, 0 or 1; see TangentialHistory
+//   impact record     { speed, age, begun, unused }       see ContactImpact
+//   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::add_torque()
+//   moment, couple   { x, y, z, unused }
+//
+// The fourth entries of the first three are chosen such that the sum of two records gives what a
+// pair needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.
+
+#ifndef TALUS_PARTICLES_RECORD_H
+#define TALUS_PARTICLES_RECORD_H
+
+#include "base/simd.h"
+
+namespace Talus {
+
+struct alignas(32) Record {
+  double c[4];
+};
+
+inline Vec4 load4(const Record &record)
+{
+  return load4(record.c);
+}
+inline void store(Record &record, Vec4 value)
+{
+  store(record.c, value);
+}
+TALUS_INLINE void stream(Record &record, Vec4 value)
+{
+  stream(record.c, value);
+}
+
+/// The history of a contact as its other body sees it.
+inline Record mirrored(const Record &history)
+{
+  return {{-history.c[0], -history.c[1], -history.c[2], history.c[3]}};
+}
+
+}    // namespace Talus
+
+#endif

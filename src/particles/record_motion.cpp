@@ -1,0 +1,129 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Particles that are moved in their records, without the host's arrays. Every operation and its
+// order are those of fix nve/sphere/symplectic and of forecast_motion(), so that it does not show
+// in a result where a step was made.
+
+#include "particles/particle_records.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Talus {
+namespace {
+
+/// The number in the fourth place of a record, four times.
+inline Vec4 fourth_of(Vec4 record)
+{
+  return __builtin_shufflevector(record, record, 3, 3, 3, 3);
+}
+
+inline Vec4 clear_fourth(Vec4 record)
+{
+  return __builtin_shufflevector(record, Vec4{}, 0, 1, 2, 4);
+}
+
+/// The squared length of a row of three, in all places. The fourth must be 0. The sum is that of
+/// forecast_motion(): (x x + y y) + z z.
+inline Vec4 square(Vec4 row)
+{
+  const Vec4 squares = row * row;
+  const Vec4 halves = squares + __builtin_shufflevector(squares, squares, 1, 0, 3, 2);
+  return halves + __builtin_shufflevector(halves, halves, 2, 3, 0, 1);
+}
+
+inline Vec4 larger(Vec4 a, Vec4 b)
+{
+  return a > b ? a : b;
+}
+
+}    // namespace
+
+void ParticleRecords::write_state(int slot, double *x, double *v, double *omega) const
+{
+  const Record *moves = &motion[stride * slot];
+  std::copy(position[slot].c, position[slot].c + 3, x);
+  std::copy(moves[0].c, moves[0].c + 3, v);
+  if (stride == 2) std::copy(moves[1].c, moves[1].c + 3, omega);
+}
+
+void ParticleRecords::write_forces(int slot, double *f, double *torque_row) const
+{
+  const Record &force = load[stride * slot];
+  std::copy(force.c, force.c + 3, f);
+  if (stride == 1) return;
+  Record turn;
+  store(turn, torque(slot));
+  std::copy(turn.c, turn.c + 3, torque_row);
+}
+
+/* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they
+   are: 0 is added to them. */
+
+struct ParticleRecords::Kick {
+  explicit Kick(const RecordStep &step) :
+      kick{step.kick, step.kick, step.kick, 0.0}, dt{step.dt, step.dt, step.dt, 0.0},
+      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, per_inertia(1.0 / step.inertia)
+  {
+  }
+  Vec4 kick, dt, fall;
+  double per_inertia;
+};
+
+template <bool spins>
+inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_t s)
+{
+  constexpr std::size_t stride = spins ? 2 : 1;
+  Record *moves = &motion[stride * s];
+  const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
+  const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
+  const Vec4 v_new = v + (per_mass * force + with.fall);
+  if constexpr (spins) {
+    const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
+    const Vec4 per_inertia = per_mass * (inverse_radius * inverse_radius) * with.per_inertia;
+    store(moves[1], w + per_inertia * torque_of(s, x, force));
+  }
+  const Vec4 x_new = x + with.dt * v_new;
+  store(moves[0], v_new);
+  store(position[s], x_new);
+  return {x_new, v_new};
+}
+
+template <bool spins>
+RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vector<Role> &role,
+                                          const Record *held, const SlotChoice &slots)
+{
+  constexpr std::size_t its_stride = spins ? 2 : 1;
+  const Kick with(step);
+  const Role *const roles = role.empty() ? nullptr : role.data();
+  Vec4 moved2{}, fastest2{};
+  slots.for_each(64, [&](std::size_t s, std::size_t soon) {
+    __builtin_prefetch(position.data() + soon, 1);
+    __builtin_prefetch(motion.data() + its_stride * soon, 1);
+    __builtin_prefetch(load.data() + its_stride * soon, 1);
+    if (held) __builtin_prefetch(held + soon);
+    const Role its = roles ? roles[s] : MOVES;
+    const Moved now = its == MOVES ? kick<spins>(with, s)
+                                   : Moved{load4(position[s]), load4(motion[its_stride * s])};
+    for (std::size_t n = 0; n < its_stride; n++) store(load[its_stride * s + n], Vec4{});
+    if (!couple.empty()) store(couple[s], Vec4{});
+    if (!held || its == GHOST) return;
+    moved2 = larger(square(now.x - load4(held[s])), moved2);
+    fastest2 = larger(square(clear_fourth(now.v)), fastest2);
+  });
+  return {std::sqrt(moved2[0]), std::sqrt(fastest2[0])};
+}
+
+RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<Role> &role,
+                                      const Record *held, const SlotChoice &slots)
+{
+  return stride == 2 ? advance_all<true>(step, role, held, slots)
+                     : advance_all<false>(step, role, held, slots);
+}
+
+void ParticleRecords::clear(int begin, int end)
+{
+  for (int s = begin; s < end; s++) clear_sums(s);
+}
+
+}    // namespace Talus

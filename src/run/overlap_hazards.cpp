@@ -1,0 +1,50 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "run/overlap_hazards.h"
+
+#include "comm/comm_proxy.h"
+#include "comm/proxy_reader.h"
+
+#include "fix.h"
+#include "force.h"
+#include "lammps.h"
+#include "modify.h"
+#include "pair.h"
+#include "timer.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// Between the start of the exchange and the pair style the loop calls nothing but fixes before
+// forces. Fix OMP only sets up threads there.
+bool may_read_proxies(const Fix *fix)
+{
+  return std::strcmp(fix->style, "OMP") != 0;
+}
+
+}    // namespace
+
+std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
+{
+  if (!dynamic_cast<CommProxy *>(lmp->comm))
+    return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
+  if (std::strcmp(lmp->update->integrate_style, "verlet/proxy") != 0)
+    return std::string("the run style is ") + lmp->update->integrate_style;
+  if (!lmp->force->pair) return "there is no pair style";
+  if (!dynamic_cast<ProxyReader *>(lmp->force->pair))
+    return std::string("pair style ") + lmp->force->pair_style +
+           " does not wait for proxies: only gran/penalty on its own does";
+  if (!pairs_computed) return "'pair_modify compute no' is set";
+  for (int n = 0; n < lmp->modify->nfix; n++) {
+    const Fix *fix = lmp->modify->fix[n];
+    if ((lmp->modify->fmask[n] & FixConst::PRE_FORCE) && may_read_proxies(fix))
+      return std::string("fix ") + fix->id + " (" + fix->style +
+             ") may read proxies before forces are computed";
+  }
+  if (lmp->timer->has_sync()) return "'timer sync' lets all ranks wait for each other";
+  return "";
+}

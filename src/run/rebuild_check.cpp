@@ -1,0 +1,130 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "run/rebuild_check.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+RebuildCheck::RebuildCheck(LAMMPS *lmp) : Pointers(lmp)
+{
+  MPI_Comm_dup(world, &own_world);
+}
+
+RebuildCheck::~RebuildCheck()
+{
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized) return;
+  constexpr double patience = 1.0;    // seconds
+  const double start = MPI_Wtime();
+  int ended = request == MPI_REQUEST_NULL;
+  while (!ended && MPI_Wtime() - start < patience) MPI_Test(&request, &ended, MPI_STATUS_IGNORE);
+  if (ended)
+    MPI_Comm_free(&own_world);
+  else
+    static_cast<void>(lengths.release());    // a reduction that goes on may still write there
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RebuildCheck::list_is_new()
+{
+  list_step = neighbor->lastcall;
+  corners_of_list = box_corners();
+}
+
+void RebuildCheck::ask(const RecordTravel *travel)
+{
+  drop();
+  const int ago = neighbor->ago + 1;    // in the next step
+  const bool due = ago >= neighbor->delay && ago % neighbor->every == 0;
+  double **then = neighbor->get_xhold();
+  if (!due || !neighbor->dist_check || neighbor->build_once || list_step != neighbor->lastcall)
+    return;
+
+  const int n = neighbor->includegroup ? atom->nfirst : atom->nlocal;
+  MotionForecast here;
+  if (travel)
+    here = {travel->moved, update->dt * travel->speed};
+  else if (n)
+    here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
+  lengths->mine[0] = here.moved;
+  lengths->mine[1] = here.step;
+  corners_when_asked = box_corners();
+  MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  asked = true;
+}
+
+/* The host decides first, as if there were no check: that tells whether a fix or a restart file
+   demands new lists, which leaves the age of the lists as it is, or whether a check is due. */
+
+bool RebuildCheck::decide()
+{
+  const int age = neighbor->ago, with_check = neighbor->dist_check;
+  neighbor->dist_check = 0;
+  const bool due = neighbor->decide();
+  neighbor->dist_check = with_check;
+  if (!due) return false;
+  const bool forced = neighbor->ago == age;
+  if (forced || !with_check || !asked) return true;
+
+  MPI_Wait(&request, MPI_STATUS_IGNORE);
+  asked = false;
+  const MotionForecast forecast{lengths->all[0], lengths->all[1]};
+  if (!forecast.may_leave(limit())) return false;
+  if (forecast.moved > 0.5 * neighbor->skin) {
+    late++;
+    neighbor->ndanger++;
+  }
+  return true;
+}
+
+void RebuildCheck::drop()
+{
+  if (asked) MPI_Wait(&request, MPI_STATUS_IGNORE);
+  asked = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+RebuildCheck::Corners RebuildCheck::box_corners() const
+{
+  Corners corners;
+  for (int c = 0; c < 8; c++) {
+    const double i = c & 1, j = c >> 1 & 1, k = c >> 2;
+    const bool tilted = domain->triclinic != 0;
+    corners[c] = {domain->boxlo[0] + i * domain->xprd +
+                      (tilted ? j * domain->xy + k * domain->xz : 0.0),
+                  domain->boxlo[1] + j * domain->yprd + (tilted ? k * domain->yz : 0.0),
+                  domain->boxlo[2] + k * domain->zprd};
+  }
+  return corners;
+}
+
+/* Half of the skin. As in the host, a box that changes takes from it what its two fastest corners
+   have moved; and what the box has done since we asked can have carried particles along. */
+
+double RebuildCheck::limit() const
+{
+  if (!domain->box_change) return 0.5 * neighbor->skin;
+  const Corners now = box_corners();
+  const auto distance = [&now](const Corners &then, int c) {
+    return std::hypot(now[c][0] - then[c][0], now[c][1] - then[c][1], now[c][2] - then[c][2]);
+  };
+  double first = 0.0, second = 0.0, since = 0.0;
+  for (int c = 0; c < 8; c++) {
+    const double moved = distance(corners_of_list, c);
+    second = std::max(second, std::min(first, moved));
+    first = std::max(first, moved);
+    since = std::max(since, distance(corners_when_asked, c));
+  }
+  return std::max(0.0, 0.5 * (neighbor->skin - (first + second)) - since);
+}

@@ -1,0 +1,68 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Decides when neighbor lists are made anew, without waiting for all ranks: takes the place of
+// Neighbor::decide() in run style verlet/proxy and keeps to `neigh_modify`. The question is asked
+// in one step (ask()) and the answer used in the next (decide()), see motion_forecast.h.
+//
+// All methods are collective; every rank decides the same.
+
+#ifndef TALUS_RUN_REBUILD_CHECK_H
+#define TALUS_RUN_REBUILD_CHECK_H
+
+#include "exchange/motion_forecast.h"
+#include "particles/particle_records.h"
+
+#include "pointers.h"
+
+#include <array>
+#include <memory>
+
+namespace Talus {
+
+class RebuildCheck : protected LAMMPS_NS::Pointers {
+ public:
+  explicit RebuildCheck(LAMMPS_NS::LAMMPS *lmp);
+  /// Completes what was asked; after a second without an end (a rank has left with an error) gives
+  /// it up. Collective.
+  ~RebuildCheck() override;
+  RebuildCheck(const RebuildCheck &) = delete;
+  RebuildCheck &operator=(const RebuildCheck &) = delete;
+
+  /// The host has just made new lists.
+  void list_is_new();
+
+  /// After the particles of this step have moved and lists, if due, are made: starts to find out
+  /// how far particles may be in the next step, if a check is due there. Does not wait. `travel`:
+  /// what is known of that already, where the host's arrays are not up to date.
+  void ask(const RecordTravel *travel);
+
+  /// Once per step, after particles have moved: whether lists are made anew in this step.
+  bool decide();
+
+  /// At the end of a run: what was asked is not needed.
+  void drop();
+
+  /// Lists that were used one step too long, in this run.
+  int num_late() const { return late; }
+  void start_count() { late = 0; }
+
+ private:
+  using Corners = std::array<std::array<double, 3>, 8>;
+  Corners box_corners() const;
+  double limit() const;
+
+  MPI_Comm own_world = MPI_COMM_NULL;
+  MPI_Request request = MPI_REQUEST_NULL;
+  bool asked = false;
+  struct Lengths {
+    double mine[2], all[2];    ///< of a MotionForecast, here and everywhere
+  };
+  std::unique_ptr<Lengths> lengths = std::make_unique<Lengths>();    ///< MPI writes here
+  LAMMPS_NS::bigint list_step = -1;    ///< when the lists were made, as far as we know
+  Corners corners_of_list{}, corners_when_asked{};
+  int late = 0;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,275 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "run/verlet_proxy.h"
+
+#include "comm/comm_proxy.h"
+#include "comm/exchange_report.h"
+#include "run/overlap_hazards.h"
+
+#include "angle.h"
+#include "atom.h"
+#include "bond.h"
+#include "comm.h"
+#include "dihedral.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "improper.h"
+#include "kspace.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "pair.h"
+#include "pair/pair_gran_penalty.h"
+#include "timer.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
+    Verlet(lmp, 0, nullptr), lists(lmp), records(lmp)
+{
+  if (narg == 0) return;
+  if (std::strcmp(arg[0], "overlap") != 0)
+    error->all(FLERR, 1, "run_style verlet/proxy: expected 'overlap' instead of '{}'", arg[0]);
+  const std::string value = narg > 1 ? arg[1] : "";
+  if (value != "yes" && value != "no")
+    error->all(FLERR, narg > 1 ? 2 : 1,
+               "run_style verlet/proxy overlap: expected 'yes' or 'no' instead of '{}'", value);
+  if (narg > 2) error->all(FLERR, 3, "run_style verlet/proxy: surplus word '{}'", arg[2]);
+  wanted = value == "yes";
+}
+
+CommProxy *VerletProxy::current() const
+{
+  return dynamic_cast<CommProxy *>(comm);
+}
+
+void VerletProxy::init()
+{
+  Verlet::init();
+  overlaps = false;
+  if (!wanted) return;
+  const std::string hazard = hazard_of_overlap(lmp, pair_compute_flag);
+  overlaps = hazard.empty();
+  // on one rank without periodic images there is nothing to overlap, and so nothing to warn about
+  const bool has_proxies =
+      comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if (comm->me == 0 && !overlaps && has_proxies && hazard != announced)
+    error->warning(FLERR, "Run style verlet/proxy: overlap is off: {}", hazard);
+  announced = hazard;
+  if (CommProxy *proxy = current()) proxy->set_overlap(overlaps);
+}
+
+void VerletProxy::setup(int flag)
+{
+  Verlet::setup(flag);
+  lists.list_is_new();
+}
+
+void VerletProxy::setup_minimal(int flag)
+{
+  Verlet::setup_minimal(flag);
+  if (flag) lists.list_is_new();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void VerletProxy::run(int n)
+{
+  if (CommProxy *proxy = current()) {
+    at_start = proxy->counters();
+    proxy->set_overlap(overlaps);
+  }
+  lists.start_count();
+  lists.ask(nullptr);
+  records.start(pair_compute_flag);
+  say_where_steps_are_made();
+  // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
+  struct Return {
+    RecordSteps &records;
+    ~Return()
+    {
+      if (!records.pair()) return;
+      records.pair()->keep_state(false);
+      records.pair()->return_state(true);
+    }
+  } at_the_end{records};
+  for (int i = 0; i < n; i++) {
+    if (timer->check_timeout(i)) {
+      update->nsteps = i;
+      bring_back();
+      break;
+    }
+    step();
+  }
+  lists.drop();
+}
+
+void VerletProxy::say_where_steps_are_made()
+{
+  const std::string line =
+      records.hazard().empty()
+          ? "Talus verlet/proxy: steps without output are made in Talus' own records\n"
+          : fmt::format("Talus verlet/proxy: every step goes through the arrays of LAMMPS: {}\n",
+                        records.hazard());
+  if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
+  said = line;
+}
+
+/* One step of the host's Verlet loop, in its order; only the marked places differ. */
+
+void VerletProxy::step()
+{
+  const bigint now = ++update->ntimestep;
+  ev_set(now);
+
+  timer->stamp();
+  modify->initial_integrate(vflag);
+  if (modify->n_post_integrate) modify->post_integrate();
+  timer->stamp(Timer::MODIFY);
+
+  const bool anew = lists.decide();    // the host's decide() waits for all ranks
+  if (anew) rebuild();
+  // nobody reads the host's forces in a step after which particles stay in the records
+  const bool may_stay = records.may_stay(now, eflag || vflag);
+  if (!anew) update_proxies();    // the host's forward_comm() is complete at its end
+  // asked later where particles move on the way through the computation of forces
+  const bool in_records = records.keeper();
+  if (!in_records) lists.ask(nullptr);
+  timer->stamp(Timer::COMM);
+
+  if (!may_stay) force_clear();
+  timer->stamp();
+  compute_forces();
+  if (in_records) {
+    const RecordTravel travel = records.pair()->travel();
+    lists.ask(&travel);
+  }
+
+  if (modify->n_post_force_any) modify->post_force(vflag);
+  modify->final_integrate();
+  if (modify->n_end_of_step) modify->end_of_step();
+  timer->stamp(Timer::MODIFY);
+
+  if (now == output->next) {
+    timer->stamp();
+    output->write(now);
+    timer->stamp(Timer::OUTPUT);
+  }
+}
+
+void VerletProxy::update_proxies()
+{
+  ProxyPacker *packer = records.prepare_exchange();
+  CommProxy *proxy = current();
+  if (proxy && proxy->has_plan() && (overlaps || packer)) {
+    proxy->begin(packer);
+    if (overlaps)
+      proxy->counters().overlapped++;
+    else
+      proxy->finish();
+  } else
+    comm->forward_comm();
+  timer->stamp(Timer::COMM);
+}
+
+/* Before the end of a run that nobody saw coming, ghosts included. */
+
+void VerletProxy::bring_back()
+{
+  PairGranPenalty *keeper = records.keeper();
+  if (!keeper) return;
+  keeper->return_state(true);
+  comm->forward_comm();
+}
+
+void VerletProxy::rebuild()
+{
+  if (PairGranPenalty *keeper = records.keeper()) keeper->return_state(false);
+  records.forget_plan();
+  timer->stamp(Timer::COMM);
+  if (modify->n_pre_exchange) {
+    modify->pre_exchange();
+    timer->stamp(Timer::MODIFY);
+  }
+  if (triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  if (domain->box_change) {
+    domain->reset_box();
+    comm->setup();
+    if (neighbor->style) neighbor->setup_bins();
+  }
+  timer->stamp();
+  comm->exchange();
+  if (atom->sortfreq > 0 && update->ntimestep >= atom->nextsort) atom->sort();
+  comm->borders();
+  if (triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
+  timer->stamp(Timer::COMM);
+  if (modify->n_pre_neighbor) {
+    modify->pre_neighbor();
+    timer->stamp(Timer::MODIFY);
+  }
+  neighbor->build(1);
+  lists.list_is_new();
+  timer->stamp(Timer::NEIGH);
+  if (modify->n_post_neighbor) {
+    modify->post_neighbor();
+    timer->stamp(Timer::MODIFY);
+  }
+}
+
+/* Pairs come first: some bonded styles add to what the pair style has tallied. */
+
+void VerletProxy::compute_forces()
+{
+  if (modify->n_pre_force) {
+    modify->pre_force(vflag);
+    timer->stamp(Timer::MODIFY);
+  }
+  if (pair_compute_flag) {
+    force->pair->compute(eflag, vflag);
+    timer->stamp(Timer::PAIR);
+  }
+  // the pair style has done that; everything below may read proxies
+  if (CommProxy *proxy = current()) proxy->finish();
+
+  if (atom->molecular != Atom::ATOMIC) {
+    if (force->bond) force->bond->compute(eflag, vflag);
+    if (force->angle) force->angle->compute(eflag, vflag);
+    if (force->dihedral) force->dihedral->compute(eflag, vflag);
+    if (force->improper) force->improper->compute(eflag, vflag);
+    timer->stamp(Timer::BOND);
+  }
+  if (kspace_compute_flag) {
+    force->kspace->compute(eflag, vflag);
+    timer->stamp(Timer::KSPACE);
+  }
+  if (modify->n_pre_reverse) {
+    modify->pre_reverse(eflag, vflag);
+    timer->stamp(Timer::MODIFY);
+  }
+  if (force->newton) {
+    comm->reverse_comm();
+    timer->stamp(Timer::COMM);
+  }
+}
+
+void VerletProxy::cleanup()
+{
+  Verlet::cleanup();
+  if (lists.num_late() && comm->me == 0)
+    error->warning(FLERR,
+                   "Run style verlet/proxy: neighbor lists were {} times made one step too late: "
+                   "a particle was accelerated to more than the largest speed in one step, or "
+                   "moved by something else than its velocity: increase the skin",
+                   lists.num_late());
+  if (CommProxy *proxy = current()) {
+    proxy->set_overlap(false);
+    const std::string text = summarize_exchange(proxy->counters().since(at_start), world);
+    if (comm->me == 0) utils::logmesg(lmp, text);
+  }
+}

@@ -1,0 +1,184 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/critical_time_step.h"
+
+#include "fix/fix_large_body.h"
+
+#include "atom.h"
+#include "base/in_parallel.h"
+#include "comm.h"
+#include "force.h"
+#include "math_const.h"
+#include "modify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// 0 stands for "not defined".
+double smaller_defined(double a, double b)
+{
+  if (!(a > 0.0)) return b;
+  return b > 0.0 ? std::min(a, b) : a;
+}
+
+/// Effective Young's modulus of a law with Hertzian stiffness, 0 for others.
+double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
+{
+  switch (law.normal) {
+  case NormalLaw::HERTZ:
+  case NormalLaw::FLORES:
+    return 0.75 * c.kn;
+  case NormalLaw::HERTZ_MATERIAL:
+  case NormalLaw::FLORES_MATERIAL:
+    return c.kn;
+  default:
+    return 0.0;
+  }
+}
+
+}    // namespace
+
+void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
+{
+  sizes = smallest_particles(laws.num_types(), group);
+  const double mine = contacts.largest_relative_speed();
+  double speed;
+  MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
+
+  undamped.clear();
+  elastic.clear();
+  looks_at_damping = true;
+  consider_pairs(laws, speed);
+  contact = reduce_smallest(contacts.smallest_contact_period());
+  if (!(contact > 0.0)) contact = law_period;
+  contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));
+}
+
+void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
+{
+  looks_at_damping = false;
+  sizes = smallest_particles(laws.num_types(), group);
+  consider_pairs(laws, 0.0);
+  contact = smaller_defined(law_period, smallest_body_period(laws.num_types(), group));
+}
+
+void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
+{
+  law_period = rayleigh = hertz = 0.0;
+  for (int i = 1; i <= laws.num_types(); i++)
+    for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
+}
+
+double CriticalTimeStep::smallest() const
+{
+  return smaller_defined(contact, smaller_defined(rayleigh, hertz));
+}
+
+/* Of the particles that are members of all groups, given by their bits. Forces are in LAMMPS'
+   units: force/mass is acceleration only after conversion. */
+
+CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int groups) const
+{
+  std::vector<double> mine(2 * (types + 1), never), all(mine);
+  std::vector<std::vector<double>> found(comm->nthreads);
+  in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
+    std::vector<double> its(mine.size(), never);
+    double *const r = its.data(), *const m = r + types + 1;
+    for (int i = begin; i < end; i++) {
+      if ((atom->mask[i] & groups) != groups) continue;
+      const int type = atom->type[i];
+      r[type] = std::min(r[type], atom->radius[i]);
+      m[type] = std::min(m[type], atom->rmass[i]);
+    }
+    found[t] = std::move(its);
+  });
+  for (const std::vector<double> &its : found)
+    std::transform(its.begin(), its.end(), mine.begin(), mine.begin(),
+                   [](double a, double b) { return std::min(a, b); });
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
+  const auto middle = all.begin() + types + 1;
+  std::for_each(middle, all.end(), [this](double &mass) { mass /= force->ftm2v; });
+  return {{all.begin(), middle}, {middle, all.end()}};
+}
+
+double CriticalTimeStep::reduce_smallest(double mine) const
+{
+  const double defined = mine > 0.0 ? mine : never;
+  double all;
+  MPI_Allreduce(&defined, &all, 1, MPI_DOUBLE, MPI_MIN, world);
+  return std::isinf(all) ? 0.0 : all;
+}
+
+void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double speed)
+{
+  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass;
+  if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
+  if (!laws.is_set(i, j) && !laws.can_mix(i, j)) return;
+  const ContactLaw law = laws.law(i, j);
+  const ContactCoefficients c = laws.coefficients(i, j);
+  const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
+  const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
+
+  const double overlap = 0.01 * std::min(radius[i], radius[j]);
+  if (looks_at_damping)
+    consider_damping(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
+
+  const double k = tangent_stiffness(law, c, overlap, m, r);
+  if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
+  const double modulus = hertzian_modulus(law, c);
+  if (modulus > 0.0 && speed > 0.0)
+    hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
+  if (i == j && laws.spec(i, i).is_material())
+    rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
+}
+
+void CriticalTimeStep::consider_damping(const std::string &who, ContactLaw law,
+                                        const ContactCoefficients &c, double overlap,
+                                        double mass_eff, double radius_eff)
+{
+  undamped.consider(who, law, c, overlap, mass_eff, radius_eff);
+  elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
+}
+
+/* Of particles that a body can touch. */
+
+double CriticalTimeStep::smallest_body_period(int types, int group)
+{
+  double smallest = 0.0;
+  std::map<int, Sizes> known{{group, sizes}};
+  for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
+    auto *body = dynamic_cast<FixLargeBody *>(ifix);
+    if (!body) continue;
+    const int groups = group | body->groupbit;
+    if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
+    const auto &[radius, mass] = known[groups];
+    for (int type = 1; type <= types; type++) {
+      if (std::isinf(radius[type])) continue;
+      smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+      if (looks_at_damping)
+        consider_damping(fmt::format("type {} with fix large/body {}", type, body->id),
+                         body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
+                         mass[type], radius[type]);
+    }
+  }
+  return smallest;
+}
+
+double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
+{
+  const double r = sizes.radius[type];
+  const double density = sizes.mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
+  const double shear = spec.young / (2.0 * (1.0 + spec.poisson));
+  return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * spec.poisson + 0.8766);
+}

@@ -1,0 +1,74 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Time steps that a granular scene allows, by the three usual rules (units of time; 0 if not
+// defined):
+//
+//   contact    sqrt(m_eff/k), smallest over the contacts of the moment, k = dF_n/d overlap; without
+//              contacts over the lightest pair of every pair of types at an overlap of 1 % of the
+//              smaller radius; and over the lightest particle of every type against every large
+//              body at 1 % of its radius
+//   rayleigh   pi r sqrt(rho/G)/(0.1631 nu + 0.8766), smallest over the particles (Ning and
+//              Ghadiri 2006); only types with a material law
+//   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the
+//              largest relative speed v of neighboring particles; only laws with Hertzian
+//              stiffness, and only if v > 0
+//
+// Collective: all ranks of `world` must call compute().
+
+#ifndef TALUS_SYSTEM_CRITICAL_TIME_STEP_H
+#define TALUS_SYSTEM_CRITICAL_TIME_STEP_H
+
+#include "contact/contact_pipeline.h"
+#include "material/law_book.h"
+#include "pointers.h"
+#include "system/elastic_impacts.h"
+#include "system/undamped_friction.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class CriticalTimeStep : protected Pointers {
+ public:
+  explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp), elastic(lmp) {}
+
+  double contact = 0.0, rayleigh = 0.0, hertz = 0.0;
+  /// Of the laws that compute() has met.
+  UndampedFriction undamped;
+  ElasticImpacts elastic;
+
+  /// `group` selects the particles whose sizes count.
+  void compute(const LawBook &laws, const Talus::ContactPipeline &contacts, int group);
+
+  /// The same from the sizes of the particles alone: contacts at an overlap of 1 %, no speeds.
+  /// Cheap enough for every rebuild.
+  void compute_from_sizes(const LawBook &laws, int group);
+
+  /// Smallest of those that are defined, 0 if none is.
+  double smallest() const;
+
+ private:
+  /// Of the smallest particle of each type, masses in units of force/acceleration; infinite if
+  /// there is none.
+  struct Sizes {
+    std::vector<double> radius, mass;
+  };
+  Sizes smallest_particles(int types, int groups) const;
+  double reduce_smallest(double mine) const;
+  void consider_pairs(const LawBook &laws, double speed);
+  void consider_pair(const LawBook &laws, int i, int j, double speed);
+  void consider_damping(const std::string &who, Talus::ContactLaw law,
+                        const Talus::ContactCoefficients &c, double overlap, double mass_eff,
+                        double radius_eff);
+  double smallest_body_period(int types, int group);
+  double rayleigh_of(const ContactSpec &spec, int type) const;
+
+  Sizes sizes;
+  double law_period = 0.0;
+  bool looks_at_damping = false;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,51 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Masses that contacts feel where they are not the particle's own: members of a `fix freeze` group
+// are infinitely heavy, members of rigid bodies weigh what the body weighs. The laws take force =
+// mass acceleration for granted, so where the host's units do not (real, metal, electron), all
+// masses are converted.
+
+#ifndef TALUS_SYSTEM_EFFECTIVE_MASSES_H
+#define TALUS_SYSTEM_EFFECTIVE_MASSES_H
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class Fix;
+
+class EffectiveMasses : protected Pointers {
+ public:
+  explicit EffectiveMasses(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// Looks for freeze and rigid fixes. Call in init().
+  void find_fixes();
+
+  /// Finds the masses of owned particles. Call after each rebuild of the neighbor lists.
+  void update();
+
+  bool needed() const { return freeze_groups || !rigid_fixes.empty() || unit() != 1.0; }
+  int frozen_groups() const { return freeze_groups; }
+
+  /// Per particle, nullptr if no mass is replaced: 0 keeps the particle's own mass. update() fills
+  /// the owned part; whoever needs ghosts communicates the rest.
+  double *override_or_null() { return masses.empty() ? nullptr : masses.data(); }
+  const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
+
+  /// Of an owned or ghost particle, converted.
+  double mass(int i) const;
+
+  /// Force/acceleration for each unit of mass.
+  double unit() const;
+
+ private:
+  int freeze_groups = 0;    // bits of all groups with a fix freeze
+  std::vector<Fix *> rigid_fixes;
+  std::vector<double> masses;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,48 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/elastic_impacts.h"
+
+#include "laws/contact_energy.h"
+
+#include "error.h"
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+// e = .995: an impact loses more than the kinks can give it at .2 of the critical time step
+constexpr double little_damping = 0.0016;
+
+}    // namespace
+
+void ElasticImpacts::clear()
+{
+  loses_energy = false;
+  strictest.clear();
+  advised = 0.0;
+}
+
+void ElasticImpacts::consider(const std::string &who, ContactLaw law, const ContactCoefficients &c,
+                              double overlap, double mass_eff, double radius_eff)
+{
+  const bool rubs = law.has_friction() && c.mu > 0.0;
+  if (rubs || damping_ratio(law, c, overlap, mass_eff, radius_eff) > little_damping) {
+    loses_energy = true;
+    return;
+  }
+  const double limit = is_linear(law.normal) ? advised_linear : advised_hertzian;
+  if (advised > 0.0 && advised <= limit) return;
+  strictest = who;
+  advised = limit;
+}
+
+void ElasticImpacts::warn(double fraction) const
+{
+  if (loses_energy || !(advised > 0.0) || fraction <= advised) return;
+  error->warning(FLERR,
+                 "Pair style gran/penalty: no contact has damping or friction: at this time step, "
+                 "{:.3g} of the critical one, impacts of {} gain or lose some energy by chance, "
+                 "which adds up over many: use at most {} of it, or add damping",
+                 fraction, strictest, advised);
+}

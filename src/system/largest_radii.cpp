@@ -1,0 +1,48 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/largest_radii.h"
+
+#include "atom.h"
+#include "fix.h"
+#include "modify.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+void LargestRadii::find(int frozen_groups)
+{
+  const int n = atom->ntypes + 1;
+  std::vector<double> mine(n, 0.0), mine_frozen(n, 0.0);
+  add_future(mine);
+  for (int i = 0; i < atom->nlocal; i++) {
+    double &r = (atom->mask[i] & frozen_groups ? mine_frozen : mine)[atom->type[i]];
+    r = std::max(r, atom->radius[i]);
+  }
+  free.resize(n);
+  frozen.resize(n);
+  MPI_Allreduce(mine.data(), free.data(), n, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine_frozen.data(), frozen.data(), n, MPI_DOUBLE, MPI_MAX, world);
+}
+
+void LargestRadii::add_future(std::vector<double> &radius) const
+{
+  for (const char *style : {"^pour", "^deposit"})
+    for (const auto &ifix : modify->get_fix_by_style(style))
+      for (int type = 1; type <= atom->ntypes; type++) {
+        int itype = type;
+        auto *largest = static_cast<double *>(ifix->extract("radius", itype));
+        if (largest) radius[type] = std::max(radius[type], *largest);
+      }
+}
+
+double LargestRadii::cutoff(int i, int j) const
+{
+  return std::max({free[i] + free[j], frozen[i] + free[j], free[i] + frozen[j]});
+}
+
+double LargestRadii::largest() const
+{
+  return std::max(*std::max_element(free.begin(), free.end()),
+                  *std::max_element(frozen.begin(), frozen.end()));
+}

@@ -1,0 +1,34 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Largest radius of each particle type, present or yet to be inserted, for cutoffs. Frozen
+// particles are kept apart: two frozen ones need not be neighbors.
+
+#ifndef TALUS_SYSTEM_LARGEST_RADII_H
+#define TALUS_SYSTEM_LARGEST_RADII_H
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LargestRadii : protected Pointers {
+ public:
+  explicit LargestRadii(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// Looks at all particles of all ranks and at fixes pour and deposit. Call in init_style().
+  void find(int frozen_groups);
+
+  /// Distance at which particles of types i and j can touch.
+  double cutoff(int i, int j) const;
+  double largest() const;
+
+ private:
+  void add_future(std::vector<double> &radius) const;
+
+  std::vector<double> free, frozen;    // by type
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,77 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/neighbor_source.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "pair.h"
+
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+std::string NeighborSource::reason_for_host() const
+{
+  if (force->pair_match("^hybrid", 0)) return "pair style hybrid";
+  if (atom->molecular != Atom::ATOMIC) return "bonds may scale forces";
+  if (neighbor->includegroup || atom->firstgroupname) return "they are those of a group";
+  if (neighbor->nex_mol) return "neigh_modify exclude molecule";
+  return "";
+}
+
+void NeighborSource::init(Pair *pair)
+{
+  const std::string reason = reason_for_host();
+  own = reason.empty();
+  if (!own) neighbor->add_request(pair, NeighConst::REQ_SIZE);
+  const std::string line =
+      own ? "Talus gran/penalty: finds neighbors itself, as often as neigh_modify says\n"
+          : fmt::format("Talus gran/penalty: neighbor lists are those of LAMMPS: {}\n", reason);
+  if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
+  said = line;
+}
+
+NeighborView NeighborSource::find(const NeighList *list)
+{
+  if (!own) {
+    const double *scale = force->special_lj;
+    return {list->inum,
+            list->ilist,
+            list->numneigh,
+            list->firstneigh,
+            NEIGHMASK,
+            SBBITS,
+            {scale[0], scale[1], scale[2], scale[3]}};
+  }
+  const int total = atom->nlocal + atom->nghost;
+  try {
+    search.find({atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin},
+                comm->nthreads,
+                neighbor->nex_type || neighbor->nex_group
+                    ? [this](int i, int j) { return excludes(i, j); }
+                    : std::function<bool(int, int)>());
+  } catch (const std::domain_error &problem) {
+    error->one(FLERR,
+               "Pair style gran/penalty: {}: the simulation is unstable: reduce the time step",
+               problem.what());
+  }
+  return search.view();
+}
+
+/* `neigh_modify exclude type` and `group`, as the host's lists heed them. */
+
+bool NeighborSource::excludes(int i, int j) const
+{
+  if (neighbor->nex_type && neighbor->ex_type[atom->type[i]][atom->type[j]]) return true;
+  const int a = atom->mask[i], b = atom->mask[j];
+  for (int m = 0; m < neighbor->nex_group; m++) {
+    const int one = neighbor->ex1_bit[m], other = neighbor->ex2_bit[m];
+    if ((a & one && b & other) || (a & other && b & one)) return true;
+  }
+  return false;
+}

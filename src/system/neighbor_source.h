@@ -1,0 +1,42 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Where the pair style has its neighbors from: its own search on all threads, made for spheres in
+// the order in which they stand here; or the host's list, where the host knows something of pairs
+// that the search does not.
+
+#ifndef TALUS_SYSTEM_NEIGHBOR_SOURCE_H
+#define TALUS_SYSTEM_NEIGHBOR_SOURCE_H
+
+#include "neighbors/neighbor_search.h"
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+class NeighborSource : protected Pointers {
+ public:
+  explicit NeighborSource(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// To be called by the pair style's init_style(). Asks for a list of the host if that is needed,
+  /// and says in the log who finds the neighbors if it is not the one of the last run.
+  void init(class Pair *pair);
+
+  /// At a rebuild. `list`: the pair style's, not read if the search is ours. Valid until release().
+  Talus::NeighborView find(const class NeighList *list);
+  void release() { search.clear(); }
+
+  double memory_usage() const { return search.memory_usage(); }
+
+ private:
+  std::string reason_for_host() const;
+  bool excludes(int i, int j) const;
+
+  Talus::NeighborSearch search;
+  bool own = false;
+  std::string said;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,82 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/undamped_friction.h"
+
+#include "laws/contact_energy.h"
+
+#include "error.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+// damping ratios below which the loss in the normal direction does not outweigh the gain: e = .9,
+// .8
+constexpr double weak_damping = 0.03, moderate_damping = 0.075;
+constexpr double strong_friction = 0.5, gripping_friction = 10.0, strong_resistance = 0.2;
+// rolling resistance over friction: it takes away more than the first step of the contact gives
+constexpr double braking_resistance = 0.01;
+
+bool is_midpoint(TangentialLaw law)
+{
+  return law == TangentialLaw::MIDPOINT || law == TangentialLaw::SLIDER_MIDPOINT;
+}
+
+/// Damping ratio that outweighs what the update of the displacement gains: none for mu = 1, e = .95
+/// for mu = 5, .85 for mu above 10.
+double outweighing(double mu)
+{
+  return std::min(0.05, 4.0e-4 * mu * mu);
+}
+
+double harmless_fraction(double mu)
+{
+  return 0.14 / std::cbrt(mu);
+}
+
+}    // namespace
+
+void UndampedFriction::consider(const std::string &who, ContactLaw law,
+                                const ContactCoefficients &c, double overlap, double mass_eff,
+                                double radius_eff)
+{
+  if (!law.has_history()) return;
+  const double damping = damping_ratio(law, c, overlap, mass_eff, radius_eff);
+  const double resistance = law.resists && !law.delayed ? c.mu_roll : 0.0;
+  const bool hides = damping >= outweighing(c.mu) || resistance >= braking_resistance * c.mu;
+  if (!is_midpoint(law.tangential) && c.mu > strong_friction && !hides && c.mu > worst_step.mu)
+    worst_step = {who, c.mu, c.mu_roll};
+
+  const double held = std::min(c.mu, resistance);
+  const double enough = held >= 1.0 ? moderate_damping : weak_damping;
+  const bool grips = c.mu > gripping_friction && damping < weak_damping;
+  const bool holds = held > strong_resistance && damping < enough;
+  if (!is_linear(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
+    worst_spring = {who, c.mu, law.resists ? c.mu_roll : 0.0};
+}
+
+void UndampedFriction::warn(double fraction) const
+{
+  if (worst_step.mu > 0.0 && fraction > harmless_fraction(worst_step.mu))
+    error->warning(FLERR,
+                   "Pair style gran/penalty: contacts of {} have a coefficient of friction of "
+                   "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
+                   "impacts gain energy: add the word midpoint, or damping, or use at most {:.2g} "
+                   "of it",
+                   worst_step.who, worst_step.mu, fraction, harmless_fraction(worst_step.mu));
+  if (worst_spring.mu > 0.0)
+    error->warning(FLERR,
+                   "Pair style gran/penalty: contacts of {} have a coefficient of friction of "
+                   "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
+                   "their tangential spring stiffens while it is stretched: add damping, or use a "
+                   "coefficient of friction of at most {} and rolling resistance of at most {}",
+                   worst_spring.who, worst_spring.mu,
+                   worst_spring.mu_roll > 0.0
+                       ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
+                       : "",
+                   gripping_friction, strong_resistance);
+}
