@@ -1,0 +1,18 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/command_words.h"
+
+#include "error.h"
+#include "lammps.h"
+
+namespace Talus {
+
+Words command_words(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int narg,
+                    const char *const *arg, int first, int shift)
+{
+  return {command, narg, arg, first, [lmp, shift](int index, const std::string &text) {
+            lmp->error->all(FLERR, index + shift, "{}", text);
+          }};
+}
+
+}    // namespace Talus
