@@ -72,6 +72,10 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   bool overlaps() const override { return overlapped_run; }
   bool pending() const override { return transfer.pending(); }
   void progress() override { transfer.progress(); }
+  bool may_progress_beside(int threads) const override
+  {
+    return Talus::ProxyExchange::may_progress_beside(threads);
+  }
   void finish() override;
 
   /// Invariant checks: proxies are poisoned with NaN until they are valid, and every state is
@@ -86,14 +90,14 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   double bytes_per_exchange() const;
   /// Share of the owned particles whose forces were computed while an exchange was pending.
   double share_overlapped() const;
-  /// What a proxy's message holds, and why; for people.
+  /// What a proxy's message holds, for people.
   std::string describe_message() const;
 
  private:
   Talus::ProxyPacker &choose_packer();
-  bool sends_spins() const;
   void refuse_unsupported();
   void derive_plan();
+  int largest_stride() const;
   std::vector<Talus::ProxyOrigin> trace_origins();
   std::vector<int> possible_neighbors() const;
   void poison_proxies();
@@ -105,7 +109,6 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   Talus::SpherePacker sphere_packer;
   bool have_plan = false;      ///< the same on all ranks
   bool own_packing = false;    ///< atom style sphere
-  std::string spin_reader;     ///< see Talus::reader_of_proxy_spins()
   bool checks = false;
   bool overlapped_run = false;
 };

@@ -25,6 +25,10 @@ class PendingExchange {
   /// calls. Cheap, never waits; does nothing if nothing is pending.
   virtual void progress() = 0;
 
+  /// Whether progress() may be called by the first of so many threads while all of them compute. If
+  /// not, only between parallel regions. The same in every step.
+  virtual bool may_progress_beside(int threads) const = 0;
+
   /// Waits for all messages and stores them; afterwards proxies are valid. Does nothing if nothing
   /// is pending.
   virtual void finish() = 0;

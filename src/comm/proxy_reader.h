@@ -11,10 +11,6 @@ namespace Talus {
 
 class ProxyReader {
  public:
-  /// Whether compute() reads the angular velocity of proxies. The same on all ranks; asked at
-  /// every exchange, true as long as it is not known.
-  virtual bool reads_proxy_spins() const = 0;
-
   /// Share of the owned particles of this rank whose forces are computed before a pending exchange
   /// is finished; 0 if it computes nothing before.
   virtual double share_without_proxies() const = 0;

@@ -166,6 +166,7 @@ void FixContactStore::pairs_are_numbered(const std::vector<int> &slot_of_atom)
 
 void FixContactStore::post_run()
 {
+  if (client) client->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
   if (client && !kept.empty()) client->release_pairs();
   give_sorting_back();
@@ -183,7 +184,7 @@ bool FixContactStore::in_periodic_box() const
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!client || !current) return;
-  client->look_at_pairs();
+  client->look_at_pairs(occasion == Occasion::END_OF_RUN);
   if (occasion != Occasion::RESTART_FILE) client->release_records();
   const bool last_use = occasion == Occasion::REBUILD ||
                         (occasion == Occasion::END_OF_RUN && !client->pairs_are_needed());

@@ -38,7 +38,9 @@ class FixContactStore : public Fix {
   class Client {
    public:
     /// The pairs are still those of the last step: a look at them, on all ranks.
-    virtual void look_at_pairs() = 0;
+    virtual void look_at_pairs(bool run_is_over) = 0;
+    /// A run has ended: what is asked about its contacts is what it would be now.
+    virtual void remember_contacts() = 0;
     /// Hands the history of the current pairs over until renumber_pairs(). `particles_may_leave`:
     /// see KeptContacts.
     virtual void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) = 0;

@@ -27,7 +27,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), masses(lmp)
+    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), checks(RunMonitor::of(lmp)), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -49,10 +49,12 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
                             [](const ContactSpec &s) { return s.law.has_impact(); });
   offer_output();
   keep_history();
+  checks->add(this, monitor.checks([this] { return find_worst(); }, motion.moves(), id));
 }
 
 FixLargeBody::~FixLargeBody()
 {
+  checks->remove(this);
   finish_reduction();
   if (!with_history) return;
   atom->delete_callback(id, Atom::GROW);
@@ -170,7 +172,7 @@ double FixLargeBody::contact_period(int type, double mass, double radius)
 
 int FixLargeBody::setmask()
 {
-  return POST_INTEGRATE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE |
+  return POST_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE |
          (nevery ? END_OF_STEP : 0);
 }
 
@@ -181,7 +183,7 @@ void FixLargeBody::init()
   if (thermo_energy) keeps_account = true;
   joined = false;    // a step that an error ended may have left it
   motion.init();
-  monitor.start();
+  checks->start();
   masses.find_fixes();
   find_region();
   find_frozen();
@@ -244,17 +246,23 @@ void FixLargeBody::post_neighbor()
 {
   masses.update();
   list_particles();
-  look_for_trouble();
+}
+
+/* Pair style gran/penalty looks earlier for all; without it the first body does. */
+
+void FixLargeBody::pre_exchange()
+{
+  checks->look(RunMonitor::Moment::REBUILD);
 }
 
 void FixLargeBody::post_run()
 {
-  look_for_trouble();
+  checks->look(RunMonitor::Moment::END);
 }
 
-void FixLargeBody::look_for_trouble()
+BodyContacts::Worst FixLargeBody::find_worst()
 {
-  monitor.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
+  return contacts.worst(*shape, motion.frame(), view(), comm->nthreads);
 }
 
 void FixLargeBody::list_particles()
@@ -270,6 +278,7 @@ void FixLargeBody::list_particles()
 void FixLargeBody::setup(int vflag)
 {
   post_force(vflag);
+  checks->look(RunMonitor::Moment::SETUP);
   if (nevery && update->ntimestep % nevery == 0) end_of_step();
 }
 

@@ -20,6 +20,7 @@
 #include "pair/contact_command.h"
 #include "system/effective_masses.h"
 #include "system/record_forces.h"
+#include "system/run_monitor.h"
 
 #include <memory>
 #include <vector>
@@ -34,6 +35,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   int setmask() override;
   void init() override;
   void post_integrate() override;
+  void pre_exchange() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
   void min_post_neighbor() override;
@@ -100,7 +102,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   void set_laws();
   Talus::BodyParticleView view() const;
   void list_particles();
-  void look_for_trouble();
+  Talus::BodyContacts::Worst find_worst();
   void find_region();
   void find_frozen();
   void clear_frozen();
@@ -121,6 +123,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
   LargeBodyMonitor monitor;
+  std::shared_ptr<RunMonitor> checks;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;

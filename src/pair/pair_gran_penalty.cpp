@@ -34,7 +34,8 @@ constexpr int num_extra = 11;    // svector, see single()
 /* ---------------------------------------------------------------------- */
 
 PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
-    Pair(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp)
+    Pair(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
+    checks(RunMonitor::of(lmp))
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -50,6 +51,9 @@ PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
   nextra = 2;
   pvector = new double[nextra]();
 
+  checks->add(this, monitor.checks(pipeline));
+  checks->add(this, {time_step.check(book)});
+
   // keeps the place of the internal fix in the list of fixes until init_style() creates it: only
   // then read_restart has brought what it is to continue with. The ID must be the same in every
   // process.
@@ -64,6 +68,7 @@ PairGranPenalty::PairGranPenalty(LAMMPS *lmp) :
 PairGranPenalty::~PairGranPenalty()
 {
   if (copymode) return;
+  checks->remove(this);
   delete[] svector;
   delete[] pvector;
   for (const auto &internal : {store_id, placeholder_id})
@@ -94,7 +99,7 @@ void PairGranPenalty::init_style()
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
-  monitor.start();
+  checks->start();
   time_step.start();
   laws_current = false;    // init_one() will mix what is not set
 }
@@ -166,7 +171,7 @@ void PairGranPenalty::prepare_laws()
   const std::string description = "Talus gran/penalty: " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
-  warn_small_periods();
+  refuse_small_periods();
 }
 
 const ContactSpec *PairGranPenalty::own_spec(int type) const
@@ -174,25 +179,27 @@ const ContactSpec *PairGranPenalty::own_spec(int type) const
   return allocated && book.is_set(type, type) ? &book.spec(type, type) : nullptr;
 }
 
-void PairGranPenalty::warn_small_periods()
+/* Histories are known by the IDs of the two particles, which two images of one of them share. */
+
+void PairGranPenalty::refuse_small_periods()
 {
-  if (!pipeline.keeps_history() || comm->me) return;
+  if (!pipeline.keeps_history()) return;
   const double cut = 2.0 * radii.largest();
   for (int d = 0; d < 3; d++)
     if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
-      error->warning(
-          FLERR,
-          "Pair style gran/penalty: the box is periodic in {} with a period below "
-          "two diameters: particles that touch from both sides share one contact history",
-          "xyz"[d]);
+      error->all(FLERR,
+                 "Pair style gran/penalty: the box is periodic in {} with a period of {:.4g}, below "
+                 "two diameters of the largest particle: two particles could touch on both sides, "
+                 "and laws with history cannot tell these contacts apart: make the box at least "
+                 "{:.4g} wide, or use 'boundary f'",
+                 "xyz"[d], domain->prd[d], 2.0 * cut);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranPenalty::look_at_pairs()
+void PairGranPenalty::look_at_pairs(bool run_is_over)
 {
-  monitor.look(pipeline);
-  time_step.look_for_smaller_particles(book);
+  checks->look(run_is_over ? RunMonitor::Moment::END : RunMonitor::Moment::REBUILD);
 }
 
 void PairGranPenalty::keep_history(KeptContacts &kept, bool particles_may_leave)
@@ -304,7 +311,8 @@ void PairGranPenalty::compute(int eflag, int vflag)
   if (pipeline.in_two_phases()) {
     auto *exchange = dynamic_cast<PendingExchange *>(comm);
     const std::function<void()> progress = [exchange] { exchange->progress(); };
-    if (exchange && exchange->pending()) step.meanwhile = &progress;
+    if (exchange && exchange->pending() && exchange->may_progress_beside(comm->nthreads))
+      step.meanwhile = &progress;
     pipeline.compute_early(view(), step);
     step.meanwhile = nullptr;
     finish_exchange();
@@ -317,7 +325,10 @@ void PairGranPenalty::compute(int eflag, int vflag)
     pipeline.write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
 
-  if (update->setupflag) time_step.judge_start(book, pipeline);
+  if (update->setupflag) {
+    time_step.judge_start(book, pipeline);
+    checks->look(RunMonitor::Moment::SETUP);
+  }
   if (eflag_global) count_contacts();
 }
 
@@ -331,11 +342,6 @@ void PairGranPenalty::finish_exchange()
   timer->stamp(Timer::PAIR);
   exchange->finish();
   timer->stamp(Timer::COMM);
-}
-
-bool PairGranPenalty::reads_proxy_spins() const
-{
-  return !laws_current || pipeline.keeps_spins() || pipeline.law_table().has_resistance();
 }
 
 double PairGranPenalty::share_without_proxies() const

@@ -21,8 +21,10 @@
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/record_forces.h"
+#include "system/run_monitor.h"
 #include "system/time_step_monitor.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,7 +94,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   std::string hazard_of_records() const;
 
   // FixContactStore::Client
-  void look_at_pairs() override;
+  void look_at_pairs(bool run_is_over) override;
+  void remember_contacts() override { pipeline.remember_contacts(); }
   void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) override;
   void file_history(Talus::PartnerLists &partners) override;
   void adopt_first_copies(Talus::PartnerLists &partners,
@@ -104,7 +107,6 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void velocities_have_moved() override;
 
   // ProxyReader
-  bool reads_proxy_spins() const override;
   double share_without_proxies() const override;
 
  private:
@@ -112,7 +114,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void check_host();
   void create_store();
   void prepare_laws();
-  void warn_small_periods();
+  void refuse_small_periods();
 
   Talus::TangentialHistory<double> history_of(int i, int j,
                                               Talus::ContactImpact<double> &impact) const;
@@ -140,6 +142,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   LargestRadii radii;
   ContactMonitor monitor;
   TimeStepMonitor time_step;
+  std::shared_ptr<RunMonitor> checks;
 
   FixContactStore *store = nullptr;
   std::string store_id, placeholder_id;

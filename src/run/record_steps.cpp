@@ -112,7 +112,9 @@ ProxyPacker *RecordSteps::prepare_exchange()
     its->show_state(sent);
     return nullptr;
   }
-  packer.set(its->records(), its->slot_of_atom());
+  if (!packer_knows_plan) packer.set_plan(proxy->plan(), its->slot_of_atom());
+  packer_knows_plan = true;
+  packer.set_state(its->records(), present_box(*domain));
   its->take_proxies_as_they_are();
   return &packer;
 }

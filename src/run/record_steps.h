@@ -8,7 +8,7 @@
 #ifndef TALUS_RUN_RECORD_STEPS_H
 #define TALUS_RUN_RECORD_STEPS_H
 
-#include "comm/record_packer.h"
+#include "exchange/record_packer.h"
 
 #include "lmptype.h"
 #include "pointers.h"
@@ -25,7 +25,7 @@ namespace Talus {
 
 class RecordSteps : protected LAMMPS_NS::Pointers {
  public:
-  explicit RecordSteps(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp), packer(lmp) {}
+  explicit RecordSteps(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
   /// At the start of a run, after setup. Collective; decides the same on all ranks.
   void start(bool pairs_computed);
@@ -46,7 +46,7 @@ class RecordSteps : protected LAMMPS_NS::Pointers {
   /// then show the particles that are sent, wherever they live.
   ProxyPacker *prepare_exchange();
   /// There is a new exchange plan.
-  void forget_plan() { sent_is_known = false; }
+  void forget_plan() { sent_is_known = packer_knows_plan = false; }
 
  private:
   std::string find_hazard(bool pairs_computed);
@@ -58,7 +58,7 @@ class RecordSteps : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::PairGranPenalty *style = nullptr;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
   std::vector<int> sent;
-  bool sent_is_known = false, stays = false;
+  bool sent_is_known = false, packer_knows_plan = false, stays = false;
   RecordPacker packer;
 };
 

@@ -64,7 +64,6 @@ class WindowPair : public Pair, public Talus::ProxyReader {
       for (int j = i; j < n; j++) setflag[i][j] = 1;
   }
   double init_one(int, int) override { return 1.0; }
-  bool reads_proxy_spins() const override { return true; }
   double share_without_proxies() const override { return 0.0; }
 
   void compute(int eflag, int vflag) override
