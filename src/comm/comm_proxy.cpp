@@ -220,8 +220,7 @@ std::string CommProxy::describe_message() const
 
 double CommProxy::memory_usage()
 {
-  return CommBrick::memory_usage() +
-         2.0 * bytes_per_exchange();
+  return CommBrick::memory_usage() + 2.0 * bytes_per_exchange();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -172,8 +172,8 @@ double FixLargeBody::contact_period(int type, double mass, double radius)
 
 int FixLargeBody::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE |
-         (nevery ? END_OF_STEP : 0);
+  return POST_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE |
+         MIN_POST_FORCE | (nevery ? END_OF_STEP : 0);
 }
 
 void FixLargeBody::init()

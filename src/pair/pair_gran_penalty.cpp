@@ -187,12 +187,13 @@ void PairGranPenalty::refuse_small_periods()
   const double cut = 2.0 * radii.largest();
   for (int d = 0; d < 3; d++)
     if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
-      error->all(FLERR,
-                 "Pair style gran/penalty: the box is periodic in {} with a period of {:.4g}, below "
-                 "two diameters of the largest particle: two particles could touch on both sides, "
-                 "and laws with history cannot tell these contacts apart: make the box at least "
-                 "{:.4g} wide, or use 'boundary f'",
-                 "xyz"[d], domain->prd[d], 2.0 * cut);
+      error->all(
+          FLERR,
+          "Pair style gran/penalty: the box is periodic in {} with a period of {:.4g}, below "
+          "two diameters of the largest particle: two particles could touch on both sides, "
+          "and laws with history cannot tell these contacts apart: make the box at least "
+          "{:.4g} wide, or use 'boundary f'",
+          "xyz"[d], domain -> prd[d], 2.0 * cut);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -81,18 +81,11 @@ bool RebuildCheck::decide()
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
   if (!forecast.may_leave(limit(), neighbor->every)) return false;
   if (forecast.moved > 0.5 * neighbor->skin) {
-    (neighbor->ago == first_check() ? delayed : unforeseen)++;
+    const int first_check = std::max(neighbor->every, neighbor->delay);    // a multiple of `every`
+    (neighbor->ago == first_check ? delayed : unforeseen)++;
     neighbor->ndanger++;
   }
   return true;
-}
-
-/* Age of a list when it is checked for the first time. */
-
-int RebuildCheck::first_check() const
-{
-  const int every = neighbor->every;
-  return std::max(1, (neighbor->delay + every - 1) / every) * every;
 }
 
 void RebuildCheck::drop()

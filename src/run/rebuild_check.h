@@ -52,7 +52,6 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   using Corners = std::array<std::array<double, 3>, 8>;
   Corners box_corners() const;
   double limit() const;
-  int first_check() const;
 
   MPI_Comm own_world = MPI_COMM_NULL;
   MPI_Request request = MPI_REQUEST_NULL;

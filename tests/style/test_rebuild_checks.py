@@ -52,7 +52,7 @@ class RebuildChecks(SceneCase):
             _, often, _ = self.run_scene("every 1 delay 0 check yes", self.collision(), np=np)
             expected = read_dump(self.path("dump"))
             self.assertGreater(expected[-1].column("vx")[2], 1.0, "they have met")
-            for checks in "every 2 delay 0 check yes", "every 10 delay 0 check yes", "every 3 delay 5 check yes":
+            for checks in "every 2 delay 0 check yes", "every 10 delay 0 check yes", "every 3 delay 6 check yes":
                 with self.subTest(checks=checks, np=np):
                     log, builds, dangerous = self.run_scene(checks, self.collision(), np=np)
                     self.assertEqual(dangerous, 0)

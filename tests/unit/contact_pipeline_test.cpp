@@ -106,9 +106,12 @@ TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
 {
   const auto survey = [](const ContactPipeline &contacts) {
     const DeepestContact deepest = contacts.deepest_contact();
-    return std::vector<double>{contacts.count_contacts(),         contacts.count_candidates(),
-                               contacts.smallest_contact_period(), contacts.largest_relative_speed(),
-                               deepest.overlap_ratio,             static_cast<double>(deepest.i),
+    return std::vector<double>{contacts.count_contacts(),
+                               contacts.count_candidates(),
+                               contacts.smallest_contact_period(),
+                               contacts.largest_relative_speed(),
+                               deepest.overlap_ratio,
+                               static_cast<double>(deepest.i),
                                static_cast<double>(deepest.j)};
   };
   RandomSource random(6);
