@@ -2,6 +2,8 @@
 
 #include "comm/atom_packers.h"
 
+#include "system/present_box.h"
+
 #include "atom.h"
 #include "atom_vec.h"
 #include "domain.h"
@@ -11,12 +13,6 @@
 
 using namespace LAMMPS_NS;
 using namespace Talus;
-
-PeriodicBox Talus::present_box(const Domain &domain)
-{
-  return {domain.xprd, domain.yprd, domain.zprd, domain.triclinic != 0,
-          domain.xy,   domain.xz,   domain.yz};
-}
 
 namespace {
 

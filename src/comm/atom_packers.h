@@ -6,21 +6,13 @@
 #ifndef TALUS_COMM_ATOM_PACKERS_H
 #define TALUS_COMM_ATOM_PACKERS_H
 
-#include "exchange/periodic_box.h"
 #include "exchange/proxy_packer.h"
 
 #include "pointers.h"
 
 #include <vector>
 
-namespace LAMMPS_NS {
-class Domain;
-}
-
 namespace Talus {
-
-/// The present box of the host.
-PeriodicBox present_box(const LAMMPS_NS::Domain &domain);
 
 /// AtomVec::pack_comm() or pack_comm_vel(): whatever the atom style sends in every step.
 class HostPacker : public ProxyPacker, protected LAMMPS_NS::Pointers {

@@ -2,7 +2,6 @@
 
 #include "comm/comm_proxy.h"
 
-#include "comm/proxy_reader.h"
 #include "exchange/exchange_tags.h"
 
 #include "atom.h"
@@ -22,7 +21,8 @@ using namespace Talus;
 /* The host's constructor leaves localsendlist as it is, and its destructor frees it. */
 
 CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
-    CommBrick(lmp, old), transfer(world), host_packer(lmp), sphere_packer(lmp)
+    CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), host_packer(lmp),
+    sphere_packer(lmp)
 {
   localsendlist = nullptr;
 }
@@ -88,7 +88,7 @@ void CommProxy::forward_comm(int dummy)
 {
   finish();
   if (!have_plan) return CommBrick::forward_comm(dummy);
-  begin();
+  begin(nullptr);
   finish();
 }
 
@@ -200,12 +200,6 @@ double CommProxy::messages_per_exchange() const
 double CommProxy::bytes_per_exchange() const
 {
   return transfer.bytes_per_exchange(own_packing ? sphere_packer.stride() : host_packer.stride());
-}
-
-double CommProxy::share_overlapped() const
-{
-  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
-  return reader ? reader->share_without_proxies() : 0.0;
 }
 
 std::string CommProxy::describe_message() const

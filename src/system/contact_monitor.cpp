@@ -15,7 +15,7 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-std::vector<RunMonitor::Check> ContactMonitor::checks(const ContactPipeline &contacts)
+std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestContact()> find_deepest)
 {
   using Finding = RunMonitor::Finding;
   const auto say_once = [this](void (ContactMonitor::*say)(const Finding &) const) {
@@ -25,14 +25,13 @@ std::vector<RunMonitor::Check> ContactMonitor::checks(const ContactPipeline &con
     };
   };
   return {
-      {largest_overlap, [this, &contacts] { return deepest_contact(contacts); },
+      {largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
        say_once(&ContactMonitor::say_overlap)},
       {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::say_move)}};
 }
 
-RunMonitor::Finding ContactMonitor::deepest_contact(const ContactPipeline &contacts) const
+RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) const
 {
-  const DeepestContact deepest = contacts.deepest_contact();
   if (!(deepest.overlap_ratio > 0.0)) return {};
   const auto [low, high] = std::minmax(atom->tag[deepest.i], atom->tag[deepest.j]);
   return {deepest.overlap_ratio, {static_cast<double>(low), static_cast<double>(high)}};

@@ -14,6 +14,7 @@
 #include "pointers.h"
 #include "system/run_monitor.h"
 
+#include <functional>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -25,12 +26,12 @@ class ContactMonitor : protected Pointers {
 
   explicit ContactMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// `contacts` are those of the last compute(), with particles still numbered as then. Both objects
-  /// must live as long as the checks.
-  std::vector<RunMonitor::Check> checks(const Talus::ContactPipeline &contacts);
+  /// `find_deepest`: of the contacts of the last step, with particles still numbered as then. This
+  /// object must live as long as the checks.
+  std::vector<RunMonitor::Check> checks(std::function<Talus::DeepestContact()> find_deepest);
 
  private:
-  RunMonitor::Finding deepest_contact(const Talus::ContactPipeline &contacts) const;
+  RunMonitor::Finding overlap_of(const Talus::DeepestContact &deepest) const;
   RunMonitor::Finding largest_own_move() const;
   void say_overlap(const RunMonitor::Finding &worst) const;
   void say_move(const RunMonitor::Finding &worst) const;

@@ -7,28 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 using namespace LAMMPS_NS;
-
-namespace {
-
-std::map<LAMMPS *, std::weak_ptr<RunMonitor>> monitors;
-
-}    // namespace
-
-std::shared_ptr<RunMonitor> RunMonitor::of(LAMMPS *lmp)
-{
-  std::shared_ptr<RunMonitor> its = monitors[lmp].lock();
-  if (!its) monitors[lmp] = its = std::shared_ptr<RunMonitor>(new RunMonitor(lmp));
-  return its;
-}
-
-RunMonitor::~RunMonitor()
-{
-  monitors.erase(host);
-}
 
 void RunMonitor::add(const void *owner, std::vector<Check> checks)
 {

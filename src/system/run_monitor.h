@@ -7,7 +7,7 @@
 // in every step), the largest values of all ranks are found for all checks at once, in one
 // reduction. Only where a limit is exceeded more messages follow: the rank that has the largest
 // value tells the others what they need to know, and the check says it. Each check speaks once in a
-// run.
+// run. GranularSystem owns the monitor of a LAMMPS instance.
 //
 // Thresholds stand beside the checks: ContactMonitor, TimeStepMonitor, LargeBodyMonitor.
 
@@ -19,7 +19,6 @@
 
 #include <array>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -42,12 +41,7 @@ class RunMonitor : protected Pointers {
     std::function<bool(const Finding &worst)> say;
   };
 
-  /// The monitor of a LAMMPS instance: made when it is first asked for, and gone with the last one
-  /// who holds it.
-  static std::shared_ptr<RunMonitor> of(LAMMPS *lmp);
-  ~RunMonitor() override;
-  RunMonitor(const RunMonitor &) = delete;
-  RunMonitor &operator=(const RunMonitor &) = delete;
+  explicit RunMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
   /// Adds the checks of `owner`, on all ranks in the same order; remove() takes them back.
   void add(const void *owner, std::vector<Check> checks);
@@ -62,7 +56,6 @@ class RunMonitor : protected Pointers {
   void look(Moment moment);
 
  private:
-  explicit RunMonitor(LAMMPS *lmp) : Pointers(lmp), host(lmp) {}
   struct Entry {
     const void *owner;
     Check check;
@@ -70,7 +63,6 @@ class RunMonitor : protected Pointers {
   };
   Finding from_worst(const Finding &mine, double value, int rank) const;
 
-  LAMMPS *const host;
   std::vector<Entry> entries;
   bigint last_step = -1;
   Moment last_moment = Moment::END;
