@@ -195,25 +195,14 @@ void PairGranPenalty::look_at_pairs()
   time_step.look_for_smaller_particles(book);
 }
 
-void PairGranPenalty::keep_history(KeptContacts &kept, bool particles_may_leave)
+void PairGranPenalty::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
-  pipeline.keep_history(kept, particles_may_leave);
-}
-
-void PairGranPenalty::file_history(PartnerLists &partners)
-{
-  pipeline.file_history(partners);
+  pipeline.keep_history(to, scope, pairs_stay);
 }
 
 void PairGranPenalty::release_records()
 {
   if (!account.waits_for_move()) pipeline.release_records();
-}
-
-void PairGranPenalty::adopt_first_copies(PartnerLists &partners,
-                                         const FixContactStore::GhostValues &ghosts)
-{
-  pipeline.adopt_first_copies(partners, ghosts);
 }
 
 void PairGranPenalty::velocities_have_moved()
@@ -246,7 +235,7 @@ void PairGranPenalty::renumber_pairs()
                "ghosts of a rank: use more machines",
                atom->nlocal, atom->nghost);
   }
-  store->pairs_are_numbered(pipeline.particle_order().slot_of_atom);
+  store->pairs_are_numbered(pipeline.particle_order());
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(this);

@@ -93,10 +93,8 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
 
   // FixContactStore::Client
   void look_at_pairs() override;
-  void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) override;
-  void file_history(Talus::PartnerLists &partners) override;
-  void adopt_first_copies(Talus::PartnerLists &partners,
-                          const FixContactStore::GhostValues &ghosts) override;
+  void keep_history(Talus::HistoryStore &to, Talus::HistoryStore::Scope scope,
+                    bool pairs_stay) override;
   void renumber_pairs() override;
   void release_records() override;
   void release_pairs() override { pipeline.release(); }

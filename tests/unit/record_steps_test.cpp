@@ -93,7 +93,6 @@ class RecordSteps : public testing::TestWithParam<Division> {
     const LawTable laws = mixed_laws();
     for (ContactPipeline *pipeline : {&slow, &fast}) pipeline->set_laws(laws);
     fast.set_work(GetParam().threads, GetParam().two_phases);
-    partners.resize(p.size());
     for (ContactPipeline *pipeline : {&slow, &fast}) number_pairs(*pipeline);
     if (GetParam().some_sent)
       for (int i = 0; i < p.size(); i += 7) sent.push_back(i);
@@ -106,7 +105,7 @@ class RecordSteps : public testing::TestWithParam<Division> {
     NeighborLists lists(p.size());
     for (const Neighbors &n : candidates(p, skin, true)) lists.add(n.i, n.j, n.weight);
     pipeline.set_pairs({p.size(), p.key, p.tag, p.type.data()}, lists.view());
-    pipeline.start_pairs({partners, p.tag, KeptContacts(), {}});
+    pipeline.start_pairs(nothing_kept);
   }
 
   bool moves(int i) const { return !GetParam().some_rest || i % 5 != 2; }
@@ -141,7 +140,7 @@ class RecordSteps : public testing::TestWithParam<Division> {
   Packing p;
   Host twin, host;
   std::vector<double> twin_then = twin.x;    // where particles were when the pairs were made
-  PartnerLists partners;
+  HistoryStore nothing_kept;
   ContactPipeline slow, fast;
   std::vector<int> sent;
 };
