@@ -50,7 +50,7 @@ struct Prepared {
     part.history.put_aside(part.pairs, store.chunk(0), false);
     store.finish(order, 1);
     for (int a = bed.owned; a < bed.size(); a++)
-      store.set_ghost(a, store.origin(bed.original[a - bed.owned]), 0);
+      store.set_ghost(bed.owned, a, store.origin(bed.original[a - bed.owned]), 0);
     store.open(order, 1);
     part.history.fetch(part.pairs, store);
     store.number(order);

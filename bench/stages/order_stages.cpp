@@ -39,7 +39,8 @@ LawTable law()
 void prepare(HistoryStore &store, const Bed &bed)
 {
   store.resize(bed.size());
-  for (int a = bed.owned; a < bed.size(); a++) store.set_ghost(a, {bed.tag[a], -1, -1}, 1);
+  for (int a = bed.owned; a < bed.size(); a++)
+    store.set_ghost(bed.owned, a, {bed.tag[a], -1, -1}, 1);
 }
 
 /// Talus as it is, on one rank of one or several.

@@ -61,7 +61,7 @@ int FixContactStore::pack_border(int n, int *list, double *buf)
   for (int k = 0; k < n; k++, buf += comm_border) {
     const int i = list[k];
     // a ghost may be passed on to the next rank
-    const std::int64_t owner = i < atom->nlocal ? comm->me : store.owner_of_ghost(i);
+    const std::int64_t owner = i < atom->nlocal ? comm->me : store.owner_of_ghost(atom->nlocal, i);
     buf[0] = as_double(keys[i]);
     HistoryStore::write(store.origin(i), buf + 1);
     buf[1 + HistoryStore::size_origin] = as_double(owner);
@@ -74,7 +74,7 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
   for (int k = 0; k < n; k++, buf += comm_border) {
     keys[first + k] = from_double<std::uint64_t>(buf[0]);
     store.set_ghost(
-        first + k, HistoryStore::read(buf + 1),
+        atom->nlocal, first + k, HistoryStore::read(buf + 1),
         static_cast<int>(from_double<std::int64_t>(buf[1 + HistoryStore::size_origin])));
   }
   return comm_border * n;

@@ -45,7 +45,7 @@ void HistoryStore::name_contacts(const ParticleOrder &last)
     for (const SlotContacts::Contact &c : its.with_ghost) {
       const int first = last.atom_of_slot[c.first], second = last.atom_of_slot[c.second];
       const bool of_ghost = !last.is_owned(first);
-      const int owner = owners[of_ghost ? first : second];
+      const int owner = owner_of_ghost(last.owned, of_ghost ? first : second);
       if (owner == me) {
         touched_image.resize(last.size(), 0);
         touched_image[of_ghost ? c.second : c.first] = 1;

@@ -54,14 +54,14 @@ class HistoryStore {
   void copy(int from, int to);
   /// A new particle takes this place.
   void forget(int atom);
-  /// A ghost, and the rank that owns it.
-  void set_ghost(int atom, const Origin &origin, int owner);
+  /// Of `owned` particles and the ghosts behind them: a ghost, and the rank that owns it.
+  void set_ghost(int owned, int atom, const Origin &origin, int owner);
+  int owner_of_ghost(int owned, int atom) const { return owners[atom - owned]; }
   const Origin &origin(int atom) const { return origins[atom]; }
   /// As size_origin doubles of a message.
   static void write(const Origin &origin, double *to);
   static Origin read(const double *from);
   static constexpr int size_origin = 2;
-  int owner_of_ghost(int atom) const { return owners[atom]; }
 
   // ---- out of the last lists -------------------------------------------------------------------
 
@@ -141,10 +141,10 @@ class HistoryStore {
 
   // by host's index
   std::vector<Origin> origins;
-  std::vector<std::int32_t> owners;     // of ghosts
   std::vector<std::int32_t> list_of;    // of owned ones that brought their contacts: which; or -1
   AlignedVector<double> lists;          // one after the other
   std::vector<std::int64_t> list_begin;
+  std::vector<std::int32_t> owners;    // by ghost
 
   // contacts of the last lists, by the slots of then
   bool filled = false;

@@ -32,7 +32,6 @@ int size_of_list(const double *list)
 void HistoryStore::resize(int capacity)
 {
   origins.resize(capacity);
-  owners.resize(capacity, -1);
   list_of.resize(capacity, -1);
 }
 
@@ -48,10 +47,12 @@ void HistoryStore::forget(int atom)
   list_of[atom] = -1;
 }
 
-void HistoryStore::set_ghost(int atom, const Origin &origin, int owner)
+void HistoryStore::set_ghost(int owned, int atom, const Origin &origin, int owner)
 {
+  const std::size_t ghost = atom - owned;
+  if (ghost >= owners.size()) owners.resize(ghost + 1);
+  owners[ghost] = owner;
   origins[atom] = origin;
-  owners[atom] = owner;
 }
 
 void HistoryStore::write(const Origin &origin, double *to)

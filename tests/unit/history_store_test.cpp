@@ -167,7 +167,7 @@ class Rank {
         if (found != luggage.end()) store.unpack(a, found->second.data());
       } else {
         const int owner = world.particles[particle[a]].owner;
-        store.set_ghost(a,
+        store.set_ghost(owned, a,
                         found != luggage.end() ? HistoryStore::read(found->second.data())
                                                : HistoryStore::Origin{},
                         owner);

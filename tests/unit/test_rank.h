@@ -91,7 +91,7 @@ class TestRank {
       const auto came = luggage.find(particle[a]);
       if (a >= owned) {    // of ghosts this rank may know the slot
         const std::int64_t tag = p.tag[particle[a]];
-        store.set_ghost(a,
+        store.set_ghost(owned, a,
                         stayed != was_here.end() ? Talus::HistoryStore::read(stayed->second.data())
                                                  : Talus::HistoryStore::Origin{tag, -1, -1},
                         elsewhere);
