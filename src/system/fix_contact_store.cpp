@@ -1,6 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "fix/fix_contact_store.h"
+#include "system/fix_contact_store.h"
+
+#include "system/granular_system.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -91,7 +93,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   store_histories(Occasion::REBUILD);
-  if (client) client->release_pairs();
+  if (system) system->release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
@@ -103,7 +105,7 @@ void FixContactStore::pre_exchange()
 
 void FixContactStore::post_integrate()
 {
-  if (client) client->velocities_have_moved();
+  if (system) system->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()
@@ -131,7 +133,7 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (client) client->renumber_pairs();
+  if (system) system->renumber_pairs();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -165,7 +167,8 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 void FixContactStore::post_run()
 {
   store_histories(Occasion::END_OF_RUN);
-  if (client && store.holds_last_lists() && !client->pairs_are_needed()) client->release_pairs();
+  if (system && store.holds_last_lists() && !system->account_waits_for_move())
+    system->release_pairs();
   give_sorting_back();
 }
 
@@ -178,13 +181,13 @@ bool FixContactStore::in_periodic_box() const
 
 void FixContactStore::store_histories(Occasion occasion)
 {
-  if (!client || !current) return;
-  client->look_at_pairs();
-  if (occasion != Occasion::RESTART_FILE) client->release_records();
+  if (!system || !current) return;
+  system->look_at_contacts();
+  if (occasion != Occasion::RESTART_FILE) system->release_records();
   const bool last_use = occasion == Occasion::REBUILD ||
-                        (occasion == Occasion::END_OF_RUN && !client->pairs_are_needed());
+                        (occasion == Occasion::END_OF_RUN && !system->account_waits_for_move());
   const bool particles_may_leave = comm->nprocs > 1 || occasion != Occasion::REBUILD;
-  client->keep_history(store, {particles_may_leave, in_periodic_box()}, !last_use);
+  system->keep_history(store, {particles_may_leave, in_periodic_box()}, !last_use);
   agree_with_other_ranks();
   current = false;
 }

@@ -2,7 +2,9 @@
 //
 // What travels with a particle: to another place or rank, to its ghosts, and into restart files.
 
-#include "fix/fix_contact_store.h"
+#include "system/fix_contact_store.h"
+
+#include "system/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"

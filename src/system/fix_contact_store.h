@@ -24,45 +24,24 @@
 #include <cstdint>
 #include <vector>
 
+namespace Talus {
+class GranularSystem;
+}
+
 namespace LAMMPS_NS {
 
 class FixContactStore : public Fix {
  public:
-  /// What the pair style has to provide.
-  class Client {
-   public:
-    /// The pairs are still those of the last step: a look at them, on all ranks.
-    virtual void look_at_pairs() = 0;
-    /// Puts the history of the current pairs aside, which are gone then until renumber_pairs()
-    /// unless they stay.
-    virtual void keep_history(Talus::HistoryStore &to, Talus::HistoryStore::Scope scope,
-                              bool pairs_stay) = 0;
-    /// A new neighbor list exists: number the pairs anew and fetch their history.
-    virtual void renumber_pairs() = 0;
-    /// The state of the last step is not needed any more: its memory is free for others.
-    virtual void release_records() = 0;
-    /// The same for the pairs: histories are elsewhere, and renumber_pairs() will follow.
-    virtual void release_pairs() = 0;
-    /// Something is still to be asked about the pairs of the last step.
-    virtual bool pairs_are_needed() const = 0;
-    /// The integrator has moved the velocities, and particles are still numbered as in the last
-    /// compute().
-    virtual void velocities_have_moved() = 0;
-
-   protected:
-    ~Client() = default;    // never deleted through this interface
-  };
-
   /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order
   /// (length).
   FixContactStore(class LAMMPS *, int, char **);
   ~FixContactStore() override;
 
-  /// To be called by the pair style right after creation.
-  void serve(Client *c) { client = c; }
+  /// Called by the system right after creation; it outlives this fix.
+  void serve(Talus::GranularSystem *of) { system = of; }
   /// Impact speed and age of contacts are kept as well.
   void keep_impacts(bool yes) { store.keep_impacts(yes); }
-  /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
+  /// To be called by the system whenever it has computed forces: its pairs hold the latest
   /// history, and the store need not.
   void pairs_are_current();
   /// The same when pairs have been numbered.
@@ -117,7 +96,7 @@ class FixContactStore : public Fix {
   void put_positions_back();
   bigint next_refresh(bigint step) const;
 
-  Client *client = nullptr;
+  Talus::GranularSystem *system = nullptr;
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
