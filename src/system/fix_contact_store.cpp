@@ -166,6 +166,7 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 
 void FixContactStore::post_run()
 {
+  if (system) system->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
   if (system && store.holds_last_lists() && !system->account_waits_for_move())
     system->release_pairs();
@@ -182,7 +183,7 @@ bool FixContactStore::in_periodic_box() const
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
-  system->look_at_contacts();
+  system->look_at_contacts(occasion == Occasion::END_OF_RUN);
   if (occasion != Occasion::RESTART_FILE) system->release_records();
   const bool last_use = occasion == Occasion::REBUILD ||
                         (occasion == Occasion::END_OF_RUN && !system->account_waits_for_move());
