@@ -62,7 +62,8 @@ def surface(lmp):
     IDs."""
     wide, radius = 2 * float(lmp.extract_variable("d")), float(lmp.extract_variable("d")) / 2
     lmp.command(f"compute column all chunk/atom bin/2d x {wide / 2!r} {wide!r} y {wide / 2!r} {wide!r} units box")
-    lmp.command("compute crest all reduce/chunk column max z")
+    lmp.command("variable height atom z")
+    lmp.command("compute crest all reduce/chunk column max v_height")
     lmp.command("run 0")
     count = lmp.extract_compute("crest", LMP_STYLE_GLOBAL, LMP_SIZE_VECTOR)
     crests = lmp.extract_compute("crest", LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR)
