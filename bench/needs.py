@@ -37,7 +37,7 @@ def variants(bench):
         "multistep, rolling, spinning": (STICKS + " rolling 0.02 spinning 0.02", True, "sphere", "", "f f f"),
         "multistep, limit_damping": (STICKS + " limit_damping", True, "sphere", "", "f f f"),
         "multistep, adhesion": (STICKS + " adhesion perko 0.01", True, "sphere", "", "f f f"),
-        "multistep, impact speed and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
+        "multistep, impact velocity and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
                                                                                         f"{beds.NU} 1.0 tang"),
                                             True, "sphere", "", "f f f"),
         "multistep, one body instead of five": (STICKS, False, "sphere", "", "f f f"),

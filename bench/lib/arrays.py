@@ -50,7 +50,7 @@ TALUS = [
     Array("pairs: those that touch", 4, "contact", "steps", True, (STEPS,)),
     Array("pairs: displacement, whether it slides", 32, "contact", "multistep", True, (STEPS, FILING)),
     Array("pairs: place of the displacement; whether it touches", 4.125, "pair", "multistep", True, (STEPS, FILING)),
-    Array("pairs: impact speed, age", 32, "contact", "laws that read them", False),
+    Array("pairs: impact velocity, age", 32, "contact", "laws that read them", False),
     Array("displacements filed by particle: heads", 16, "particle"),
     Array("displacements filed by particle, with the tag of the partner", 40, "end", "periodic boxes, restart files", False,
           (FILING,)),

@@ -98,7 +98,7 @@ std::string LawBook::describe(const LawTable &table) const
 
   std::string left_out;
   if (!table.has_resistance()) left_out += ", couples (no rolling or spinning resistance)";
-  if (!table.has_impact()) left_out += ", impact speed and age of contacts (no law reads them)";
+  if (!table.has_impact()) left_out += ", impact velocity and age of contacts (no law reads them)";
   if (!table.has_history()) left_out += ", contact history (no multistep law)";
   if (!table.has_friction()) left_out += ", spins and torques (no friction)";
   if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
