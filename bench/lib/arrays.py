@@ -26,7 +26,7 @@ class Array:
 
 
 HOST = [
-    Array("positions, velocities, forces, spins, torques", 120, "particle"),
+    Array("positions, velocities, forces, angular velocities, torques", 120, "particle"),
     Array("radius, mass", 16, "particle"),
     Array("atom ID, type, groups, periodic image (smallbig)", 16, "particle"),
     Array("where an atom ID is", 4, "particle", "atom_modify map array"),
@@ -36,10 +36,10 @@ HOST = [
 
 TALUS = [
     Array("records: place and radius; velocity and 1/mass", 64, "particle"),
-    Array("records: spin and 1/radius", 32, "particle", "friction"),
+    Array("records: angular velocity and 1/radius", 32, "particle", "friction"),
     Array("records: sum of forces", 32, "particle", "steps", True, (STEPS,)),
     Array("records: sum of moments", 32, "particle", "steps, friction", True, (STEPS,)),
-    Array("records: sum of couples", 32, "particle", "steps, rolling or spinning resistance", False),
+    Array("records: torques of resistance", 32, "particle", "steps, rolling or spinning resistance", False),
     Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
     Array("order: key, tag, both numberings", 24, "particle"),
     Array("name in the filed displacements, slot of the last lists", 12, "particle"),

@@ -87,16 +87,16 @@ class Wheel:
         """One exchange: force of the grains in, state at the end of the next steps out. slip None: it stands."""
         force = self.body.load
         speed = 0.0 if slip is None else self.options.speed
-        spin = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
+        omega = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
         # a dashpot stands for the suspension; strong at first, so that the wheel is put down and does not fall
         damping = 10.0 if speed else 100.0
         self.vz += dt * (force[2] / self.mass - GRAVITY - damping * self.vz)
         self.x += dt * speed
         self.z += dt * self.vz
-        self.angle += dt * spin
+        self.angle += dt * omega
         half = 0.5 * self.angle
         self.body.set_state([self.x, 0.0, self.z, math.cos(half), 0.0, math.sin(half), 0.0,
-                             speed, 0.0, self.vz, 0.0, spin, 0.0], after=steps)
+                             speed, 0.0, self.vz, 0.0, omega, 0.0], after=steps)
 
     @property
     def sinkage(self):
