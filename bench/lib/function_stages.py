@@ -12,7 +12,7 @@ import machine
 PLACES = (
     ("integration", r"^particles/.*(motion|integrat)|^fix/(fix_nve|constant_gravity)"),
     ("floor and walls", r"^body/|^fix/(fix_)?large_body|^fix/region_shape"),
-    ("broad phase", r"^neighbors/|^particles/.*(order|key)|^history/.*(kept|partner|rebuild)|^fix/fix_contact_store|neighbor_source"),
+    ("broad phase", r"^neighbors/|^particles/.*(order|key)|^history/.*(kept|partner|rebuild)|^system/.*(contact_store|neighbor|rebuild)"),
     ("narrow phase", r"^contact/narrow_phase|^history/"),
     ("exchange", r"^(exchange|comm)/"),
     ("contact force", r"^(contact|laws|material|particles|pair)/"),
