@@ -49,6 +49,7 @@ class Line {
   static std::vector<const char *> pointers_to(const std::vector<std::string> &words)
   {
     std::vector<const char *> found;
+    found.reserve(words.size());
     for (const std::string &word : words) found.push_back(word.c_str());
     return found;
   }
