@@ -113,8 +113,8 @@ std::vector<double> CriticalTimeStep::sizes_here(int types, int group) const
 {
   std::vector<double> sizes_of_all = smallest_here(types, group);
   std::set<int> known{group};
-  for (const auto &ifix : modify->get_fix_by_style("^large/body$"))
-    if (const int groups = group | ifix->groupbit; known.insert(groups).second) {
+  for (const SystemBody *body : GranularSystem::of(lmp)->bodies())
+    if (const int groups = group | body->group_bits(); known.insert(groups).second) {
       const std::vector<double> its = smallest_here(types, groups);
       sizes_of_all.insert(sizes_of_all.end(), its.begin(), its.end());
     }
