@@ -168,8 +168,7 @@ void FixContactStore::post_run()
 {
   if (system) system->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
-  if (system && store.holds_last_lists() && !system->account_waits_for_move())
-    system->release_pairs();
+  if (system && store.holds_last_lists() && !pairs_stay_after_run()) system->release_pairs();
   give_sorting_back();
 }
 
@@ -180,15 +179,24 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
+/* Something may still be to be asked about them. And in a periodic box a run that goes on without a
+   new set-up goes on with the histories of both sides as they are, not with what the sides agree on:
+   the same bits as one run. */
+
+bool FixContactStore::pairs_stay_after_run() const
+{
+  return in_periodic_box() || system->account_waits_for_move();
+}
+
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
   system->look_at_contacts(occasion == Occasion::END_OF_RUN);
   if (occasion != Occasion::RESTART_FILE) system->release_records();
-  const bool last_use = occasion == Occasion::REBUILD ||
-                        (occasion == Occasion::END_OF_RUN && !system->account_waits_for_move());
+  const bool pairs_stay = occasion == Occasion::RESTART_FILE ||
+                          (occasion == Occasion::END_OF_RUN && pairs_stay_after_run());
   const bool particles_may_leave = comm->nprocs > 1 || occasion != Occasion::REBUILD;
-  system->keep_history(store, {particles_may_leave, in_periodic_box()}, !last_use);
+  system->keep_history(store, {particles_may_leave, in_periodic_box()}, pairs_stay);
   agree_with_other_ranks();
   current = false;
 }
