@@ -53,6 +53,7 @@ function(talus_add_module name exported)
     PREFIX "" SUFFIX ".so"
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(${name} PRIVATE ${talus_index_flags})
   if(APPLE)
     target_link_options(${name} PRIVATE "LINKER:-undefined,dynamic_lookup")
     return()

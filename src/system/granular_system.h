@@ -124,11 +124,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void look_at_contacts(bool run_is_over);
   /// A run has ended: what is asked about its contacts is what it would be now.
   void remember_contacts() { pipeline->remember_contacts(); }
-  /// Histories go to `kept`, or into lists by particle.
-  void keep_history(KeptContacts &kept, bool particles_may_leave);
-  void file_history(PartnerLists &partners);
-  void adopt_first_copies(PartnerLists &partners,
-                          const std::function<const double *(int, std::int64_t)> &ghost_values);
+  /// Puts histories aside. The pairs are gone then until renumber_pairs(), unless they stay.
+  void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
   /// Memory that is free for others until renumber_pairs().
   void release_records();
   void release_pairs() { pipeline->release(); }
