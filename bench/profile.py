@@ -39,7 +39,7 @@ STAGES = {
     "broad phase": r"NPair|NBin|NStencil|Neighb|NeighList|PairList|PairRows|ParticleOrder|Entry|PartnerLists|ContactHistory::(?!begin|change)"
                    r"|FixContactStore|FixNeighHistory|renumber|set_pairs|start_pairs|Atom::sort|AtomVec::copy|find_candidates",
     "narrow phase": r"find_contacts|ContactHistory",
-    "floor and walls": r"BodyContacts|BodyBatch|SparseHistory|FixLargeBody|FixWallGran|Plane::|Rectangle::",
+    "floor and walls": r"BodyContacts|BodyBatch|BodyHistory|FixLargeBody|FixWallGran|Plane::|Rectangle::",
     "integration": r"ParticleRecords::advance|FixNVE|FixGravity|force_clear",
     "contact force": r"compute_batch|ContactChunk|ContactPipeline|ParticleRecords|Pair|GranSub|Granular",
 }

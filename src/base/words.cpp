@@ -14,22 +14,6 @@
 namespace Talus {
 namespace {
 
-/* Decimal numbers only, in any locale; not-a-number for everything else. */
-
-double parse_number(const std::string &word)
-{
-  const char *begin = word.data(), *const end = begin + word.size();
-  if (begin != end && *begin == '+') begin++;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || begin == end || error == std::errc::invalid_argument) return NAN;
-  // too small for a double counts as 0, too large is not finite
-  if (error == std::errc::result_out_of_range)
-    return word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? 0.0
-                                                                                        : INFINITY;
-  return value;
-}
-
 std::string as_text(double number)
 {
   char text[32];
@@ -48,6 +32,20 @@ std::string list_of(const std::vector<std::string> &words)
 }
 
 }    // namespace
+
+double parse_number(const std::string &word)
+{
+  const char *begin = word.data(), *const end = begin + word.size();
+  if (begin != end && *begin == '+') begin++;
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || begin == end || error == std::errc::invalid_argument) return NAN;
+  // too small for a double counts as 0, too large is not finite
+  if (error == std::errc::result_out_of_range)
+    return word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? 0.0
+                                                                                        : INFINITY;
+  return value;
+}
 
 Words::Words(std::string command_name, int n, const char *const *words, int first, Fail fail_with) :
     command(std::move(command_name)), narg(n), arg(words), next(first),

@@ -16,6 +16,9 @@
 
 namespace Talus {
 
+/// A decimal number, in any locale; not-a-number for everything else.
+double parse_number(const std::string &word);
+
 class Words {
  public:
   /// Index of the word at fault (of the last word if there is none), and the text. Must not return.

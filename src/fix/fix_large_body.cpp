@@ -5,13 +5,12 @@
 #include "fix/large_body_shapes.h"
 #include "fix/region_shape.h"
 
-#include "pair/pair_gran_penalty.h"
+#include "system/command_words.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -27,7 +26,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), masses(lmp)
+    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), system(lmp), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -36,13 +35,13 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   spec_is_set.assign(atom->ntypes + 1, false);
 
   // `two-sided` is a property of the shape, so it is looked for before the shape is made
-  LargeBodyWords words(lmp, narg, arg, 3);
+  Words words = command_words(lmp, "fix large/body", narg, arg, 3);
   for (int iarg = 4; iarg < narg; iarg++)
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   shape = LargeBodyShapes(lmp, words).parse(two_sided);
   surface = std::make_unique<LargeBodySurface>(lmp, *shape);
-  parse_keywords(words);
-  motion.finish(words, shape->reference_point());
+  parse_keywords(words, narg, arg);
+  motion.finish(shape->reference_point());
   with_history = std::any_of(specs.begin(), specs.end(),
                              [](const ContactSpec &s) { return s.law.has_history(); });
   with_impact = std::any_of(specs.begin(), specs.end(),
@@ -81,19 +80,19 @@ void FixLargeBody::offer_output()
 
 /* ---------------------------------------------------------------------- */
 
-void FixLargeBody::parse_keywords(LargeBodyWords &words)
+void FixLargeBody::parse_keywords(Words &words, int narg, char **arg)
 {
   while (!words.at_end()) {
-    if (words.is_next("contact")) {
-      words.next++;
-      parse_contact_words(words);
+    words.about("");
+    if (words.take("contact")) {
+      parse_contact_words(words, narg, arg);
     } else if (words.take("two-sided") || motion.parse(words) || surface->parse(words)) {
       continue;
     } else {
-      error->all(FLERR, words.next,
-                 "fix large/body: unknown word '{}', expected contact, two-sided, move, servo, "
-                 "gravity, load, pressure, vtk, or in a contact {}",
-                 words.arg[words.next], contact_keywords);
+      words.fail(0, "unknown word '" + words.peek() +
+                        "', expected contact, two-sided, move, servo, gravity, load, pressure, "
+                        "vtk, or in a contact " +
+                        contact_keywords);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
@@ -104,15 +103,16 @@ void FixLargeBody::parse_keywords(LargeBodyWords &words)
                  type, type);
 }
 
-void FixLargeBody::parse_contact_words(LargeBodyWords &words)
+void FixLargeBody::parse_contact_words(Words &words, int narg, char **arg)
 {
-  const CommandWords command{lmp, "fix large/body contact", words.narg, words.arg};
   int lo = 1, hi = atom->ntypes;
-  if (words.take("types")) {
-    words.about("contact");
+  words.about("contact");
+  if (words.take("types"))
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
-  }
-  const ContactSpec parsed = parse_contact(command, words.next);
+  int next = words.index();
+  const CommandWords command{lmp, "fix large/body contact", narg, arg};
+  const ContactSpec parsed = parse_contact(command, next);
+  words.skip(next - words.index());
   for (int type = lo; type <= hi; type++) {
     specs[type] = parsed;
     spec_is_set[type] = true;
@@ -126,37 +126,17 @@ void FixLargeBody::set_laws()
   for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
   table.finish();
-  contacts.set_laws(table, shape->one_contact());
+  contacts.set_laws(table);
 }
 
 /* A body given by numbers is used as given; a body given by its material is mixed with the material
-   of the particles. Friction and resistance of particles whose own law has none are those of the
-   body. */
+   of the particles. */
 
 ContactCoefficients FixLargeBody::coefficients_of(int type)
 {
   const ContactSpec &body = specs[type];
-  if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
-
-  auto *pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
-  const ContactSpec *own = pair ? pair->own_spec(type) : nullptr;
-  if (!own || !own->is_material())
-    error->all(
-        FLERR,
-        "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
-        "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
-        id, name_of(body.law.normal), type, type, type);
-  ContactSpec particle = body;
-  particle.young = own->young;
-  particle.poisson = own->poisson;
-  particle.restitution = own->restitution;
-  particle.limit_damping = own->limit_damping;
-  if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
-  if (own->law.resists) {
-    particle.given.mu_roll = own->given.mu_roll;
-    particle.given.mu_twist = own->given.mu_twist;
-  }
-  return contact_coefficients(body, particle, pair->mix_rule());
+  return body.is_material() ? system.mixed(body, type, id)
+                            : contact_coefficients(body, body, FrictionMix::MINIMUM);
 }
 
 double FixLargeBody::contact_period(int type, double mass, double radius)
@@ -254,15 +234,16 @@ void FixLargeBody::post_run()
 
 void FixLargeBody::look_for_trouble()
 {
-  monitor.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
+  monitor.look(contacts.look_for_trouble(*shape, motion.frame(), view(), comm->nthreads),
+               motion.moves(), id);
 }
 
 void FixLargeBody::list_particles()
 {
   const BodyParticleView particles = view();
   if (shape->wants_focus())
-    shape->focus(
-        BodyContacts::asked_for(motion.frame(), particles, atom->mask, groupbit, neighbor->skin));
+    shape->focus(BodyCandidates::bounds_of_search(motion.frame(), particles, atom->mask, groupbit,
+                                                  neighbor->skin));
   contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin,
                            comm->nthreads);
 }
@@ -285,22 +266,7 @@ void FixLargeBody::min_post_force(int vflag)
 
 BodyParticleView FixLargeBody::view() const
 {
-  if (atom->nlocal == 0) return {};
-  auto *keeper = dynamic_cast<PairGranPenalty *>(force->pair);
-  const bool kept = keeper && keeper->holds_state();
-  return {atom->nlocal,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          masses.override_or_null(),
-          atom->type,
-          atom->f[0],
-          atom->torque[0],
-          nullptr,
-          kept ? &keeper->records() : nullptr,
-          kept ? keeper->slot_of_atom() : nullptr};
+  return system.particles(masses.override_or_null());
 }
 
 std::string FixLargeBody::hazard_of_records() const
@@ -309,10 +275,9 @@ std::string FixLargeBody::hazard_of_records() const
   if (motion.asks_variables()) return "its variables may read particles";
   const auto *its = dynamic_cast<const RegionShape *>(shape.get());
   if (its && its->moves()) return "its region may read particles";
-  const auto *pair = dynamic_cast<PairGranPenalty *>(force->pair);
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && pair && !pair->turns_particles())
+  if (turns && !system.turns_particles())
     return "it has friction and the contacts between particles have none";
   return "";
 }
@@ -348,7 +313,7 @@ void FixLargeBody::add_contacts(bool advance)
 bool FixLargeBody::join_step()
 {
   joined = (comm->nthreads == 1 || shape->thread_safe()) &&
-           contacts.begin_at_rest(*shape, motion.frame(), view(), step_of(true));
+           contacts.begin_static(*shape, motion.frame(), view(), step_of(true));
   return joined;
 }
 
@@ -358,7 +323,7 @@ void FixLargeBody::post_force(int vflag)
   v_init(vflag);
   const bool advance = update->setupflag == 0;
   if (joined)
-    mine = contacts.load_at_rest();
+    mine = contacts.static_load();
   else
     add_contacts(advance);
   joined = false;

@@ -16,7 +16,7 @@
 #include "fix/large_body_monitor.h"
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
-#include "fix/large_body_words.h"
+#include "fix/large_body_system.h"
 #include "pair/contact_command.h"
 #include "system/effective_masses.h"
 #include "system/record_forces.h"
@@ -93,8 +93,8 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   double memory_usage() override;
 
  private:
-  void parse_keywords(LargeBodyWords &words);
-  void parse_contact_words(LargeBodyWords &words);
+  void parse_keywords(Talus::Words &words, int narg, char **arg);
+  void parse_contact_words(Talus::Words &words, int narg, char **arg);
   void offer_output();
   void keep_history();
   void set_laws();
@@ -113,7 +113,6 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   void finish_reduction();
   void reduce_load();
   void reduce_exactly();
-  int max_packed() const;
 
   bool two_sided = false;
   bool with_history = false, with_impact = false;
@@ -121,6 +120,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
   LargeBodyMonitor monitor;
+  LargeBodySystem system;
   std::vector<ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
