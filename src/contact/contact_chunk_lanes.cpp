@@ -156,7 +156,7 @@ void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width]
   const std::uint32_t *place = history.all_places();
   for (int k = 0; k < end; k += 4)
     to_rows(lanes_of, fourth, k,
-               [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
+            [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
 }
 
 template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)

@@ -26,7 +26,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), system(lmp), masses(lmp)
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), motion(lmp), monitor(lmp), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -130,13 +130,32 @@ void FixLargeBody::set_laws()
 }
 
 /* A body given by numbers is used as given; a body given by its material is mixed with the material
-   of the particles. */
+   of the particles. Friction and resistance of particles whose own law has none are those of the
+   body. */
 
 ContactCoefficients FixLargeBody::coefficients_of(int type)
 {
   const ContactSpec &body = specs[type];
-  return body.is_material() ? system.mixed(body, type, id)
-                            : contact_coefficients(body, body, FrictionMix::MINIMUM);
+  if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
+
+  const ContactSpec *own = system->own_law(type);
+  if (!own || !own->is_material())
+    error->all(
+        FLERR,
+        "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
+        "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
+        id, name_of(body.law.normal), type, type, type);
+  ContactSpec particle = body;
+  particle.young = own->young;
+  particle.poisson = own->poisson;
+  particle.restitution = own->restitution;
+  particle.limit_damping = own->limit_damping;
+  if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
+  if (own->law.resists) {
+    particle.given.mu_roll = own->given.mu_roll;
+    particle.given.mu_twist = own->given.mu_twist;
+  }
+  return contact_coefficients(body, particle, system->laws().mix);
 }
 
 double FixLargeBody::contact_period(int type, double mass, double radius)
@@ -266,10 +285,24 @@ void FixLargeBody::min_post_force(int vflag)
 
 BodyParticleView FixLargeBody::view() const
 {
-  return system.particles(masses.override_or_null());
+  if (atom->nlocal == 0) return {};
+  const bool in_records = system->residence() == Residence::RECORDS;
+  return {atom->nlocal,
+          atom->x[0],
+          atom->v[0],
+          atom->omega[0],
+          atom->radius,
+          atom->rmass,
+          masses.override_or_null(),
+          atom->type,
+          atom->f[0],
+          atom->torque[0],
+          nullptr,
+          in_records ? &system->records() : nullptr,
+          in_records ? system->slot_of_atom() : nullptr};
 }
 
-std::string FixLargeBody::hazard_of_records() const
+std::string FixLargeBody::needs_host_arrays()
 {
   if (keeps_account) return "its energies are accounted for";
   if (motion.asks_variables()) return "its variables may read particles";
@@ -277,7 +310,7 @@ std::string FixLargeBody::hazard_of_records() const
   if (its && its->moves()) return "its region may read particles";
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && !system.turns_particles())
+  if (turns && !system->turns_particles())
     return "it has friction and the contacts between particles have none";
   return "";
 }

@@ -94,7 +94,8 @@ void FixLargeBody::restart(char *buf)
   if (with_history && values[1] != static_cast<double>(atom->natoms))
     error->all(FLERR,
                "Fix large/body {}: particles were added or deleted between read_restart and this "
-               "command, so that contact history cannot be assigned: define the fix right after read_restart",
+               "command, so that contact history cannot be assigned: define the fix right after "
+               "read_restart",
                id);
   if (!motion.from_array(&values[size_head]) && comm->me == 0)
     error->warning(FLERR,

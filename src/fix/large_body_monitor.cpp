@@ -31,7 +31,6 @@ void LargeBodyMonitor::look(const BodyFindings &found, bool moves, const std::st
     tagint tag = comm->me == all[kind].rank ? atom->tag[mine[kind].atom] : 0;
     MPI_Bcast(&tag, 1, MPI_LMP_TAGINT, all[kind].rank, world);
     if (comm->me == 0)
-      error->warning(FLERR,
-                     BodyWarnings::text(kind, id, all[kind].value, tag, update->ntimestep));
+      error->warning(FLERR, BodyWarnings::text(kind, id, all[kind].value, tag, update->ntimestep));
   }
 }

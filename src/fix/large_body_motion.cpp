@@ -120,7 +120,8 @@ void LargeBodyMotion::parse_free(Words &words)
         for (int k = 0; k < 6; k++)
           if (words.take(freedoms[k])) known = rigid.locked[k] = true;
       }
-      if (words.index() == first) words.fail(0, "expected one or more of x y z rx ry rz after lock");
+      if (words.index() == first)
+        words.fail(0, "expected one or more of x y z rx ry rz after lock");
     } else {
       more = false;
     }

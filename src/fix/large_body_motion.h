@@ -6,13 +6,13 @@
 #ifndef TALUS_FIX_LARGE_BODY_MOTION_H
 #define TALUS_FIX_LARGE_BODY_MOTION_H
 
+#include "base/words.h"
 #include "body/contact/body_load.h"
 #include "body/motion/body_state.h"
 #include "body/motion/guided_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
 #include "fix/constant_gravity.h"
-#include "base/words.h"
 #include "lmptype.h"
 
 #include <memory>

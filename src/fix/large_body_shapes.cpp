@@ -47,17 +47,20 @@ std::string why_no_shape(void *library)
 std::unique_ptr<LargeBodyShape> LargeBodyShapes::parse(bool two_sided)
 {
   using Solid = Shape (LargeBodyShapes::*)();
-  static const std::vector<std::string> shapes = {"plane", "rectangle", "mesh",   "box",   "sphere",
-                                                  "cylinder", "cone",   "region", "custom"};
+  static const std::vector<std::string> shapes = {
+      "plane", "rectangle", "mesh", "box", "sphere", "cylinder", "cone", "region", "custom"};
   static const Solid solids[] = {&LargeBodyShapes::box,      &LargeBodyShapes::ball,
                                  &LargeBodyShapes::cylinder, &LargeBodyShapes::cone,
                                  &LargeBodyShapes::region,   &LargeBodyShapes::custom};
   const int which = words.choice("shape", shapes);
   words.about(shapes[which]);
   switch (which) {
-  case 0: return plane(two_sided);
-  case 1: return rectangle(two_sided);
-  case 2: return mesh(two_sided);
+  case 0:
+    return plane(two_sided);
+  case 1:
+    return rectangle(two_sided);
+  case 2:
+    return mesh(two_sided);
   default:
     if (two_sided) words.fail(1, "two-sided is for plane, rectangle and mesh");
     return (this->*solids[which - 3])();
@@ -161,10 +164,11 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
 
   std::vector<Triangle> &soup = content.triangles;
   if (content.trailing_bytes && comm->me == 0)
-    error->warning(FLERR,
-                   "fix large/body mesh '{}': {} bytes behind the last of the {} triangles that the "
-                   "file announces are not read",
-                   file, content.trailing_bytes, soup.size());
+    error->warning(
+        FLERR,
+        "fix large/body mesh '{}': {} bytes behind the last of the {} triangles that the "
+        "file announces are not read",
+        file, content.trailing_bytes, soup.size());
 
   double scale = 1.0;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -242,8 +246,8 @@ LargeBodyShapes::Shape LargeBodyShapes::custom()
   // stays open: shapes made by it may outlive this command
   void *library = platform::dlopen(file);
   if (!library) words.fail(count + 2, "cannot open '" + file + "': " + platform::dlerror());
-  auto make = reinterpret_cast<MakeShapeFunction>(
-      platform::dlsym(library, make_shape_name(shape_version)));
+  auto make =
+      reinterpret_cast<MakeShapeFunction>(platform::dlsym(library, make_shape_name(shape_version)));
   if (!make) words.fail(count + 2, "'" + file + "' " + why_no_shape(library));
   char problem[256] = "";
   Shape shape(make(count, arguments.data(), problem, sizeof problem));

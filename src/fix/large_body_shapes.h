@@ -5,8 +5,8 @@
 #ifndef TALUS_FIX_LARGE_BODY_SHAPES_H
 #define TALUS_FIX_LARGE_BODY_SHAPES_H
 
-#include "body/shape/large_body_shape.h"
 #include "base/words.h"
+#include "body/shape/large_body_shape.h"
 #include "pointers.h"
 
 #include <memory>

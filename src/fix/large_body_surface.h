@@ -6,10 +6,10 @@
 #ifndef TALUS_FIX_LARGE_BODY_SURFACE_H
 #define TALUS_FIX_LARGE_BODY_SURFACE_H
 
+#include "base/words.h"
 #include "body/contact/body_batch.h"
 #include "body/motion/body_state.h"
 #include "body/shape/mesh_shape.h"
-#include "base/words.h"
 #include "pointers.h"
 
 #include <string>

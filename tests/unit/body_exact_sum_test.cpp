@@ -86,9 +86,9 @@ TEST(ExactSum, CarriesAfterTheLargestNumberOfAdditions)
     ExactSum sum;
     for (int k = 0; k < ExactSum::max_pending; k++) sum.add(sign * value);
     EXPECT_EQ(sum.value(), sign * value * ExactSum::max_pending);
-    const std::int64_t before = *std::max_element(
-        sum.data(), sum.data() + ExactSum::num_digits,
-        [](std::int64_t a, std::int64_t b) { return std::abs(a) < std::abs(b); });
+    const std::int64_t before =
+        *std::max_element(sum.data(), sum.data() + ExactSum::num_digits,
+                          [](std::int64_t a, std::int64_t b) { return std::abs(a) < std::abs(b); });
     EXPECT_GT(std::abs(before), std::int64_t{1} << 51);
     EXPECT_LT(std::abs(before), std::int64_t{1} << 53);
     sum.add(sign * value);    // one more: carried before

@@ -35,7 +35,8 @@ TEST(BodyRotation, TurnsAndTurnsBack)
   EXPECT_NEAR(length(r.to_space(v) - expected), 0.0, 1e-15);
   EXPECT_NEAR(length(r.to_body(r.to_space(v)) - v), 0.0, 1e-15);
   for (int k = 0; k < 3; k++) {    // eight vectors at a time: the same bits
-    const Vector3<Vec8> eight = r.to_space(in_all_lanes<Vec8>(v)), back = r.to_body(in_all_lanes<Vec8>(v));
+    const Vector3<Vec8> eight = r.to_space(in_all_lanes<Vec8>(v)),
+                        back = r.to_body(in_all_lanes<Vec8>(v));
     EXPECT_EQ(eight.x[3 * k], r.to_space(v).x);
     EXPECT_EQ(eight.z[3 * k], r.to_space(v).z);
     EXPECT_EQ(back.y[3 * k], r.to_body(v).y);

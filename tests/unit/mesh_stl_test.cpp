@@ -113,7 +113,8 @@ TEST(Stl, BytesBehindABinaryFileAreCounted)
 
 TEST(Stl, WhatIsNoStlFileIsSaidToBeNone)
 {
-  const std::string rest = ", where an ASCII file has 'solid' and a binary one a header and triangles";
+  const std::string rest =
+      ", where an ASCII file has 'solid' and a binary one a header and triangles";
   const std::string start = "it is no STL file: it begins with ";
   EXPECT_EQ(reason("PK"), start + "'PK'" + rest);
   EXPECT_EQ(reason("# a comment\nsolid\n" + facet + "endsolid\n"), start + "'# a comment'" + rest);

@@ -218,9 +218,9 @@ void BodyBatch::account()
   for (int lane = 0; lane < filled; lane++) {
     const double r = radius[lane];
     largest_overlap = std::max(largest_overlap, batch.overlap[lane] / r);
-    task->energies->add(lane_energy(law, task->laws.coefficients(batch.coefficients[lane]), batch,
-                                    lane, task->dt),
-                        1.0, task->candidates.atom(candidate_of_lane[lane]), r, -1, 0.0);
+    task->energies->add(
+        lane_energy(law, task->laws.coefficients(batch.coefficients[lane]), batch, lane, task->dt),
+        1.0, task->candidates.atom(candidate_of_lane[lane]), r, -1, 0.0);
   }
 }
 

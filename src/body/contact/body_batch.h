@@ -40,13 +40,14 @@ struct BodyTask {
   const BodyFrame &frame;
   const BodyParticleView &view;
   const BodyCandidates &candidates;
-  const int *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
+  const int
+      *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
   BodyHistory &history;
   double dt;
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
-  EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
+  EnergyAccount *energies;           ///< nullptr, or receives them: from one thread only
   bool with_history, with_impact;    ///< of any law
 
   static constexpr int spare = 128;
@@ -74,9 +75,9 @@ class BodyBatch {
 
   // results since start()
   BodyLoad load;
-  ExactLoad exact;                      ///< if asked for
-  AlignedVector<TouchedPart> touched;   ///< if asked for
-  double largest_overlap = 0.0;         ///< over radius; only with energies
+  ExactLoad exact;                       ///< if asked for
+  AlignedVector<TouchedPart> touched;    ///< if asked for
+  double largest_overlap = 0.0;          ///< over radius; only with energies
 
  private:
   using Lanes = double[3][ContactBatch::width];

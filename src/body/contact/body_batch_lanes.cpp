@@ -83,9 +83,9 @@ BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const
   const EightRows velocity =
       to_lanes([&](int q) -> const Record & { return records.velocity(index[q]); });
   if (!law.has_friction())
-    return {vector_of(velocity), Vector3<Vec8>{}, velocity.number[3], splat<Vec8>(1.0) / load8(&radius[k])};
-  const EightRows omega =
-      to_lanes([&](int q) -> const Record & { return records.spin(index[q]); });
+    return {vector_of(velocity), Vector3<Vec8>{}, velocity.number[3],
+            splat<Vec8>(1.0) / load8(&radius[k])};
+  const EightRows omega = to_lanes([&](int q) -> const Record & { return records.spin(index[q]); });
   return {vector_of(velocity), vector_of(omega), velocity.number[3], omega.number[3]};
 }
 

@@ -43,8 +43,8 @@ void BodyContacts::index_candidates(const LargeBodyShape &shape, const BodyParti
 {
   const bool of_records = view.records != nullptr;
   if (candidates.size() == 0 || (!index.empty() && index_of_records == of_records)) return;
-  const bool sorted = of_records && shape.most_contacts() == 1 &&
-                      candidates.sort_by_slot(view.slot_of_atom);
+  const bool sorted =
+      of_records && shape.most_contacts() == 1 && candidates.sort_by_slot(view.slot_of_atom);
   if (sorted && with_history) history.follow(candidates.atoms(), candidates.room());
   index_of_records = of_records;
   index.clear();
@@ -128,8 +128,7 @@ void BodyContacts::add_to_slots(int thread, int begin, int end)
   const auto place = [&](int slot) {
     return static_cast<std::size_t>(std::lower_bound(index.begin(), last, slot) - index.begin());
   };
-  const BodyTask task =
-      task_of(*in_pieces.shape, *in_pieces.frame, in_pieces.view, in_pieces.step);
+  const BodyTask task = task_of(*in_pieces.shape, *in_pieces.frame, in_pieces.view, in_pieces.step);
   batches[thread]->compute(task, place(begin), place(end));
 }
 
@@ -167,7 +166,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     bool may_touch = true;
     const NearParts near =
         several ? candidates.parts_near(c, x, radius, may_touch) : NearParts{nullptr, nullptr};
-    const int count = !several  ? static_cast<int>(shape.touches(x, radius, *found))
+    const int count = !several    ? static_cast<int>(shape.touches(x, radius, *found))
                       : may_touch ? shape.find_contacts(x, radius, near, found)
                                   : 0;
     for (int k = 0; k < count; k++) most.join({found[k].overlap / radius, 0.0, i, 0});

@@ -16,9 +16,8 @@ Eigen::Quaterniond turn_of(const Vector3<double> &omega, double dt)
 void BodyState::to_array(double *a) const
 {
   const Eigen::Quaterniond &q = orientation;
-  const double values[size] = {position.x, position.y, position.z, q.w(),   q.x(),
-                               q.y(),      q.z(),      velocity.x, velocity.y, velocity.z,
-                               omega.x,    omega.y,    omega.z};
+  const double values[size] = {position.x, position.y, position.z, q.w(),   q.x(),   q.y(),  q.z(),
+                               velocity.x, velocity.y, velocity.z, omega.x, omega.y, omega.z};
   std::copy(values, values + size, a);
 }
 

@@ -14,9 +14,9 @@ namespace Talus {
 Eigen::Quaterniond turn_of(const Vector3<double> &omega, double dt);
 
 struct BodyState {
-  Vector3<double> position{0.0, 0.0, 0.0};                                ///< of the reference point
+  Vector3<double> position{0.0, 0.0, 0.0};                            ///< of the reference point
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();    ///< 1 at the beginning
-  Vector3<double> velocity{0.0, 0.0, 0.0};                                ///< of the reference point
+  Vector3<double> velocity{0.0, 0.0, 0.0};                            ///< of the reference point
   Vector3<double> omega{0.0, 0.0, 0.0};    ///< angular velocity, axes of space
 
   /// position, orientation (w, x, y, z), velocity, omega: as in the vector of the fix and in

@@ -25,7 +25,8 @@ void GuidedMotion::advance(BodyState &state, double dt)
   }
   const double way = static_cast<double>(steps - left) / steps;
   state.position = start.position + way * (target.position - start.position);
-  const Eigen::AngleAxisd turn(target.orientation * start.orientation.conjugate());    // the shorter
+  const Eigen::AngleAxisd turn(target.orientation *
+                               start.orientation.conjugate());    // the shorter
   state.orientation =
       (Eigen::AngleAxisd(way * turn.angle(), turn.axis()) * start.orientation).normalized();
   state.velocity = start.velocity + way * (target.velocity - start.velocity);

@@ -25,7 +25,8 @@ class Box : public LargeBodyShape {
   int most_contacts() const override { return inside ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
-  void tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   bool touches_from_outside(const Vector3<double> &center, double radius,

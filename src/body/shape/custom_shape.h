@@ -26,7 +26,7 @@
 #define TALUS_JOIN_NAMES(a, b) a##b
 #define TALUS_VERSIONED_NAME(name, version) TALUS_JOIN_NAMES(name, version)
 #define TALUS_MAKE_SHAPE                                                                           \
-  extern "C" __attribute__((visibility("default"))) Talus::LargeBodyShape *TALUS_VERSIONED_NAME(  \
+  extern "C" __attribute__((visibility("default"))) Talus::LargeBodyShape *TALUS_VERSIONED_NAME(   \
       talus_make_shape_, TALUS_SHAPE_VERSION)
 
 namespace Talus {

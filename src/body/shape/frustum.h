@@ -30,7 +30,8 @@ class Frustum : public LargeBodyShape {
   int most_contacts() const override { return inside && !endless ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
-  void tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   /// A point in the plane through the axis: rho from the axis, s along it; and the unit vector away

@@ -122,7 +122,8 @@ class LargeBodyShape {
   virtual bool thread_safe() const { return true; }
 
   /// For pictures: the surface as triangles; what is infinite ends at `visible`.
-  virtual void tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const
+  virtual void tessellate(const Eigen::AlignedBox3d &visible,
+                          std::vector<Triangle> &triangles) const
   {
     (void) visible;
     (void) triangles;

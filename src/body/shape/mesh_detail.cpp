@@ -23,7 +23,8 @@ bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
 
 }    // namespace
 
-MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Eigen::AlignedBox3d &cover) : mesh(its_mesh)
+MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Eigen::AlignedBox3d &cover) :
+    mesh(its_mesh)
 {
   const std::vector<int> numbers = members(cover);
   if (numbers.empty()) return;

@@ -194,7 +194,8 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
   return std::sqrt(least);
 }
 
-void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/, std::vector<Triangle> &triangles) const
+void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,
+                           std::vector<Triangle> &triangles) const
 {
   for (int t = 0; t < mesh.size(); t++) triangles.push_back(mesh.triangle(t));
 }

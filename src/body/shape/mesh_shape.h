@@ -50,7 +50,8 @@ class MeshShape : public LargeBodyShape {
   void prefetch(int part) const override { detail->prefetch(part); }
   bool wants_focus() const override { return !covers_all; }
   bool focus(const Eigen::AlignedBox3d &bounds) override;
-  void tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   void look_at(const Eigen::AlignedBox3d &bounds);
