@@ -5,6 +5,7 @@ one's own; regions of the host."""
 
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -53,6 +54,7 @@ REFUSED = [    # words of the fix, message, marked word
     ("mesh nothing.stl " + LAW, "mesh: cannot read the file 'nothing.stl'", "nothing.stl"),
     ("mesh empty.stl " + LAW, "mesh: 'empty.stl': the file is empty", "empty.stl"),
     ("mesh cut.stl " + LAW, "mesh: 'cut.stl': it announces", "cut.stl"),
+    ("mesh letter.stl " + LAW, "mesh: 'letter.stl': it is no STL file: it begins with 'Dear all,'", "letter.stl"),
     ("mesh flat.stl " + LAW, "mesh: 'flat.stl': all its triangles are without area", "flat.stl"),
     ("mesh turned.stl " + LAW, "mesh: 'turned.stl': 3 edges lie between triangles that face opposite sides, "
      "the first at triangle", None),
@@ -110,6 +112,8 @@ class Words(SceneCase):
         body_meshes.write_stl(self.path("whole.stl"), tetrahedron, binary=True)
         with open(self.path("whole.stl"), "rb") as whole, open(self.path("cut.stl"), "wb") as cut:
             cut.write(whole.read()[:-20])
+        with open(self.path("letter.stl"), "w") as letter:
+            letter.write("Dear all,\nthis is no surface.\n")
         for k, (words, message, word) in enumerate(REFUSED):
             with self.subTest(words):
                 self.refuse(words, message, word, np=2 if k % 4 == 3 else 1)
@@ -126,6 +130,30 @@ class Words(SceneCase):
                      "1 triangles that are there already are left out; the first is triangle 5",
                      "1 edges belong to more than two triangles; the first is triangle 3", "3 triangles, 6 open edges"):
             self.assertIn(text, log)
+
+    def test_bytes_behind_a_mesh_are_reported(self):
+        plate = [((-2, -2, 0), (2, -2, 0), (2, 2, 0)), ((-2, -2, 0), (2, 2, 0), (-2, 2, 0))]
+        body_meshes.write_stl(self.path("plate.stl"), plate, binary=True)
+        with open(self.path("plate.stl"), "ab") as file:
+            file.write(b"made by a program")
+        log = self.run_lammps(SCENE + f"fix body all large/body mesh plate.stl two-sided {LAW}\nrun 0\n").log
+        self.assertIn("17 bytes behind the last of the 2 triangles that the file announces are not read", log)
+
+    def test_directions_of_any_length(self):
+        # squares of these numbers are no numbers any more, or zero
+        for length in ("1", "1e200", "1e-200"):
+            # energy of the contact, and of a body of mass 1 in the field of gravity at z = -9
+            for fix, energy in ((f"plane 0 0 -0.2 0 0 {length} {LAW}", 50.0),
+                                (f"box 0 0 -9 20 20 17.6 outside {LAW} {FREE} lock x y z rx ry rz "
+                                 f"gravity 1 vector 0 0 -{length}", 41.0)):
+                with self.subTest(fix):
+                    rows = thermo(self.run_lammps(SCENE + f"""
+fix body all large/body {fix}
+thermo_style custom step f_body f_body[3]
+run 0
+""").log)
+                    self.assertAlmostEqual(rows[0]["f_body[3]"], -1e3, delta=1e-6)
+                    self.assertAlmostEqual(rows[0]["f_body"], energy, delta=1e-6)
 
     def test_scale_rotate_translate(self):
         # scaled by 2, turned by 90 degrees about y: the plate looks along +x, then shifted
@@ -202,11 +230,25 @@ run 10
                 moved = math.dist(*places)
                 self.assertEqual(moved > 2.0, bool(more), f"moved by {moved} pixels")
 
-    def test_own_shape(self):
+    def compile_shape(self, source, library):
         subprocess.run([os.environ.get("TALUS_CXX", "g++"), "-std=c++17", "-O2", "-march=native", "-ffp-contract=off",
-                        "-Wno-psabi", "-shared", "-fPIC", "-I", os.path.join(SOURCE, "src"),
-                        os.path.join(SOURCE, "examples", "custom_shape", "torus.cpp"), "-o", self.path("torus.so")],
-                       check=True)
+                        "-Wno-psabi", "-shared", "-fPIC", "-I", os.path.join(SOURCE, "src"), source, "-o",
+                        self.path(library)], check=True)
+
+    def test_own_shape_of_another_version(self):
+        with open(os.path.join(SOURCE, "src", "body", "shape", "custom_shape.h")) as file:
+            version = int(re.search("define TALUS_SHAPE_VERSION ([0-9]+)", file.read()).group(1))
+        makers = {"talus_make_shape": 1, f"talus_make_shape_{version + 1}": version + 1, "make_a_shape": None}
+        for name, other in makers.items():
+            with open(self.path("maker.cpp"), "w") as file:
+                file.write(f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
+            self.compile_shape(self.path("maker.cpp"), f"{name}.so")
+            message = (f"was built with version {other} of custom_shape.h, this Talus has version {version}: compile "
+                       "it anew") if other else f"has no function talus_make_shape_{version}: see custom_shape.h"
+            self.refuse(f"custom ./{name}.so 0 {LAW}", message, f"./{name}.so", 1)
+
+    def test_own_shape(self):
+        self.compile_shape(os.path.join(SOURCE, "examples", "custom_shape", "torus.cpp"), "torus.so")
         # in the hole of the ring, touching its wire at x = 1.2
         write_sphere_data(self.path("grains"), ((-9, 9), (-9, 9), (-9, 9)), [Sphere((0.8, 0, 0))])
         ring = "custom ./torus.so 8 0 0 0 0 0 2 1.6 0.4"
