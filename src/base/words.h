@@ -16,7 +16,8 @@
 
 namespace Talus {
 
-/// A decimal number, in any locale; not-a-number for everything else.
+/// A decimal number, in any locale; not-a-number for everything else. Too small for a double counts
+/// as 0, too large is infinite.
 double parse_number(const std::string &word);
 
 class Words {

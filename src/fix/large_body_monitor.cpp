@@ -7,30 +7,54 @@
 #include "error.h"
 #include "update.h"
 
+#include <utility>
+
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-void LargeBodyMonitor::look(const BodyFindings &found, bool moves, const std::string &id)
+/* One pass over the particles serves both checks, as long as the first one still looks. */
+
+std::vector<RunMonitor::Check>
+LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst, bool moves,
+                         const std::string &id)
 {
-  struct {
-    double value;
-    int rank;
-  } here[BodyWarnings::num_kinds], all[BodyWarnings::num_kinds];
-  BodyWarnings::Finding mine[BodyWarnings::num_kinds];
-  bool any = false;
-  for (const auto kind : {BodyWarnings::OVERLAP, BodyWarnings::MOVE}) {
-    const bool wanted = warnings.wants(kind, moves);
-    if (wanted) mine[kind] = BodyWarnings::look(kind, found, update->dt);
-    here[kind] = {mine[kind].value, comm->me};
-    any = any || wanted;
-  }
-  if (!any) return;
-  MPI_Allreduce(here, all, BodyWarnings::num_kinds, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  for (const auto kind : {BodyWarnings::OVERLAP, BodyWarnings::MOVE}) {
-    if (!warnings.exceeded(kind, all[kind].value)) continue;
-    tagint tag = comm->me == all[kind].rank ? atom->tag[mine[kind].atom] : 0;
-    MPI_Bcast(&tag, 1, MPI_LMP_TAGINT, all[kind].rank, world);
+  using Finding = RunMonitor::Finding;
+  look = std::move(find_worst);
+  const auto look_for_overlap = [this] {
+    worst = look();
+    just_looked = true;
+    return finding(worst.overlap, worst.deepest);
+  };
+  const auto say_overlap = [this, id](const Finding &found) {
     if (comm->me == 0)
-      error->warning(FLERR, BodyWarnings::text(kind, id, all[kind].value, tag, update->ntimestep));
-  }
+      error->warning(FLERR,
+                     "Fix large/body {}: particle {:.0f} overlaps the body by {:.3g} of its radius "
+                     "at step {}; contact laws are made for small overlaps: use a higher "
+                     "stiffness, or look for particles that overlap from the beginning",
+                     id, found.details[0], found.value, update->ntimestep);
+    return true;
+  };
+  const auto look_for_move = [this] {
+    if (!just_looked) worst = look();
+    just_looked = false;
+    return finding(worst.speed * update->dt, worst.fastest);
+  };
+  const auto say_move = [this, id](const Finding &found) {
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix large/body {}: particle {:.0f} and the body move past each other by "
+                     "{:.3g} of its radius in a time step at step {}; an impact is not resolved: "
+                     "reduce the time step",
+                     id, found.details[0], found.value, update->ntimestep);
+    return true;
+  };
+  std::vector<RunMonitor::Check> its{{largest_overlap, look_for_overlap, say_overlap}};
+  if (moves) its.push_back({largest_move, look_for_move, say_move});
+  return its;
+}
+
+RunMonitor::Finding LargeBodyMonitor::finding(double value, int particle) const
+{
+  if (!(value > 0.0)) return {};
+  return {value, {static_cast<double>(atom->tag[particle])}};
 }
