@@ -26,7 +26,7 @@ class Array:
 
 
 HOST = [
-    Array("positions, velocities, forces, spins, torques", 120, "particle"),
+    Array("positions, velocities, forces, angular velocities, torques", 120, "particle"),
     Array("radius, mass", 16, "particle"),
     Array("atom ID, type, groups, periodic image (smallbig)", 16, "particle"),
     Array("where an atom ID is", 4, "particle", "atom_modify map array"),
@@ -36,10 +36,10 @@ HOST = [
 
 TALUS = [
     Array("records: place and radius; velocity and 1/mass", 64, "particle"),
-    Array("records: spin and 1/radius", 32, "particle", "friction"),
+    Array("records: angular velocity and 1/radius", 32, "particle", "friction"),
     Array("records: sum of forces", 32, "particle", "steps", True, (STEPS,)),
     Array("records: sum of moments", 32, "particle", "steps, friction", True, (STEPS,)),
-    Array("records: sum of couples", 32, "particle", "steps, rolling or spinning resistance", False),
+    Array("records: torques of resistance", 32, "particle", "steps, rolling or spinning resistance", False),
     Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
     Array("order: key, tag, both numberings", 24, "particle"),
     Array("tag, rank and slot in the last lists, list of displacements that came along", 20, "particle"),
@@ -50,7 +50,7 @@ TALUS = [
     Array("pairs: those that touch", 4, "contact", "steps", True, (STEPS,)),
     Array("pairs: displacement, whether it slides", 32, "contact", "multistep", True, (STEPS, FILING)),
     Array("pairs: place of the displacement; whether it touches", 4.125, "pair", "multistep", True, (STEPS, FILING)),
-    Array("pairs: impact speed, age", 32, "contact", "laws that read them", False),
+    Array("pairs: impact velocity, age", 32, "contact", "laws that read them", False),
     Array("displacements by particle, with the tag of the partner", 40, "end", "from restart files", False, (LISTING,)),
     Array("displacements kept", 32, "contact", "rebuild, multistep", True, (LISTING,)),
     Array("pairs they belong to", 8, "contact", "rebuild, multistep", True, (FILING, LISTING)),

@@ -209,6 +209,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
 
 void ContactPipeline::start_step(const ContactStep &step)
 {
+  remembered.reset();
   if (!particles.has_room()) make_room();
   if (step.account) step.account->begin_step(order.size());
 }

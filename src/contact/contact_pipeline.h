@@ -22,6 +22,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace Talus {
@@ -31,6 +32,13 @@ struct DeepestContact {
   double overlap_ratio = 0.0;
   int i = 0, j = 0;
   bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
+};
+
+/// The answers of a ContactPipeline about the contacts of a step, see there.
+struct ContactSurvey {
+  double contacts, candidates;
+  DeepestContact deepest;
+  double smallest_period, largest_speed;
 };
 
 class ContactPipeline {
@@ -64,6 +72,8 @@ class ContactPipeline {
   /// of pairs and histories as well, which are then unknown until set_pairs().
   void release_records();
   void release();
+  /// What counts as much (bytes).
+  void set_worth_giving_back(double bytes) { worth_giving_back = bytes; }
 
   /// Puts the current history aside. Clears `to` in a scene without history. There are no pairs
   /// then until set_pairs(), unless they `stay`.
@@ -115,6 +125,10 @@ class ContactPipeline {
   /// unknown.
   TangentialHistory<double> history_of(int i, int j) const;
   ContactImpact<double> impact_of(int i, int j) const;
+
+  /// At the end of a run, before memory is given back: the answers below, of which early_share() is
+  /// none, are those of now until the next compute().
+  void remember_contacts();
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.
@@ -176,6 +190,8 @@ class ContactPipeline {
   template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
 
   ContactScene scene;
+  double worth_giving_back = Talus::worth_giving_back;
+  std::optional<ContactSurvey> remembered;
   bool pairs_known = false;
   int threads = 1;    ///< parts of each phase
   int next_threads = 1;

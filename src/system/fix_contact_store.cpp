@@ -166,6 +166,7 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 
 void FixContactStore::post_run()
 {
+  if (system) system->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
   if (system && store.holds_last_lists() && !pairs_stay_after_run()) system->release_pairs();
   give_sorting_back();
@@ -190,7 +191,7 @@ bool FixContactStore::pairs_stay_after_run() const
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
-  system->look_at_contacts();
+  system->look_at_contacts(occasion == Occasion::END_OF_RUN);
   if (occasion != Occasion::RESTART_FILE) system->release_records();
   const bool pairs_stay = occasion == Occasion::RESTART_FILE ||
                           (occasion == Occasion::END_OF_RUN && pairs_stay_after_run());

@@ -29,11 +29,6 @@ TangentialHistory<double> GranularSystem::history_of(int i, int j, ContactImpact
   return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
 }
 
-bool GranularSystem::reads_proxy_omega() const
-{
-  return !laws_current || pipeline->keeps_spins() || pipeline->law_table().has_resistance();
-}
-
 double GranularSystem::share_without_proxies() const
 {
   return pipeline->in_two_phases() ? pipeline->early_share() : 0.0;

@@ -23,10 +23,9 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::look_at_contacts()
+void GranularSystem::look_at_contacts(bool run_is_over)
 {
-  monitor.look(*pipeline);
-  time_step.look_for_smaller_particles(book);
+  monitors.look(run_is_over ? RunMonitor::Moment::END : RunMonitor::Moment::REBUILD);
 }
 
 void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
@@ -52,7 +51,7 @@ void GranularSystem::renumber_pairs()
   pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
     pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type},
-                       neighbors.find(pair->list));
+                        neighbors.find(pair->list));
     neighbors.release();
     pipeline->start_pairs(store->histories());
   } catch (const std::length_error &problem) {

@@ -100,6 +100,42 @@ TEST_P(Pipeline, AgreesWithBruteForce)
   }
 }
 
+// Between runs the memory of contacts is given back if it is much; what is asked about them then
+// does not depend on how much it is.
+TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
+{
+  const auto survey = [](const ContactPipeline &contacts) {
+    const DeepestContact deepest = contacts.deepest_contact();
+    return std::vector<double>{contacts.count_contacts(),
+                               contacts.count_candidates(),
+                               contacts.smallest_contact_period(),
+                               contacts.largest_relative_speed(),
+                               deepest.overlap_ratio,
+                               static_cast<double>(deepest.i),
+                               static_cast<double>(deepest.j)};
+  };
+  RandomSource random(6);
+  Packing p = random_packing(60, random);
+  TestRank rank(GetParam().laws);
+  rank.pipeline.set_worth_giving_back(0.0);
+  rank.rebuild(p, everyone(p), candidates(p, 1.0, false), {}, random);
+  std::vector<double> before;
+  for (int step = 0; step < 2; step++) {
+    rank.compute(p, dt, true);
+    const std::vector<double> at_end = survey(rank.pipeline);
+    for (int n = 0; n < 5; n++) EXPECT_GT(at_end[n], 0.0) << n;
+    EXPECT_NE(at_end, before);
+    rank.pipeline.remember_contacts();
+    rank.pipeline.release_records();
+    EXPECT_EQ(survey(rank.pipeline), at_end);
+    before = at_end;
+    p.move(20.0 * dt, 0.2, random);
+  }
+  rank.pipeline.release();
+  EXPECT_FALSE(rank.pipeline.has_pairs());
+  EXPECT_EQ(survey(rank.pipeline), before);
+}
+
 // Blocks of 64 contacts and vectors of 8 with every kind of remainder.
 TEST_P(Pipeline, HandlesAnyNumberOfContacts)
 {

@@ -207,9 +207,11 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
   }
 }
 
-TEST_P(RecordSteps, ReturnTheStateBetweenTheTwoPhases)
+class RecordStepsInTwoPhases : public RecordSteps {};
+
+TEST_P(RecordStepsInTwoPhases, ReturnTheStateBetweenThem)
 {
-  if (!fast.in_two_phases()) return;
+  ASSERT_TRUE(fast.in_two_phases());
   ContactStep keep{euler.dt, true};
   keep.deliver = false;
   compute(slow, twin, {euler.dt, true});
@@ -296,11 +298,13 @@ TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
   EXPECT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque));
 }
 
+constexpr Division two_phases{1, true, false, true}, two_phases_on_threads{2, true, true, true};
+
 INSTANTIATE_TEST_SUITE_P(Divisions, RecordSteps,
                          testing::Values(Division{1, false, false, false},
-                                         Division{1, false, true, true},
-                                         Division{1, true, false, true},
-                                         Division{3, false, true, false},
-                                         Division{2, true, true, true}));
+                                         Division{1, false, true, true}, two_phases,
+                                         Division{3, false, true, false}, two_phases_on_threads));
+INSTANTIATE_TEST_SUITE_P(Divisions, RecordStepsInTwoPhases,
+                         testing::Values(two_phases, two_phases_on_threads));
 
 }    // namespace
