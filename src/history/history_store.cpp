@@ -30,7 +30,7 @@ void HistoryStore::finish(const ParticleOrder &last, int num_threads)
       name_of_slot[s] = last.is_owned(atom) ? last.tag[atom] : -last.tag[atom];
     }
   });
-  count_partners();
+  count_followers();
 }
 
 /* Contacts with ghosts. What the other side of a contact decides comes with receive(), or here if
@@ -147,8 +147,8 @@ void HistoryStore::clear()
   chunks = {};
   named = {};
   release(lists);
-  release(partners);
-  release(partners_begin);
+  release(followers);
+  release(followers_begin);
   release(name_of_slot);
   release(chunk_of_slot);
   release(slot_then);
@@ -162,8 +162,8 @@ double HistoryStore::memory_usage() const
       sizeof(double) * lists.capacity() +
       sizeof(std::int64_t) * (list_begin.capacity() + name_of_slot.capacity()) +
       sizeof(std::uint16_t) * chunk_of_slot.capacity() + touched_image.capacity() +
-      sizeof(std::uint32_t) * partners_begin.capacity() +
-      sizeof(int) * (partners.capacity() + slot_then.capacity()));
+      sizeof(std::uint32_t) * followers_begin.capacity() +
+      sizeof(int) * (followers.capacity() + slot_then.capacity()));
   for (const SlotContacts &its : chunks) bytes += its.memory_usage();
   for (const auto &message : messages)
     bytes += static_cast<double>(sizeof(double) * message.second.capacity());

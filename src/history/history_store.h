@@ -126,9 +126,11 @@ class HistoryStore {
   int chunk_of(int slot) const { return chunk_of_slot.empty() ? 0 : chunk_of_slot[slot]; }
   FoundHistory find_by_slots(int a, int b) const;
   FoundHistory find_in(int c, int a, int b) const;
-  template <class Visit> void for_each_partner(Visit visit);
-  void count_partners();
-  void list_partners();
+  bool is_of(int chunk, int slot) const;
+  int row_size(int slot) const;
+  void count_followers();
+  void list_followers();
+  template <class Visit> void for_each_partner(int slot, Visit visit);
   void name_contacts(const ParticleOrder &order);
   void name_lists(int owned);
   void add_message(int rank, std::int64_t first, std::int64_t second, const Record &history,
@@ -157,10 +159,10 @@ class HistoryStore {
   Messages messages;
 
   // only if particles may leave, by slot
-  std::vector<std::int64_t> name_of_slot;       // negative: of a ghost
-  std::vector<std::uint32_t> partners_begin;    // and the end of the last
-  AlignedVector<int> partners;                  // slots
-  bool partners_listed = false;
+  std::vector<std::int64_t> name_of_slot;        // negative: of a ghost
+  std::vector<std::uint32_t> followers_begin;    // and the end of the last
+  AlignedVector<int> followers;                  // partners that are not in the row of a slot
+  bool followers_listed = false;
   int most_partners = 0;
 
   // while histories are fetched

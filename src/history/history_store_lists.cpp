@@ -67,53 +67,89 @@ HistoryStore::Origin HistoryStore::read(const double *from)
   return origin;
 }
 
-/* visit(slot, partner) for both particles of every contact: for one slot at a time. The few that
-   are not of the chunk that has the contact follow, one after the other. */
+/* Of a particle, the contacts in its own row are those with partners before it; the others are with
+   its followers, or in another chunk. */
 
-template <class Visit> void HistoryStore::for_each_partner(Visit visit)
+bool HistoryStore::is_of(int c, int slot) const
 {
+  return chunk_of_slot.empty() || chunk_of_slot[slot] == c;
+}
+
+/* A chunk counts for its own slots; what it has of others is counted afterwards. Without a loop over
+   rows, whose lengths nobody could foresee. */
+
+void HistoryStore::count_followers()
+{
+  const int num_chunks = static_cast<int>(chunks.size());
+  followers_listed = false;
+  followers_begin.assign(name_of_slot.size() + 2, 0);
+  std::vector<std::vector<int>> elsewhere(num_chunks);
+  in_parallel(num_chunks, threads, [&](int c) {
+    const SlotContacts &its = chunks[c];
+    for (std::uint32_t e = 0; e < its.rows.back(); e++)
+      if (is_of(c, its.first[e]))
+        followers_begin[its.first[e] + 2]++;
+      else
+        elsewhere[c].push_back(its.first[e]);
+    for (std::size_t row = 0; num_chunks > 1 && row + 1 < its.rows.size(); row++)
+      if (const int second = its.first_row + static_cast<int>(row); !is_of(c, second))
+        elsewhere[c].insert(elsewhere[c].end(), its.rows[row + 1] - its.rows[row], second);
+  });
+  for (const std::vector<int> &of_chunk : elsewhere)
+    for (const int slot : of_chunk) followers_begin[slot + 2]++;
+  for (int s = 0; s < static_cast<int>(name_of_slot.size()); s++)
+    if (name_of_slot[s] > 0)
+      most_partners =
+          std::max(most_partners, row_size(s) + static_cast<int>(followers_begin[s + 2]));
+}
+
+int HistoryStore::row_size(int slot) const
+{
+  const int c = chunk_of(slot);
+  if (c >= static_cast<int>(chunks.size())) return 0;
+  return static_cast<int>(chunks[c].row_end(slot) - chunks[c].row_begin(slot));
+}
+
+/* From the number of followers of each particle to lists: when the first one leaves, for often
+   nobody does. */
+
+void HistoryStore::list_followers()
+{
+  if (followers_listed) return;
+  followers_listed = true;
+  for (std::size_t s = 2; s < followers_begin.size(); s++)
+    followers_begin[s] += followers_begin[s - 1];
+  renew(followers, followers_begin.back());
+  // the begin of a row moves on to its end
+  const auto add = [this](int slot, int partner) {
+    followers[followers_begin[slot + 1]++] = partner;
+  };
   const int num_chunks = static_cast<int>(chunks.size());
   std::vector<std::vector<std::pair<int, int>>> elsewhere(num_chunks);
   in_parallel(num_chunks, threads, [&](int c) {
-    const auto see = [&](int slot, int partner) {
-      if (chunk_of(slot) == c)
-        visit(slot, partner);
-      else
-        elsewhere[c].emplace_back(slot, partner);
-    };
     chunks[c].for_each([&](int first, int second) {
-      see(first, second);
-      see(second, first);
+      if (is_of(c, first))
+        add(first, second);
+      else
+        elsewhere[c].emplace_back(first, second);
+      if (!is_of(c, second)) elsewhere[c].emplace_back(second, first);
     });
   });
   for (const auto &of_chunk : elsewhere)
-    for (const auto &[slot, partner] : of_chunk) visit(slot, partner);
+    for (const auto &[slot, partner] : of_chunk) add(slot, partner);
 }
 
-void HistoryStore::count_partners()
-{
-  partners_listed = false;
-  partners_begin.assign(name_of_slot.size() + 2, 0);
-  for_each_partner([this](int slot, int) { partners_begin[slot + 2]++; });
-  std::uint32_t most = 0;
-  for (std::size_t s = 0; s < name_of_slot.size(); s++)
-    if (name_of_slot[s] > 0) most = std::max(most, partners_begin[s + 2]);
-  most_partners = static_cast<int>(most);
-}
+/* visit(partner) for all slots that touched this one. */
 
-/* From the number of partners of each particle to lists: when the first one leaves, for often
-   nobody does. */
-
-void HistoryStore::list_partners()
+template <class Visit> void HistoryStore::for_each_partner(int slot, Visit visit)
 {
-  if (partners_listed) return;
-  partners_listed = true;
-  for (std::size_t s = 2; s < partners_begin.size(); s++)
-    partners_begin[s] += partners_begin[s - 1];
-  renew(partners, partners_begin.back());
-  // the begin of a row moves on to its end
-  for_each_partner(
-      [this](int slot, int partner) { partners[partners_begin[slot + 1]++] = partner; });
+  list_followers();
+  if (row_size(slot)) {
+    const SlotContacts &its = chunks[chunk_of(slot)];
+    for (std::uint32_t e = its.row_begin(slot); e < its.row_end(slot); e++) visit(its.first[e]);
+  }
+  for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++)
+    visit(followers[n]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -142,20 +178,19 @@ int HistoryStore::pack_list(int atom, double *buffer)
   int count = 0;
   double *to = buffer + list_header;
   if (here) {
-    list_partners();
     const int slot = origins[atom].slot;
-    for (std::uint32_t n = partners_begin[slot]; n < partners_begin[slot + 1]; n++) {
-      const std::int64_t name = name_of_slot[partners[n]];
+    for_each_partner(slot, [&](int other) {
+      const std::int64_t name = name_of_slot[other];
       const FoundHistory found =
-          name > 0 ? find_by_slots(slot, partners[n]) : named.find(name_of_slot[slot], -name);
-      if (!found.known) continue;    // its first particle sees no contact
+          name > 0 ? find_by_slots(slot, other) : named.find(name_of_slot[slot], -name);
+      if (!found.known) return;    // its first particle sees no contact
       const std::int64_t partner = std::abs(name);
       const Record seen = found.seen_by_a();
       std::memcpy(to++, &partner, sizeof partner);
       to = std::copy_n(seen.c, 4, to);
       if (with_impacts) to = std::copy_n(found.impact->c, 4, to);
       count++;
-    }
+    });
   }
   buffer[0] = count;
   buffer[1] = values();
@@ -182,10 +217,10 @@ int HistoryStore::list_size(int atom) const
 {
   const Origin &o = origins[atom];
   if (was_here(o) && scope.particles_may_leave) {
-    const std::uint32_t contacts = partners_listed
-                                       ? partners_begin[o.slot + 1] - partners_begin[o.slot]
-                                       : partners_begin[o.slot + 2];
-    return list_header + static_cast<int>(contacts) * (1 + values());
+    const std::uint32_t *begin = &followers_begin[o.slot];
+    const int contacts =
+        row_size(o.slot) + static_cast<int>(followers_listed ? begin[1] - begin[0] : begin[2]);
+    return list_header + contacts * (1 + values());
   }
   return list_of[atom] < 0 ? list_header : size_of_list(&lists[list_begin[list_of[atom]]]);
 }
