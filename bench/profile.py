@@ -36,7 +36,7 @@ STAGES = {
     "waiting": r"opal_|ompi_|mca_|PMPI_|MPI_|pml_|vader|poll",
     "exchange": r"Comm(Brick|Tiled|Proxy)|ProxyExchange|Packer|pack_comm|unpack_comm|pack_border|unpack_border|pack_exchange"
                 r"|unpack_exchange|RebuildCheck|ExchangePlan|AtomVec::(un)?pack|show_state|write_state",
-    "broad phase": r"NPair|NBin|NStencil|Neighb|NeighList|PairList|PairRows|ParticleOrder|Entry|PartnerLists|ContactHistory::(?!begin|change)"
+    "broad phase": r"NPair|NBin|NStencil|Neighb|NeighList|PairList|PairRows|WorkPartition|ParticleOrder|Entry|PartnerLists|ContactHistory::(?!begin|change)"
                    r"|FixContactStore|FixNeighHistory|renumber|set_pairs|start_pairs|Atom::sort|AtomVec::copy|find_candidates",
     "narrow phase": r"find_contacts|ContactHistory",
     "floor and walls": r"BodyContacts|BodyBatch|SparseHistory|FixLargeBody|FixWallGran|Plane::|Rectangle::",

@@ -21,6 +21,7 @@ struct Prepared {
   Bed &bed;
   ContactScene scene;
   ParticleOrder order;
+  WorkPartition work;
   std::vector<int> slots;
   ParticleRecords records;
   PartnerLists partners;
@@ -31,10 +32,11 @@ struct Prepared {
       bed(given), scene(scene_of(one_law(normal, tangential)))
   {
     order.arrange(bed.owned, bed.key, bed.tag);
+    work = WorkPartition(order);
     slots.resize(order.size());
     std::iota(slots.begin(), slots.end(), 0);
     partners.resize(bed.owned);
-    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
+    records.resize(order.size(), scene.with_friction, scene.with_resistance);
     collect();
     start_pairs();
     records.read(order, bed.view(), all());
@@ -42,7 +44,7 @@ struct Prepared {
   }
 
   SlotChoice all() const { return {0, order.size()}; }
-  void collect() { part.pairs.collect(order, PairRows(order, bed.neighbors.view()), 0); }
+  void collect() { part.pairs.collect(order, work, PairRows(order, bed.neighbors.view()), 0); }
   FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
   void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()
@@ -116,7 +118,7 @@ void keep_history(benchmark::State &state)
 {
   Prepared p = prepared(state);
   repeat(state, p, [&] {
-    p.kept.begin(p.order, false);
+    p.kept.begin(p.order, p.work, false);
     p.part.history.keep(p.part.pairs, p.kept.part(0));
     p.part.history.fetch(p.part.pairs, p.filed(), p.slots);
   });

@@ -85,6 +85,7 @@ struct AsListed {
   Bed &bed;
   ContactScene scene = scene_of(law());
   ParticleOrder order;
+  WorkPartition work;
   ParticleRecords records;
   PartnerLists partners;
   KeptContacts kept;
@@ -97,9 +98,10 @@ struct AsListed {
   {
     std::iota(index.begin(), index.end(), 0);
     order.arrange(bed.owned, index, bed.tag);
-    part.pairs.collect(order, PairRows(order, bed.neighbors.view()),
-                       0);    // knows the order from now on
-    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
+    work = WorkPartition(order);
+    // knows the order from now on
+    part.pairs.collect(order, work, PairRows(order, bed.neighbors.view()), 0);
+    records.resize(order.size(), scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
     held = records.position;
     if (bed.size() > bed.owned) {
@@ -115,7 +117,7 @@ struct AsListed {
 
   void rebuild()
   {
-    kept.begin(order, bed.size() > bed.owned);
+    kept.begin(order, work, bed.size() > bed.owned);
     part.history.keep(part.pairs, kept.part(0));
     take_pairs();
     start_pairs();

@@ -33,41 +33,44 @@ void ContactChunk::forget_contacts()
 {
   touching = 0;
   release(contacts);
-  outgoing = OutgoingForces{};
+  deferred = DeferredForces{};
 }
 
 void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles,
-                           const ContactStep &how, const Bring &bring)
+                           const ContactStep &how, const Load &load, const ContactChunk *early)
 {
-  const Step step{how, scene, particles, bring};
+  const Step step{how, scene, particles, load, early};
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
-  outgoing.make_room(pairs.handed_over().size(), particles);
-  outgoing.clear();
-  pairs.with_target([&](auto target) {
-    if (scene.with_history)
-      compute_all<true, true>(step, target);
-    else if (scene.with_friction)
-      compute_all<true, false>(step, target);
-    else
-      compute_all<false, false>(step, target);
-  });
+  deferred.make_room(pairs.num_deferred(), particles);
+  deferred.clear();
+  deferred_reports.clear();
+  next_at_frontier = added = reported_late = 0;
+  if (scene.with_history)
+    compute_all<true, true>(step);
+  else if (scene.with_friction)
+    compute_all<true, false>(step);
+  else
+    compute_all<false, false>(step);
+  if (pairs.is_late()) {
+    add_deferred_before(after_all_pairs, step);
+    report_deferred_before(after_all_pairs, step);
+  }
+  if (deferred.size()) streams_are_done();
 }
 
-/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending
+/* Particles are loaded, pairs tested and forces computed stretch by stretch, all in ascending
    order of the second particle: memory is read straight ahead, and first particles, but for the
    distant ones, are still in the cache. */
 
-template <bool friction, bool history_kept, class Target>
-void ContactChunk::compute_all(const Step &step, Target target)
+template <bool friction, bool history_kept> void ContactChunk::compute_all(const Step &step)
 {
   constexpr std::int64_t stretch = 8L * ContactBatch::width, between_calls = 16 * stretch;
-  // as many as are brought with some stretches; of a part with few particles in its range none
-  const int slots_ahead = pairs.order().may_fill_range(pairs.which()) ? 512 : 0;
+  constexpr int slots_ahead = 512;    // as many as are loaded with some stretches
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
-  ParticleOrder::Range to_bring = pairs.slots();
-  to_prefetch = {to_bring.begin, to_bring.begin};
+  SlotRange to_load = pairs.is_late() ? SlotRange{} : pairs.slots();
+  to_prefetch = {to_load.begin, to_load.begin};
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
@@ -75,23 +78,22 @@ void ContactChunk::compute_all(const Step &step, Target target)
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
     prefetch_distant(step.particles, next_distant, end + stretch);
-    const int needed = std::min(pairs.second[end - 1] + 1, to_bring.end);
-    if (needed > to_bring.begin) step.bring(to_bring.begin, needed);
-    to_bring.begin = std::max(to_bring.begin, needed);
-    const int ahead = std::min(slots_ahead, to_bring.end - to_bring.begin);
-    to_prefetch = {std::max(to_prefetch.begin, to_bring.begin), to_bring.begin + ahead};
+    const int needed = std::min(pairs.second[end - 1] + 1, to_load.end);
+    if (needed > to_load.begin) step.load(to_load.begin, needed);
+    to_load.begin = std::max(to_load.begin, needed);
+    const int ahead = std::min(slots_ahead, to_load.end - to_load.begin);
+    to_prefetch = {std::max(to_prefetch.begin, to_load.begin), to_load.begin + ahead};
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= block_size; done += block_size)
-      compute_block<friction, history_kept>(step, target, done, block_size);
+      compute_block<friction, history_kept>(step, done, block_size);
   }
   if (done < touching)
-    compute_block<friction, history_kept>(step, target, done, static_cast<int>(touching - done));
-  if (pairs.hands_over()) streams_are_done();
-  if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
+    compute_block<friction, history_kept>(step, done, static_cast<int>(touching - done));
+  if (to_load.begin < to_load.end) step.load(to_load.begin, to_load.end);
 }
 
-/* Calls the distant particles of pairs before `end` into the cache. */
+/* Prefetches the distant particles of pairs before `end`. */
 
 void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_t &next,
                                     std::int64_t end) const
@@ -100,14 +102,14 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    // of those read where they copy their state nothing is added to
-    if (s < static_cast<std::size_t>(pairs.order().size()) && pairs.serves(static_cast<int>(s)))
+    // nothing is added to copies
+    if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
 
-template <bool friction, bool history_kept, class Target>
-void ContactChunk::compute_block(const Step &step, Target target, std::int64_t begin, int count)
+template <bool friction, bool history_kept>
+void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count)
 {
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
@@ -121,16 +123,21 @@ void ContactChunk::compute_block(const Step &step, Target target, std::int64_t b
   if (scene.with_impact && step.advance) keep_impacts(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  if (scene.laws.num_laws() == 1)
-    add_up<friction, true>(step.particles, target, block, count);
-  else
-    add_up<friction, false>(step.particles, target, block, count);
-  if (scene.with_resistance) add_couples(step.particles, target, block, count);
+  if (pairs.is_late()) {
+    add_late(step, block, count);
+  } else {
+    if (scene.laws.num_laws() == 1)
+      add_up<friction, true>(step.particles, block, count);
+    else
+      add_up<friction, false>(step.particles, block, count);
+    if (scene.with_resistance) add_couples(step.particles, block, count);
+    defer(block, count);
+  }
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
 
-void ContactChunk::place(std::uint32_t contact, int position, int lane)
+void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
 {
   pair_of_lane[lane] = contact;
   lane_of_contact[position] = lane;
@@ -159,7 +166,7 @@ int ContactChunk::arrange(const ContactScene &scene, const std::uint32_t *contac
   for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
     const int begin = lane;
     for (int k = 0; k < count; k++)
-      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) place(contacts[k], k, lane++);
+      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) give_lane(contacts[k], k, lane++);
     close_range(law, begin);
   }
 
@@ -203,29 +210,27 @@ void ContactChunk::apply_weights(int end)
 }
 
 /* The contacts of one second particle follow each other, and nothing has been added to it before
-   the first of them: its sums stay in registers and are stored again and again, but not loaded. */
+   the first of them: its sums stay in registers and are stored again and again, but not loaded.
+   Sums of particles that wait for the late phase are wrong here, and cleared before it. */
 
-template <bool friction, bool one_law, class Target>
-void ContactChunk::add_up(ParticleRecords &particles, Target target, const std::uint32_t *block,
-                          int count)
+template <bool friction, bool one_law>
+void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const int *first = pairs.first.data(), *second = pairs.second.data();
   Record *load = particles.load.data();
   int last = second[block[0]];    // may have begun in the last block
-  const Record *begun = load + stride * target(last);
+  const Record *begun = load + stride * last;
   Vec4 force = load4(begun[0]), moment{};
   if constexpr (friction) moment = load4(begun[1]);
 
   for (int n = 0; n < count; n++) {
     const std::uint32_t pair = block[n];
-    const int its = second[pair];
-    Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
+    const int a = first[pair], b = second[pair];
+    Record *i = load + stride * a, *j = load + stride * b;
     const int lane = one_law ? n : lane_of_contact[n];
-    const bool same = its == last;
-    last = its;
-    const bool kept = target.keeps(first[pair]);
-    if (!kept) outgoing.note(first[pair], force_of_lane[lane], moment_of_lane[lane]);
+    const bool same = b == last, kept = !pairs.is_foreign(a);
+    last = b;
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
     force = kept_if(same, force) - f;
@@ -239,20 +244,69 @@ void ContactChunk::add_up(ParticleRecords &particles, Target target, const std::
   }
 }
 
-template <class Target>
-void ContactChunk::add_couples(ParticleRecords &particles, Target target,
-                               const std::uint32_t *block, int count)
+void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   for (int n = 0; n < count; n++) {
     const int first = pairs.first[block[n]];
-    Record &i = particles.couple[target(first)];
-    Record &j = particles.couple[target(pairs.second[block[n]])];
+    Record &i = particles.couple[first];
+    Record &j = particles.couple[pairs.second[block[n]]];
     const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
-    if (!target.keeps(first))
-      outgoing.note_couple(c);
-    else
-      store(i, load4(i) + c);
+    if (!pairs.is_foreign(first)) store(i, load4(i) + c);
     store(j, load4(j) - c);
+  }
+}
+
+ContactLoad ContactChunk::load_on_first(int lane) const
+{
+  return {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])};
+}
+
+ContactLoad ContactChunk::load_on_second(int lane) const
+{
+  const ContactLoad its = load_on_first(lane);
+  return {-its.force, its.moment, -its.couple};
+}
+
+/* Few pairs are at the frontier: those among the contacts of a block are found by going through
+   both, as far as there are any. */
+
+void ContactChunk::defer(const std::uint32_t *block, int count)
+{
+  const std::vector<std::uint32_t> &frontier = pairs.frontier();
+  for (int n = 0;
+       next_at_frontier < frontier.size() && frontier[next_at_frontier] <= block[count - 1];
+       next_at_frontier++) {
+    const std::uint32_t pair = frontier[next_at_frontier];
+    while (block[n] < pair) n++;
+    if (block[n] != pair) continue;
+    const PairOfSlots slots = slots_of(pair);
+    const int lane = lane_of_contact[n];
+    if (pairs.defers(slots.first)) deferred.note(slots, slots.first, load_on_first(lane));
+    if (pairs.defers(slots.second)) deferred.note(slots, slots.second, load_on_second(lane));
+  }
+}
+
+void ContactChunk::add_deferred_before(PairOfSlots limit, const Step &step)
+{
+  added = step.early->deferred.add_before(limit, added, pairs.slots(), step.particles);
+}
+
+/* Contacts with ghosts, each between those of the early phase that come before and after it. Ghosts
+   get nothing. */
+
+void ContactChunk::add_late(const Step &step, const std::uint32_t *block, int count)
+{
+  const ParticleOrder &order = pairs.order();
+  for (int n = 0; n < count; n++) {
+    const PairOfSlots slots = slots_of(block[n]);
+    const int lane = lane_of_contact[n];
+    add_deferred_before(slots, step);
+    if (order.owns_slot(slots.second))
+      load_on_second(lane).add_to(step.particles, slots.second);
+    else if (pairs.is_foreign(slots.first))
+      deferred.note(slots, slots.first, load_on_first(lane));
+    else
+      load_on_first(lane).add_to(step.particles, slots.first);
   }
 }
 
@@ -260,15 +314,32 @@ void ContactChunk::report_block(const Step &step, const std::uint32_t *block, in
 {
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count; n++) {
-    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
-    ReportedContact out{
-        order.atom_of_slot[i], order.atom_of_slot[j], pairs.acts_on(i), pairs.acts_on(j), {}, {}};
+    const PairOfSlots slots = slots_of(block[n]);
+    ReportedContact out{order.atom_of_slot[slots.first],
+                        order.atom_of_slot[slots.second],
+                        !pairs.waits(slots.first),
+                        !pairs.waits(slots.second),
+                        {},
+                        {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
-      out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
+      out.separation[d] =
+          step.particles.position[slots.first].c[d] - step.particles.position[slots.second].c[d];
     }
-    (*step.report)(out);
+    if (pairs.is_late()) report_deferred_before(slots, step);
+    if (out.for_i || out.for_j) (*step.report)(out);
+    if (out.for_i && out.for_j) continue;
+    out.for_i = !out.for_i;
+    out.for_j = !out.for_j;
+    deferred_reports.push_back({slots, out});
   }
+}
+
+void ContactChunk::report_deferred_before(PairOfSlots limit, const Step &step)
+{
+  const std::vector<DeferredReport> &waiting = step.early->deferred_reports;
+  for (; reported_late < waiting.size() && waiting[reported_late].pair < limit; reported_late++)
+    (*step.report)(waiting[reported_late].contact);
 }
 
 void ContactChunk::account_block(const Step &step, const std::uint32_t *block, int count)
@@ -276,7 +347,6 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
   const LawTable &laws = step.scene.laws;
   const AlignedVector<Record> &position = step.particles.position;
   for (int n = 0; n < count; n++) {
-    if (!pairs.counts(block[n])) continue;
     const int lane = lane_of_contact[n], row = row_of_pair(step.scene, block[n]);
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
     step.account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, step.dt),
@@ -286,7 +356,7 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
 
 double ContactChunk::memory_usage() const
 {
-  return pairs.memory_usage() + history.memory_usage() + outgoing.memory_usage() +
+  return pairs.memory_usage() + history.memory_usage() + deferred.memory_usage() +
          static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
 }
 

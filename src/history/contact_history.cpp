@@ -136,8 +136,8 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   touching[block] = static_cast<std::uint8_t>(bits);
 }
 
-/* visit(pair, atom, atom is the first) for both ends of every touching pair, where owned and
-   served. */
+/* visit(pair, atom, atom is the first) for both ends of every touching pair, where owned and of
+   this range. */
 
 template <class Visit> void ContactHistory::for_each_end(const PairList &pairs, Visit visit) const
 {
@@ -146,21 +146,21 @@ template <class Visit> void ContactHistory::for_each_end(const PairList &pairs, 
     if (!touches(c)) continue;
     const int first = pairs.first[c], second = pairs.second[c];
     const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, true);
-    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, false);
+    if (order.is_owned(a) && !pairs.is_foreign(first)) visit(c, a, true);
+    if (order.is_owned(b)) visit(c, b, false);
   }
 }
 
-/* visit(pair, atom) for every touching pair whose first particle is owned and of another part, to
-   which it is handed over. */
+/* visit(pair, atom) for every touching pair whose first particle is owned and of another range. */
 
 template <class Visit>
-void ContactHistory::for_each_handed_over(const PairList &pairs, Visit visit) const
+void ContactHistory::for_each_foreign(const PairList &pairs, Visit visit) const
 {
   const ParticleOrder &order = pairs.order();
-  for (const std::int64_t c : pairs.handed_over())
-    if (const int a = order.atom_of_slot[pairs.first[c]]; touches(c) && order.is_owned(a))
-      visit(c, a);
+  for (const std::int64_t c : pairs.frontier()) {
+    const int first = pairs.first[c], a = order.atom_of_slot[first];
+    if (pairs.is_foreign(first) && touches(c) && order.is_owned(a)) visit(c, a);
+  }
 }
 
 void ContactHistory::announce(const PairList &pairs, PartnerLists &partners) const
@@ -168,9 +168,9 @@ void ContactHistory::announce(const PairList &pairs, PartnerLists &partners) con
   for_each_end(pairs, [&](std::int64_t, int atom, bool) { partners.count(atom); });
 }
 
-void ContactHistory::announce_handed_over(const PairList &pairs, PartnerLists &partners) const
+void ContactHistory::announce_foreign(const PairList &pairs, PartnerLists &partners) const
 {
-  for_each_handed_over(pairs, [&](std::int64_t, int atom) { partners.count(atom); });
+  for_each_foreign(pairs, [&](std::int64_t, int atom) { partners.count(atom); });
 }
 
 void ContactHistory::file(const PairList &pairs, PartnerLists &partners) const
@@ -179,9 +179,9 @@ void ContactHistory::file(const PairList &pairs, PartnerLists &partners) const
                [&](std::int64_t c, int, bool of_first) { file_end(pairs, partners, c, of_first); });
 }
 
-void ContactHistory::file_handed_over(const PairList &pairs, PartnerLists &partners) const
+void ContactHistory::file_foreign(const PairList &pairs, PartnerLists &partners) const
 {
-  for_each_handed_over(pairs, [&](std::int64_t c, int) { file_end(pairs, partners, c, true); });
+  for_each_foreign(pairs, [&](std::int64_t c, int) { file_end(pairs, partners, c, true); });
 }
 
 void ContactHistory::file_end(const PairList &pairs, PartnerLists &partners, std::int64_t pair,

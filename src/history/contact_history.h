@@ -52,13 +52,13 @@ class ContactHistory {
 
   /// Before particles are renumbered: the history of every touching pair is filed under each of its
   /// owned particles (see PartnerLists). First announce(), then PartnerLists::layout(), then
-  /// file(); each may run for different parts of a rank at the same time, and files under particles
-  /// of the part. For first particles of other parts, one part after the other: the same with
-  /// _handed_over, after it.
+  /// file(); each may run for the chunks of one phase at the same time, and files under particles
+  /// of their ranges. For first particles of other ranges, one chunk after the other: the same with
+  /// _foreign, after it.
   void announce(const PairList &pairs, PartnerLists &partners) const;
-  void announce_handed_over(const PairList &pairs, PartnerLists &partners) const;
+  void announce_foreign(const PairList &pairs, PartnerLists &partners) const;
   void file(const PairList &pairs, PartnerLists &partners) const;
-  void file_handed_over(const PairList &pairs, PartnerLists &partners) const;
+  void file_foreign(const PairList &pairs, PartnerLists &partners) const;
 
   /// After file(): pairs whose first particle is a ghost take over the history that its owner has
   /// filed, which ghost_values(host's index of the first, tag of the second) returns or nullptr.
@@ -96,7 +96,7 @@ class ContactHistory {
   void begin(std::int64_t pair);
   void change(std::int64_t block, unsigned bits);
   template <class Visit> void for_each_end(const PairList &pairs, Visit visit) const;
-  template <class Visit> void for_each_handed_over(const PairList &pairs, Visit visit) const;
+  template <class Visit> void for_each_foreign(const PairList &pairs, Visit visit) const;
   void file_end(const PairList &pairs, PartnerLists &partners, std::int64_t pair,
                 bool of_first) const;
 

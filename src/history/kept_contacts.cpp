@@ -9,16 +9,14 @@
 
 namespace Talus {
 
-void KeptContacts::begin(const ParticleOrder &order, bool particles_may_leave)
+void KeptContacts::begin(const ParticleOrder &order, const WorkPartition &partition,
+                         bool particles_may_leave)
 {
   filled = true;
   may_leave = particles_may_leave;
   most = 0;
-  both_have_pairs = order.in_two_phases();
-  parts.resize(order.num_chunks());
-  chunk_of_slot.clear();
-  if (order.num_chunks() > 1)
-    chunk_of_slot.assign(order.chunk_of_slots(), order.chunk_of_slots() + order.size());
+  work = partition;
+  parts.resize(work.num_chunks());
 
   slot_by_name.clear();
   tag.clear();
@@ -31,26 +29,26 @@ void KeptContacts::begin(const ParticleOrder &order, bool particles_may_leave)
   }
 }
 
-/* visit(first, second) for every pair of a part whose first particle is of this part, or is not. */
+/* visit(first, second) for every pair of a chunk whose first particle is of its range, or is not. */
 
 template <class Visit> void KeptContacts::for_each_pair(int p, bool of_own_first, Visit visit) const
 {
   const Part &its = parts[p];
   for (std::size_t row = 0; row + 1 < its.rows.size(); row++)
     for (std::uint32_t e = its.rows[row]; e < its.rows[row + 1]; e++) {
-      if ((part_of(its.first[e]) == p) == of_own_first)
+      if (is_of_own_range(p, its.first[e]) == of_own_first)
         visit(its.first[e], its.first_row + static_cast<int>(row));
     }
 }
 
-/* visit(first, second) once for every pair with a first particle of any part, in ascending order of
-   the second for each of them. Parts at the same time visit each their own; the few pairs between
-   parts, if the part of the first does not have them as well, follow. */
+/* visit(chunk, of its own range) for all pairs: of chunks with a phase in common at the same time,
+   each with the first particles of its range; the few with others follow. */
 
-template <class Visit> void KeptContacts::for_each_follower(Visit visit) const
+template <class Visit> void KeptContacts::for_each_chunk(Visit visit) const
 {
-  in_parallel(num_chunks(), threads, [&](int p) { for_each_pair(p, true, visit); });
-  for (int p = 1; p < num_chunks() && !both_have_pairs; p++) for_each_pair(p, false, visit);
+  for (int phase = 0; phase < work.num_phases(); phase++)
+    in_parallel(work.num_ranges(), threads, [&](int r) { visit(work.chunk(phase, r), true); });
+  for (int p = 0; p < num_chunks(); p++) visit(p, false);
 }
 
 void KeptContacts::finish(int num_threads)
@@ -62,15 +60,16 @@ void KeptContacts::finish(int num_threads)
   const auto count = [this](int p, bool of_own_first) {
     const Part &its = parts[p];
     for (std::uint32_t e = 0; e < its.rows.back(); e++)
-      if ((part_of(its.first[e]) == p) == of_own_first) followers_begin[its.first[e] + 2]++;
+      if (is_of_own_range(p, its.first[e]) == of_own_first) followers_begin[its.first[e] + 2]++;
   };
-  in_parallel(num_chunks(), threads, [&](int p) { count(p, true); });
-  for (int p = 1; p < num_chunks() && !both_have_pairs; p++) count(p, false);
+  for_each_chunk(count);
   for (int s = 0; s < static_cast<int>(tag.size()); s++) {
-    const int p = part_of(s);
-    if (p == ParticleOrder::no_chunk) continue;
-    const std::uint32_t before = parts[p].row_end(s) - parts[p].row_begin(s);
-    most = std::max(most, static_cast<int>(before + followers_begin[s + 2]));
+    std::uint32_t all = followers_begin[s + 2];
+    for (int phase = 0; phase < work.num_phases(); phase++) {
+      const Part &its = parts[work.chunk(phase, work.range_of(s))];
+      all += its.row_end(s) - its.row_begin(s);
+    }
+    most = std::max(most, static_cast<int>(all));
   }
 }
 
@@ -84,8 +83,11 @@ void KeptContacts::list_followers()
     followers_begin[s] += followers_begin[s - 1];
   renew(followers, followers_begin.back());
   // the begin of a row moves on to its end
-  for_each_follower(
-      [this](int first, int second) { followers[followers_begin[first + 1]++] = second; });
+  for_each_chunk([this](int p, bool of_own_first) {
+    for_each_pair(p, of_own_first, [this](int first, int second) {
+      followers[followers_begin[first + 1]++] = second;
+    });
+  });
   followers_begin.pop_back();
 }
 
@@ -107,11 +109,13 @@ int KeptContacts::pack(int slot, int values, double *buffer)
     to = PartnerLists::write_entry(to, tag[partner], all, values);
     count++;
   };
-  const Part &own = parts[part_of(slot)];
-  for (std::uint32_t e = own.row_begin(slot); e < own.row_end(slot); e++)
-    add(own, own.first[e], own.place[e], false);
+  for (int phase = 0; phase < work.num_phases(); phase++) {
+    const Part &own = parts[work.chunk(phase, work.range_of(slot))];
+    for (std::uint32_t e = own.row_begin(slot); e < own.row_end(slot); e++)
+      add(own, own.first[e], own.place[e], false);
+  }
   for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++) {
-    const Part &its = parts[holder(slot, followers[n])];
+    const Part &its = parts[work.chunk_with_pair(slot, followers[n])];
     add(its, followers[n], its.find(slot, followers[n]), true);
   }
   buffer[0] = count;
@@ -142,7 +146,7 @@ void KeptContacts::clear()
 double KeptContacts::memory_usage() const
 {
   std::size_t bytes =
-      sizeof(std::uint16_t) * chunk_of_slot.capacity() + sizeof(std::int64_t) * tag.capacity() +
+      static_cast<std::size_t>(work.memory_usage()) + sizeof(std::int64_t) * tag.capacity() +
       sizeof(std::uint32_t) * followers_begin.capacity() + sizeof(int) * followers.capacity() +
       (sizeof(std::pair<std::int64_t, int>) + 2 * sizeof(void *)) * slot_by_name.size();
   for (const Part &p : parts)

@@ -17,6 +17,7 @@
 #define TALUS_HISTORY_KEPT_CONTACTS_H
 
 #include "base/aligned_vector.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
 #include "particles/record.h"
 
@@ -45,7 +46,7 @@ class KeptContacts {
   };
 
   /// Without `particles_may_leave`, pack(), slot_named() and most_contacts() know of nothing.
-  void begin(const ParticleOrder &order, bool particles_may_leave);
+  void begin(const ParticleOrder &order, const WorkPartition &work, bool particles_may_leave);
   Part &part(int p) { return parts[p]; }
   int num_chunks() const { return static_cast<int>(parts.size()); }
   void finish(int threads);
@@ -86,27 +87,22 @@ class KeptContacts {
   Found find_of_owned(int a, int b) const
   {
     const int first = std::min(a, b), second = std::max(a, b);
-    const Part &part = parts[holder(first, second)];
+    const Part &part = parts[work.chunk_with_pair(first, second)];
     if (part.records.empty()) return {};
     const std::int64_t place = part.find(first, second), readable = place & ~(place >> 63);
     return {place >= 0, a < b, part.records.data() + readable,
             part.impacts.empty() ? &nothing : part.impacts.data() + readable};
   }
-  int part_of(int slot) const { return chunk_of_slot.empty() ? 0 : chunk_of_slot[slot]; }
-  /// A part that has the pair, see ParticleOrder::chunk_with_pair().
-  int holder(int first, int second) const
-  {
-    const int p = part_of(second);
-    return p != ParticleOrder::no_chunk ? p : part_of(first);
-  }
+  bool is_of_own_range(int p, int first) const { return first >= work.range_of_chunk(p).begin; }
   template <class Visit> void for_each_pair(int p, bool of_own_first, Visit visit) const;
+  template <class Visit> void for_each_chunk(Visit visit) const;
   template <class Visit> void for_each_follower(Visit visit) const;
   void list_followers();
 
-  bool filled = false, may_leave = false, both_have_pairs = false, listed = false;
+  bool filled = false, may_leave = false, listed = false;
   int most = 0, threads = 1;
   std::vector<Part> parts;
-  std::vector<std::uint16_t> chunk_of_slot;    // empty if there is one part only
+  WorkPartition work;    // as it was
 
   // only if particles may leave, by slot
   std::vector<std::int64_t> tag;

@@ -103,10 +103,10 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   std::iota(tag.begin(), tag.end(), 1);
   ParticleOrder order;
   order.arrange(n, std::vector<std::uint64_t>(n, 0), tag);
-  order.divide(PairRows(order, view), 1, false);
+  const WorkPartition work(order);
 
   PairList pairs;
-  pairs.collect(order, PairRows(order, view), 0);
+  pairs.collect(order, work, PairRows(order, view), 0);
   ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
   EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
 

@@ -23,6 +23,7 @@ using Values = std::array<double, 8>;
 /// A rank whose pairs have histories: those of `touching`, by host's index as its first particle (key) sees it.
 struct Rank {
   ParticleOrder order;
+  WorkPartition work;
   std::vector<std::int64_t> tag;
   std::map<std::pair<int, int>, Values> touching;
   std::vector<std::pair<int, int>> apart;
@@ -48,7 +49,7 @@ struct Rank {
           for (double &value : touching[{a, b}]) value = random.uniform(-1.0, 1.0);
       }
     order.arrange(owned, key, tag);
-    order.divide(PairRows(order, neighbors.view(), threads), threads, two_phases);
+    work = WorkPartition(order, PairRows(order, neighbors.view(), threads), threads, two_phases);
 
     lists.set_values(with_impacts ? 8 : 4);
     lists.resize(owned);
@@ -61,10 +62,10 @@ struct Rank {
         const Values seen = seen_by(atom == std::min(atom, partner), its);
         std::copy_n(seen.begin(), lists.num_values(), lists.append(atom, tag[partner]));
       });
-    pairs.resize(order.num_chunks());
-    histories.resize(order.num_chunks());
-    for (int p = 0; p < order.num_chunks(); p++) {
-      pairs[p].collect(order, PairRows(order, neighbors.view()), p);
+    pairs.resize(work.num_chunks());
+    histories.resize(work.num_chunks());
+    for (int p = 0; p < work.num_chunks(); p++) {
+      pairs[p].collect(order, work, PairRows(order, neighbors.view()), p);
       histories[p].fetch(pairs[p], {lists, tag, KeptContacts(), {}}, {});
     }
   }
@@ -84,8 +85,8 @@ struct Rank {
 
   void keep(KeptContacts &kept, bool particles_may_leave)
   {
-    kept.begin(order, particles_may_leave);
-    for (int p = 0; p < order.num_chunks(); p++) histories[p].keep(pairs[p], kept.part(p));
+    kept.begin(order, work, particles_may_leave);
+    for (int p = 0; p < work.num_chunks(); p++) histories[p].keep(pairs[p], kept.part(p));
     kept.finish(1);
   }
 
@@ -143,7 +144,7 @@ TEST_P(KeptContactsOf, AreFoundByTheSlotsOfTwoParticles)
     }
     kept.clear();
     EXPECT_TRUE(kept.empty());
-    for (int p = 0; p < rank.order.num_chunks(); p++)
+    for (int p = 0; p < rank.work.num_chunks(); p++)
       rank.histories[p].fetch(rank.pairs[p], {rank.lists, rank.tag, KeptContacts(), {}}, {});
   }
 }
