@@ -49,7 +49,7 @@ struct Prepared {
   void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()
   {
-    part.compute(scene, records, {dt, true}, [](int, int) {});
+    part.compute(scene, records, {dt, true}, [](int, int) {}, {});
   }
   void file()
   {

@@ -147,11 +147,13 @@ struct AsListed {
   void start() {}    // of steps: nothing to prepare
   void step()
   {
-    part.compute(scene, records, in_records(), [this](int begin, int end) {
-      SlotChoice slots{begin, end};
-      slots.next_end = order.size();
-      records.advance(at_rest, role, held.data(), slots);
-    });
+    part.compute(scene, records, in_records(),
+                 [this](int begin, int end) {
+                   SlotChoice slots{begin, end};
+                   slots.next_end = order.size();
+                   records.advance(at_rest, role, held.data(), slots);
+                 },
+                 {});
     for (std::size_t k = 0; k < of_other_thread.size(); k++) {
       store(records.load[k].c, load4(records.load[k].c) + load4(of_other_thread[k].c));
       of_other_thread[k] = Record{};

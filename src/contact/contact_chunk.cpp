@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace Talus {
 
@@ -33,30 +35,25 @@ void ContactChunk::forget_contacts()
 {
   touching = 0;
   release(contacts);
-  deferred = DeferredForces{};
 }
 
 void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles,
-                           const ContactStep &how, const Load &load, const ContactChunk *early)
+                           const ContactStep &how, const Load &load, const Frontier &frontier)
 {
-  const Step step{how, scene, particles, load, early};
+  const Step step{how, scene, particles, load, frontier};
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
-  deferred.make_room(pairs.num_deferred(), particles);
-  deferred.clear();
-  deferred_reports.clear();
-  next_at_frontier = added = reported_late = 0;
+  later_reports.clear();
+  next_at_frontier = reported = 0;
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
     compute_all<true, false>(step);
   else
     compute_all<false, false>(step);
-  if (pairs.is_late()) {
-    add_deferred_before(after_all_pairs, step);
-    report_deferred_before(after_all_pairs, step);
-  }
-  if (deferred.size()) streams_are_done();
+  while (next_at_frontier < pairs.frontier().size()) defer_one(step, false, 0);
+  if (pairs.is_late()) report_early_before(std::numeric_limits<int>::max(), 0, step);
+  if (!pairs.foreign.empty()) streams_are_done();
 }
 
 /* Particles are loaded, pairs tested and forces computed stretch by stretch, all in ascending
@@ -123,16 +120,14 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   if (scene.with_impact && step.advance) keep_impacts(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  if (pairs.is_late()) {
-    add_late(step, block, count);
-  } else {
+  if (!pairs.is_late()) {
     if (scene.laws.num_laws() == 1)
       add_up<friction, true>(step.particles, block, count);
     else
       add_up<friction, false>(step.particles, block, count);
     if (scene.with_resistance) add_couples(step.particles, block, count);
-    defer(block, count);
   }
+  defer(step, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
@@ -211,7 +206,7 @@ void ContactChunk::apply_weights(int end)
 
 /* The contacts of one second particle follow each other, and nothing has been added to it before
    the first of them: its sums stay in registers and are stored again and again, but not loaded.
-   Sums of particles that wait for the late phase are wrong here, and cleared before it. */
+   Sums of particles with late contacts are wrong here, and replaced when all have been computed. */
 
 template <bool friction, bool one_law>
 void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
@@ -256,90 +251,66 @@ void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *
   }
 }
 
-ContactLoad ContactChunk::load_on_first(int lane) const
-{
-  return {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])};
-}
-
-ContactLoad ContactChunk::load_on_second(int lane) const
-{
-  const ContactLoad its = load_on_first(lane);
-  return {-its.force, its.moment, -its.couple};
-}
-
 /* Few pairs are at the frontier: those among the contacts of a block are found by going through
    both, as far as there are any. */
 
-void ContactChunk::defer(const std::uint32_t *block, int count)
+void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
 {
   const std::vector<std::uint32_t> &frontier = pairs.frontier();
-  for (int n = 0;
-       next_at_frontier < frontier.size() && frontier[next_at_frontier] <= block[count - 1];
-       next_at_frontier++) {
+  int n = 0;
+  while (next_at_frontier < frontier.size() && frontier[next_at_frontier] <= block[count - 1]) {
     const std::uint32_t pair = frontier[next_at_frontier];
     while (block[n] < pair) n++;
-    if (block[n] != pair) continue;
-    const PairOfSlots slots = slots_of(pair);
-    const int lane = lane_of_contact[n];
-    if (pairs.defers(slots.first)) deferred.note(slots, slots.first, load_on_first(lane));
-    if (pairs.defers(slots.second)) deferred.note(slots, slots.second, load_on_second(lane));
+    defer_one(step, block[n] == pair, lane_of_contact[n]);
   }
 }
 
-void ContactChunk::add_deferred_before(PairOfSlots limit, const Step &step)
+/* What the next pair at the frontier does, if it touches: then it is in that lane. */
+
+void ContactChunk::defer_one(const Step &step, bool touches, int lane)
 {
-  added = step.early->deferred.add_before(limit, added, pairs.slots(), step.particles);
+  const bool far = pairs.is_foreign(pairs.first[pairs.frontier()[next_at_frontier]]);
+  step.frontier.forces->put(
+      step.frontier.first_place + next_at_frontier++, touches, far,
+      {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])});
 }
 
-/* Contacts with ghosts, each between those of the early phase that come before and after it. Ghosts
-   get nothing. */
-
-void ContactChunk::add_late(const Step &step, const std::uint32_t *block, int count)
-{
-  const ParticleOrder &order = pairs.order();
-  for (int n = 0; n < count; n++) {
-    const PairOfSlots slots = slots_of(block[n]);
-    const int lane = lane_of_contact[n];
-    add_deferred_before(slots, step);
-    if (order.owns_slot(slots.second))
-      load_on_second(lane).add_to(step.particles, slots.second);
-    else if (pairs.is_foreign(slots.first))
-      deferred.note(slots, slots.first, load_on_first(lane));
-    else
-      load_on_first(lane).add_to(step.particles, slots.first);
-  }
-}
+/* In two phases ends of particles with late contacts are reported in the late phase. */
 
 void ContactChunk::report_block(const Step &step, const std::uint32_t *block, int count)
 {
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count; n++) {
-    const PairOfSlots slots = slots_of(block[n]);
-    ReportedContact out{order.atom_of_slot[slots.first],
-                        order.atom_of_slot[slots.second],
-                        !pairs.waits(slots.first),
-                        !pairs.waits(slots.second),
-                        {},
-                        {}};
+    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
+    ReportedContact out{order.atom_of_slot[i], order.atom_of_slot[j], true, true, {}, {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
-      out.separation[d] =
-          step.particles.position[slots.first].c[d] - step.particles.position[slots.second].c[d];
+      out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
     }
-    if (pairs.is_late()) report_deferred_before(slots, step);
+    if (pairs.is_late()) {
+      report_early_before(j, i, step);
+    } else if (const bool i_later = pairs.has_late(i), j_later = pairs.has_late(j);
+               i_later || j_later) {
+      out.for_i = i_later;
+      out.for_j = j_later;
+      later_reports.push_back({j, i, out});
+      out.for_i = !i_later;
+      out.for_j = !j_later;
+    }
     if (out.for_i || out.for_j) (*step.report)(out);
-    if (out.for_i && out.for_j) continue;
-    out.for_i = !out.for_i;
-    out.for_j = !out.for_j;
-    deferred_reports.push_back({slots, out});
   }
 }
 
-void ContactChunk::report_deferred_before(PairOfSlots limit, const Step &step)
+/* Reports what the early chunk has left, of pairs before that one. */
+
+void ContactChunk::report_early_before(int second, int first, const Step &step)
 {
-  const std::vector<DeferredReport> &waiting = step.early->deferred_reports;
-  for (; reported_late < waiting.size() && waiting[reported_late].pair < limit; reported_late++)
-    (*step.report)(waiting[reported_late].contact);
+  const std::vector<LaterReport> &left = step.frontier.early->later_reports;
+  for (; reported < left.size(); reported++) {
+    const LaterReport &next = left[reported];
+    if (std::tie(next.second, next.first) >= std::tie(second, first)) return;
+    (*step.report)(next.contact);
+  }
 }
 
 void ContactChunk::account_block(const Step &step, const std::uint32_t *block, int count)
@@ -356,7 +327,7 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
 
 double ContactChunk::memory_usage() const
 {
-  return pairs.memory_usage() + history.memory_usage() + deferred.memory_usage() +
+  return pairs.memory_usage() + history.memory_usage() +
          static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
 }
 

@@ -76,13 +76,20 @@ class ContactChunk {
   /// ask.
   void forget_contacts();
 
+  /// Where the forces of the pairs at the frontier go, and in the late phase the chunk of the same
+  /// range in the early one; nothing for a chunk that has all pairs of a rank.
+  struct Frontier {
+    DeferredForces *forces = nullptr;
+    std::size_t first_place = 0;
+    const ContactChunk *early = nullptr;
+  };
+
   /// Computes all contacts of this chunk and adds their forces, or defers them. In the first phase
   /// all slots of its range are loaded on the way, a while before they are needed, so that they
   /// pass through the cache once; slots of other ranges must be there from the beginning. In the
-  /// late phase all must be there, and `early` is the chunk of the same range in the early one:
-  /// what it has deferred for particles of this range is added here.
+  /// late phase all must be there.
   void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step,
-               const Load &load, const ContactChunk *early = nullptr);
+               const Load &load, const Frontier &frontier);
 
   /// visit(pair) for every contact of the last compute().
   template <class Visit> void for_each_contact(Visit visit) const
@@ -97,10 +104,6 @@ class ContactChunk {
 
   double memory_usage() const;
 
-  /// After compute(): forces on particles of other ranges, and of `early` those that have been
-  /// added by the late chunk.
-  const DeferredForces &deferred_forces() const { return deferred; }
-
   PairList pairs;
   ContactHistory history;
 
@@ -109,7 +112,7 @@ class ContactChunk {
     const ContactScene &scene;
     ParticleRecords &particles;
     const Load &load;
-    const ContactChunk *early;
+    const Frontier &frontier;
   };
   template <bool friction, bool history_kept> void compute_all(const Step &step);
   template <bool friction, bool history_kept>
@@ -134,26 +137,21 @@ class ContactChunk {
   template <bool friction, bool one_law>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  void defer(const std::uint32_t *contacts, int count);
-  void add_late(const Step &step, const std::uint32_t *contacts, int count);
-  void add_deferred_before(PairOfSlots limit, const Step &step);
+  void defer(const Step &step, const std::uint32_t *contacts, int count);
+  void defer_one(const Step &step, bool touches, int lane);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
-  void report_deferred_before(PairOfSlots limit, const Step &step);
-  PairOfSlots slots_of(std::uint32_t pair) const { return {pairs.first[pair], pairs.second[pair]}; }
-  ContactLoad load_on_first(int lane) const;
-  ContactLoad load_on_second(int lane) const;
+  void report_early_before(int second, int first, const Step &step);
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
-  DeferredForces deferred;
-  std::size_t next_at_frontier = 0;            ///< of the pairs there
-  std::size_t added = 0, reported_late = 0;    ///< of what the early chunk has deferred
-  struct DeferredReport {
-    PairOfSlots pair;
+  std::size_t next_at_frontier = 0;    ///< of the pairs there
+  struct LaterReport {
+    int second, first;
     ReportedContact contact;
   };
-  std::vector<DeferredReport> deferred_reports;
+  std::vector<LaterReport> later_reports;    ///< of ends that have late contacts as well
+  std::size_t reported = 0;                  ///< of those of the early chunk
   int block_size = ContactBatch::width;
   SlotRange to_prefetch;    ///< slots that are loaded soon
 

@@ -42,6 +42,7 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neig
   ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
   std::sort(ghost_slots.begin(), ghost_slots.end());
   find_shared();
+  deferred.collect(order, work, threads, [this](int c) { return &chunks[c].pairs; });
   pairs_known = true;
 }
 
@@ -98,6 +99,7 @@ void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_resistance,
                    shared_owned.size() + shared_ghosts.size());
+  deferred.make_room(particles);
 }
 
 void ContactPipeline::release_records()
@@ -105,6 +107,7 @@ void ContactPipeline::release_records()
   in_records = prepared = move_pending = false;
   if (memory_usage() < worth_giving_back) return;
   particles.release_sums();
+  deferred.release();
   Talus::release(held);
   for (ContactChunk &chunk : chunks) chunk.forget_contacts();
 }
@@ -252,23 +255,6 @@ template <class Visit> void ContactPipeline::for_each_chunk_of(int thread, int p
   });
 }
 
-/* Adds what chunks of other ranges have deferred to the particles of a thread: a particle gets the
-   contacts of its own range first, then those of the following ones, in ascending order. That is
-   the canonical order. */
-
-void ContactPipeline::add_deferred(int thread)
-{
-  const SlotRange its = work.range_of_thread(thread);
-  static const DeferredForces none;
-  for (int r = 0; r < work.num_ranges(); r++) {
-    const SlotRange before{its.begin, std::min(its.end, work.range(r).begin)};
-    if (before.begin >= before.end) continue;
-    const ContactChunk *late = work.in_two_phases() ? &chunks[work.chunk(1, r)] : nullptr;
-    DeferredForces::add_both(chunks[r].deferred_forces(), late ? late->deferred_forces() : none,
-                             before, particles);
-  }
-}
-
 /* Computes the chunks of one phase. Reports and accounts are kept in the order of the chunks, so
    these then run one after the other. */
 
@@ -280,10 +266,6 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
     if (first) {
       load_shared(host, step, t);
       copy_states(shared_owned, t);
-    } else {
-      of_thread(work.late_slots(), t).for_each([&](std::size_t slot) {
-        particles.clear_sums(static_cast<int>(slot));
-      });
     }
     if (!last) return;
     load_ghosts(host, step, t);
@@ -294,14 +276,14 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
     if (t) its.meanwhile = nullptr;
     for_each_chunk_of(t, phase, [&](int c) {
       const int range = c % work.num_ranges();
-      chunks[c].compute(
-          scene, particles, its, [&](int begin, int end) { load(host, step, range, begin, end); },
-          first ? nullptr : &chunks[range]);
+      chunks[c].compute(scene, particles, its,
+                        [&](int begin, int end) { load(host, step, range, begin, end); },
+                        {&deferred, deferred.first_place(c), first ? nullptr : &chunks[range]});
     });
   };
   const auto finish = [&](int t) {
     if (!last) return;
-    add_deferred(t);
+    deferred.add(t, particles);
     const SlotRange its = work.range_of_thread(t);
     if (step.add_more) (*step.add_more)(t, its.begin, its.end);
   };
@@ -349,7 +331,8 @@ ContactImpact<double> ContactPipeline::impact_of(int i, int j) const
 
 double ContactPipeline::memory_usage() const
 {
-  double bytes = order.memory_usage() + work.memory_usage() + particles.memory_usage();
+  double bytes = order.memory_usage() + work.memory_usage() + particles.memory_usage() +
+                 deferred.memory_usage();
   for (const ContactChunk &chunk : chunks) bytes += chunk.memory_usage();
   return bytes;
 }

@@ -163,7 +163,6 @@ class ContactPipeline {
   void find_shared();
   void run_phase(const ParticleView &host, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);
-  void add_deferred(int thread);
   void load_shared(const ParticleView &host, const ContactStep &step, int thread);
   void load_ghosts(const ParticleView &host, const ContactStep &step, int thread);
   void load(const ParticleView &host, const ContactStep &step, int range, int begin, int end);
@@ -204,6 +203,7 @@ class ContactPipeline {
     std::atomic<bool> taken{false};
   };
   std::vector<Claim> claims;    ///< by range: a thread does it in this phase
+  DeferredForces deferred;
 
   ParticleRecords particles;
   std::vector<int> ghost_slots;                    ///< in ascending order, as all lists of slots

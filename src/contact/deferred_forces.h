@@ -1,88 +1,108 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Forces of the contacts of one chunk of the work that must not be added at once (see
-// WorkPartition): on particles of other ranges, and in the early phase on those that wait for
-// contacts with ghosts. They are noted here in the order of the contacts, and added later such that
-// every particle gets its contacts in canonical order:
+// Forces that a chunk of the work must not add at once (see WorkPartition): on particles of other
+// ranges, and on those that have contacts of the late phase. Each pair with such a particle has a
+// place here, where its chunk stores what the contact does in a step, zero if the pair does not
+// touch. When all chunks are done, the rows are added: one for each of these particles, with its
+// pairs in canonical order.
 //
-//   particles of the own range   by the late chunk of this range, between contacts of its own
-//   particles of other ranges    when all chunks are done, in ascending order of the ranges
+//   at a rebuild   collect()
+//   every step     make_room(), put() by all chunks, add() by all threads
+//
+// A particle gets the contacts of its own range first, added directly or here, and then those of
+// the following ranges in ascending order: that is the canonical order.
 
 #ifndef TALUS_CONTACT_DEFERRED_FORCES_H
 #define TALUS_CONTACT_DEFERRED_FORCES_H
 
 #include "base/aligned_vector.h"
+#include "neighbors/pair_list.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_records.h"
 
 #include <cstddef>
-#include <limits>
-#include <tuple>
+#include <cstdint>
+#include <vector>
 
 namespace Talus {
 
-/// The slots of a pair. Canonical order is that of pair lists: by the second, then the first.
-struct PairOfSlots {
-  int first, second;
-
-  bool operator<(const PairOfSlots &o) const
-  {
-    return std::tie(second, first) < std::tie(o.second, o.first);
-  }
-};
-constexpr PairOfSlots after_all_pairs{std::numeric_limits<int>::max(),
-                                      std::numeric_limits<int>::max()};
-
-/// What a contact adds to the sums of one of its particles, see record.h. Moment and couple count
-/// only in scenes that have them.
+/// What a contact adds to its first particle, see record.h; the second one gets the opposite force
+/// and couple and the same moment. Moment and couple count only in scenes that have them.
 struct ContactLoad {
   Vec4 force, moment, couple;
-
-  void add_to(ParticleRecords &particles, std::size_t slot) const
-  {
-    Record *sums = &particles.load[particles.stride * slot];
-    store(sums[0], load4(sums[0]) + force);
-    if (particles.stride == 2) store(sums[1], load4(sums[1]) + moment);
-    if (particles.couple.empty()) return;
-    store(particles.couple[slot], load4(particles.couple[slot]) + couple);
-  }
 };
 
 class DeferredForces {
  public:
-  /// For at most so many notes.
-  void make_room(std::size_t notes, const ParticleRecords &particles);
-  void clear() { noted = 0; }
-
-  /// Notes what a contact adds to one of its slots; contacts in canonical order. Others may read it
-  /// after streams_are_done().
-  TALUS_INLINE void note(PairOfSlots pair, int slot, const ContactLoad &its)
+  /// Gives places to the pairs of all chunks; `list_of(chunk)` must stand as it is until the next
+  /// call. Nothing is stored afterwards.
+  template <class ListOf>
+  void collect(const ParticleOrder &order, const WorkPartition &work, int threads, ListOf list_of)
   {
-    stream(load[stride * noted], its.force);
-    if (stride == 2) stream(load[stride * noted + 1], its.moment);
-    if (!couple.empty()) stream(couple[noted], its.couple);
-    notes[noted++] = {pair, slot};
+    std::vector<const PairList *> lists(work.num_chunks());
+    for (int c = 0; c < work.num_chunks(); c++) lists[c] = list_of(c);
+    collect_from(order, work, threads, lists);
   }
 
-  /// Adds the notes from number `begin` on that belong to pairs before `limit` and to slots of a
-  /// range. Returns the number of the first one that belongs to no pair before.
-  std::size_t add_before(PairOfSlots limit, std::size_t begin, SlotRange range,
-                         ParticleRecords &particles) const;
+  /// For records of that kind; keeps what is stored if they are of the same kind as before.
+  void make_room(const ParticleRecords &particles);
+  /// Gives the memory of make_room() back.
+  void release();
 
-  /// Adds those of two phases of the same range to slots of `range`, in canonical order.
-  static void add_both(const DeferredForces &early, const DeferredForces &late, SlotRange range,
-                       ParticleRecords &particles);
+  /// Place of the first pair at the frontier of a chunk; the others follow.
+  std::size_t first_place(int chunk) const { return first_of_chunk[chunk]; }
 
-  std::size_t size() const { return noted; }
+  /// Stores what a pair does in this step. `far`: another thread will read it; it may do so after
+  /// streams_are_done(). Of most pairs that do not touch that is known already.
+  TALUS_INLINE void put(std::size_t place, bool touches, bool far, const ContactLoad &its)
+  {
+    if (!touches && !stored[place]) return;
+    stored[place] = touches;
+    const auto write = [&](Record &to, Vec4 value) {
+      value = kept_if(touches, value);
+      if (far)
+        stream(to, value);
+      else
+        store(to, value);
+    };
+    write(load[stride * place], its.force);
+    if (stride == 2) write(load[stride * place + 1], its.moment);
+    if (!couple.empty()) write(couple[place], its.couple);
+  }
+
+  /// Adds the rows of the particles of a thread, when all that is done by all chunks.
+  void add(int thread, ParticleRecords &particles) const;
+
   double memory_usage() const;
 
  private:
-  struct Note {
-    PairOfSlots pair;
-    int slot;
+  /// A contact of a particle.
+  struct Entry {
+    std::uint32_t place;
+    bool of_second;    // the particle is the second of the pair
   };
-  std::size_t stride = 1, noted = 0;
-  AlignedVector<Note> notes;
-  AlignedVector<Record> load, couple;    // of each note
+  /// A particle: its entries end here, and begin at the end of the row before.
+  struct Row {
+    int slot;
+    bool has_all;    // contacts of the particle are here: what has been added so far is replaced
+    std::uint32_t end;
+  };
+  struct Rows {
+    std::vector<Row> rows;
+    std::vector<Entry> entries;
+  };
+  void collect_from(const ParticleOrder &order, const WorkPartition &work, int threads,
+                    const std::vector<const PairList *> &lists);
+  void make_rows(const ParticleOrder &order, const WorkPartition &work, SlotRange range,
+                 const std::vector<const PairList *> &lists, Rows &to) const;
+  void add_row(const Row &row, const Entry *begin, const Entry *end,
+               ParticleRecords &particles) const;
+
+  std::size_t places = 0, stride = 1;
+  std::vector<std::size_t> first_of_chunk;
+  std::vector<Rows> of_thread;
+  AlignedVector<unsigned char> stored;    // by place: something else than zero
+  AlignedVector<Record> load, couple;     // by place
 };
 
 }    // namespace Talus

@@ -16,7 +16,6 @@ void PairList::collect(const ParticleOrder &order, const WorkPartition &partitio
   work = &partition;
   range = work->range_of_chunk(chunk);
   late = work->is_late_chunk(chunk);
-  is_early = work->in_two_phases() && !late;
   copy_of_first.clear();
   if (work->in_two_phases())
     take_of_phase(rows);
@@ -88,13 +87,10 @@ void PairList::find_frontier()
 {
   at_frontier.clear();
   foreign.clear();
-  deferred = 0;
-  if (range.begin == 0 && !is_early) return;
+  if (range.begin == 0 && !work->in_two_phases()) return;
   for (std::int64_t c = 0; c < num_pairs(); c++) {
-    const int forces = defers(first[c]) + defers(second[c]);
-    if (forces == 0) continue;
+    if (!defers(first[c]) && !defers(second[c])) continue;
     at_frontier.push_back(static_cast<std::uint32_t>(c));
-    deferred += forces;
     if (is_foreign(first[c])) foreign.push_back(first[c]);
   }
   std::sort(foreign.begin(), foreign.end());

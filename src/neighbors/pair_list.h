@@ -50,14 +50,12 @@ class PairList {
   SlotRange slots() const { return range; }
   /// The first particle of a pair belongs to another range: one before this.
   bool is_foreign(int slot) const { return slot < range.begin; }
-  /// The particle gets its forces in the late phase, and these are early pairs.
-  bool waits(int slot) const { return is_early && work->is_late(slot); }
-  /// Forces on that first or second particle are deferred, see DeferredForces.
-  bool defers(int slot) const { return is_foreign(slot) || waits(slot); }
+  /// The particle has contacts of the late phase as well.
+  bool has_late(int slot) const { return work->in_two_phases() && work->is_late(slot); }
+  /// Forces on that first or second particle, if it is owned, are deferred: see DeferredForces.
+  bool defers(int slot) const { return is_foreign(slot) || has_late(slot); }
   /// Pairs with such a particle, in ascending order.
   const std::vector<std::uint32_t> &frontier() const { return at_frontier; }
-  /// The number of forces that are deferred if all pairs touch.
-  std::size_t num_deferred() const { return deferred; }
 
   const ParticleOrder &order() const { return *particles; }
   std::int64_t num_pairs() const { return static_cast<std::int64_t>(first.size()); }
@@ -87,9 +85,8 @@ class PairList {
   const ParticleOrder *particles = nullptr;
   const WorkPartition *work = nullptr;
   SlotRange range;
-  bool late = false, is_early = false;    // none of them in one phase
+  bool late = false;
   std::vector<std::uint32_t> at_frontier;
-  std::size_t deferred = 0;
   AlignedVector<int> copy_of_first;    // empty if all are read where they are
 };
 

@@ -70,8 +70,6 @@ void WorkPartition::assign_roles(const ParticleOrder &order, const PairRows &row
     for (int s = begin; s < end; s++) role[s] = order.owns_slot(s) ? EARLY : GHOST;
   });
   rows.for_each_beside_ghosts([&](int slot) { role[slot] = LATE; });
-  for (int s = 0; s < order.size(); s++)
-    if (is_late(s)) late.push_back(s);
 }
 
 SlotRange WorkPartition::range_of_thread(int thread) const
@@ -83,8 +81,7 @@ SlotRange WorkPartition::range_of_thread(int thread) const
 
 double WorkPartition::memory_usage() const
 {
-  return static_cast<double>(sizeof(int) * (ends.capacity() + late.capacity()) +
-                             sizeof(Role) * role.capacity());
+  return static_cast<double>(sizeof(int) * ends.capacity() + sizeof(Role) * role.capacity());
 }
 
 }    // namespace Talus

@@ -57,11 +57,9 @@ class WorkPartition {
 
   /// In two phases: the slot is a ghost.
   bool is_ghost(int slot) const { return role[slot] == GHOST; }
-  /// In two phases: an owned particle with a ghost among its partners. Its forces are added in the
-  /// late phase, those of all others in the early one.
+  /// In two phases: an owned particle with a ghost among its partners. All others have only
+  /// contacts of the early phase.
   bool is_late(int slot) const { return role[slot] == LATE; }
-  /// Those, in ascending order; none in one phase.
-  const std::vector<int> &late_slots() const { return late; }
 
   /// All slots divided among the threads: with the large range the nearer half of the small ones.
   SlotRange range_of_thread(int thread) const;
@@ -93,7 +91,6 @@ class WorkPartition {
   int phases = 1;
   std::vector<int> ends{0};    // of the ranges
   std::vector<Role> role;      // by slot; empty in one phase
-  std::vector<int> late;
 };
 
 }    // namespace Talus

@@ -1,160 +1,160 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What chunks add at once and what they defer must together have the bits of a slow loop over all pairs in canonical
+// order.
 
 #include "contact/deferred_forces.h"
-#include "random_source.h"
+#include "random_pairs.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <iterator>
-#include <set>
-#include <vector>
+#include <map>
 
 using namespace Talus;
+using namespace slow;
 
 namespace {
 
-constexpr int particles = 40;
-
 Record random_record(RandomSource &random)
 {
-  Record r;
-  for (double &c : r.c) c = random.uniform(-1.0, 1.0);
+  Record r{};    // the fourth number of a force has a meaning of its own
+  for (int d = 0; d < 3; d++) r.c[d] = random.uniform(-1.0, 1.0);
   return r;
 }
 
-bool same(const AlignedVector<Record> &a, const AlignedVector<Record> &b)
+bool same(const Record &a, const Record &b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Record &x, const Record &y) {
-    return std::equal(std::begin(x.c), std::end(x.c), std::begin(y.c));
-  });
+  return std::equal(std::begin(a.c), std::end(a.c), std::begin(b.c));
 }
 
-void add(Record &sum, const Record &one)
-{
-  for (int d = 0; d < 4; d++) sum.c[d] += one.c[d];
-}
-
-/// What a contact adds to one of its slots.
-struct OneNote {
-  PairOfSlots pair;
-  int slot;
+struct OneContact {
   Record force, moment, couple;
 };
 
-/// Of random pairs in canonical order, one or both ends of each.
-std::vector<OneNote> random_notes(RandomSource &random)
+/// Of each pair that touches, by slots.
+using Contacts = BySlots<OneContact>;
+
+Contacts random_contacts(const Pairs &pairs, double chance, RandomSource &random)
 {
-  std::vector<OneNote> notes;
-  for (int second = 1; second < particles; second++)
-    for (int first = 0; first < second; first++)
-      for (const int slot : {first, second})
-        if (random.chance(0.3))
-          notes.push_back({{first, second},
-                           slot,
-                           random_record(random),
-                           random_record(random),
-                           random_record(random)});
-  return notes;
+  Contacts contacts;
+  for (const auto &one : pairs.by_slots)
+    if (random.chance(chance))
+      contacts[one.first] = {random_record(random), random_record(random), random_record(random)};
+  return contacts;
 }
 
-struct Sums {
-  ParticleRecords records;
+void add(Record &sum, const Record &one, double sign)
+{
+  for (int d = 0; d < 4; d++) sum.c[d] += sign * one.c[d];
+}
 
-  Sums(bool spins, bool couples, RandomSource &random)
-  {
-    records.resize(particles, spins, couples);
-    for (Record &one : records.load) one = random_record(random);
-    for (Record &one : records.couple) one = random_record(random);
-  }
+void add_contact(ParticleRecords &sums, const OneContact &its, int slot, bool is_first)
+{
+  const double sign = is_first ? 1.0 : -1.0;
+  Record *load = &sums.load[sums.stride * slot];
+  add(load[0], its.force, sign);
+  if (sums.stride == 2) add(load[1], its.moment, 1.0);
+  if (!sums.couple.empty()) add(sums.couple[slot], its.couple, sign);
+}
 
-  /// A slow twin of what is tested.
-  void add_slowly(const OneNote &note)
-  {
-    const std::size_t first = records.stride * note.slot;
-    add(records.load[first], note.force);
-    if (records.stride == 2) add(records.load[first + 1], note.moment);
-    if (!records.couple.empty()) add(records.couple[note.slot], note.couple);
+ParticleRecords cleared(int particles, bool spins, bool couples)
+{
+  ParticleRecords sums;
+  sums.resize(particles, spins, couples);
+  sums.clear(0, particles);
+  return sums;
+}
+
+ParticleRecords slow_sums(const Contacts &contacts, ParticleRecords sums)
+{
+  for (const auto &[slots, its] : contacts) {
+    add_contact(sums, its, slots.first, true);
+    add_contact(sums, its, slots.second, false);
   }
+  return sums;
+}
+
+struct Kind {
+  int threads;
+  bool two_phases, spins, couples;
 };
 
-void note(DeferredForces &deferred, const OneNote &its)
-{
-  deferred.note(its.pair, its.slot, {load4(its.force), load4(its.moment), load4(its.couple)});
-}
-
-class DeferredForcesOf : public testing::TestWithParam<std::pair<bool, bool>> {
+class DeferredForcesOf : public testing::TestWithParam<Kind> {
  protected:
+  /// What a chunk does, in the simplest way.
+  void compute_chunk(int c, const Contacts &contacts, ParticleRecords &sums)
+  {
+    const PairList &list = its.lists[c];
+    std::size_t place = deferred.first_place(c);
+    for (std::uint32_t n = 0; n < list.num_pairs(); n++) {
+      const int first = list.first[n], second = list.second[n];
+      const auto found = contacts.find({first, second});
+      const bool touches = found != contacts.end();
+      const OneContact one = touches ? found->second : nonsense;
+      if (list.defers(first) || list.defers(second))
+        deferred.put(place++, touches, list.is_foreign(first),
+                     {load4(one.force), load4(one.moment), load4(one.couple)});
+      if (!touches) continue;
+      if (!list.is_late() && !list.is_foreign(first)) add_contact(sums, one, first, true);
+      if (!list.is_late()) add_contact(sums, one, second, false);
+    }
+    EXPECT_EQ(place, deferred.first_place(c) + list.frontier().size());
+  }
+
   RandomSource random{1};
-  Sums sums{GetParam().first, GetParam().second, random};
-  Sums twin = sums;
+  Divided its{200, GetParam().threads, GetParam().two_phases, random};
+  const OneContact nonsense{{{NAN, NAN, NAN, NAN}}, {{NAN, NAN, NAN, NAN}}, {{NAN, NAN, NAN, NAN}}};
+  DeferredForces deferred;
 };
 
-/// Of each particle: what a loop over the notes in their order makes of it, bit for bit, in as many
-/// pieces as one likes, and if ranges take theirs one after the other.
-TEST_P(DeferredForcesOf, AreAddedInTheirOrder)
+TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
 {
-  DeferredForces deferred;    // used again and again
-  for (int step = 0; step < 3; step++) {
-    const std::vector<OneNote> notes = random_notes(random);
-    deferred.make_room(notes.size() + 5, sums.records);
-    deferred.clear();
-    EXPECT_EQ(deferred.size(), 0U);
-    for (const OneNote &one : notes) note(deferred, one);
-    EXPECT_EQ(deferred.size(), notes.size());
-    streams_are_done();
-    for (const OneNote &one : notes) twin.add_slowly(one);
-    for (const SlotRange range : {SlotRange{0, 7}, {7, 7}, {7, particles}}) {
-      std::size_t added = 0;
-      for (const PairOfSlots limit :
-           {PairOfSlots{0, 0}, {3, 9}, {3, 9}, {0, 30}, after_all_pairs}) {
-        added = deferred.add_before(limit, added, range, sums.records);
-        const auto before = [limit](const OneNote &one) { return one.pair < limit; };
-        EXPECT_EQ(added, std::count_if(notes.begin(), notes.end(), before));
+  const Kind kind = GetParam();
+  for (int rebuild = 0; rebuild < 2; rebuild++) {
+    deferred.collect(its.order, its.work, kind.threads, [this](int c) { return &its.lists[c]; });
+    for (const double touching : {0.6, 0.1, 1.0, 0.5, 0.0}) {    // contacts begin and end
+      const Contacts contacts = random_contacts(its.pairs, touching, random);
+      ParticleRecords sums = cleared(its.order.size(), kind.spins, kind.couples);
+      const ParticleRecords expected = slow_sums(contacts, sums);
+      deferred.make_room(sums);
+      for (int c = its.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
+      streams_are_done();
+      for (int t = 0; t < kind.threads; t++) deferred.add(t, sums);
+      for (int s = 0; s < its.order.size(); s++) {
+        if (!its.order.owns_slot(s)) continue;
+        for (std::size_t k = sums.stride * s; k < sums.stride * (s + 1); k++)
+          ASSERT_TRUE(same(sums.load[k], expected.load[k])) << s;
+        if (kind.couples) {
+          ASSERT_TRUE(same(sums.couple[s], expected.couple[s])) << s;
+        }
       }
     }
-    ASSERT_TRUE(same(sums.records.load, twin.records.load));
-    ASSERT_TRUE(same(sums.records.couple, twin.records.couple));
-    EXPECT_GT(deferred.memory_usage(), notes.size() * sums.records.stride * sizeof(Record));
+    EXPECT_EQ(deferred.memory_usage() > 0.0, kind.threads > 1 || kind.two_phases);
+    deferred.release();
   }
 }
 
-/// Notes of two phases are added as if they had been made in one.
-TEST_P(DeferredForcesOf, OfTwoPhasesAreMergedInCanonicalOrder)
+INSTANTIATE_TEST_SUITE_P(Kinds, DeferredForcesOf,
+                         testing::Values(Kind{1, false, true, false}, Kind{3, false, true, false},
+                                         Kind{1, true, true, true}, Kind{3, true, true, true},
+                                         Kind{3, true, false, false}, Kind{8, true, true, false}));
+
+/// Negative control: another order gives other bits.
+TEST(DeferredForces, OrderOfSumsShows)
 {
-  for (const double share : {0.0, 0.1, 0.5, 1.0}) {
-    const std::vector<OneNote> notes = random_notes(random);
-    std::set<std::pair<int, int>> late_pairs;
-    for (const OneNote &one : notes)
-      if (random.chance(share)) late_pairs.insert({one.pair.first, one.pair.second});
-    DeferredForces early, late;
-    for (DeferredForces *deferred : {&early, &late})
-      deferred->make_room(notes.size(), sums.records);
-    for (const OneNote &one : notes)
-      note(late_pairs.count({one.pair.first, one.pair.second}) ? late : early, one);
-    EXPECT_EQ(early.size() + late.size(), notes.size());
-    streams_are_done();
-    constexpr SlotRange some{10, 25};
-    for (const OneNote &one : notes)
-      if (some.holds(one.slot)) twin.add_slowly(one);    // nobody outside of the range is touched
-    DeferredForces::add_both(early, late, some, sums.records);
-    ASSERT_TRUE(same(sums.records.load, twin.records.load)) << share;
-    ASSERT_TRUE(same(sums.records.couple, twin.records.couple)) << share;
+  RandomSource random(2);
+  const Divided its(200, 1, false, random);
+  const Contacts contacts = random_contacts(its.pairs, 1.0, random);
+  const ParticleRecords zero = cleared(its.order.size(), true, false);
+  const ParticleRecords sums = slow_sums(contacts, zero);
+  ParticleRecords others = zero;
+  for (auto it = contacts.rbegin(); it != contacts.rend(); ++it) {
+    add_contact(others, it->second, it->first.first, true);
+    add_contact(others, it->second, it->first.second, false);
   }
+  EXPECT_FALSE(std::equal(sums.load.begin(), sums.load.end(), others.load.begin(), same));
 }
-
-/// Negative control: the order shows.
-TEST_P(DeferredForcesOf, AnotherOrderGivesOtherBits)
-{
-  std::vector<OneNote> notes = random_notes(random);
-  for (const OneNote &one : notes) sums.add_slowly(one);
-  std::reverse(notes.begin(), notes.end());
-  for (const OneNote &one : notes) twin.add_slowly(one);
-  EXPECT_FALSE(same(sums.records.load, twin.records.load));
-}
-
-INSTANTIATE_TEST_SUITE_P(SpinsAndCouples, DeferredForcesOf,
-                         testing::Values(std::pair(false, false), std::pair(true, false),
-                                         std::pair(true, true)));
 
 }    // namespace

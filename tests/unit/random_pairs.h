@@ -1,11 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Random particles, owned and ghosts, and random pairs of them.
+// Random particles, owned and ghosts, random pairs of them, and these divided into chunks.
 
 #ifndef TALUS_TEST_RANDOM_PAIRS_H
 #define TALUS_TEST_RANDOM_PAIRS_H
 
 #include "neighbor_lists.h"
+#include "neighbors/pair_list.h"
+#include "neighbors/pair_rows.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
 #include "random_source.h"
 
@@ -73,6 +76,31 @@ struct Pairs {
       if (random.chance(0.5)) std::swap(i, j);
       lists.add(i, j, weight);
     }
+  }
+};
+
+/// Particles, pairs and their division.
+struct Divided {
+  Talus::ParticleOrder order;
+  Pairs pairs;
+  Talus::PairRows rows;
+  Talus::WorkPartition work;
+  std::vector<Talus::PairList> lists;
+
+  Divided(int n, int threads, bool two_phases, RandomSource &random) :
+      order(arranged(n, random)), pairs(order, 0.02, 0.5, random),
+      rows(order, pairs.lists.view(), threads), work(order, rows, threads, two_phases),
+      lists(work.num_chunks())
+  {
+    for (int c = 0; c < work.num_chunks(); c++) lists[c].collect(order, work, rows, c);
+  }
+
+  static Talus::ParticleOrder arranged(int n, RandomSource &random)
+  {
+    const Particles p = random_particles(n, random);
+    Talus::ParticleOrder order;
+    order.arrange(p.owned, p.key, p.tag);
+    return order;
   }
 };
 
