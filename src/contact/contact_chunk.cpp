@@ -44,14 +44,13 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
   later_reports.clear();
-  next_at_frontier = reported = 0;
+  reported = 0;
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
     compute_all<true, false>(step);
   else
     compute_all<false, false>(step);
-  while (next_at_frontier < pairs.frontier().size()) defer_one(step, false, 0);
   if (pairs.is_late()) report_early_before(std::numeric_limits<int>::max(), 0, step);
   if (!pairs.foreign.empty()) streams_are_done();
 }
@@ -251,28 +250,22 @@ void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *
   }
 }
 
-/* Few pairs are at the frontier: those among the contacts of a block are found by going through
-   both, as far as there are any. */
+/* Few blocks have pairs at the frontier. Which of their contacts are there nobody can foresee: what
+   the others do is written as well, to a place that nobody reads. */
 
 void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
 {
-  const std::vector<std::uint32_t> &frontier = pairs.frontier();
-  int n = 0;
-  while (next_at_frontier < frontier.size() && frontier[next_at_frontier] <= block[count - 1]) {
-    const std::uint32_t pair = frontier[next_at_frontier];
-    while (block[n] < pair) n++;
-    defer_one(step, block[n] == pair, lane_of_contact[n]);
+  if (!pairs.reaches_frontier(block[0], block[count - 1])) return;
+  DeferredForces &forces = *step.frontier.forces;
+  const std::size_t begin = step.frontier.first_place, nowhere = begin + pairs.frontier().size();
+  for (int n = 0; n < count; n++) {
+    const std::uint32_t pair = block[n];
+    const std::size_t place = begin + pairs.frontier_before(pair);
+    const int lane = lane_of_contact[n];
+    forces.put(
+        pairs.is_at_frontier(pair) ? place : nowhere, pairs.is_foreign(pairs.first[pair]),
+        {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])});
   }
-}
-
-/* What the next pair at the frontier does, if it touches: then it is in that lane. */
-
-void ContactChunk::defer_one(const Step &step, bool touches, int lane)
-{
-  const bool far = pairs.is_foreign(pairs.first[pairs.frontier()[next_at_frontier]]);
-  step.frontier.forces->put(
-      step.frontier.first_place + next_at_frontier++, touches, far,
-      {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])});
 }
 
 /* In two phases ends of particles with late contacts are reported in the late phase. */

@@ -138,14 +138,12 @@ class ContactChunk {
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void defer(const Step &step, const std::uint32_t *contacts, int count);
-  void defer_one(const Step &step, bool touches, int lane);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_early_before(int second, int first, const Step &step);
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
-  std::size_t next_at_frontier = 0;    ///< of the pairs there
   struct LaterReport {
     int second, first;
     ReportedContact contact;

@@ -175,6 +175,7 @@ void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &
 void ContactPipeline::start_step(const ContactStep &step)
 {
   if (!particles.has_room()) make_room();
+  deferred.begin_step();
   if (step.account) step.account->begin_step(order.size());
 }
 

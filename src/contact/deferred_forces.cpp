@@ -23,18 +23,17 @@ struct Found {
 
 }    // namespace
 
-/* Flags of different chunks are in different cache lines. */
+/* Chunks do not share cache lines. */
 
 void DeferredForces::collect_from(const ParticleOrder &order, const WorkPartition &work,
                                   int threads, const std::vector<const PairList *> &lists)
 {
-  constexpr std::size_t cache_line = 64;
   release();
   first_of_chunk.clear();
   places = 0;
   for (const PairList *list : lists) {
     first_of_chunk.push_back(places);
-    places += (list->frontier().size() + cache_line - 1) / cache_line * cache_line;
+    if (!list->frontier().empty()) places += (list->frontier().size() + 1) / 2 * 2 + 2;
   }
   PairList::require_countable(static_cast<std::int64_t>(places));
   of_thread.resize(threads);
@@ -75,9 +74,7 @@ void DeferredForces::make_rows(const ParticleOrder &order, const WorkPartition &
 void DeferredForces::make_room(const ParticleRecords &particles)
 {
   const std::size_t couples = particles.couple.empty() ? 0 : places;
-  if (stored.size() == places && stride == particles.stride && couple.size() == couples) return;
   stride = particles.stride;
-  stored.assign(places, 0);
   load.assign(stride * places, Record{});
   couple.assign(couples, Record{});
 }
@@ -85,7 +82,6 @@ void DeferredForces::make_room(const ParticleRecords &particles)
 void DeferredForces::release()
 {
   for (AlignedVector<Record> *records : {&load, &couple}) Talus::release(*records);
-  Talus::release(stored);
 }
 
 void DeferredForces::add(int thread, ParticleRecords &particles) const
@@ -94,36 +90,44 @@ void DeferredForces::add(int thread, ParticleRecords &particles) const
   const Entry *next = its.entries.data();
   for (const Row &row : its.rows) {
     const Entry *end = its.entries.data() + row.end;
-    add_row(row, next, end, particles);
+    if (stride == 2)
+      add_row<true>(row, next, end, particles);
+    else
+      add_row<false>(row, next, end, particles);
     next = end;
   }
 }
 
-/* Signs are factors: nobody could foresee them. Neither these nor the zeros of pairs that do not
-   touch change a bit. */
+/* Signs are factors, and pairs that do not touch add zero: nobody could foresee which are which.
+   Neither changes a bit. */
 
+template <bool spins>
 void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *end,
                              ParticleRecords &particles) const
 {
-  constexpr double sign_of[2] = {1.0, -1.0};
-  const std::size_t s = row.slot;
-  const auto sum = [&](Record &to, auto value) {
-    Vec4 all = kept_if(!row.has_all, load4(to));
-    for (const Entry *e = begin; e < end; e++) all = all + value(*e);
-    store(to, all);
-  };
-  Record *sums = &particles.load[stride * s];
-  sum(sums[0],
-      [&](const Entry &e) { return sign_of[e.of_second] * load4(load[stride * e.place]); });
-  if (stride == 2) sum(sums[1], [&](const Entry &e) { return load4(load[stride * e.place + 1]); });
-  if (!couple.empty())
-    sum(particles.couple[s],
-        [&](const Entry &e) { return sign_of[e.of_second] * load4(couple[e.place]); });
+  constexpr Vec4 sign_of[2] = {{1.0, 1.0, 1.0, 0.0}, {-1.0, -1.0, -1.0, 0.0}};
+  constexpr std::size_t its_stride = spins ? 2 : 1;
+  const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
+  Record *sums = &particles.load[its_stride * row.slot];
+  Vec4 force = kept_if(!row.has_all, load4(sums[0])), moment{};
+  if constexpr (spins) moment = kept_if(!row.has_all, load4(sums[1]));
+  for (const Entry *e = begin; e < end; e++) {
+    const Record *its = &load[its_stride * e->place];
+    force = force + sign_of[e->of_second] * kept_if(touches(*e), load4(its[0]));
+    if constexpr (spins) moment = moment + kept_if(touches(*e), load4(its[1]));
+  }
+  store(sums[0], force);
+  if constexpr (spins) store(sums[1], moment);
+  if (couple.empty()) return;
+  Vec4 sum = kept_if(!row.has_all, load4(particles.couple[row.slot]));
+  for (const Entry *e = begin; e < end; e++)
+    sum = sum + sign_of[e->of_second] * kept_if(touches(*e), load4(couple[e->place]));
+  store(particles.couple[row.slot], sum);
 }
 
 double DeferredForces::memory_usage() const
 {
-  std::size_t bytes = stored.capacity() + sizeof(Record) * (load.capacity() + couple.capacity());
+  std::size_t bytes = sizeof(Record) * (load.capacity() + couple.capacity());
   for (const Rows &its : of_thread)
     bytes += sizeof(Row) * its.rows.capacity() + sizeof(Entry) * its.entries.capacity();
   return static_cast<double>(bytes);

@@ -2,12 +2,11 @@
 //
 // Forces that a chunk of the work must not add at once (see WorkPartition): on particles of other
 // ranges, and on those that have contacts of the late phase. Each pair with such a particle has a
-// place here, where its chunk stores what the contact does in a step, zero if the pair does not
-// touch. When all chunks are done, the rows are added: one for each of these particles, with its
-// pairs in canonical order.
+// place here, where its chunk stores what the contact does in a step. When all chunks are done, the
+// rows are added: one for each of these particles, with its pairs in canonical order.
 //
-//   at a rebuild   collect()
-//   every step     make_room(), put() by all chunks, add() by all threads
+//   at a rebuild   collect(), make_room()
+//   every step     begin_step(), put() by all chunks, add() by all threads
 //
 // A particle gets the contacts of its own range first, added directly or here, and then those of
 // the following ranges in ascending order: that is the canonical order.
@@ -44,28 +43,31 @@ class DeferredForces {
     collect_from(order, work, threads, lists);
   }
 
-  /// For records of that kind; keeps what is stored if they are of the same kind as before.
+  /// For records of that kind. To be called again after release().
   void make_room(const ParticleRecords &particles);
   /// Gives the memory of make_room() back.
   void release();
 
-  /// Place of the first pair at the frontier of a chunk; the others follow.
+  /// Forgets what has been stored.
+  void begin_step() { step += 1.0; }
+
+  /// Place of the first pair at the frontier of a chunk; the others follow, and one that nobody
+  /// reads.
   std::size_t first_place(int chunk) const { return first_of_chunk[chunk]; }
 
-  /// Stores what a pair does in this step. `far`: another thread will read it; it may do so after
-  /// streams_are_done(). Of most pairs that do not touch that is known already.
-  TALUS_INLINE void put(std::size_t place, bool touches, bool far, const ContactLoad &its)
+  /// Stores what a pair that touches does in this step. `far`: another thread will read it; it may
+  /// do so after streams_are_done().
+  TALUS_INLINE void put(std::size_t place, bool far, const ContactLoad &its)
   {
-    if (!touches && !stored[place]) return;
-    stored[place] = touches;
-    const auto write = [&](Record &to, Vec4 value) {
-      value = kept_if(touches, value);
+    const auto write = [far](Record &to, Vec4 value) {
       if (far)
         stream(to, value);
       else
         store(to, value);
     };
-    write(load[stride * place], its.force);
+    Vec4 force = its.force;
+    force[3] = step;
+    write(load[stride * place], force);
     if (stride == 2) write(load[stride * place + 1], its.moment);
     if (!couple.empty()) write(couple[place], its.couple);
   }
@@ -95,14 +97,16 @@ class DeferredForces {
                     const std::vector<const PairList *> &lists);
   void make_rows(const ParticleOrder &order, const WorkPartition &work, SlotRange range,
                  const std::vector<const PairList *> &lists, Rows &to) const;
+  template <bool spins>
   void add_row(const Row &row, const Entry *begin, const Entry *end,
                ParticleRecords &particles) const;
 
   std::size_t places = 0, stride = 1;
   std::vector<std::size_t> first_of_chunk;
   std::vector<Rows> of_thread;
-  AlignedVector<unsigned char> stored;    // by place: something else than zero
-  AlignedVector<Record> load, couple;     // by place
+  double step = 0.0;
+  // by place; the fourth number of a force is the step in which it was stored
+  AlignedVector<Record> load, couple;
 };
 
 }    // namespace Talus

@@ -87,6 +87,8 @@ void PairList::find_frontier()
 {
   at_frontier.clear();
   foreign.clear();
+  frontier_bits.clear();
+  before_word.clear();
   if (range.begin == 0 && !work->in_two_phases()) return;
   for (std::int64_t c = 0; c < num_pairs(); c++) {
     if (!defers(first[c]) && !defers(second[c])) continue;
@@ -95,6 +97,12 @@ void PairList::find_frontier()
   }
   std::sort(foreign.begin(), foreign.end());
   foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+  frontier_bits.assign(num_pairs() / 64 + 1, 0);
+  for (const std::uint32_t c : at_frontier) frontier_bits[c / 64] |= std::uint64_t{1} << (c % 64);
+  before_word.assign(frontier_bits.size(), 0);
+  for (std::size_t word = 1; word < before_word.size(); word++)
+    before_word[word] = before_word[word - 1] +
+                        static_cast<std::uint32_t>(__builtin_popcountll(frontier_bits[word - 1]));
 }
 
 /* Late pairs are few and stand far from each other: nothing of them can be expected in a cache. */
@@ -136,7 +144,9 @@ double PairList::memory_usage() const
   return static_cast<double>(
       sizeof(int) * (first.capacity() + second.capacity() + copy_of_first.capacity()) +
       sizeof(double) * weights.capacity() + sizeof(Distant) * distant.capacity() +
-      sizeof(int) * foreign.capacity() + sizeof(std::uint32_t) * at_frontier.capacity());
+      sizeof(int) * foreign.capacity() +
+      sizeof(std::uint32_t) * (at_frontier.capacity() + before_word.capacity()) +
+      sizeof(std::uint64_t) * frontier_bits.capacity());
 }
 
 }    // namespace Talus

@@ -56,6 +56,23 @@ class PairList {
   bool defers(int slot) const { return is_foreign(slot) || has_late(slot); }
   /// Pairs with such a particle, in ascending order.
   const std::vector<std::uint32_t> &frontier() const { return at_frontier; }
+  bool is_at_frontier(std::uint32_t pair) const
+  {
+    return frontier_bits[pair / 64] >> (pair % 64) & 1U;
+  }
+  /// How many of them are before that pair.
+  std::uint32_t frontier_before(std::uint32_t pair) const
+  {
+    const std::uint64_t below = (std::uint64_t{1} << (pair % 64)) - 1;
+    return before_word[pair / 64] +
+           static_cast<std::uint32_t>(__builtin_popcountll(frontier_bits[pair / 64] & below));
+  }
+  /// One of these is among the pairs begin ... last.
+  bool reaches_frontier(std::uint32_t begin, std::uint32_t last) const
+  {
+    return !at_frontier.empty() &&
+           frontier_before(last) + is_at_frontier(last) > frontier_before(begin);
+  }
 
   const ParticleOrder &order() const { return *particles; }
   std::int64_t num_pairs() const { return static_cast<std::int64_t>(first.size()); }
@@ -87,6 +104,9 @@ class PairList {
   SlotRange range;
   bool late = false;
   std::vector<std::uint32_t> at_frontier;
+  // of 64 pairs each, if there is a frontier: which are at it, and how many of those before are
+  std::vector<std::uint64_t> frontier_bits;
+  std::vector<std::uint32_t> before_word;
   AlignedVector<int> copy_of_first;    // empty if all are read where they are
 };
 

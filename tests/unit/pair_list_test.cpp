@@ -140,6 +140,12 @@ TEST(PairList, FrontierIsWhereForcesAreDeferred)
             ASSERT_EQ(list.defers(slot), is_foreign || has_late);
             deferred = deferred || is_foreign || has_late;
           }
+          ASSERT_EQ(list.reaches_frontier(0, c), deferred || !frontier.empty());
+          ASSERT_EQ(list.reaches_frontier(c, c), deferred);
+          if (!list.frontier().empty()) {
+            ASSERT_EQ(list.is_at_frontier(c), deferred);
+            ASSERT_EQ(list.frontier_before(c), frontier.size());
+          }
           if (deferred) frontier.push_back(c);
         }
         EXPECT_EQ(list.foreign, std::vector<int>(foreign.begin(), foreign.end()));
