@@ -17,7 +17,7 @@ void PairGranPenalty::write_restart(FILE *fp)
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      fwrite(&book.spec(i, j), sizeof(ContactSpec), 1, fp);
+      fwrite(&system->laws().spec(i, j), sizeof(ContactSpec), 1, fp);
     }
 }
 
@@ -34,17 +34,18 @@ void PairGranPenalty::read_restart(FILE *fp)
       }
       MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
       MPI_Bcast(&spec, sizeof spec, MPI_BYTE, 0, world);
-      if (setflag[i][j]) book.set(i, j, spec);
+      if (setflag[i][j]) system->laws().set(i, j, spec);
     }
 }
 
 void PairGranPenalty::write_restart_settings(FILE *fp)
 {
-  fwrite(&book.mix, sizeof book.mix, 1, fp);
+  fwrite(&system->laws().mix, sizeof system->laws().mix, 1, fp);
 }
 
 void PairGranPenalty::read_restart_settings(FILE *fp)
 {
-  if (comm->me == 0) utils::sfread(FLERR, &book.mix, sizeof book.mix, 1, fp, nullptr, error);
-  MPI_Bcast(&book.mix, sizeof book.mix, MPI_BYTE, 0, world);
+  if (comm->me == 0)
+    utils::sfread(FLERR, &system->laws().mix, sizeof system->laws().mix, 1, fp, nullptr, error);
+  MPI_Bcast(&system->laws().mix, sizeof system->laws().mix, MPI_BYTE, 0, world);
 }
