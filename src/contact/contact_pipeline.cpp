@@ -62,14 +62,14 @@ void ContactPipeline::find_shared()
     if (is_loaded_before[s]) (order.owns_slot(s) ? shared_owned : shared_ghosts).push_back(s);
   if (work.in_two_phases()) mark(ghost_slots, is_loaded_before);
 
-  // copies are numbered behind the slots
+  // copies stand behind the slots, those of owned particles first
   const std::size_t shared = shared_owned.size() + shared_ghosts.size();
   if (shared == 0) return;
   ParticleOrder::require_countable(order.size() + shared);
-  copy_of_slot.resize(order.size());
+  std::vector<int> copy_of_slot(order.size());
   int copy = order.size();
-  for (const int s : shared_owned) copy_of_slot[s] = copy++;
-  for (const int s : shared_ghosts) copy_of_slot[s] = copy++;
+  for (const std::vector<int> *slots : {&shared_owned, &shared_ghosts})
+    for (const int s : *slots) copy_of_slot[s] = copy++;
   for_chunks([&](int c) { chunks[c].pairs.read_copies(copy_of_slot); });
 }
 
@@ -222,10 +222,10 @@ void ContactPipeline::load_ghosts(const ParticleView &host, const ContactStep &s
 /* Chunks of other ranges read copies: were it the particle itself, its thread would have to ask
    theirs for it in every step. */
 
-void ContactPipeline::copy_states(const std::vector<int> &slots, int thread)
+void ContactPipeline::copy_states(const std::vector<int> &slots, int first_copy, int thread)
 {
   const SlotChoice its = of_thread(slots, thread);
-  for (int n = its.begin; n < its.end; n++) particles.copy_state(slots[n], copy_of_slot[slots[n]]);
+  for (int n = its.begin; n < its.end; n++) particles.copy_state(slots[n], first_copy + n);
   streams_are_done();
 }
 
@@ -266,11 +266,11 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
   const auto prepare = [&](int t) {
     if (first) {
       load_shared(host, step, t);
-      copy_states(shared_owned, t);
+      copy_states(shared_owned, order.size(), t);
     }
     if (!last) return;
     load_ghosts(host, step, t);
-    copy_states(shared_ghosts, t);
+    copy_states(shared_ghosts, order.size() + static_cast<int>(shared_owned.size()), t);
   };
   const auto compute_chunks = [&](int t) {
     ContactStep its = step;

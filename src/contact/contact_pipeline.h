@@ -166,7 +166,7 @@ class ContactPipeline {
   void load_shared(const ParticleView &host, const ContactStep &step, int thread);
   void load_ghosts(const ParticleView &host, const ContactStep &step, int thread);
   void load(const ParticleView &host, const ContactStep &step, int range, int begin, int end);
-  void copy_states(const std::vector<int> &slots, int thread);
+  void copy_states(const std::vector<int> &slots, int first_copy, int thread);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   static void sort_and_unite(std::vector<int> &slots);
   std::vector<int> slots_then(const FiledHistories &filed) const;
@@ -208,7 +208,6 @@ class ContactPipeline {
   ParticleRecords particles;
   std::vector<int> ghost_slots;                    ///< in ascending order, as all lists of slots
   std::vector<int> shared_owned, shared_ghosts;    ///< slots that other ranges than theirs read
-  std::vector<int> copy_of_slot;                   ///< of those: where its copy stands
   std::vector<unsigned char> is_loaded_before;     ///< by slot: not on the way; empty if none is
 
   // particles in the records
