@@ -256,13 +256,11 @@ void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *
 void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
 {
   if (!pairs.reaches_frontier(block[0], block[count - 1])) return;
-  constexpr std::size_t ahead = 64;
   DeferredForces &forces = *step.frontier.forces;
   const std::size_t begin = step.frontier.first_place, nowhere = begin + pairs.frontier().size();
   for (int n = 0; n < count; n++) {
     const std::uint32_t pair = block[n];
     const std::size_t place = begin + pairs.frontier_before(pair);
-    forces.prefetch(place + ahead);
     const int lane = lane_of_contact[n];
     forces.put(
         pairs.is_at_frontier(pair) ? place : nowhere, pairs.is_foreign(pairs.first[pair]),

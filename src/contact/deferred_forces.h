@@ -55,12 +55,6 @@ class DeferredForces {
   /// reads.
   std::size_t first_place(int chunk) const { return first_of_chunk[chunk]; }
 
-  /// A hint: places near that one will be written soon.
-  TALUS_INLINE void prefetch(std::size_t place) const
-  {
-    __builtin_prefetch(load.data() + stride * place, 1);
-  }
-
   /// Stores what a pair that touches does in this step. `far`: another thread will read it; it may
   /// do so after streams_are_done().
   TALUS_INLINE void put(std::size_t place, bool far, const ContactLoad &its)
