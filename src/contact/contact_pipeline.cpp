@@ -73,26 +73,11 @@ void ContactPipeline::find_shared()
   for_chunks([&](int c) { chunks[c].pairs.read_copies(copy_of_slot); });
 }
 
-void ContactPipeline::start_pairs(const FiledHistories &filed)
+void ContactPipeline::start_pairs(HistoryStore &histories)
 {
-  const std::vector<int> slots = slots_then(filed);
-  for_chunks([&](int c) { chunks[c].start_pairs(scene, filed, slots); });
+  histories.open(order, threads);
+  for_chunks([&](int c) { chunks[c].start_pairs(scene, histories); });
   make_room();
-}
-
-/* By present slot: that of the last lists. */
-
-std::vector<int> ContactPipeline::slots_then(const FiledHistories &filed) const
-{
-  if (filed.kept.empty()) return {};
-  std::vector<int> slots(order.size());
-  in_ranges(order.size(), [&](int begin, int end) {
-    for (int s = begin; s < end; s++) {
-      const int atom = order.atom_of_slot[s];
-      slots[s] = filed.slot_then(atom, order.is_owned(atom));
-    }
-  });
-  return slots;
 }
 
 void ContactPipeline::make_room()
@@ -121,34 +106,14 @@ void ContactPipeline::release()
   pairs_known = false;
 }
 
-void ContactPipeline::keep_history(KeptContacts &to, bool particles_may_leave)
+void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay)
 {
   to.clear();
-  pairs_known = false;
+  if (!stay) pairs_known = false;
   if (!scene.with_history) return;
-  to.begin(order, work, particles_may_leave);
-  for_chunks([&](int c) { chunks[c].history.keep(chunks[c].pairs, to.part(c)); });
-  to.finish(threads);
-}
-
-void ContactPipeline::file_history(PartnerLists &partners) const
-{
-  partners.begin();
-  if (!scene.with_history) return;
-  for_chunks_by_phase([&](int c) { chunks[c].history.announce(chunks[c].pairs, partners); });
-  for (const ContactChunk &chunk : chunks) chunk.history.announce_foreign(chunk.pairs, partners);
-  partners.layout();
-  for_chunks_by_phase([&](int c) { chunks[c].history.file(chunks[c].pairs, partners); });
-  for (const ContactChunk &chunk : chunks) chunk.history.file_foreign(chunk.pairs, partners);
-}
-
-void ContactPipeline::adopt_first_copies(
-    PartnerLists &partners,
-    const std::function<const double *(int, std::int64_t)> &ghost_values) const
-{
-  if (!scene.with_history) return;
-  for (const ContactChunk &chunk : chunks)
-    chunk.history.adopt_first_copies(chunk.pairs, partners, ghost_values);
+  to.begin(work, scope);
+  for_chunks([&](int c) { chunks[c].history.put_aside(chunks[c].pairs, to.chunk(c), stay); });
+  to.finish(order, threads);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -174,6 +139,7 @@ void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &
 
 void ContactPipeline::start_step(const ContactStep &step)
 {
+  remembered.reset();
   if (!particles.has_room()) make_room();
   deferred.begin_step();
   if (step.account) step.account->begin_step(order.size());

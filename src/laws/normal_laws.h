@@ -23,7 +23,7 @@ template <class Real> struct Stiffness {
   Real kn, gn, kt, gt;
 };
 
-/// What a normal law may read. `speed`: impact speed, at least the characteristic speed.
+/// What a normal law may read. `speed`: of impact, at least the characteristic speed.
 template <class Real> struct NormalInput {
   Real overlap, mass, radius, speed;
 };
