@@ -20,6 +20,7 @@ struct Prepared {
   Bed &bed;
   ContactScene scene;
   ParticleOrder order;
+  WorkPartition work;
   ParticleRecords records;
   HistoryStore store;
   ContactChunk part;
@@ -28,8 +29,9 @@ struct Prepared {
       bed(given), scene(scene_of(one_law(normal, tangential)))
   {
     order.arrange(bed.owned, bed.key, bed.tag);
+    work = WorkPartition(order);
     store.resize(order.size());
-    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
+    records.resize(order.size(), scene.with_friction, scene.with_resistance);
     collect();
     part.start_pairs(scene, store);
     store.number(order);
@@ -38,15 +40,15 @@ struct Prepared {
   }
 
   SlotChoice all() const { return {0, order.size()}; }
-  void collect() { part.pairs.collect(order, PairRows(order, bed.neighbors.view()), 0); }
+  void collect() { part.pairs.collect(order, work, PairRows(order, bed.neighbors.view()), 0); }
   void compute()
   {
-    part.compute(scene, records, {dt, true}, [](int, int) {});
+    part.compute(scene, records, {dt, true}, [](int, int) {}, {});
   }
   /// All that a rebuild does with histories, but for the exchange with other ranks.
   void keep_history()
   {
-    store.begin(order, 1, nullptr, {false, bed.owned < bed.size()});
+    store.begin(work, {false, bed.owned < bed.size()});
     part.history.put_aside(part.pairs, store.chunk(0), false);
     store.finish(order, 1);
     for (int a = bed.owned; a < bed.size(); a++)

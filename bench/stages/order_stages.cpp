@@ -92,6 +92,7 @@ struct AsListed {
   Bed &bed;
   ContactScene scene = scene_of(law());
   ParticleOrder order;
+  WorkPartition work;
   ParticleRecords records;
   HistoryStore histories;
   ContactChunk part;
@@ -103,9 +104,10 @@ struct AsListed {
   {
     std::iota(index.begin(), index.end(), 0);
     order.arrange(bed.owned, index, bed.tag);
-    part.pairs.collect(order, PairRows(order, bed.neighbors.view()),
-                       0);    // knows the order from now on
-    records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
+    work = WorkPartition(order);
+    // knows the order from now on
+    part.pairs.collect(order, work, PairRows(order, bed.neighbors.view()), 0);
+    records.resize(order.size(), scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
     held = records.position;
     if (bed.size() > bed.owned) {
@@ -121,7 +123,7 @@ struct AsListed {
 
   void rebuild()
   {
-    histories.begin(order, 1, nullptr, {bed.size() > bed.owned, false});
+    histories.begin(work, {bed.size() > bed.owned, false});
     part.history.put_aside(part.pairs, histories.chunk(0), false);
     histories.finish(order, 1);
     take_pairs();
@@ -154,11 +156,13 @@ struct AsListed {
   void start() {}    // of steps: nothing to prepare
   void step()
   {
-    part.compute(scene, records, in_records(), [this](int begin, int end) {
-      SlotChoice slots{begin, end};
-      slots.next_end = order.size();
-      records.advance(at_rest, role, held.data(), slots);
-    });
+    part.compute(scene, records, in_records(),
+                 [this](int begin, int end) {
+                   SlotChoice slots{begin, end};
+                   slots.next_end = order.size();
+                   records.advance(at_rest, role, held.data(), slots);
+                 },
+                 {});
     for (std::size_t k = 0; k < of_other_thread.size(); k++) {
       store(records.load[k].c, load4(records.load[k].c) + load4(of_other_thread[k].c));
       of_other_thread[k] = Record{};

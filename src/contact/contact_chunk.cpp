@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace Talus {
 
@@ -32,41 +34,38 @@ void ContactChunk::forget_contacts()
 {
   touching = 0;
   release(contacts);
-  outgoing = OutgoingForces{};
 }
 
 void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles,
-                           const ContactStep &how, const Bring &bring)
+                           const ContactStep &how, const Load &load, const Frontier &frontier)
 {
-  const Step step{how, scene, particles, bring};
+  const Step step{how, scene, particles, load, frontier};
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
-  outgoing.make_room(pairs.handed_over().size(), particles);
-  outgoing.clear();
-  pairs.with_target([&](auto target) {
-    if (scene.with_history)
-      compute_all<true, true>(step, target);
-    else if (scene.with_friction)
-      compute_all<true, false>(step, target);
-    else
-      compute_all<false, false>(step, target);
-  });
+  later_reports.clear();
+  reported = 0;
+  if (scene.with_history)
+    compute_all<true, true>(step);
+  else if (scene.with_friction)
+    compute_all<true, false>(step);
+  else
+    compute_all<false, false>(step);
+  if (pairs.is_late()) report_early_before(std::numeric_limits<int>::max(), 0, step);
+  if (!pairs.foreign.empty()) streams_are_done();
 }
 
-/* Particles are brought, pairs tested and forces computed stretch by stretch, all in ascending
+/* Particles are loaded, pairs tested and forces computed stretch by stretch, all in ascending
    order of the second particle: memory is read straight ahead, and first particles, but for the
    distant ones, are still in the cache. */
 
-template <bool friction, bool history_kept, class Target>
-void ContactChunk::compute_all(const Step &step, Target target)
+template <bool friction, bool history_kept> void ContactChunk::compute_all(const Step &step)
 {
   constexpr std::int64_t stretch = 8L * ContactBatch::width, between_calls = 16 * stretch;
-  // as many as are brought with some stretches; of a part with few particles in its range none
-  const int slots_ahead = pairs.order().may_fill_range(pairs.which()) ? 512 : 0;
+  constexpr int slots_ahead = 512;    // as many as are loaded with some stretches
   const std::int64_t candidates = pairs.num_pairs();
   const Record *position = step.particles.position.data();
-  ParticleOrder::Range to_bring = pairs.slots();
-  to_prefetch = {to_bring.begin, to_bring.begin};
+  SlotRange to_load = pairs.is_late() ? SlotRange{} : pairs.slots();
+  to_prefetch = {to_load.begin, to_load.begin};
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
@@ -74,23 +73,22 @@ void ContactChunk::compute_all(const Step &step, Target target)
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
     prefetch_distant(step.particles, next_distant, end + stretch);
-    const int needed = std::min(pairs.second[end - 1] + 1, to_bring.end);
-    if (needed > to_bring.begin) step.bring(to_bring.begin, needed);
-    to_bring.begin = std::max(to_bring.begin, needed);
-    const int ahead = std::min(slots_ahead, to_bring.end - to_bring.begin);
-    to_prefetch = {std::max(to_prefetch.begin, to_bring.begin), to_bring.begin + ahead};
+    const int needed = std::min(pairs.second[end - 1] + 1, to_load.end);
+    if (needed > to_load.begin) step.load(to_load.begin, needed);
+    to_load.begin = std::max(to_load.begin, needed);
+    const int ahead = std::min(slots_ahead, to_load.end - to_load.begin);
+    to_prefetch = {std::max(to_prefetch.begin, to_load.begin), to_load.begin + ahead};
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
                               &contacts[touching]);
     for (; touching - done >= block_size; done += block_size)
-      compute_block<friction, history_kept>(step, target, done, block_size);
+      compute_block<friction, history_kept>(step, done, block_size);
   }
   if (done < touching)
-    compute_block<friction, history_kept>(step, target, done, static_cast<int>(touching - done));
-  if (pairs.hands_over()) streams_are_done();
-  if (to_bring.begin < to_bring.end) step.bring(to_bring.begin, to_bring.end);
+    compute_block<friction, history_kept>(step, done, static_cast<int>(touching - done));
+  if (to_load.begin < to_load.end) step.load(to_load.begin, to_load.end);
 }
 
-/* Calls the distant particles of pairs before `end` into the cache. */
+/* Prefetches the distant particles of pairs before `end`. */
 
 void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_t &next,
                                     std::int64_t end) const
@@ -99,14 +97,14 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    // of those read where they copy their state nothing is added to
-    if (s < static_cast<std::size_t>(pairs.order().size()) && pairs.serves(static_cast<int>(s)))
+    // nothing is added to copies
+    if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
   }
 }
 
-template <bool friction, bool history_kept, class Target>
-void ContactChunk::compute_block(const Step &step, Target target, std::int64_t begin, int count)
+template <bool friction, bool history_kept>
+void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count)
 {
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
@@ -120,16 +118,19 @@ void ContactChunk::compute_block(const Step &step, Target target, std::int64_t b
   if (scene.with_impact && step.advance) keep_impacts(end);
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
-  if (scene.laws.num_laws() == 1)
-    add_up<friction, true>(step.particles, target, block, count);
-  else
-    add_up<friction, false>(step.particles, target, block, count);
-  if (scene.with_resistance) add_couples(step.particles, target, block, count);
+  if (!pairs.is_late()) {
+    if (scene.laws.num_laws() == 1)
+      add_up<friction, true>(step.particles, block, count);
+    else
+      add_up<friction, false>(step.particles, block, count);
+    if (scene.with_resistance) add_couples(step.particles, block, count);
+  }
+  defer(step, block, count);
   if (step.report) report_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
 
-void ContactChunk::place(std::uint32_t contact, int position, int lane)
+void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
 {
   pair_of_lane[lane] = contact;
   lane_of_contact[position] = lane;
@@ -158,7 +159,7 @@ int ContactChunk::arrange(const ContactScene &scene, const std::uint32_t *contac
   for (int law = 0; laws.num_laws() > 1 && law < laws.num_laws(); law++) {
     const int begin = lane;
     for (int k = 0; k < count; k++)
-      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) place(contacts[k], k, lane++);
+      if (laws.law_index(row_of_pair(scene, contacts[k])) == law) give_lane(contacts[k], k, lane++);
     close_range(law, begin);
   }
 
@@ -202,29 +203,27 @@ void ContactChunk::apply_weights(int end)
 }
 
 /* The contacts of one second particle follow each other, and nothing has been added to it before
-   the first of them: its sums stay in registers and are stored again and again, but not loaded. */
+   the first of them: its sums stay in registers and are stored again and again, but not loaded.
+   Sums of particles with late contacts are wrong here, and replaced when all have been computed. */
 
-template <bool friction, bool one_law, class Target>
-void ContactChunk::add_up(ParticleRecords &particles, Target target, const std::uint32_t *block,
-                          int count)
+template <bool friction, bool one_law>
+void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const int *first = pairs.first.data(), *second = pairs.second.data();
   Record *load = particles.load.data();
   int last = second[block[0]];    // may have begun in the last block
-  const Record *begun = load + stride * target(last);
+  const Record *begun = load + stride * last;
   Vec4 force = load4(begun[0]), moment{};
   if constexpr (friction) moment = load4(begun[1]);
 
   for (int n = 0; n < count; n++) {
     const std::uint32_t pair = block[n];
-    const int its = second[pair];
-    Record *i = load + stride * target(first[pair]), *j = load + stride * target(its);
+    const int a = first[pair], b = second[pair];
+    Record *i = load + stride * a, *j = load + stride * b;
     const int lane = one_law ? n : lane_of_contact[n];
-    const bool same = its == last;
-    last = its;
-    const bool kept = target.keeps(first[pair]);
-    if (!kept) outgoing.note(first[pair], force_of_lane[lane], moment_of_lane[lane]);
+    const bool same = b == last, kept = !pairs.is_foreign(a);
+    last = b;
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
     force = kept_if(same, force) - f;
@@ -238,35 +237,71 @@ void ContactChunk::add_up(ParticleRecords &particles, Target target, const std::
   }
 }
 
-template <class Target>
-void ContactChunk::add_couples(ParticleRecords &particles, Target target,
-                               const std::uint32_t *block, int count)
+void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   for (int n = 0; n < count; n++) {
     const int first = pairs.first[block[n]];
-    Record &i = particles.couple[target(first)];
-    Record &j = particles.couple[target(pairs.second[block[n]])];
+    Record &i = particles.couple[first];
+    Record &j = particles.couple[pairs.second[block[n]]];
     const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
-    if (!target.keeps(first))
-      outgoing.note_couple(c);
-    else
-      store(i, load4(i) + c);
+    if (!pairs.is_foreign(first)) store(i, load4(i) + c);
     store(j, load4(j) - c);
   }
 }
+
+/* Few blocks have pairs at the frontier. Which of their contacts are there nobody can foresee: what
+   the others do is written as well, to a place that nobody reads. */
+
+void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
+{
+  if (!pairs.reaches_frontier(block[0], block[count - 1])) return;
+  DeferredForces &forces = *step.frontier.forces;
+  const std::size_t begin = step.frontier.first_place, nowhere = begin + pairs.frontier().size();
+  for (int n = 0; n < count; n++) {
+    const std::uint32_t pair = block[n];
+    const std::size_t place = begin + pairs.frontier_before(pair);
+    const int lane = lane_of_contact[n];
+    forces.put(
+        pairs.is_at_frontier(pair) ? place : nowhere, pairs.is_foreign(pairs.first[pair]),
+        {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])});
+  }
+}
+
+/* In two phases ends of particles with late contacts are reported in the late phase. */
 
 void ContactChunk::report_block(const Step &step, const std::uint32_t *block, int count)
 {
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count; n++) {
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
-    ReportedContact out{
-        order.atom_of_slot[i], order.atom_of_slot[j], pairs.acts_on(i), pairs.acts_on(j), {}, {}};
+    ReportedContact out{order.atom_of_slot[i], order.atom_of_slot[j], true, true, {}, {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
       out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
     }
-    (*step.report)(out);
+    if (pairs.is_late()) {
+      report_early_before(j, i, step);
+    } else if (const bool i_later = pairs.has_late(i), j_later = pairs.has_late(j);
+               i_later || j_later) {
+      out.for_i = i_later;
+      out.for_j = j_later;
+      later_reports.push_back({j, i, out});
+      out.for_i = !i_later;
+      out.for_j = !j_later;
+    }
+    if (out.for_i || out.for_j) (*step.report)(out);
+  }
+}
+
+/* Reports what the early chunk has left, of pairs before that one. */
+
+void ContactChunk::report_early_before(int second, int first, const Step &step)
+{
+  const std::vector<LaterReport> &left = step.frontier.early->later_reports;
+  for (; reported < left.size(); reported++) {
+    const LaterReport &next = left[reported];
+    if (std::tie(next.second, next.first) >= std::tie(second, first)) return;
+    (*step.report)(next.contact);
   }
 }
 
@@ -275,7 +310,6 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
   const LawTable &laws = step.scene.laws;
   const AlignedVector<Record> &position = step.particles.position;
   for (int n = 0; n < count; n++) {
-    if (!pairs.counts(block[n])) continue;
     const int lane = lane_of_contact[n], row = row_of_pair(step.scene, block[n]);
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
     step.account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, step.dt),
@@ -285,7 +319,7 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
 
 double ContactChunk::memory_usage() const
 {
-  return pairs.memory_usage() + history.memory_usage() + outgoing.memory_usage() +
+  return pairs.memory_usage() + history.memory_usage() +
          static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
 }
 

@@ -1,20 +1,16 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// One part of the contact work of a rank: it computes the contacts that belong to it (see
-// ParticleOrder::divide()) and adds the forces on its own particles, and on no others. Parts need
-// no locks, may run at the same time or one after the other, and give the same bits as one part
-// alone. They serve threads (ranges of particles) and the overlap of communication (particles
-// without ghost partners first).
-//
-// A contact between particles of two parts is computed by the part of the second, which hands the
-// force on the first one over. In two phases, where parts do not follow each other in the order, it
-// is computed by both, from the same numbers in the same order, and each keeps a history of it.
+// One chunk of the contact work of a rank: it computes the contacts that belong to it (see
+// WorkPartition) and adds the forces on the particles of its range. Those on particles of other
+// ranges, or of particles that wait for contacts of the late phase, it defers (DeferredForces).
+// Chunks of one phase need no locks, may run at the same time or one after the other, and give the
+// same bits as one chunk alone.
 
 #ifndef TALUS_CONTACT_CONTACT_CHUNK_H
 #define TALUS_CONTACT_CONTACT_CHUNK_H
 
 #include "base/aligned_vector.h"
-#include "contact/outgoing_forces.h"
+#include "contact/deferred_forces.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
@@ -28,17 +24,16 @@
 
 namespace Talus {
 
-/// One contact as reported on request: host's indices, force on i, x_i - x_j. A part reports all
-/// its contacts, in the order in which it adds them up; `for_i` and `for_j` say on which of the
-/// particles it acts, so that every owned particle gets each of its contacts once, and in
-/// canonical order.
+/// One contact as reported on request: host's indices, force on i, x_i - x_j. Every end of a contact
+/// is reported once, and those of every owned particle in canonical order. Both ends come at once,
+/// unless one of them waits for contacts of the late phase: `for_i` and `for_j` say which it is.
 struct ReportedContact {
   int i, j;
   bool for_i, for_j;
   double force[3], separation[3];
 };
 
-/// What all parts of a rank share.
+/// What all chunks of a rank share.
 struct ContactScene {
   LawTable laws;
   bool with_friction = false, with_history = false, with_impact = false, with_resistance = false;
@@ -51,11 +46,11 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `report`, if given, is called for every contact; `account`, if given, the energies of those that
-/// count here; both are not for use by several threads. `meanwhile`, if given, is called now and
-/// then, by the first part and so by the first thread: for messages that need someone to look after
-/// them. `add_more`, if given, adds other forces to the sums of slots begin ... end-1 when all
-/// contacts of these are added: called once by each thread, with its number and range.
+/// `report`, if given, is called for every contact; `account`, if given, gets the energies of all;
+/// both are not for use by several threads. `meanwhile`, if given, is called now and then, by the
+/// first thread: for messages that need someone to look after them. `add_more`, if given, adds
+/// other forces to the sums of slots begin ... end-1 when all contacts of these are added: called
+/// once by each thread, with its number and range.
 struct ContactStep {
   double dt;
   bool advance;
@@ -68,9 +63,8 @@ struct ContactStep {
 
 class ContactChunk {
  public:
-  /// Makes the state of the slots begin ... end-1 that belong to a part the present one, and clears
-  /// their sums; other parts are not touched.
-  using Bring = std::function<void(int begin, int end)>;
+  /// Makes the state of the slots begin ... end-1 the present one, and clears their sums.
+  using Load = std::function<void(int begin, int end)>;
 
   ContactChunk();
 
@@ -81,17 +75,25 @@ class ContactChunk {
   /// ask.
   void forget_contacts();
 
-  /// Computes all contacts of this part and adds their forces to the sums of its particles. All of
-  /// its slots are brought on the way, a while before they are needed, so that they pass through
-  /// the cache once; slots of other parts must be there from the beginning.
-  void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step,
-               const Bring &bring);
+  /// Where the forces of the pairs at the frontier go, and in the late phase the chunk of the same
+  /// range in the early one; nothing for a chunk that has all pairs of a rank.
+  struct Frontier {
+    DeferredForces *forces = nullptr;
+    std::size_t first_place = 0;
+    const ContactChunk *early = nullptr;
+  };
 
-  /// visit(pair) for every contact of the last compute() that is counted here.
+  /// Computes all contacts of this chunk and adds their forces, or defers them. In the first phase
+  /// all slots of its range are loaded on the way, a while before they are needed, so that they
+  /// pass through the cache once; slots of other ranges must be there from the beginning. In the
+  /// late phase all must be there.
+  void compute(const ContactScene &scene, ParticleRecords &particles, const ContactStep &step,
+               const Load &load, const Frontier &frontier);
+
+  /// visit(pair) for every contact of the last compute().
   template <class Visit> void for_each_contact(Visit visit) const
   {
-    for (std::int64_t n = 0; n < touching; n++)
-      if (!pairs.shared() || pairs.counts(contacts[n])) visit(contacts[n]);
+    for (std::int64_t n = 0; n < touching; n++) visit(contacts[n]);
   }
 
   int row_of_pair(const ContactScene &scene, std::int64_t pair) const
@@ -101,9 +103,6 @@ class ContactChunk {
 
   double memory_usage() const;
 
-  /// After compute(): what is to be added to particles of other parts.
-  const OutgoingForces &handed_over() const { return outgoing; }
-
   PairList pairs;
   ContactHistory history;
 
@@ -111,17 +110,17 @@ class ContactChunk {
   struct Step : ContactStep {
     const ContactScene &scene;
     ParticleRecords &particles;
-    const Bring &bring;
+    const Load &load;
+    const Frontier &frontier;
   };
-  template <bool friction, bool history_kept, class Target>
-  void compute_all(const Step &step, Target target);
-  template <bool friction, bool history_kept, class Target>
-  void compute_block(const Step &step, Target target, std::int64_t begin, int count);
+  template <bool friction, bool history_kept> void compute_all(const Step &step);
+  template <bool friction, bool history_kept>
+  void compute_block(const Step &step, std::int64_t begin, int count);
   void prefetch_distant(const ParticleRecords &particles, std::size_t &next,
                         std::int64_t end) const;
   TALUS_INLINE void prefetch_own(const ParticleRecords &particles);
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
-  void place(std::uint32_t contact, int position, int lane);
+  void give_lane(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history_kept>
   void gather(const ParticleRecords &particles, int end);
   void gather_resistance(const ParticleRecords &particles, int end);
@@ -134,19 +133,24 @@ class ContactChunk {
                     Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, bool one_law, class Target>
-  void add_up(ParticleRecords &particles, Target target, const std::uint32_t *contacts, int count);
-  template <class Target>
-  void add_couples(ParticleRecords &particles, Target target, const std::uint32_t *contacts,
-                   int count);
+  template <bool friction, bool one_law>
+  void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
+  void report_early_before(int second, int first, const Step &step);
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
-  OutgoingForces outgoing;
+  struct LaterReport {
+    int second, first;
+    ReportedContact contact;
+  };
+  std::vector<LaterReport> later_reports;    ///< of ends that have late contacts as well
+  std::size_t reported = 0;                  ///< of those of the early chunk
   int block_size = ContactBatch::width;
-  ParticleOrder::Range to_prefetch{0, 0};    ///< slots that are brought soon
+  SlotRange to_prefetch;    ///< slots that are loaded soon
 
   // one block of contacts on its way through the kernels
   struct LawRange {

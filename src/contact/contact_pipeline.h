@@ -8,7 +8,7 @@
 //   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
 //   state
 //
-// The work is divided into parts (see ContactChunk) for the threads and for the two phases; how
+// The work is divided into chunks (see WorkPartition) for the threads and for the two phases; how
 // many there are changes no bit of the result.
 
 #ifndef TALUS_CONTACT_CONTACT_PIPELINE_H
@@ -17,6 +17,7 @@
 #include "base/in_parallel.h"
 #include "contact/contact_chunk.h"
 #include "neighbors/neighbor_view.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
 
 #include <atomic>
@@ -44,14 +45,14 @@ struct ContactSurvey {
 class ContactPipeline {
  public:
   ContactPipeline() = default;
-  ContactPipeline(const ContactPipeline &) = delete;    // parts refer to the order
+  ContactPipeline(const ContactPipeline &) = delete;    // chunks refer to the order
   ContactPipeline &operator=(const ContactPipeline &) = delete;
 
   /// Laws of the scene, from the next rebuild on. `type` arrays count from 1.
   void set_laws(const LawTable &table);
 
-  /// From the next rebuild on: threads to use (1 ... ParticleOrder::max_threads), and whether
-  /// compute_early() and compute_late() will be called instead of compute().
+  /// From the next rebuild on: threads to use, at least 1, and whether compute_early() and
+  /// compute_late() will be called instead of compute().
   void set_work(int threads, bool two_phases);
 
   /// What a rebuild needs besides the neighbors, in the host's numbering of owned particles and
@@ -87,8 +88,8 @@ class ContactPipeline {
   /// the records: allowed if the last compute() did not deliver, and usual after advance(); and
   /// with `read_ghosts` false as well, ghosts too, if someone has brought their state there.
   void compute(const ParticleView &host, const ContactStep &step);
-  /// The same in two phases, if set_work() said so: first what needs no ghost, and reads none; then
-  /// the rest.
+  /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
+  /// are neither read nor written; then those with a ghost.
   void compute_early(const ParticleView &host, const ContactStep &step);
   void compute_late(const ParticleView &host, const ContactStep &step);
 
@@ -134,7 +135,7 @@ class ContactPipeline {
   /// count half, so that the sums over all ranks are the numbers of pairs.
   double count_contacts() const;
   double count_candidates() const;
-  /// Share of the owned particles whose forces compute_early() computes.
+  /// Share of the candidate pairs that compute_early() computes.
   double early_share() const;
 
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
@@ -150,7 +151,7 @@ class ContactPipeline {
   bool has_pairs() const { return pairs_known; }
   /// That it has pairs of.
   int num_particles() const { return pairs_known ? order.size() : 0; }
-  bool in_two_phases() const { return !parts.empty() && order.in_two_phases(); }
+  bool in_two_phases() const { return !chunks.empty() && work.in_two_phases(); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
   bool keeps_spins() const { return scene.with_friction; }
@@ -158,7 +159,7 @@ class ContactPipeline {
 
  private:
   struct Place {
-    const ContactChunk *part;    ///< nullptr if the pair is unknown
+    const ContactChunk *chunk;    ///< nullptr if the pair is unknown
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
@@ -167,60 +168,61 @@ class ContactPipeline {
   void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &host, const ContactStep &step);
-  void find_frontier();
-  static void sort_and_unite(std::vector<int> &slots);
-  void run_phase(const ParticleView &host, const ContactStep &step, int first_part,
-                 bool with_ghosts);
-  template <class Visit> void for_each_part_of(int thread, int first_part, Visit visit);
-  void take_over(int thread);
-  void bring_frontier(const ParticleView &host, const ContactStep &step, int thread);
-  void read_ghosts(const ParticleView &host, int thread);
-  void copy_frontier(int thread);
-  void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
+  void find_shared();
+  void run_phase(const ParticleView &host, const ContactStep &step, int phase);
+  template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);
+  void load_shared(const ParticleView &host, const ContactStep &step, int thread);
+  void load_ghosts(const ParticleView &host, const ContactStep &step, int thread);
+  void load(const ParticleView &host, const ContactStep &step, int range, int begin, int end);
+  void copy_states(const std::vector<int> &slots, int first_copy, int thread);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
-  /// work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
-  template <class Work> void in_ranges(std::int64_t n, Work work) const
+  static void sort_and_unite(std::vector<int> &slots);
+  /// task(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
+  template <class Task> void in_ranges(std::int64_t n, Task task) const
   {
-    Talus::in_ranges(n, threads, [&](int, int begin, int end) { work(begin, end); });
+    Talus::in_ranges(n, threads, [&](int, int begin, int end) { task(begin, end); });
   }
-  /// Where the piece of a thread begins if n are divided evenly.
-  int piece(std::int64_t n, int thread) const { return static_cast<int>(n * thread / threads); }
+  /// task(chunk) for all chunks, at the same time.
+  template <class Task> void for_chunks(Task task) const
+  {
+    in_parallel(work.num_chunks(), threads, task);
+  }
+  /// Those of a list in ascending order that are in the range of a thread.
   SlotChoice of_thread(const std::vector<int> &slots, int thread) const;
   const Record *held_or_null() const { return held.empty() ? nullptr : held.data(); }
-  template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
+  template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   ContactScene scene;
   double worth_giving_back = Talus::worth_giving_back;
   std::optional<ContactSurvey> remembered;
   bool pairs_known = false;
-  int threads = 1;    ///< parts of each phase
+  int threads = 1;
   int next_threads = 1;
   bool next_in_phases = false;
 
   ParticleOrder order;
+  WorkPartition work;
+  std::vector<ContactChunk> chunks;
+  struct alignas(64) Claim {
+    std::atomic<bool> taken{false};
+  };
+  std::vector<Claim> claims;    ///< by range: a thread does it in this phase
+  DeferredForces deferred;
+
   ParticleRecords particles;
-  std::vector<int> frontier;                 ///< slots that other parts than theirs read
-  std::vector<unsigned char> at_frontier;    ///< by slot; empty if none is
-  std::vector<int> copy_of_slot;             ///< of those of the frontier: where its copy stands
-  std::vector<int> ghost_slots;              ///< in ascending order
+  std::vector<int> ghost_slots;                    ///< in ascending order, as all lists of slots
+  std::vector<int> shared_owned, shared_ghosts;    ///< slots that other ranges than theirs read
+  std::vector<unsigned char> is_loaded_before;     ///< by slot: not on the way; empty if none is
 
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   RecordStep move{};
-  int parts_moved = 0;                           // by a pending move
   std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
   std::vector<int> moved_at_once;                ///< slots that are sent
-  std::vector<int> moved_first;                  ///< others that several parts read
+  std::vector<int> moved_first;                  ///< others that several ranges read
   std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
   AlignedVector<Record> held;                    ///< by slot, or empty
-  std::vector<RecordTravel> travels;             ///< by part
-
-  std::vector<ContactChunk> parts;    ///< see ParticleOrder::divide()
-  struct alignas(64) Claim {
-    std::atomic<bool> taken{false};
-  };
-  std::vector<Claim> claims;      ///< by part: a thread does it
-  std::vector<int> late_slots;    ///< particles of the second phase
+  std::vector<RecordTravel> travels;             ///< by range
 };
 
 }    // namespace Talus

@@ -30,11 +30,12 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
   sort_and_unite(moved_at_once);
   moved_first.clear();
-  std::set_difference(frontier.begin(), frontier.end(), moved_at_once.begin(), moved_at_once.end(),
-                      std::back_inserter(moved_first));
+  std::set_difference(shared_owned.begin(), shared_owned.end(), moved_at_once.begin(),
+                      moved_at_once.end(), std::back_inserter(moved_first));
   is_moved_before.clear();
   mark(moved_at_once, is_moved_before);
   mark(moved_first, is_moved_before);
+  if (work.in_two_phases()) mark(ghost_slots, is_moved_before);
 
   renew(held, x_then ? order.size() : 0);
   in_ranges(static_cast<std::int64_t>(held.size()), [&](int begin, int end) {
@@ -52,7 +53,6 @@ void ContactPipeline::advance(const RecordStep &step)
 {
   move = step;
   move_pending = true;
-  parts_moved = 0;
   travels.assign(travels.size(), RecordTravel{});
   if (moved_at_once.empty()) return;
   in_parallel(threads, threads, [&](int t) {
@@ -69,16 +69,13 @@ RecordTravel ContactPipeline::travel() const
 
 void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
 {
-  if (move_pending && parts_moved == 0)
+  if (move_pending) {
     for (int t = 0; t < threads; t++)
       particles.advance(move, role, nullptr, of_thread(moved_first, t));
-  // an error may have come between the two phases, when the first parts have already moved theirs
-  for (int p = parts_moved; move_pending && p < order.num_chunks(); p++) {
-    const ParticleOrder::Range its = order.range(p);
-    in_ranges(its.end - its.begin, [&](int begin, int end) {
-      particles.advance(move, role, nullptr,
-                        {its.begin + begin, its.begin + end, nullptr, order.chunk_of_slots(), p,
-                         is_moved_before.empty() ? nullptr : is_moved_before.data()});
+    in_ranges(order.size(), [&](int begin, int end) {
+      SlotChoice slots{begin, end};
+      slots.marked = is_moved_before.empty() ? nullptr : is_moved_before.data();
+      particles.advance(move, role, nullptr, slots);
     });
   }
   move_pending = in_records = false;

@@ -23,9 +23,9 @@ double ContactPipeline::count_contacts() const
 {
   if (remembered) return remembered->contacts;
   double count = 0.0;
-  for (const ContactChunk &part : parts)
-    part.for_each_contact([&](std::int64_t pair) {
-      count += order.share(part.pairs.first[pair], part.pairs.second[pair]);
+  for (const ContactChunk &chunk : chunks)
+    chunk.for_each_contact([&](std::int64_t pair) {
+      count += order.share(chunk.pairs.first[pair], chunk.pairs.second[pair]);
     });
   return count;
 }
@@ -34,18 +34,20 @@ double ContactPipeline::count_candidates() const
 {
   if (remembered) return remembered->candidates;
   double count = 0.0;
-  for (const ContactChunk &part : parts)
-    for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++)
-      if (part.pairs.counts(c)) count += order.share(part.pairs.first[c], part.pairs.second[c]);
+  for (const ContactChunk &chunk : chunks)
+    for (std::int64_t c = 0; c < chunk.pairs.num_pairs(); c++)
+      count += order.share(chunk.pairs.first[c], chunk.pairs.second[c]);
   return count;
 }
 
 double ContactPipeline::early_share() const
 {
-  std::int64_t early = 0;
-  for (int s = 0; s < order.size(); s++)
-    early += order.is_owned(order.atom_of_slot[s]) && (!in_two_phases() || order.part(s) < threads);
-  return order.owned ? static_cast<double>(early) / order.owned : 0.0;
+  std::int64_t early = 0, all = 0;
+  for (const ContactChunk &chunk : chunks) {
+    all += chunk.pairs.num_pairs();
+    if (!chunk.pairs.is_late()) early += chunk.pairs.num_pairs();
+  }
+  return all ? static_cast<double>(early) / static_cast<double>(all) : 0.0;
 }
 
 void ContactPipeline::account_for_move(const double *v, const double *omega, double dt,
@@ -80,14 +82,15 @@ double ContactPipeline::overlap_of(int slot_a, int slot_b) const
          std::sqrt(squared_distance(slot_a, slot_b));
 }
 
-/* The largest result(part) of all parts, which are asked at the same time; of equal ones the
+/* The largest result(chunk) of all chunks, which are asked at the same time; of equal ones the
    first. */
 
 template <class Value, class Result>
-Value ContactPipeline::largest_of_parts(Value none, Result result) const
+Value ContactPipeline::largest_of_chunks(Value none, Result result) const
 {
-  std::vector<Value> found(parts.size(), none);
-  in_parallel(static_cast<int>(parts.size()), threads, [&](int p) { found[p] = result(parts[p]); });
+  std::vector<Value> found(chunks.size(), none);
+  in_parallel(static_cast<int>(chunks.size()), threads,
+              [&](int c) { found[c] = result(chunks[c]); });
   for (const Value &one : found)
     if (none < one) none = one;
   return none;
@@ -96,10 +99,10 @@ Value ContactPipeline::largest_of_parts(Value none, Result result) const
 DeepestContact ContactPipeline::deepest_contact() const
 {
   if (remembered) return remembered->deepest;
-  return largest_of_parts(DeepestContact{}, [this](const ContactChunk &part) {
+  return largest_of_chunks(DeepestContact{}, [this](const ContactChunk &chunk) {
     DeepestContact deepest;
-    part.for_each_contact([&](std::int64_t pair) {
-      const int i = part.pairs.first[pair], j = part.pairs.second[pair];
+    chunk.for_each_contact([&](std::int64_t pair) {
+      const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
       const double ri = particles.position[i].c[3], rj = particles.position[j].c[3];
       // neither root nor quotient for those that are less deep beyond doubt
       constexpr double beyond_rounding = 1.0 + 1.0e-9;
@@ -117,18 +120,18 @@ double ContactPipeline::smallest_contact_period() const
 {
   if (remembered) return remembered->smallest_period;
   // the largest of the inverse squares
-  const double largest = largest_of_parts(0.0, [this](const ContactChunk &part) {
-    double of_part = 0.0;
-    part.for_each_contact([&](std::int64_t pair) {
-      const int i = part.pairs.first[pair], j = part.pairs.second[pair], row = scene.row_of(i, j);
+  const double largest = largest_of_chunks(0.0, [this](const ContactChunk &chunk) {
+    double of_chunk = 0.0;
+    chunk.for_each_contact([&](std::int64_t pair) {
+      const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair], row = scene.row_of(i, j);
       const double inverse_mass = particles.velocity(i).c[3] + particles.velocity(j).c[3];
       if (!(inverse_mass > 0.0)) return;
       const double ri = particles.position[i].c[3], rj = particles.position[j].c[3];
       const double k = tangent_stiffness(scene.laws.law(row), scene.laws.coefficients(row),
                                          overlap_of(i, j), 1.0 / inverse_mass, ri * rj / (ri + rj));
-      if (k > 0.0) of_part = std::max(of_part, inverse_mass * k);
+      if (k > 0.0) of_chunk = std::max(of_chunk, inverse_mass * k);
     });
-    return of_part;
+    return of_chunk;
   });
   return largest > 0.0 ? std::sqrt(1.0 / largest) : 0.0;
 }
@@ -136,11 +139,11 @@ double ContactPipeline::smallest_contact_period() const
 double ContactPipeline::largest_relative_speed() const
 {
   if (remembered) return remembered->largest_speed;
-  return std::sqrt(largest_of_parts(0.0, [this](const ContactChunk &part) {
+  return std::sqrt(largest_of_chunks(0.0, [this](const ContactChunk &chunk) {
     double largest = 0.0;
-    for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++) {
-      const double *a = particles.velocity(part.pairs.first[c]).c,
-                   *b = particles.velocity(part.pairs.second[c]).c;
+    for (std::int64_t c = 0; c < chunk.pairs.num_pairs(); c++) {
+      const double *a = particles.velocity(chunk.pairs.first[c]).c,
+                   *b = particles.velocity(chunk.pairs.second[c]).c;
       const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
       largest = std::max(largest, dx * dx + dy * dy + dz * dz);
     }

@@ -8,14 +8,12 @@
 
 namespace Talus {
 
-void HistoryStore::begin(const ParticleOrder &last, int num_chunks,
-                         const std::uint16_t *chunk_of_slots, Scope of)
+void HistoryStore::begin(const WorkPartition &partition, Scope of)
 {
   filled = true;
   scope = of;
-  chunks.resize(num_chunks);
-  chunk_of_slot.clear();
-  if (num_chunks > 1) chunk_of_slot.assign(chunk_of_slots, chunk_of_slots + last.size());
+  work = partition;
+  chunks.resize(work.num_chunks());
 }
 
 void HistoryStore::finish(const ParticleOrder &last, int num_threads)
@@ -150,7 +148,7 @@ void HistoryStore::clear()
   release(followers);
   release(followers_begin);
   release(name_of_slot);
-  release(chunk_of_slot);
+  work = {};
   release(slot_then);
 }
 
@@ -161,13 +159,12 @@ double HistoryStore::memory_usage() const
       sizeof(std::int32_t) * (owners.capacity() + list_of.capacity()) +
       sizeof(double) * lists.capacity() +
       sizeof(std::int64_t) * (list_begin.capacity() + name_of_slot.capacity()) +
-      sizeof(std::uint16_t) * chunk_of_slot.capacity() + touched_image.capacity() +
-      sizeof(std::uint32_t) * followers_begin.capacity() +
+      touched_image.capacity() + sizeof(std::uint32_t) * followers_begin.capacity() +
       sizeof(int) * (followers.capacity() + slot_then.capacity()));
   for (const SlotContacts &its : chunks) bytes += its.memory_usage();
   for (const auto &message : messages)
     bytes += static_cast<double>(sizeof(double) * message.second.capacity());
-  return bytes + named.memory_usage();
+  return bytes + named.memory_usage() + work.memory_usage();
 }
 
 }    // namespace Talus

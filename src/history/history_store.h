@@ -25,6 +25,7 @@
 
 #include "history/named_contacts.h"
 #include "history/slot_contacts.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
 
 #include <algorithm>
@@ -69,10 +70,7 @@ class HistoryStore {
     bool particles_may_leave;    ///< without it pack() and largest_list() know of nothing
     bool periodic;               ///< the first particle decides, see above
   };
-  /// Chunks are numbered from 0, and a contact is in the chunk of one of its particles; `chunk_of_
-  /// slots` is nullptr if there is one only. Slots of no chunk have a larger number.
-  void begin(const ParticleOrder &order, int num_chunks, const std::uint16_t *chunk_of_slots,
-             Scope scope);
+  void begin(const WorkPartition &work, Scope scope);
   SlotContacts &chunk(int c) { return chunks[c]; }
   void finish(const ParticleOrder &order, int threads);
 
@@ -123,10 +121,9 @@ class HistoryStore {
 
  private:
   bool was_here(const Origin &o) const { return filled && o.rank == me && o.slot >= 0; }
-  int chunk_of(int slot) const { return chunk_of_slot.empty() ? 0 : chunk_of_slot[slot]; }
   FoundHistory find_by_slots(int a, int b) const;
   FoundHistory find_in(int c, int a, int b) const;
-  bool is_of(int chunk, int slot) const;
+  template <class Visit> void for_each_chunk(Visit visit) const;
   int row_size(int slot) const;
   void count_followers();
   void list_followers();
@@ -153,7 +150,7 @@ class HistoryStore {
   Scope scope{false, false};
   int threads = 1;
   std::vector<SlotContacts> chunks;
-  std::vector<std::uint16_t> chunk_of_slot;    // empty if there is one chunk only
+  WorkPartition work;                          // which chunk has a contact
   std::vector<unsigned char> touched_image;    // contacts with images of own ones; empty if none
   NamedContacts named;                         // with ghosts, and of lists
   Messages messages;
@@ -182,12 +179,7 @@ inline FoundHistory HistoryStore::find_in(int c, int a, int b) const
 
 inline FoundHistory HistoryStore::find_by_slots(int a, int b) const
 {
-  const int p = chunk_of(a), q = chunk_of(b), num_chunks = static_cast<int>(chunks.size());
-  if (p == q && p < num_chunks) return find_in(p, a, b);
-  FoundHistory found;
-  if (p < num_chunks) found = find_in(p, a, b);
-  if (!found.known && q < num_chunks) found = find_in(q, a, b);
-  return found;
+  return find_in(work.chunk_with_pair(std::min(a, b), std::max(a, b)), a, b);
 }
 
 }    // namespace Talus

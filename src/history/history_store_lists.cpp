@@ -67,33 +67,33 @@ HistoryStore::Origin HistoryStore::read(const double *from)
   return origin;
 }
 
-/* Of a particle, the contacts in its own row are those with partners before it; the others are with
-   its followers, or in another chunk. */
+/* Of a particle, the contacts in its own rows are those with partners before it; the others are with
+   its followers: contacts of whose pairs it is the first particle. Calls visit(chunk) for all
+   chunks: the ranges of a phase at the same time, the phases one after the other, for both add to
+   the same particles. */
 
-bool HistoryStore::is_of(int c, int slot) const
+template <class Visit> void HistoryStore::for_each_chunk(Visit visit) const
 {
-  return chunk_of_slot.empty() || chunk_of_slot[slot] == c;
+  for (int phase = 0; phase < work.num_phases(); phase++)
+    in_parallel(work.num_ranges(), threads, [&](int r) { visit(work.chunk(phase, r)); });
 }
 
-/* A chunk counts for its own slots; what it has of others is counted afterwards. Without a loop over
-   rows, whose lengths nobody could foresee. */
+/* A chunk counts for the slots of its range; what it has of others is counted afterwards. Without a
+   loop over rows, whose lengths cannot be foreseen. */
 
 void HistoryStore::count_followers()
 {
-  const int num_chunks = static_cast<int>(chunks.size());
   followers_listed = false;
   followers_begin.assign(name_of_slot.size() + 2, 0);
-  std::vector<std::vector<int>> elsewhere(num_chunks);
-  in_parallel(num_chunks, threads, [&](int c) {
+  std::vector<std::vector<int>> elsewhere(chunks.size());
+  for_each_chunk([&](int c) {
     const SlotContacts &its = chunks[c];
+    const SlotRange range = work.range_of_chunk(c);
     for (std::uint32_t e = 0; e < its.rows.back(); e++)
-      if (is_of(c, its.first[e]))
+      if (range.holds(its.first[e]))
         followers_begin[its.first[e] + 2]++;
       else
         elsewhere[c].push_back(its.first[e]);
-    for (std::size_t row = 0; num_chunks > 1 && row + 1 < its.rows.size(); row++)
-      if (const int second = its.first_row + static_cast<int>(row); !is_of(c, second))
-        elsewhere[c].insert(elsewhere[c].end(), its.rows[row + 1] - its.rows[row], second);
   });
   for (const std::vector<int> &of_chunk : elsewhere)
     for (const int slot : of_chunk) followers_begin[slot + 2]++;
@@ -103,15 +103,21 @@ void HistoryStore::count_followers()
           std::max(most_partners, row_size(s) + static_cast<int>(followers_begin[s + 2]));
 }
 
+/* Of all phases. */
+
 int HistoryStore::row_size(int slot) const
 {
-  const int c = chunk_of(slot);
-  if (c >= static_cast<int>(chunks.size())) return 0;
-  return static_cast<int>(chunks[c].row_end(slot) - chunks[c].row_begin(slot));
+  int size = 0;
+  const int range = work.range_of(slot);
+  for (int phase = 0; phase < work.num_phases(); phase++) {
+    const SlotContacts &its = chunks[work.chunk(phase, range)];
+    size += static_cast<int>(its.row_end(slot) - its.row_begin(slot));
+  }
+  return size;
 }
 
 /* From the number of followers of each particle to lists: when the first one leaves, for often
-   nobody does. */
+   none does. */
 
 void HistoryStore::list_followers()
 {
@@ -124,15 +130,14 @@ void HistoryStore::list_followers()
   const auto add = [this](int slot, int partner) {
     followers[followers_begin[slot + 1]++] = partner;
   };
-  const int num_chunks = static_cast<int>(chunks.size());
-  std::vector<std::vector<std::pair<int, int>>> elsewhere(num_chunks);
-  in_parallel(num_chunks, threads, [&](int c) {
+  std::vector<std::vector<std::pair<int, int>>> elsewhere(chunks.size());
+  for_each_chunk([&](int c) {
+    const SlotRange range = work.range_of_chunk(c);
     chunks[c].for_each([&](int first, int second) {
-      if (is_of(c, first))
+      if (range.holds(first))
         add(first, second);
       else
         elsewhere[c].emplace_back(first, second);
-      if (!is_of(c, second)) elsewhere[c].emplace_back(second, first);
     });
   });
   for (const auto &of_chunk : elsewhere)
@@ -144,8 +149,9 @@ void HistoryStore::list_followers()
 template <class Visit> void HistoryStore::for_each_partner(int slot, Visit visit)
 {
   list_followers();
-  if (row_size(slot)) {
-    const SlotContacts &its = chunks[chunk_of(slot)];
+  const int range = work.range_of(slot);
+  for (int phase = 0; phase < work.num_phases(); phase++) {
+    const SlotContacts &its = chunks[work.chunk(phase, range)];
     for (std::uint32_t e = its.row_begin(slot); e < its.row_end(slot); e++) visit(its.first[e]);
   }
   for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++)

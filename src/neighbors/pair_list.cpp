@@ -9,21 +9,20 @@
 
 namespace Talus {
 
-void PairList::collect(const ParticleOrder &order, const PairRows &rows, int which_part)
+void PairList::collect(const ParticleOrder &order, const WorkPartition &partition,
+                       const PairRows &rows, int chunk)
 {
   particles = &order;
-  part = which_part;
-  crossing.clear();
+  work = &partition;
+  range = work->range_of_chunk(chunk);
+  late = work->is_late_chunk(chunk);
   copy_of_first.clear();
-  distant.clear();
-  foreign.clear();
-  if (order.in_two_phases()) {
-    take_served(rows);
-    look_around();
-  } else {
-    take_rows(rows);
-    look_back();
-  }
+  if (work->in_two_phases())
+    take_of_phase(rows);
+  else
+    take_all(rows);
+  find_frontier();
+  find_distant();
 }
 
 void PairList::make_room(std::int64_t count, bool with_weights)
@@ -34,16 +33,13 @@ void PairList::make_room(std::int64_t count, bool with_weights)
   renew(weights, with_weights ? count : 0);
 }
 
-/* Parts that follow each other have all pairs of their rows. */
-
-void PairList::take_rows(const PairRows &rows)
+void PairList::take_all(const PairRows &rows)
 {
-  const ParticleOrder::Range its = slots();
   std::int64_t count = 0;
-  for (int s = its.begin; s < its.end; s++) count += rows.size(s);
+  for (int s = range.begin; s < range.end; s++) count += rows.size(s);
   make_room(count, rows.weighted());
   std::int64_t c = 0;
-  for (int s = its.begin; s < its.end; s++) {
+  for (int s = range.begin; s < range.end; s++) {
     const int size = rows.size(s);
     rows.copy(s, first.data() + c, weighted() ? weights.data() + c : nullptr);
     std::fill_n(second.data() + c, size, s);
@@ -51,21 +47,13 @@ void PairList::take_rows(const PairRows &rows)
   }
 }
 
-/* With two phases, those of which they serve either particle: all of their own rows, and some of
-   others. */
+/* Of rows of ghosts all pairs are late, of rows of particles beside ghosts some. */
 
-void PairList::take_served(const PairRows &rows)
+void PairList::take_of_phase(const PairRows &rows)
 {
-  const std::vector<int> &beyond = particles->rows_beyond(part);
-  const std::uint16_t *part_of = particles->chunk_of_slots();
   const auto for_each_row = [&](auto visit) {
-    auto next = beyond.begin();
-    for (int s = slots().begin; s < slots().end; s++) {
-      if (!serves(s)) continue;
-      while (next != beyond.end() && *next < s) visit(*next++);
-      visit(s);
-    }
-    while (next != beyond.end()) visit(*next++);
+    for (int s = range.begin; s < range.end; s++)
+      if (late ? work->is_ghost(s) || work->is_late(s) : !work->is_ghost(s)) visit(s);
   };
   std::int64_t count = 0;
   for_each_row([&](int s) { count += rows.size(s); });
@@ -78,7 +66,7 @@ void PairList::take_served(const PairRows &rows)
       first[end] = first[c];
       if (weighted()) weights[end] = weights[c];
       second[end] = s;
-      end += part_of[s] == part || part_of[first[end]] == part;
+      end += (work->is_ghost(s) || work->is_ghost(first[c])) == late;
     }
   });
   make_room(end, rows.weighted());
@@ -86,58 +74,51 @@ void PairList::take_served(const PairRows &rows)
 
 void PairList::read_copies(const std::vector<int> &copy_of_slot)
 {
-  if (crossing.empty()) return;
+  if (foreign.empty()) return;
   renew(copy_of_first, num_pairs());
   std::copy(first.begin(), first.end(), copy_of_first.begin());
-  for (const std::uint32_t c : crossing) copy_of_first[c] = copy_of_slot[first[c]];
+  for (const std::uint32_t c : at_frontier)
+    if (is_foreign(first[c])) copy_of_first[c] = copy_of_slot[first[c]];
   for (Distant &its : distant)
-    if (its.slot < slots().begin) its.slot = copy_of_slot[its.slot];
+    if (is_foreign(its.slot)) its.slot = copy_of_slot[its.slot];
 }
 
-namespace {
-/// Of particles that follow each other.
-constexpr int records_in_cache = 2048;
-}    // namespace
-
-/* Which particles are far away in memory, and which belong to others: these may stand in the cache
-   of another core, however near they are in memory. */
-
-void PairList::look_around()
+void PairList::find_frontier()
 {
-  const std::uint16_t *part_of = particles->chunk_of_slots();
-  std::vector<unsigned char> seen(particles->size(), 0);
+  at_frontier.clear();
+  foreign.clear();
+  frontier_bits.clear();
+  before_word.clear();
+  if (range.begin == 0 && !work->in_two_phases()) return;
   for (std::int64_t c = 0; c < num_pairs(); c++) {
-    const auto call = [&](int slot) { distant.push_back({static_cast<std::uint32_t>(c), slot}); };
-    const auto look_at = [&](int slot) {
-      if (part_of[slot] == part || seen[slot]) return;
-      seen[slot] = 1;
-      call(slot);
-      if (part_of[slot] != ParticleOrder::no_chunk) foreign.push_back(slot);
-    };
-    if (second[c] - first[c] > records_in_cache) call(first[c]);
-    look_at(first[c]);
-    look_at(second[c]);
+    if (!defers(first[c]) && !defers(second[c])) continue;
+    at_frontier.push_back(static_cast<std::uint32_t>(c));
+    if (is_foreign(first[c])) foreign.push_back(first[c]);
   }
   std::sort(foreign.begin(), foreign.end());
+  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+  frontier_bits.assign(num_pairs() / 64 + 1, 0);
+  for (const std::uint32_t c : at_frontier) frontier_bits[c / 64] |= std::uint64_t{1} << (c % 64);
+  before_word.assign(frontier_bits.size(), 0);
+  for (std::size_t word = 1; word < before_word.size(); word++)
+    before_word[word] = before_word[word - 1] +
+                        static_cast<std::uint32_t>(__builtin_popcountll(frontier_bits[word - 1]));
 }
 
-/* The same where others are those before this part. */
+/* Late pairs are few and stand far from each other: nothing of them can be expected in a cache. */
 
-void PairList::look_back()
+void PairList::find_distant()
 {
-  const int begin = slots().begin;
-  std::vector<unsigned char> seen(begin, 0);
+  constexpr int records_in_cache = 2048;    // of particles that follow each other
+  distant.clear();
+  std::vector<unsigned char> seen(range.begin, 0);
   for (std::int64_t c = 0; c < num_pairs(); c++) {
-    const int a = first[c];
     const auto pair = static_cast<std::uint32_t>(c);
-    if (second[c] - a > records_in_cache) distant.push_back({pair, a});
-    if (a >= begin) continue;
-    crossing.push_back(pair);
-    if (std::exchange(seen[a], 1)) continue;
-    distant.push_back({pair, a});
-    foreign.push_back(a);
+    const bool is_new = is_foreign(first[c]) && !std::exchange(seen[first[c]], 1);
+    if (late || is_new || second[c] - first[c] > records_in_cache)
+      distant.push_back({pair, first[c]});
+    if (late && (c == 0 || second[c] != second[c - 1])) distant.push_back({pair, second[c]});
   }
-  std::sort(foreign.begin(), foreign.end());
 }
 
 /* The narrow phase counts a few further than there are pairs. */
@@ -163,7 +144,9 @@ double PairList::memory_usage() const
   return static_cast<double>(
       sizeof(int) * (first.capacity() + second.capacity() + copy_of_first.capacity()) +
       sizeof(double) * weights.capacity() + sizeof(Distant) * distant.capacity() +
-      sizeof(int) * foreign.capacity() + sizeof(std::uint32_t) * crossing.capacity());
+      sizeof(int) * foreign.capacity() +
+      sizeof(std::uint32_t) * (at_frontier.capacity() + before_word.capacity()) +
+      sizeof(std::uint64_t) * frontier_bits.capacity());
 }
 
 }    // namespace Talus

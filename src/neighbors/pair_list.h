@@ -11,6 +11,7 @@
 
 #include "base/aligned_vector.h"
 #include "neighbors/pair_rows.h"
+#include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
 
 #include <cstddef>
@@ -21,17 +22,18 @@ namespace Talus {
 
 class PairList {
  public:
-  /// At a rebuild, after order.arrange() and order.divide(): the pairs that belong to `part`.
-  /// `order` must live as long as this list. Throws what require_countable() throws. May be
-  /// called for different parts at the same time.
-  void collect(const ParticleOrder &order, const PairRows &rows, int part);
+  /// At a rebuild, after order.arrange(): the pairs of one chunk of the work. `order` and `work`
+  /// must live as long as this list. Throws what require_countable() throws. May be called for
+  /// different chunks at the same time.
+  void collect(const ParticleOrder &order, const WorkPartition &work, const PairRows &rows,
+               int chunk);
 
   /// Contacts are numbered with 32 bits, to halve the traffic of their list: throws
   /// std::length_error if `pairs` are too many for that.
   static void require_countable(std::int64_t pairs);
 
-  /// Without two phases, before the first step: first particles of other parts are read where these
-  /// copy their states for others: at copy_of_slot[slot] for each of `foreign`.
+  /// Before the first step: first particles of other ranges are read where these copy their states
+  /// for others: at copy_of_slot[slot] for each of `foreign`.
   void read_copies(const std::vector<int> &copy_of_slot);
   /// By pair: where the state of the first particle is read.
   const int *state_of_first() const
@@ -42,69 +44,35 @@ class PairList {
   /// Index of the pair of two slots, or -1.
   std::int64_t find(int slot_a, int slot_b) const;
 
-  /// The slot is of this part.
-  bool serves(int slot) const { return particles->part(slot) == part; }
-  /// This part computes the force of its pairs on that slot, if it is owned.
-  bool acts_on(int slot) const { return !particles->in_two_phases() || serves(slot); }
-  /// The pair is counted here; in two phases other parts of this rank may compute it as well.
-  bool counts(std::int64_t pair) const
+  /// These are pairs of the late phase: one particle of each is a ghost.
+  bool is_late() const { return late; }
+  /// Where the second slots of the pairs are.
+  SlotRange slots() const { return range; }
+  /// The first particle of a pair belongs to another range: one before this.
+  bool is_foreign(int slot) const { return slot < range.begin; }
+  /// The particle has contacts of the late phase as well.
+  bool has_late(int slot) const { return work->in_two_phases() && work->is_late(slot); }
+  /// Forces on that first or second particle, if it is owned, are deferred: see DeferredForces.
+  bool defers(int slot) const { return is_foreign(slot) || has_late(slot); }
+  /// Pairs with such a particle, in ascending order.
+  const std::vector<std::uint32_t> &frontier() const { return at_frontier; }
+  bool is_at_frontier(std::uint32_t pair) const
   {
-    return acts_on(first[pair]) || particles->part(first[pair]) == ParticleOrder::no_chunk;
+    return frontier_bits[pair / 64] >> (pair % 64) & 1U;
   }
-  /// Members of these pairs are in other parts.
-  bool shared() const { return particles->num_chunks() > 1; }
-  /// Forces on first particles of other parts are handed over to them: see OutgoingForces.
-  bool hands_over() const { return part > 0 && !particles->in_two_phases(); }
-  /// Pairs of this kind, in ascending order.
-  const std::vector<std::uint32_t> &handed_over() const { return crossing; }
-
-  /// Where forces on a slot are added: there, or if this part does not want them behind the last
-  /// particle.
-  std::size_t nowhere() const { return particles->nowhere(part); }
-  struct ToAll {
-    static constexpr bool keeps(int) { return true; }
-    std::size_t operator()(int slot) const { return slot; }
-  };
-  /// Second particles there; first ones there or, before `begin`, handed over.
-  struct ToFollowers {
-    int begin;
-    std::size_t operator()(int slot) const { return slot; }
-    bool keeps(int slot) const { return slot >= begin; }
-  };
-  struct ToRange {
-    static constexpr bool keeps(int) { return true; }
-    int begin;
-    unsigned size;
-    std::size_t nowhere;
-    std::size_t operator()(int slot) const
-    {
-      return static_cast<unsigned>(slot - begin) < size ? static_cast<std::size_t>(slot) : nowhere;
-    }
-  };
-  struct ToPart {
-    static constexpr bool keeps(int) { return true; }
-    const std::uint16_t *chunk_of_slot;
-    int part;
-    std::size_t nowhere;
-    std::size_t operator()(int slot) const
-    {
-      return chunk_of_slot[slot] == part ? static_cast<std::size_t>(slot) : nowhere;
-    }
-  };
-  /// Calls work(target) with the cheapest of these that will do.
-  template <class Work> void with_target(Work work) const
+  /// How many of them are before that pair.
+  std::uint32_t frontier_before(std::uint32_t pair) const
   {
-    const ParticleOrder::Range its = slots();
-    if (hands_over()) return work(ToFollowers{its.begin});
-    if (!particles->in_two_phases() || particles->runs_alone_first(part)) return work(ToAll{});
-    if (particles->may_fill_range(part))
-      return work(ToRange{its.begin, static_cast<unsigned>(its.end - its.begin), nowhere()});
-    work(ToPart{particles->chunk_of_slots(), part, nowhere()});
+    const std::uint64_t below = (std::uint64_t{1} << (pair % 64)) - 1;
+    return before_word[pair / 64] +
+           static_cast<std::uint32_t>(__builtin_popcountll(frontier_bits[pair / 64] & below));
   }
-
-  int which() const { return part; }
-  /// Where the slots of this part are.
-  ParticleOrder::Range slots() const { return particles->range(part); }
+  /// One of these is among the pairs begin ... last.
+  bool reaches_frontier(std::uint32_t begin, std::uint32_t last) const
+  {
+    return !at_frontier.empty() &&
+           frontier_before(last) + is_at_frontier(last) > frontier_before(begin);
+  }
 
   const ParticleOrder &order() const { return *particles; }
   std::int64_t num_pairs() const { return static_cast<std::int64_t>(first.size()); }
@@ -114,27 +82,31 @@ class PairList {
   AlignedVector<int> first, second;
   std::vector<double> weights;    ///< scale of the force; empty if every scale is 1
   /// Particles that will not be in a cache of 1 MB when a pair comes, in ascending order of the
-  /// pairs: first ones that have left it, and those of other parts where they come first. `slot`
-  /// is where the state is read.
+  /// pairs: first ones that have left it, those of other ranges where they come first, and of late
+  /// pairs all. `slot` is where the state is read.
   struct Distant {
     std::uint32_t pair;
     int slot;
   };
   std::vector<Distant> distant;
-  /// Slots of other parts that these pairs read, in ascending order; in two phases not those of
-  /// ghosts, which are in none.
+  /// Slots of other ranges that these pairs read, in ascending order.
   std::vector<int> foreign;
 
  private:
   void make_room(std::int64_t count, bool weighted);
-  void take_rows(const PairRows &rows);
-  void take_served(const PairRows &rows);
-  void look_around();
-  void look_back();
+  void take_all(const PairRows &rows);
+  void take_of_phase(const PairRows &rows);
+  void find_frontier();
+  void find_distant();
 
   const ParticleOrder *particles = nullptr;
-  int part = 0;
-  std::vector<std::uint32_t> crossing;
+  const WorkPartition *work = nullptr;
+  SlotRange range;
+  bool late = false;
+  std::vector<std::uint32_t> at_frontier;
+  // of 64 pairs each, if there is a frontier: which are at it, and how many of those before are
+  std::vector<std::uint64_t> frontier_bits;
+  std::vector<std::uint32_t> before_word;
   AlignedVector<int> copy_of_first;    // empty if all are read where they are
 };
 

@@ -35,7 +35,7 @@ inline void sort_usual(const std::int32_t *numbers, int count, int *sorted)
 PairRows::PairRows(const ParticleOrder &particles, const NeighborView &neighbors, int threads) :
     order(particles), view(neighbors), ranges(threads), scaled(neighbors.scales())
 {
-  if (view.particle) {
+  if (view.particle || view.rows == 0) {    // a list of nobody may have no arrays at all
     listed.resize(order.size(), 0);
     for (int row = 0; row < view.rows; row++) listed[view.particle[row]] = 1;
   }

@@ -26,7 +26,6 @@ class PairRows {
   PairRows(const ParticleOrder &order, const NeighborView &neighbors, int threads = 1);
 
   int num_slots() const { return order.size(); }
-  const NeighborView &neighbors() const { return view; }
   /// Number of pairs with that second slot.
   int size(int second) const { return sizes[second]; }
   /// The force of at least one pair is scaled by something else than 1.

@@ -21,14 +21,13 @@ inline void add_to_row(double *row, Vec4 value)
 
 }    // namespace
 
-void ParticleRecords::resize(std::size_t n, std::size_t places, bool spins, bool couples,
-                             std::size_t copies)
+void ParticleRecords::resize(std::size_t n, bool spins, bool couples, std::size_t copies)
 {
   stride = spins ? 2 : 1;
   renew(position, n + copies);
   renew(motion, stride * (n + copies));
-  renew(load, stride * places);
-  renew(couple, couples ? places : 0);
+  renew(load, stride * n);
+  renew(couple, couples ? n : 0);
 }
 
 void ParticleRecords::release_sums()

@@ -39,20 +39,15 @@ struct RecordStep {
 };
 
 /// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
-/// these only the slots of one part, if `chunk_of_slot` is given, that are not marked.
+/// these only the slots that are not marked.
 struct SlotChoice {
   int begin, end;
   const int *list = nullptr;
-  const std::uint16_t *chunk_of_slot = nullptr;
-  int part = 0;
-  const unsigned char *marked = nullptr;
+  const unsigned char *marked = nullptr;    ///< by slot, or nullptr
   int next_end = 0;    ///< more slots may be asked for after these, up to this one
 
   int at(int n) const { return list ? list[n] : n; }
-  bool holds(int slot) const
-  {
-    return (!chunk_of_slot || chunk_of_slot[slot] == part) && (!marked || !marked[slot]);
-  }
+  bool holds(int slot) const { return !marked || !marked[slot]; }
   template <class Visit> void for_each(Visit visit) const
   {
     for (int n = begin; n < end; n++)
@@ -98,11 +93,10 @@ struct alignas(64) RecordTravel {
 
 class ParticleRecords {
  public:
-  /// Makes room for `n` particles and their sums, old contents are lost, and for sums that are
-  /// not used behind them: there are `places` for sums, at least n. `spins` is false in scenes
-  /// without friction: spin records and moments are then neither read nor kept. `couples`: laws
-  /// with resistance occur. `copies`: of the states of some particles, behind those of all.
-  void resize(std::size_t n, std::size_t places, bool spins, bool couples, std::size_t copies = 0);
+  /// Makes room for `n` particles and their sums, whatever stood there before. `spins` is false in
+  /// scenes without friction: spin records and moments are then neither read nor kept. `couples`:
+  /// laws with resistance occur. `copies`: of the states of some particles, behind those of all.
+  void resize(std::size_t n, bool spins, bool couples, std::size_t copies = 0);
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
   /// of what they need without sums, and allocating memory anew takes time.

@@ -113,7 +113,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
     random.shuffle(p.tag);
     p.refresh_keys(random.uniform(0.3, 1.0));
     order.arrange(p.size(), p.key, p.tag);
-    records.resize(p.size(), p.size(), laws.has_friction(), laws.has_resistance());
+    records.resize(p.size(), laws.has_friction(), laws.has_resistance());
     for (Body &body : bodies)
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records})
         contacts->find_candidates(*body.shape, body.frame, view(false), mask.data(), 1, skin);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <map>
 #include <set>
 
 using namespace Talus;
@@ -185,6 +186,51 @@ TEST_P(Pipeline, CoincidentCentersGiveNoForce)
     twin.compute(p, GetParam().laws, dt, true, false);
     ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p));
     EXPECT_EQ(rank.pipeline.count_contacts(), static_cast<double>(twin.contacts.size()));
+  }
+}
+
+/// The partners of each owned particle, in the order in which their contacts were reported.
+std::map<int, std::vector<int>> partners_in_order(const TestRank &rank)
+{
+  std::map<int, std::vector<int>> partners;
+  for (const ReportedContact &r : rank.report) {
+    EXPECT_TRUE(r.for_i || r.for_j);
+    if (r.for_i && r.i < rank.owned) partners[rank.particle[r.i]].push_back(rank.particle[r.j]);
+    if (r.for_j && r.j < rank.owned) partners[rank.particle[r.j]].push_back(rank.particle[r.i]);
+  }
+  return partners;
+}
+
+// On a rank with ghosts: contacts are computed and counted as often as in one phase without threads, that is once,
+// and each end of them is reported once, in the same order for every particle, with the same bits of the sums.
+TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
+{
+  const LawTable &laws = GetParam().laws;
+  RandomSource random(8);
+  Packing p = random_packing(300, random);
+  const std::vector<int> mine = [&] {
+    std::vector<int> some;
+    for (int i = 0; i < p.size(); i++)
+      if (p.x[i][0] < 0.5) some.push_back(i);
+    return some;
+  }();
+  for (const int threads : {1, 2, 3}) {
+    TestRank simple(laws), divided(laws);
+    divided.divide(threads, true);
+    for (TestRank *rank : {&simple, &divided})
+      rank->rebuild(p, mine, candidates(p, 1.0, true), {}, random);
+    EXPECT_EQ(divided.pipeline.count_candidates(), simple.pipeline.count_candidates());
+    const double share = divided.pipeline.early_share();
+    EXPECT_TRUE(share > 0.2 && share < 1.0) << share;
+    for (int step = 0; step < 3; step++) {
+      for (TestRank *rank : {&simple, &divided}) rank->compute(p, dt, true);
+      ASSERT_GT(simple.report.size(), 200U);
+      EXPECT_EQ(divided.pipeline.count_contacts(), simple.pipeline.count_contacts());
+      EXPECT_EQ(partners_in_order(divided), partners_in_order(simple));
+      EXPECT_EQ(divided.force, simple.force);
+      EXPECT_EQ(divided.torque, simple.torque);
+      p.move(20.0 * dt, 0.2, random);
+    }
   }
 }
 

@@ -83,13 +83,13 @@ class Rank {
     slow::NeighborLists neighbors(owned);
     for (const auto &[a, b] : local_pairs) neighbors.add(a, b, 1.0);
     order.arrange(owned, key, tag);
-    order.divide(PairRows(order, neighbors.view(), settings.threads), settings.threads,
-                 settings.two_phases);
-    pairs.resize(order.num_chunks());
-    live.resize(order.num_chunks());
+    work = WorkPartition(order, PairRows(order, neighbors.view(), settings.threads),
+                         settings.threads, settings.two_phases);
+    pairs.resize(work.num_chunks());
+    live.resize(work.num_chunks());
     store.open(order, 1);
-    for (int c = 0; c < order.num_chunks(); c++) {
-      pairs[c].collect(order, PairRows(order, neighbors.view()), c);
+    for (int c = 0; c < work.num_chunks(); c++) {
+      pairs[c].collect(order, work, PairRows(order, neighbors.view()), c);
       live[c].fetch(pairs[c], store);
     }
     store.number(order);
@@ -105,8 +105,7 @@ class Rank {
 
   void put_aside(bool particles_may_leave, bool pairs_stay)
   {
-    store.begin(order, order.num_chunks(), order.chunk_of_slots(),
-                {particles_may_leave, settings.periodic});
+    store.begin(work, {particles_may_leave, settings.periodic});
     for (std::size_t c = 0; c < pairs.size(); c++)
       live[c].put_aside(pairs[c], store.chunk(static_cast<int>(c)), pairs_stay);
     store.finish(order, settings.threads);
@@ -176,6 +175,7 @@ class Rank {
   }
 
   ParticleOrder order;
+  WorkPartition work;
   std::vector<std::pair<int, int>> local_pairs;
   std::vector<PairList> pairs;
   std::vector<ContactHistory> live;
@@ -489,8 +489,9 @@ TEST(HistoryStore, TakesTheMemoryOfImpactsOnlyForLawsThatNeedThem)
       neighbors.add(0, 1, 1.0);
       ParticleOrder order;
       order.arrange(2, {7, 5}, {10, 20});
+      const WorkPartition work(order);
       PairList pairs;
-      pairs.collect(order, PairRows(order, neighbors.view()), 0);
+      pairs.collect(order, work, PairRows(order, neighbors.view()), 0);
       store.open(order, 1);
       ContactHistory history;
       history.fetch(pairs, store);

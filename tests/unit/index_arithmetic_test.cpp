@@ -103,10 +103,10 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   std::iota(tag.begin(), tag.end(), 1);
   ParticleOrder order;
   order.arrange(n, std::vector<std::uint64_t>(n, 0), tag);
-  order.divide(PairRows(order, view), 1, false);
+  const WorkPartition work(order);
 
   PairList pairs;
-  pairs.collect(order, PairRows(order, view), 0);
+  pairs.collect(order, work, PairRows(order, view), 0);
   ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
   EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
 
@@ -135,7 +135,7 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   EXPECT_EQ(contacts[touching - 1], end - 1);
 
   history.record(end - 1) = {{1.0, 2.0, 3.0, 1.0}};
-  store.begin(order, 1, nullptr, {true, false});
+  store.begin(work, {true, false});
   history.put_aside(pairs, store.chunk(0), false);
   store.finish(order, 1);
   EXPECT_EQ(store.list_size(n - 1), 2 + (close - 1) * 5);

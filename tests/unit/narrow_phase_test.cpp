@@ -24,6 +24,7 @@ constexpr int num_particles = 30;
 /// A list of exactly `count` pairs of random particles, all different.
 struct RandomPairs {
   ParticleOrder order;
+  WorkPartition work;
   PairList list;
 
   RandomPairs(int count, RandomSource &random)
@@ -35,13 +36,14 @@ struct RandomPairs {
       tag.push_back(1 + a);
     }
     order.arrange(num_particles, key, tag);
+    work = WorkPartition(order);
     std::vector<std::pair<int, int>> all;
     for (int i = 0; i < num_particles; i++)
       for (int j = i + 1; j < num_particles; j++) all.emplace_back(i, j);
     random.shuffle(all);
     slow::NeighborLists lists(num_particles);
     for (int c = 0; c < count; c++) lists.add(all[c].first, all[c].second, 1.0);
-    list.collect(order, PairRows(order, lists.view()), 0);
+    list.collect(order, work, PairRows(order, lists.view()), 0);
   }
 };
 

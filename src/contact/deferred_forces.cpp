@@ -1,0 +1,136 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "contact/deferred_forces.h"
+
+#include "base/in_parallel.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace Talus {
+namespace {
+
+/// A contact of a particle on its way into a row.
+struct Found {
+  int slot, second, first;
+  std::uint32_t place;
+
+  bool operator<(const Found &o) const
+  {
+    return std::tie(slot, second, first) < std::tie(o.slot, o.second, o.first);
+  }
+};
+
+}    // namespace
+
+/* Chunks do not share cache lines. */
+
+void DeferredForces::collect_from(const ParticleOrder &order, const WorkPartition &work,
+                                  int threads, const std::vector<const PairList *> &lists)
+{
+  release();
+  first_of_chunk.clear();
+  places = 0;
+  for (const PairList *list : lists) {
+    first_of_chunk.push_back(places);
+    if (!list->frontier().empty()) places += (list->frontier().size() + 1) / 2 * 2 + 2;
+  }
+  PairList::require_countable(static_cast<std::int64_t>(places));
+  of_thread.resize(threads);
+  in_parallel(threads, threads, [&](int t) {
+    Rows mine;
+    make_rows(order, work, work.range_of_thread(t), lists, mine);
+    of_thread[t] = std::move(mine);
+  });
+}
+
+void DeferredForces::make_rows(const ParticleOrder &order, const WorkPartition &work,
+                               SlotRange range, const std::vector<const PairList *> &lists,
+                               Rows &to) const
+{
+  std::vector<Found> found;
+  for (std::size_t c = 0; c < lists.size(); c++) {
+    const PairList &its = *lists[c];
+    const bool reads_range = !its.foreign.empty() && its.foreign.front() < range.end &&
+                             its.foreign.back() >= range.begin;
+    const bool is_within = its.slots().begin < range.end && its.slots().end > range.begin;
+    if (!reads_range && !is_within) continue;
+    for (std::size_t n = 0; n < its.frontier().size(); n++) {
+      const int first = its.first[its.frontier()[n]], second = its.second[its.frontier()[n]];
+      for (const int slot : {first, second})
+        if (range.holds(slot) && its.defers(slot) && order.owns_slot(slot))
+          found.push_back({slot, second, first, static_cast<std::uint32_t>(first_of_chunk[c] + n)});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  for (const Found &one : found) {
+    if (to.rows.empty() || to.rows.back().slot != one.slot)
+      to.rows.push_back({one.slot, work.in_two_phases() && work.is_late(one.slot), 0});
+    to.entries.push_back({one.place, one.slot == one.second});
+    to.rows.back().end = static_cast<std::uint32_t>(to.entries.size());
+  }
+}
+
+void DeferredForces::make_room(const ParticleRecords &particles)
+{
+  const std::size_t couples = particles.couple.empty() ? 0 : places;
+  stride = particles.stride;
+  load.assign(stride * places, Record{});
+  couple.assign(couples, Record{});
+}
+
+void DeferredForces::release()
+{
+  for (AlignedVector<Record> *records : {&load, &couple}) Talus::release(*records);
+}
+
+void DeferredForces::add(int thread, ParticleRecords &particles) const
+{
+  const Rows &its = of_thread[thread];
+  const Entry *next = its.entries.data();
+  for (const Row &row : its.rows) {
+    const Entry *end = its.entries.data() + row.end;
+    if (stride == 2)
+      add_row<true>(row, next, end, particles);
+    else
+      add_row<false>(row, next, end, particles);
+    next = end;
+  }
+}
+
+/* Signs are factors, and pairs that do not touch add zero: nobody could foresee which are which.
+   Neither changes a bit. */
+
+template <bool spins>
+void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *end,
+                             ParticleRecords &particles) const
+{
+  constexpr Vec4 sign_of[2] = {{1.0, 1.0, 1.0, 0.0}, {-1.0, -1.0, -1.0, 0.0}};
+  constexpr std::size_t its_stride = spins ? 2 : 1;
+  const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
+  Record *sums = &particles.load[its_stride * row.slot];
+  Vec4 force = kept_if(!row.has_all, load4(sums[0])), moment{};
+  if constexpr (spins) moment = kept_if(!row.has_all, load4(sums[1]));
+  for (const Entry *e = begin; e < end; e++) {
+    const Record *its = &load[its_stride * e->place];
+    force = force + sign_of[e->of_second] * kept_if(touches(*e), load4(its[0]));
+    if constexpr (spins) moment = moment + kept_if(touches(*e), load4(its[1]));
+  }
+  store(sums[0], force);
+  if constexpr (spins) store(sums[1], moment);
+  if (couple.empty()) return;
+  Vec4 sum = kept_if(!row.has_all, load4(particles.couple[row.slot]));
+  for (const Entry *e = begin; e < end; e++)
+    sum = sum + sign_of[e->of_second] * kept_if(touches(*e), load4(couple[e->place]));
+  store(particles.couple[row.slot], sum);
+}
+
+double DeferredForces::memory_usage() const
+{
+  std::size_t bytes = sizeof(Record) * (load.capacity() + couple.capacity());
+  for (const Rows &its : of_thread)
+    bytes += sizeof(Row) * its.rows.capacity() + sizeof(Entry) * its.entries.capacity();
+  return static_cast<double>(bytes);
+}
+
+}    // namespace Talus

@@ -1,0 +1,163 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What chunks add at once and what they defer must together have the bits of a slow loop over all pairs in canonical
+// order.
+
+#include "contact/deferred_forces.h"
+#include "random_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+using namespace Talus;
+using namespace slow;
+
+namespace {
+
+Record random_record(RandomSource &random)
+{
+  Record r{};    // the fourth number of a force has a meaning of its own
+  for (int d = 0; d < 3; d++) r.c[d] = random.uniform(-1.0, 1.0);
+  return r;
+}
+
+bool same(const Record &a, const Record &b)
+{
+  return std::equal(std::begin(a.c), std::end(a.c), std::begin(b.c));
+}
+
+struct OneContact {
+  Record force, moment, couple;
+};
+
+/// Of each pair that touches, by slots.
+using Contacts = BySlots<OneContact>;
+
+Contacts random_contacts(const Pairs &pairs, double chance, RandomSource &random)
+{
+  Contacts contacts;
+  for (const auto &one : pairs.by_slots)
+    if (random.chance(chance))
+      contacts[one.first] = {random_record(random), random_record(random), random_record(random)};
+  return contacts;
+}
+
+void add(Record &sum, const Record &one, double sign)
+{
+  for (int d = 0; d < 4; d++) sum.c[d] += sign * one.c[d];
+}
+
+void add_contact(ParticleRecords &sums, const OneContact &its, int slot, bool is_first)
+{
+  const double sign = is_first ? 1.0 : -1.0;
+  Record *load = &sums.load[sums.stride * slot];
+  add(load[0], its.force, sign);
+  if (sums.stride == 2) add(load[1], its.moment, 1.0);
+  if (!sums.couple.empty()) add(sums.couple[slot], its.couple, sign);
+}
+
+ParticleRecords cleared(int particles, bool spins, bool couples)
+{
+  ParticleRecords sums;
+  sums.resize(particles, spins, couples);
+  sums.clear(0, particles);
+  return sums;
+}
+
+ParticleRecords slow_sums(const Contacts &contacts, ParticleRecords sums)
+{
+  for (const auto &[slots, its] : contacts) {
+    add_contact(sums, its, slots.first, true);
+    add_contact(sums, its, slots.second, false);
+  }
+  return sums;
+}
+
+struct Kind {
+  int threads;
+  bool two_phases, spins, couples;
+};
+
+class DeferredForcesOf : public testing::TestWithParam<Kind> {
+ protected:
+  /// What a chunk does, in the simplest way.
+  void compute_chunk(int c, const Contacts &contacts, ParticleRecords &sums)
+  {
+    const PairList &list = its.lists[c];
+    std::size_t place = deferred.first_place(c);
+    const std::size_t nowhere = place + list.frontier().size();
+    for (std::uint32_t n = 0; n < list.num_pairs(); n++) {
+      const int first = list.first[n], second = list.second[n];
+      const auto found = contacts.find({first, second});
+      const bool touches = found != contacts.end();
+      const OneContact one = touches ? found->second : OneContact{};
+      const bool at_frontier = list.defers(first) || list.defers(second);
+      if (touches && !list.frontier().empty())
+        deferred.put(at_frontier ? place : nowhere, list.is_foreign(first),
+                     {load4(one.force), load4(one.moment), load4(one.couple)});
+      place += at_frontier;
+      if (!touches) continue;
+      if (!list.is_late() && !list.is_foreign(first)) add_contact(sums, one, first, true);
+      if (!list.is_late()) add_contact(sums, one, second, false);
+    }
+    EXPECT_EQ(place, deferred.first_place(c) + list.frontier().size());
+  }
+
+  RandomSource random{1};
+  Divided its{200, GetParam().threads, GetParam().two_phases, random};
+  DeferredForces deferred;
+};
+
+TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
+{
+  const Kind kind = GetParam();
+  for (int rebuild = 0; rebuild < 2; rebuild++) {
+    deferred.collect(its.order, its.work, kind.threads, [this](int c) { return &its.lists[c]; });
+    deferred.make_room(cleared(1, kind.spins, kind.couples));
+    for (const double touching : {0.6, 0.1, 1.0, 0.5, 0.0}) {    // contacts begin and end
+      const Contacts contacts = random_contacts(its.pairs, touching, random);
+      ParticleRecords sums = cleared(its.order.size(), kind.spins, kind.couples);
+      const ParticleRecords expected = slow_sums(contacts, sums);
+      deferred.begin_step();
+      for (int c = its.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
+      streams_are_done();
+      for (int t = 0; t < kind.threads; t++) deferred.add(t, sums);
+      for (int s = 0; s < its.order.size(); s++) {
+        if (!its.order.owns_slot(s)) continue;
+        for (std::size_t k = sums.stride * s; k < sums.stride * (s + 1); k++)
+          ASSERT_TRUE(same(sums.load[k], expected.load[k])) << s;
+        if (kind.couples) {
+          ASSERT_TRUE(same(sums.couple[s], expected.couple[s])) << s;
+        }
+      }
+    }
+    EXPECT_EQ(deferred.memory_usage() > 0.0, kind.threads > 1 || kind.two_phases);
+    deferred.release();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, DeferredForcesOf,
+                         testing::Values(Kind{1, false, true, false}, Kind{3, false, true, false},
+                                         Kind{1, true, true, true}, Kind{3, true, true, true},
+                                         Kind{3, true, false, false}, Kind{8, true, true, false}));
+
+/// Negative control: another order gives other bits.
+TEST(DeferredForces, OrderOfSumsShows)
+{
+  RandomSource random(2);
+  const Divided its(200, 1, false, random);
+  const Contacts contacts = random_contacts(its.pairs, 1.0, random);
+  const ParticleRecords zero = cleared(its.order.size(), true, false);
+  const ParticleRecords sums = slow_sums(contacts, zero);
+  ParticleRecords others = zero;
+  for (auto it = contacts.rbegin(); it != contacts.rend(); ++it) {
+    add_contact(others, it->second, it->first.first, true);
+    add_contact(others, it->second, it->first.second, false);
+  }
+  EXPECT_FALSE(std::equal(sums.load.begin(), sums.load.end(), others.load.begin(), same));
+}
+
+}    // namespace
