@@ -49,7 +49,7 @@ class Cube {
   {
     make_sites();
     make_plan();
-    records.resize(sites.size(), sites.size(), friction, false);
+    records.resize(sites.size(), friction, false);
     for (Record &record : records.position) record = {{1.0, 2.0, 3.0, 0.5}};
     for (Record &record : records.motion) record = {{0.1, 0.2, 0.3, 2.0}};
     packer.set_plan(plan, slot_of_atom.data());
