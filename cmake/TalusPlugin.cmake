@@ -2,7 +2,8 @@
 # Sets talus_variants, the files that only a portable build has.
 
 # Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI; then those of LAMMPS.
-set(talus_core_folders base laws material particles neighbors history contact body/shape body/motion body/contact)
+set(talus_core_folders base
+  laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion material particles neighbors history contact body/shape body/motion body/contact)
 set(talus_style_folders system pair fix compute comm run)
 
 function(talus_glob result)
@@ -18,10 +19,6 @@ talus_glob(talus_style_sources ${talus_style_folders})
 
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
-if(TALUS_SANITIZE)
-  # A thousand kernels with checks in them: optimized, they take the compiler more than a quarter of an hour.
-  set_source_files_properties(src/laws/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O0;-g1")
-endif()
 
 # talus_add_code(suffix): libraries talus_core and talus_exchange with the flags talus_flags, each name with the suffix.
 function(talus_add_code suffix)

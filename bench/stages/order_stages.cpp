@@ -32,7 +32,7 @@ ContactStep in_records(bool first = false)
 
 LawTable law()
 {
-  return one_law(NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+  return one_law("hertz", "multistep");
 }
 
 /// Talus as it is, on one rank of one or several.

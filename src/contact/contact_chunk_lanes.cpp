@@ -5,7 +5,7 @@
 
 #include "contact/contact_chunk.h"
 
-#include "laws/resistance.h"
+#include "laws/circle_of_intersection.h"
 
 #include <algorithm>
 
@@ -13,10 +13,10 @@ namespace Talus {
 namespace {
 
 constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
-using Lanes = double[3][ContactBatch::width];
+using Lane = double[ContactBatch::width];
 
-/// Four records become lanes k ... k+3 of a vector and of a scalar.
-inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
+/// Four records become lanes k ... k+3 of three numbers and of a fourth.
+inline void spread(Vec4 *rows, Lane *vector, double *fourth, int k)
 {
   transpose(rows[0], rows[1], rows[2], rows[3]);
   for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
@@ -25,7 +25,7 @@ inline void spread(Vec4 *rows, Lanes &vector, double *fourth, int k)
 
 /// Lanes k ... k+3 become the records where(0) ... where(3).
 template <class Where>
-inline void to_records(const Lanes &vector, const double *fourth, int k, Where where)
+inline void to_records(const Lane *vector, const double *fourth, int k, Where where)
 {
   Vec4 rows[4];
   for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
@@ -93,7 +93,7 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
     spread(a, batch.normal, batch.overlap, k);
     spread(b, batch.velocity, batch.inverse_mass, k);
     if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
-    if constexpr (history_kept) spread(d, batch.displacement, batch.sliding, k);
+    if constexpr (history_kept) spread(d, batch.history, batch.history[3], k);
   }
 }
 
@@ -103,7 +103,7 @@ void ContactChunk::gather_impacts(int end)
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = impact(k + q);
-    spread(row, batch.impact, nullptr, k);
+    spread(row, batch.history + 4, batch.history[7], k);
   }
 }
 
@@ -160,15 +160,15 @@ void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
 
 void ContactChunk::keep_history(int end)
 {
-  to_histories(batch.displacement, batch.sliding, end, history.all_records());
+  to_histories(batch.history, batch.history[3], end, history.all_records());
 }
 
 void ContactChunk::keep_impacts(int end)
 {
-  to_histories(batch.impact, nullptr, end, history.all_impacts());
+  to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
 }
 
-void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width],
+void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width],
                                 const double *fourth, int end, Record *records)
 {
   const std::uint32_t *place = history.all_places();
@@ -179,7 +179,7 @@ void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width]
 
 template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)
 {
-  const auto rows_of = [](const Lanes &vector, int k, Record *records) {
+  const auto rows_of = [](const Lane *vector, int k, Record *records) {
     to_records(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
   };
   for (int k = 0; k < end; k += 4) {

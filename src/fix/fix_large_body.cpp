@@ -6,6 +6,7 @@
 #include "fix/region_shape.h"
 
 #include "pair/pair_gran_penalty.h"
+#include "system/command_words.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -106,13 +107,14 @@ void FixLargeBody::parse_keywords(LargeBodyWords &words)
 
 void FixLargeBody::parse_contact_words(LargeBodyWords &words)
 {
-  const CommandWords command{lmp, "fix large/body contact", words.narg, words.arg};
   int lo = 1, hi = atom->ntypes;
   if (words.take("types")) {
     words.about("contact");
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
   }
-  const ContactSpec parsed = parse_contact(command, words.next);
+  Words its = command_words(lmp, "fix large/body contact", words.narg, words.arg, words.next);
+  const ContactSpec parsed = parse_contact(its, 1.0 / force->nktv2p);
+  words.next = its.index();
   for (int type = lo; type <= hi; type++) {
     specs[type] = parsed;
     spec_is_set[type] = true;
@@ -145,17 +147,12 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
         FLERR,
         "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
         "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
-        id, name_of(body.law.normal), type, type, type);
+        id, body.law.normal().name, type, type, type);
   ContactSpec particle = body;
-  particle.young = own->young;
-  particle.poisson = own->poisson;
-  particle.restitution = own->restitution;
-  particle.limit_damping = own->limit_damping;
-  if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
-  if (own->law.resists) {
-    particle.given.mu_roll = own->given.mu_roll;
-    particle.given.mu_twist = own->given.mu_twist;
-  }
+  for (const char *name : {"E", "nu", "e", "mu", "limit_damping"})
+    if (own->given.has(name)) particle.given[name] = own->given.value(name);
+  if (own->law.resists())
+    for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
   return contact_coefficients(body, particle, pair->mix_rule());
 }
 

@@ -17,7 +17,7 @@
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
 #include "fix/large_body_words.h"
-#include "pair/contact_command.h"
+#include "laws/contact_words.h"
 #include "system/effective_masses.h"
 #include "system/record_forces.h"
 
@@ -76,7 +76,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   double contact_period(int type, double mass, double radius);
 
   /// Law and coefficients of contacts of particles of this type with the body.
-  Talus::ContactLaw law_of(int type) const { return specs[type].law; }
+  const Talus::ContactLaw &law_of(int type) const { return specs[type].law; }
   Talus::ContactCoefficients coefficients_of(int type);
 
   void grow_arrays(int) override;
@@ -121,7 +121,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
   LargeBodyMonitor monitor;
-  std::vector<ContactSpec> specs;    // by type
+  std::vector<Talus::ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;

@@ -15,7 +15,7 @@
 #include "lammps_compat.h"
 #include "material/law_book.h"
 #include "pair.h"
-#include "pair/contact_command.h"
+#include "laws/contact_words.h"
 #include "system/contact_monitor.h"
 #include "system/effective_masses.h"
 #include "system/largest_radii.h"
@@ -23,6 +23,7 @@
 #include "system/record_forces.h"
 #include "system/time_step_monitor.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,14 +54,14 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
   /// For large bodies: the material of a type, as set by `pair_coeff type type`, or nullptr.
-  const ContactSpec *own_spec(int type) const;
-  FrictionMix mix_rule() const { return book.mix; }
+  const Talus::ContactSpec *own_spec(int type) const;
+  Talus::FrictionMix mix_rule() const { return book.mix; }
 
   /// For computes: from the next step on energies are accounted for; what the last step found.
   void keep_account() { keeps_account = true; }
   const Talus::EnergyAccount &energy_account() const { return account; }
   const Talus::ContactPipeline &contacts() const { return pipeline; }
-  const LawBook &laws() const { return book; }
+  const Talus::LawBook &laws() const { return book; }
 
   /// Steps that nobody looks at are made without the host's arrays, in the records of the contacts.
   /// The run style says before compute() whether the particles may stay there after it; the
@@ -114,6 +115,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void prepare_laws();
   void warn_small_periods();
 
+  std::int32_t read_number(FILE *fp);
   Talus::TangentialHistory<double> history_of(int i, int j,
                                               Talus::ContactImpact<double> &impact) const;
   void finish_exchange();
@@ -122,7 +124,7 @@ class PairGranPenalty : public Pair, public FixContactStore::Client, public Talu
   void tally(const Talus::ReportedContact &contact);
   void count_contacts();
 
-  LawBook book;
+  Talus::LawBook book;
   bool laws_current = false;
   std::string announced;    // last description of the laws in the log
 

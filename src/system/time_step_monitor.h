@@ -29,10 +29,10 @@ class TimeStepMonitor : protected Pointers {
   void start() { said = true; }
 
   /// Collective, at the start of a run. `contacts` are those of its first step.
-  void judge_start(const LawBook &laws, const Talus::ContactPipeline &contacts);
+  void judge_start(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts);
 
   /// Collective, when the neighbor lists are about to be rebuilt.
-  void look_for_smaller_particles(const LawBook &laws);
+  void look_for_smaller_particles(const Talus::LawBook &laws);
 
  private:
   void judge();

@@ -32,7 +32,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
       shape = std::make_unique<Plane>(point, normal, false);
     laws = GetParam() < 2
                ? mixed_laws()
-               : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
+               : single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, GetParam() == 2);
     contacts.set_laws(laws, true);
     frame.origin = shape->reference_point();
     if (contacts.keeps_history()) contacts.history.grow(p.size());

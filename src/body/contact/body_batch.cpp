@@ -71,10 +71,10 @@ void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &
     batch.circle[lane] = std::sqrt(std::max(2.0 * r * d - d * d, 0.0));
   }
   if (task.with_history) {
-    set_lane(batch.displacement, lane, {history.c[0], history.c[1], history.c[2]});
-    batch.sliding[lane] = history.c[3];
+    for (int n = 0; n < 4; n++) batch.history[n][lane] = history.c[n];
   }
-  if (task.with_impact) set_lane(batch.impact, lane, {impact.c[0], impact.c[1], impact.c[2]});
+  if (task.with_impact)
+    for (int n = 0; n < 4; n++) batch.history[4 + n][lane] = impact.c[n];
   if (++filled == ContactBatch::width) flush(task, law);
 }
 
@@ -84,7 +84,7 @@ void BodyBatch::flush(const BodyTask &task, int law)
   // lanes behind the last contact hold older, finite contacts: computed, but not used
   const int end = (filled + lanes - 1) / lanes * lanes;
   task.laws.kernel(law, task.advance)(batch, 0, end, task.laws.coefficients(), task.dt);
-  const ContactLaw its = task.laws.distinct_law(law);
+  const ContactLaw &its = task.laws.distinct_law(law);
   const bool keeps = task.with_history && task.advance;
   for (int lane = 0; lane < filled; lane++) {
     apply(task, lane, its);
@@ -103,8 +103,11 @@ void BodyBatch::flush(const BodyTask &task, int law)
 void BodyBatch::keep_history(int lane, bool with_impact)
 {
   const int slot = slot_of_lane[lane];
-  const Vector3<double> d = lane_of(batch.displacement, lane), o = lane_of(batch.impact, lane);
-  const Record history{{d.x, d.y, d.z, batch.sliding[lane]}}, impact{{o.x, o.y, o.z, 0.0}};
+  Record history, impact;
+  for (int n = 0; n < 4; n++) {
+    history.c[n] = batch.history[n][lane];
+    impact.c[n] = batch.history[4 + n][lane];
+  }
   if (sparse) {
     sparse->record(slot) = history;
     if (with_impact) sparse->impact(slot) = impact;
@@ -118,7 +121,7 @@ void BodyBatch::keep_history(int lane, bool with_impact)
    spinning resistance act as couples of opposite sign: so forces and torques of particle and body
    balance exactly. */
 
-void BodyBatch::apply(const BodyTask &task, int lane, ContactLaw law)
+void BodyBatch::apply(const BodyTask &task, int lane, const ContactLaw &law)
 {
   const BodyParticleView &view = task.view;
   const BodyFrame &frame = task.frame;
@@ -127,7 +130,7 @@ void BodyBatch::apply(const BodyTask &task, int lane, ContactLaw law)
   const Vector3<double> force = frame.to_space(lane_of(batch.force, lane));
   view.add_force(i, force);
   Vector3<double> resistance{0.0, 0.0, 0.0};    // couple on the particle
-  if (law.resists) {
+  if (law.resists()) {
     const Vector3<double> couple = frame.to_space(lane_of(batch.couple, lane));
     const Vector3<double> moment = frame.to_space(lane_of(batch.moment, lane));
     view.add_torque(i, couple - r * moment);

@@ -73,7 +73,7 @@ class BodyBatch {
 
  private:
   void keep_history(int lane, bool with_impact);
-  void apply(const BodyTask &task, int lane, ContactLaw law);
+  void apply(const BodyTask &task, int lane, const ContactLaw &law);
   void add_virial(const BodyParticleView &view, int atom, const Vector3<double> &branch,
                   const Vector3<double> &force);
   void record(const BodyTask &task, int lane);

@@ -29,6 +29,19 @@ inline EightRecords lanes_of(const Lanes &v, int k)
   return {{load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k]), Vec8{}}};
 }
 
+/// Four values of histories, from `first` on.
+inline EightRecords history_lanes(const ContactBatch &batch, int first, int k)
+{
+  EightRecords values;
+  for (int n = 0; n < 4; n++) values.number[n] = load8(&batch.history[first + n][k]);
+  return values;
+}
+
+inline void store_history(ContactBatch &batch, int first, int k, const EightRecords &values)
+{
+  for (int n = 0; n < 4; n++) store(&batch.history[first + n][k], values.number[n]);
+}
+
 /// A force record whose particle has a settled torque, see ParticleRecords::settle_torque().
 inline Vec4 settled(Vec4 force)
 {
@@ -147,7 +160,7 @@ void StaticBodyBatch::flush()
   end = (filled + lanes - 1) / lanes * lanes;
   std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
   gather();
-  if (law.resists) gather_resistance();
+  if (law.resists()) gather_resistance();
   if (!task->laws.uniform()) gather_coefficients();
   task->laws.kernel(law_index, task->advance)(batch, 0, end, task->laws.coefficients(), task->dt);
   if (task->with_history && task->advance) keep_histories();
@@ -179,7 +192,7 @@ void StaticBodyBatch::gather_spins(int k, const int *slot)
 {
   const ParticleRecords &records = *task->view.records;
   EightRecords spin = to_lanes([&](int q) -> const Record & { return records.spin(slot[q]); });
-  if (law.resists) store_at(batch.relative_omega, k, spin);
+  if (law.resists()) store_at(batch.relative_omega, k, spin);
   for (int d = 0; d < 3; d++) spin.number[d] = load8(&radius[k]) * spin.number[d];
   store_at(batch.spin, k, spin);
   store(&batch.inverse_radius[k], spin.number[3]);
@@ -188,13 +201,11 @@ void StaticBodyBatch::gather_spins(int k, const int *slot)
 void StaticBodyBatch::gather_histories(int k)
 {
   const std::uint32_t *const which = &candidate_of_lane[k];
-  const EightRecords its =
-      to_lanes([&](int q) -> const Record & { return history->record(which[q]); });
-  store_at(batch.displacement, k, its);
-  store(&batch.sliding[k], its.number[3]);
+  store_history(batch, 0, k,
+                to_lanes([&](int q) -> const Record & { return history->record(which[q]); }));
   if (task->with_impact)
-    store_at(batch.impact, k,
-             to_lanes([&](int q) -> const Record & { return history->impact(which[q]); }));
+    store_history(batch, 4, k,
+                  to_lanes([&](int q) -> const Record & { return history->impact(which[q]); }));
 }
 
 /* The body is flat on the scale of the contact: the circle in which it cuts the sphere. */
@@ -241,7 +252,7 @@ EightRecords StaticBodyBatch::torques(int k) const
   EightRecords torque = lanes_of(batch.moment, k);
   for (int d = 0; d < 3; d++) {
     torque.number[d] = -load8(&radius[k]) * torque.number[d];
-    if (law.resists) torque.number[d] = load8(&batch.couple[d][k]) + torque.number[d];
+    if (law.resists()) torque.number[d] = load8(&batch.couple[d][k]) + torque.number[d];
   }
   return torque;
 }
@@ -250,10 +261,8 @@ void StaticBodyBatch::keep_histories()
 {
   for (int k = 0; k < filled; k += lanes) {
     Record its[lanes], impact[lanes];
-    EightRecords displacement = lanes_of(batch.displacement, k);
-    displacement.number[3] = load8(&batch.sliding[k]);
-    to_records(displacement, its);
-    if (task->with_impact) to_records(lanes_of(batch.impact, k), impact);
+    to_records(history_lanes(batch, 0, k), its);
+    if (task->with_impact) to_records(history_lanes(batch, 4, k), impact);
     for (int q = 0; q < std::min(lanes, filled - k); q++) {
       history->record(candidate_of_lane[k + q]) = its[q];
       if (task->with_impact) history->impact(candidate_of_lane[k + q]) = impact[q];
@@ -276,7 +285,7 @@ void StaticBodyBatch::add_load()
     const Vector3<Vec8> arm = vector_at(place, k) - r * normal - about;
     force_sum = force_sum - force;
     torque_sum = torque_sum - cross(arm, force);
-    if (law.resists)
+    if (law.resists())
       torque_sum = torque_sum - (vector_at(batch.couple, k) -
                                  r * (vector_at(batch.moment, k) - cross(normal, force)));
   }
