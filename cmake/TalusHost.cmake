@@ -160,7 +160,7 @@ if(NOT MPI_CXX_FOUND)
 endif()
 talus_check_host_mpi()
 
-# What src/lammps_compat.h cannot tell from the version alone.
+# What src/system/lammps_compat.h cannot tell from the version alone.
 file(STRINGS "${LAMMPS_SOURCE_DIR}/src/pair.h" talus_atom2cut REGEX "virtual double atom2cut")
 set(TALUS_HOST_HAS_ATOM2CUT 0)
 if(talus_atom2cut)

@@ -2,7 +2,6 @@
 
 #include "comm/comm_proxy.h"
 
-#include "comm/proxy_reader.h"
 #include "comm/spin_readers.h"
 #include "exchange/exchange_tags.h"
 
@@ -22,7 +21,8 @@ using namespace Talus;
 /* The host's constructor leaves localsendlist as it is, and its destructor frees it. */
 
 CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
-    CommBrick(lmp, old), transfer(world), host_packer(lmp), sphere_packer(lmp)
+    CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), host_packer(lmp),
+    sphere_packer(lmp)
 {
   localsendlist = nullptr;
 }
@@ -89,7 +89,7 @@ void CommProxy::forward_comm(int dummy)
 {
   finish();
   if (!have_plan) return CommBrick::forward_comm(dummy);
-  begin();
+  begin(nullptr);
   finish();
 }
 
@@ -113,8 +113,7 @@ void CommProxy::finish()
 bool CommProxy::sends_spins() const
 {
   if (!spin_reader.empty()) return true;
-  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
-  return reader && reader->reads_proxy_spins();
+  return system->pair_style_is_alone() && system->reads_proxy_omega();
 }
 
 ProxyPacker &CommProxy::choose_packer()
@@ -203,12 +202,6 @@ double CommProxy::bytes_per_exchange() const
 {
   const int width = own_packing ? (sends_spins() ? 9 : 6) : host_packer.stride();
   return transfer.bytes_per_exchange(width);
-}
-
-double CommProxy::share_overlapped() const
-{
-  const auto *reader = dynamic_cast<const ProxyReader *>(force->pair);
-  return reader ? reader->share_without_proxies() : 0.0;
 }
 
 std::string CommProxy::describe_message() const

@@ -15,17 +15,19 @@
 #define LMP_COMM_PROXY_H
 
 #include "comm/atom_packers.h"
-#include "comm/pending_exchange.h"
 #include "exchange/proxy_exchange.h"
+
+#include "system/granular_system.h"
 
 #include "comm_brick.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class CommProxy : public CommBrick, public Talus::PendingExchange {
+class CommProxy : public CommBrick, public Talus::ProxyUpdates {
  public:
   /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
   CommProxy(class LAMMPS *, class Comm *old);
@@ -58,17 +60,17 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
 
   /// Whether begin() can be called: after borders() until the next exchange(). The same on all
   /// ranks.
-  bool has_plan() const { return have_plan; }
+  bool has_plan() const override { return have_plan; }
 
   /// Starts the update of all proxies; the caller sees to it that nobody reads them before
   /// finish(). Collective among neighbors, like forward_comm(). `packer`: if states are not in the
   /// host's arrays, on all ranks.
-  void begin(Talus::ProxyPacker *packer = nullptr);
+  void begin(Talus::ProxyPacker *packer) override;
 
   /// For the run style, at the start of a run: whether it will call begin().
-  void set_overlap(bool yes) { overlapped_run = yes; }
+  void set_overlap(bool yes) override { overlapped_run = yes; }
 
-  // PendingExchange
+  // ProxyUpdates
   bool overlaps() const override { return overlapped_run; }
   bool pending() const override { return transfer.pending(); }
   void progress() override { transfer.progress(); }
@@ -77,17 +79,15 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   /// Invariant checks: proxies are poisoned with NaN until they are valid, and every state is
   /// compared with the one that the staged exchange brings. The same on all ranks.
   void check(bool yes) { checks = yes; }
-  bool is_checking() const { return checks; }
+  bool is_checking() const override { return checks; }
 
-  const Talus::ExchangePlan &plan() const { return transfer.plan(); }
-  Talus::ExchangeCounters &counters() { return transfer.counters; }
+  const Talus::ExchangePlan &plan() const override { return transfer.plan(); }
+  Talus::ExchangeCounters &counters() override { return transfer.counters; }
   /// Of this rank, for one exchange with the present plan.
-  double messages_per_exchange() const;
-  double bytes_per_exchange() const;
-  /// Share of the owned particles whose forces were computed while an exchange was pending.
-  double share_overlapped() const;
+  double messages_per_exchange() const override;
+  double bytes_per_exchange() const override;
   /// What a proxy's message holds, and why; for people.
-  std::string describe_message() const;
+  std::string describe_message() const override;
 
  private:
   Talus::ProxyPacker &choose_packer();
@@ -100,6 +100,7 @@ class CommProxy : public CommBrick, public Talus::PendingExchange {
   void check_owners();
   void check_states();
 
+  std::shared_ptr<Talus::GranularSystem> system;
   Talus::ProxyExchange transfer;
   Talus::HostPacker host_packer;
   Talus::SpherePacker sphere_packer;

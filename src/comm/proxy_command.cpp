@@ -3,7 +3,7 @@
 #include "comm/proxy_command.h"
 
 #include "comm/comm_proxy.h"
-#include "comm/exchange_report.h"
+#include "system/exchange_report.h"
 
 #include "comm.h"
 #include "comm_brick.h"
@@ -107,6 +107,7 @@ void ProxyCommand::info()
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }
-  const std::string text = describe_exchange(*proxy, world);
+  const std::string text =
+      describe_exchange(*proxy, GranularSystem::of(lmp)->share_without_proxies(), world);
   if (comm->me == 0) utils::logmesg(lmp, text);
 }

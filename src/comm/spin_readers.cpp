@@ -2,14 +2,13 @@
 
 #include "comm/spin_readers.h"
 
-#include "comm/proxy_reader.h"
-
 #include "compute.h"
 #include "fix.h"
 #include "force.h"
 #include "lammps.h"
 #include "modify.h"
 #include "pair.h"
+#include "system/granular_system.h"
 #include "utils.h"
 
 using namespace LAMMPS_NS;
@@ -44,7 +43,7 @@ template <typename List> bool listed(const char *style, const List &list)
 std::string Talus::reader_of_proxy_spins(LAMMPS *lmp)
 {
   const Pair *pair = lmp->force->pair;
-  if (pair && !dynamic_cast<const ProxyReader *>(pair))
+  if (pair && !GranularSystem::of(lmp)->pair_style_is_alone())
     return std::string("pair style ") + lmp->force->pair_style;
   if (lmp->force->bond || lmp->force->kspace) return "a style of bonds or long-range forces";
   for (const auto &fix : lmp->modify->get_fix_list())

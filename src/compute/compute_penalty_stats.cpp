@@ -2,13 +2,8 @@
 
 #include "compute/compute_penalty_stats.h"
 
-#include "comm/comm_proxy.h"
-#include "fix/fix_large_body.h"
-#include "pair/pair_gran_penalty.h"
-
+#include "comm.h"
 #include "error.h"
-#include "force.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -33,7 +28,7 @@ enum {
 }
 
 ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg)
+    Compute(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
 {
   if (narg > 3) error->all(FLERR, 3, "compute penalty/stats: surplus word '{}'", arg[3]);
   if (igroup)
@@ -54,21 +49,13 @@ ComputePenaltyStats::~ComputePenaltyStats()
 
 void ComputePenaltyStats::init()
 {
-  pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
-  if (!pair) error->all(FLERR, "Compute penalty/stats requires one pair style gran/penalty");
-  pair->keep_account();
-  for (FixLargeBody *body : bodies()) body->keep_account();
+  if (!system->has_pair_style())
+    error->all(FLERR, "Compute penalty/stats requires one pair style gran/penalty");
+  system->keep_account();
+  for (Talus::SystemBody *body : system->bodies()) body->keep_account();
   if (started) return;
   started = true;
   before = energies_here();
-}
-
-std::vector<FixLargeBody *> ComputePenaltyStats::bodies() const
-{
-  std::vector<FixLargeBody *> found;
-  for (const auto &ifix : modify->get_fix_by_style("^large/body$"))
-    if (auto *body = dynamic_cast<FixLargeBody *>(ifix)) found.push_back(body);
-  return found;
 }
 
 ComputePenaltyStats::Energies ComputePenaltyStats::energies_here() const
@@ -80,8 +67,8 @@ ComputePenaltyStats::Energies ComputePenaltyStats::energies_here() const
     sum.tangential += account.dissipated_tangential();
     sum.resistance += account.dissipated_resistance();
   };
-  add(pair->energy_account());
-  for (const FixLargeBody *body : bodies()) add(body->energy_account());
+  add(system->energy_account());
+  for (const Talus::SystemBody *body : system->bodies()) add(body->energy_account());
   return sum;
 }
 
@@ -94,17 +81,17 @@ void ComputePenaltyStats::compute_vector()
   mine[NORMAL] = now.normal - before.normal;
   mine[TANGENTIAL] = now.tangential - before.tangential;
   mine[RESISTANCE] = now.resistance - before.resistance;
-  mine[CANDIDATES] = pair->contacts().count_candidates();
-  mine[CONTACTS] = pair->contacts().count_contacts();
-  double largest = pair->contacts().deepest_contact().overlap_ratio;
-  for (const FixLargeBody *body : bodies()) {
+  mine[CANDIDATES] = system->contacts().count_candidates();
+  mine[CONTACTS] = system->contacts().count_contacts();
+  double largest = system->contacts().deepest_contact().overlap_ratio;
+  for (const Talus::SystemBody *body : system->bodies()) {
     mine[CONTACTS] += body->contacts_here();
     largest = std::max(largest, body->largest_overlap_ratio());
   }
-  if (auto *proxy = dynamic_cast<CommProxy *>(comm)) {
-    const Talus::ExchangeCounters &c = proxy->counters();
-    mine[MESSAGES] = proxy->messages_per_exchange();
-    mine[BYTES] = proxy->bytes_per_exchange();
+  if (Talus::ProxyUpdates *proxies = system->proxy_updates()) {
+    const Talus::ExchangeCounters &c = proxies->counters();
+    mine[MESSAGES] = proxies->messages_per_exchange();
+    mine[BYTES] = proxies->bytes_per_exchange();
     mine[EXCHANGE_TIME] = (c.pack_seconds + c.unpack_seconds) / comm->nprocs;
     mine[WAITING_TIME] = c.wait_seconds / comm->nprocs;
   }

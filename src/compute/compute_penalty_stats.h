@@ -8,7 +8,9 @@
 
 #include "compute.h"
 
-#include <vector>
+#include "system/granular_system.h"
+
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -30,9 +32,8 @@ class ComputePenaltyStats : public Compute {
     double elastic = 0.0, normal = 0.0, tangential = 0.0, resistance = 0.0;
   };
   Energies energies_here() const;
-  std::vector<class FixLargeBody *> bodies() const;
 
-  class PairGranPenalty *pair = nullptr;
+  std::shared_ptr<Talus::GranularSystem> system;
   bool started = false;
   Energies before;    ///< when this compute was defined
 };

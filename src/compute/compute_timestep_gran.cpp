@@ -2,16 +2,13 @@
 
 #include "compute/compute_timestep_gran.h"
 
-#include "pair/pair_gran_penalty.h"
-
 #include "error.h"
-#include "force.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 
 ComputeTimestepGran::ComputeTimestepGran(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), critical(lmp)
+    Compute(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)), critical(lmp)
 {
   if (narg > 3) error->all(FLERR, 3, "compute timestep/gran: surplus word '{}'", arg[3]);
   vector_flag = 1;
@@ -27,14 +24,14 @@ ComputeTimestepGran::~ComputeTimestepGran()
 
 void ComputeTimestepGran::init()
 {
-  pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
-  if (!pair) error->all(FLERR, "Compute timestep/gran requires one pair style gran/penalty");
+  if (!system->has_pair_style())
+    error->all(FLERR, "Compute timestep/gran requires one pair style gran/penalty");
 }
 
 void ComputeTimestepGran::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  critical.compute(pair->laws(), pair->contacts(), groupbit);
+  critical.compute(system->laws(), system->contacts(), groupbit);
   const double steps[3] = {critical.contact, critical.rayleigh, critical.hertz};
   for (int n = 0; n < 3; n++) {
     vector[n] = steps[n];

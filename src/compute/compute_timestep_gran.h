@@ -8,6 +8,9 @@
 
 #include "compute.h"
 #include "system/critical_time_step.h"
+#include "system/granular_system.h"
+
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -21,7 +24,7 @@ class ComputeTimestepGran : public Compute {
   void compute_vector() override;
 
  private:
-  class PairGranPenalty *pair = nullptr;
+  std::shared_ptr<Talus::GranularSystem> system;
   CriticalTimeStep critical;
 };
 

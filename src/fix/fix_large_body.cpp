@@ -5,7 +5,6 @@
 #include "fix/large_body_shapes.h"
 #include "fix/region_shape.h"
 
-#include "pair/pair_gran_penalty.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -28,7 +27,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), motion(lmp), monitor(lmp), masses(lmp)
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), motion(lmp), monitor(lmp), masses(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -140,8 +139,7 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
   const ContactSpec &body = specs[type];
   if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
 
-  auto *pair = dynamic_cast<PairGranPenalty *>(force->pair_match("gran/penalty", 1, 0));
-  const ContactSpec *own = pair ? pair->own_spec(type) : nullptr;
+  const ContactSpec *own = system->own_law(type);
   if (!own || !own->is_material())
     error->all(
         FLERR,
@@ -153,7 +151,7 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
     if (own->given.has(name)) particle.given[name] = own->given.value(name);
   if (own->law.resists())
     for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
-  return contact_coefficients(body, particle, pair->mix_rule());
+  return contact_coefficients(body, particle, system->laws().mix);
 }
 
 double FixLargeBody::contact_period(int type, double mass, double radius)
@@ -283,8 +281,7 @@ void FixLargeBody::min_post_force(int vflag)
 BodyParticleView FixLargeBody::view() const
 {
   if (atom->nlocal == 0) return {};
-  auto *keeper = dynamic_cast<PairGranPenalty *>(force->pair);
-  const bool kept = keeper && keeper->holds_state();
+  const bool in_records = system->residence() == Residence::RECORDS;
   return {atom->nlocal,
           atom->x[0],
           atom->v[0],
@@ -296,20 +293,19 @@ BodyParticleView FixLargeBody::view() const
           atom->f[0],
           atom->torque[0],
           nullptr,
-          kept ? &keeper->records() : nullptr,
-          kept ? keeper->slot_of_atom() : nullptr};
+          in_records ? &system->records() : nullptr,
+          in_records ? system->slot_of_atom() : nullptr};
 }
 
-std::string FixLargeBody::hazard_of_records() const
+std::string FixLargeBody::needs_host_arrays()
 {
   if (keeps_account) return "its energies are accounted for";
   if (motion.asks_variables()) return "its variables may read particles";
   const auto *its = dynamic_cast<const RegionShape *>(shape.get());
   if (its && its->moves()) return "its region may read particles";
-  const auto *pair = dynamic_cast<PairGranPenalty *>(force->pair);
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && pair && !pair->turns_particles())
+  if (turns && !system->turns_particles())
     return "it has friction and the contacts between particles have none";
   return "";
 }

@@ -19,14 +19,14 @@
 #include "fix/large_body_words.h"
 #include "laws/contact_words.h"
 #include "system/effective_masses.h"
-#include "system/record_forces.h"
+#include "system/granular_system.h"
 
 #include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLargeBody : public Fix, public Talus::RecordForces {
+class FixLargeBody : public Fix, public Talus::SystemBody {
  public:
   FixLargeBody(class LAMMPS *, int, char **);
   ~FixLargeBody() override;
@@ -55,15 +55,15 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
 
   /// For computes: from the next step on energies are accounted for; what the last step found on
   /// this rank.
-  void keep_account() { keeps_account = true; }
-  const Talus::EnergyAccount &energy_account() const { return account; }
-  double contacts_here() const { return mine.contacts; }
-  double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
+  void keep_account() override { keeps_account = true; }
+  const Talus::EnergyAccount &energy_account() const override { return account; }
+  double contacts_here() const override { return mine.contacts; }
+  double largest_overlap_ratio() const override { return contacts.largest_overlap_ratio(); }
 
-  /// For run style verlet/proxy: "", or why contacts with this body need the host's arrays.
-  std::string hazard_of_records() const;
-
-  // RecordForces
+  // SystemBody
+  int group_bits() const override { return groupbit; }
+  std::string name() const override { return std::string("fix large/body ") + id; }
+  std::string needs_host_arrays() override;
   bool join_step() override;
   void add_to_slots(int thread, int begin, int end) override
   {
@@ -73,11 +73,11 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   /// For the critical time step: stiffness at an overlap of 1 % of the radius, and the effective
   /// mass, are those of a particle of this type, mass and radius against the body. Returns
   /// sqrt(m/k), 0 without stiffness.
-  double contact_period(int type, double mass, double radius);
+  double contact_period(int type, double mass, double radius) override;
 
   /// Law and coefficients of contacts of particles of this type with the body.
-  const Talus::ContactLaw &law_of(int type) const { return specs[type].law; }
-  Talus::ContactCoefficients coefficients_of(int type);
+  const Talus::ContactLaw &law_of(int type) const override { return specs[type].law; }
+  Talus::ContactCoefficients coefficients_of(int type) override;
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -115,6 +115,7 @@ class FixLargeBody : public Fix, public Talus::RecordForces {
   void reduce_exactly();
   int max_packed() const;
 
+  std::shared_ptr<Talus::GranularSystem> system;
   bool two_sided = false;
   bool with_history = false, with_impact = false;
   std::unique_ptr<Talus::LargeBodyShape> shape;

@@ -10,7 +10,6 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
-#include "pair/pair_gran_penalty.h"
 #include "update.h"
 
 #include <cmath>
@@ -23,7 +22,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), gravity(lmp, "Fix nve/sphere/symplectic")
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
+    gravity(lmp, "Fix nve/sphere/symplectic")
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -127,7 +127,6 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
-  keeper = dynamic_cast<PairGranPenalty *>(force->pair);
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())
@@ -190,7 +189,7 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
   const double kick = next_kick();
-  if (keeper && keeper->holds_state())
+  if (system->residence() == Talus::Residence::RECORDS)
     advance_records(kick, dt);
   else
     advance(kick, dt);
@@ -198,17 +197,17 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   particles that the pair style keeps: the same step there
+   particles in the records: the same step there
 ------------------------------------------------------------------------- */
 
 void FixNVESphereSymplectic::advance_records(double kick, double dt)
 {
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
-  keeper->advance({dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia}, groupbit);
+  system->advance({dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia}, groupbit);
 }
 
-std::string FixNVESphereSymplectic::hazard_of_records()
+std::string FixNVESphereSymplectic::needs_host_arrays()
 {
   if (rotates) return "it turns orientations";
   if (group->dynamic[igroup]) return "its group is dynamic";

@@ -42,13 +42,15 @@ FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
 
 #include "constant_gravity.h"
 #include "fix.h"
+#include "system/granular_system.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace LAMMPS_NS {
 
-class FixNVESphereSymplectic : public Fix {
+class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
  public:
   FixNVESphereSymplectic(class LAMMPS *, int, char **);
   int setmask() override;
@@ -56,13 +58,15 @@ class FixNVESphereSymplectic : public Fix {
   void initial_integrate(int) override;
   double compute_scalar() override;
 
-  /// For run style verlet/proxy: "", or why this fix cannot move particles in the records of the
-  /// contacts. Collective.
-  std::string hazard_of_records();
+  // SystemFix
+  std::string needs_host_arrays() override;
+  bool integrates() const override { return true; }
+
   void write_restart(FILE *) override;
   void restart(char *) override;
 
  private:
+  std::shared_ptr<Talus::GranularSystem> system;
   bool half_start = false;
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
@@ -75,8 +79,6 @@ class FixNVESphereSymplectic : public Fix {
 
   void check_fix(Fix *);
   bigint count_members(const std::function<bool(int)> &);
-
-  class PairGranPenalty *keeper = nullptr;    // of particles between steps, see init()
 
   int nmoving() const;
   double next_kick();

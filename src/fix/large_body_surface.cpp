@@ -2,7 +2,7 @@
 
 #include "fix/large_body_surface.h"
 
-#include "lammps_compat.h"
+#include "system/lammps_compat.h"
 
 #include "comm.h"
 #include "domain.h"

@@ -4,6 +4,7 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "laws/contact_words.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -18,7 +19,8 @@ using namespace Talus;
 
 void PairGranPenalty::settings(int narg, char **arg)
 {
-  book.mix = FrictionMix::MINIMUM;
+  FrictionMix &mix = system->laws().mix;
+  mix = FrictionMix::MINIMUM;
   if (narg == 0) return;
   if (strcmp(arg[0], "mix") != 0)
     error->all(FLERR, 1, "pair_style gran/penalty: unknown word '{}', expected mix", arg[0]);
@@ -27,11 +29,11 @@ void PairGranPenalty::settings(int narg, char **arg)
                "pair_style gran/penalty: missing rule after mix: "
                "min, arithmetic or geometric");
   if (strcmp(arg[1], "min") == 0)
-    book.mix = FrictionMix::MINIMUM;
+    mix = FrictionMix::MINIMUM;
   else if (strcmp(arg[1], "arithmetic") == 0)
-    book.mix = FrictionMix::ARITHMETIC;
+    mix = FrictionMix::ARITHMETIC;
   else if (strcmp(arg[1], "geometric") == 0)
-    book.mix = FrictionMix::GEOMETRIC;
+    mix = FrictionMix::GEOMETRIC;
   else
     error->all(FLERR, 2,
                "pair_style gran/penalty: unknown rule '{}' after mix, "
@@ -61,7 +63,7 @@ void PairGranPenalty::coeff(int narg, char **arg)
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
-      book.set(i, j, parsed);
+      system->laws().set(i, j, parsed);
       setflag[i][j] = 1;
       count++;
     }
@@ -70,5 +72,5 @@ void PairGranPenalty::coeff(int narg, char **arg)
                "pair_coeff gran/penalty: no pair of types in '{} {}', write the lower type "
                "first",
                arg[0], arg[1]);
-  laws_current = false;
+  system->laws_have_changed();
 }

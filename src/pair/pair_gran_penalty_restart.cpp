@@ -42,6 +42,7 @@ void PairGranPenalty::write_restart(FILE *fp)
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
+      const LawBook &book = system->laws();
       const std::string bytes = book.is_set(i, j) ? to_bytes(book.spec(i, j)) : "";
       write_number(static_cast<std::int32_t>(bytes.size()), fp);    // 0: mixed
       fwrite(bytes.data(), 1, bytes.size(), fp);
@@ -60,7 +61,7 @@ void PairGranPenalty::read_restart(FILE *fp)
       if (comm->me == 0) utils::sfread(FLERR, bytes.data(), 1, size, fp, nullptr, error);
       MPI_Bcast(bytes.data(), size, MPI_BYTE, 0, world);
       try {
-        book.set(i, j, from_bytes(bytes));
+        system->laws().set(i, j, from_bytes(bytes));
       } catch (const std::runtime_error &problem) {
         error->all(FLERR, "Pair style gran/penalty: types {} and {}: {}", i, j, problem.what());
       }
@@ -72,7 +73,7 @@ void PairGranPenalty::write_restart_settings(FILE *fp)
 {
   write_number(law_file_mark, fp);
   write_number(law_file_version, fp);
-  write_number(static_cast<std::int32_t>(book.mix), fp);
+  write_number(static_cast<std::int32_t>(system->laws().mix), fp);
 }
 
 void PairGranPenalty::read_restart_settings(FILE *fp)
@@ -82,5 +83,5 @@ void PairGranPenalty::read_restart_settings(FILE *fp)
   if (!unmarked.empty()) error->all(FLERR, "Pair style gran/penalty: {}", unmarked);
   const std::string complaint = complaint_about_law_file(mark, read_number(fp));
   if (!complaint.empty()) error->all(FLERR, "Pair style gran/penalty: {}", complaint);
-  book.mix = static_cast<FrictionMix>(read_number(fp));
+  system->laws().mix = static_cast<FrictionMix>(read_number(fp));
 }

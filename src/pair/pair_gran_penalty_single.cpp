@@ -25,31 +25,11 @@ Vector3<double> row(const double *p)
 
 }    // namespace
 
-/* Between two runs histories are with the store. */
-
-TangentialHistory<double> PairGranPenalty::history_of(int i, int j,
-                                                      ContactImpact<double> &impact) const
-{
-  if (pipeline.has_pairs()) {
-    impact = pipeline.impact_of(i, j);
-    return pipeline.history_of(i, j);
-  }
-  const FiledHistories filed = store->histories();
-  if (filed.kept.empty()) return {};
-  const KeptContacts::Found found =
-      filed.kept.find(filed.slot_then(i, i < atom->nlocal), filed.slot_then(j, j < atom->nlocal));
-  if (!found.known) return {};
-  const Record h = found.by_a ? *found.record : mirrored(*found.record);
-  const auto &o = found.impact->c;
-  impact = {o[0], o[1], o[2]};
-  return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
-}
-
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
                                double &fforce)
 {
   fforce = 0.0;
-  if (!laws_current) prepare_laws();
+  const LawTable &laws = system->law_table();
   std::fill(svector, svector + single_extra, 0.0);
   const double ri = atom->radius[i], rj = atom->radius[j];
   if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
@@ -60,19 +40,19 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.overlap = ri + rj - r;
   s.velocity = row(atom->v[i]) - row(atom->v[j]);
   s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
-  s.inverse_mass = 1.0 / masses.mass(i) + 1.0 / masses.mass(j);
+  s.inverse_mass = 1.0 / system->mass_in_contacts(i) + 1.0 / system->mass_in_contacts(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = circle_of_intersection(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
 
   ContactImpact<double> impact;
-  const TangentialHistory<double> history = history_of(i, j, impact);
-  const int row_of_types = pipeline.law_table().row(itype, jtype);
+  const TangentialHistory<double> history = system->history_of(i, j, impact);
+  const int row_of_types = laws.row(itype, jtype);
   const Vector3<double> &d = history.displacement;
   const ContactLanes<double> out = single_contact(
-      pipeline.law_table().law(row_of_types), pipeline.law_table().coefficients(row_of_types), s,
-      update->dt, {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age, impact.begun}});
+      laws.law(row_of_types), laws.coefficients(row_of_types), s, update->dt,
+      {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age, impact.begun}});
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;

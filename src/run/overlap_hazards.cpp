@@ -2,8 +2,7 @@
 
 #include "run/overlap_hazards.h"
 
-#include "comm/comm_proxy.h"
-#include "comm/proxy_reader.h"
+#include "system/granular_system.h"
 
 #include "fix.h"
 #include "force.h"
@@ -16,6 +15,7 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
+using Talus::GranularSystem;
 
 namespace {
 
@@ -30,12 +30,12 @@ bool may_read_proxies(const Fix *fix)
 
 std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
 {
-  if (!dynamic_cast<CommProxy *>(lmp->comm))
-    return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
+  const auto system = GranularSystem::of(lmp);
+  if (!system->proxy_updates()) return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
   if (std::strcmp(lmp->update->integrate_style, "verlet/proxy") != 0)
     return std::string("the run style is ") + lmp->update->integrate_style;
   if (!lmp->force->pair) return "there is no pair style";
-  if (!dynamic_cast<ProxyReader *>(lmp->force->pair))
+  if (!system->pair_style_is_alone())
     return std::string("pair style ") + lmp->force->pair_style +
            " does not wait for proxies: only gran/penalty on its own does";
   if (!pairs_computed) return "'pair_modify compute no' is set";

@@ -2,9 +2,8 @@
 
 #include "run/verlet_proxy.h"
 
-#include "comm/comm_proxy.h"
-#include "comm/exchange_report.h"
 #include "run/overlap_hazards.h"
+#include "system/exchange_report.h"
 
 #include "angle.h"
 #include "atom.h"
@@ -20,7 +19,6 @@
 #include "neighbor.h"
 #include "output.h"
 #include "pair.h"
-#include "pair/pair_gran_penalty.h"
 #include "timer.h"
 #include "update.h"
 
@@ -30,7 +28,7 @@ using namespace LAMMPS_NS;
 using namespace Talus;
 
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
-    Verlet(lmp, 0, nullptr), lists(lmp), records(lmp)
+    Verlet(lmp, 0, nullptr), lists(lmp), system(GranularSystem::of(lmp))
 {
   if (narg == 0) return;
   if (std::strcmp(arg[0], "overlap") != 0)
@@ -41,11 +39,6 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
                "run_style verlet/proxy overlap: expected 'yes' or 'no' instead of '{}'", value);
   if (narg > 2) error->all(FLERR, 3, "run_style verlet/proxy: surplus word '{}'", arg[2]);
   wanted = value == "yes";
-}
-
-CommProxy *VerletProxy::current() const
-{
-  return dynamic_cast<CommProxy *>(comm);
 }
 
 void VerletProxy::init()
@@ -61,7 +54,7 @@ void VerletProxy::init()
   if (comm->me == 0 && !overlaps && has_proxies && hazard != announced)
     error->warning(FLERR, "Run style verlet/proxy: overlap is off: {}", hazard);
   announced = hazard;
-  if (CommProxy *proxy = current()) proxy->set_overlap(overlaps);
+  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->set_overlap(overlaps);
 }
 
 void VerletProxy::setup(int flag)
@@ -80,24 +73,19 @@ void VerletProxy::setup_minimal(int flag)
 
 void VerletProxy::run(int n)
 {
-  if (CommProxy *proxy = current()) {
-    at_start = proxy->counters();
-    proxy->set_overlap(overlaps);
+  if (ProxyUpdates *proxies = system->proxy_updates()) {
+    at_start = proxies->counters();
+    proxies->set_overlap(overlaps);
   }
   lists.start_count();
   lists.ask(nullptr);
-  records.start(pair_compute_flag);
+  system->start_run(pair_compute_flag);
   say_where_steps_are_made();
   // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
-  struct Return {
-    RecordSteps &records;
-    ~Return()
-    {
-      if (!records.pair()) return;
-      records.pair()->keep_state(false);
-      records.pair()->return_state(true);
-    }
-  } at_the_end{records};
+  struct End {
+    GranularSystem &system;
+    ~End() { system.end_run(); }
+  } at_the_end{*system};
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
       update->nsteps = i;
@@ -112,10 +100,10 @@ void VerletProxy::run(int n)
 void VerletProxy::say_where_steps_are_made()
 {
   const std::string line =
-      records.hazard().empty()
+      system->reason_for_host().empty()
           ? "Talus verlet/proxy: steps without output are made in Talus' own records\n"
           : fmt::format("Talus verlet/proxy: every step goes through the arrays of LAMMPS: {}\n",
-                        records.hazard());
+                        system->reason_for_host());
   if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
   said = line;
 }
@@ -135,18 +123,21 @@ void VerletProxy::step()
   const bool anew = lists.decide();    // the host's decide() waits for all ranks
   if (anew) rebuild();
   // nobody reads the host's forces in a step after which particles stay in the records
-  const bool may_stay = records.may_stay(now, eflag || vflag);
-  if (!anew) update_proxies();    // the host's forward_comm() is complete at its end
+  const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;
+  if (!anew) {
+    system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
+    timer->stamp(Timer::COMM);
+  }
   // asked later where particles move on the way through the computation of forces
-  const bool in_records = records.keeper();
+  const bool in_records = system->residence() == Residence::RECORDS;
   if (!in_records) lists.ask(nullptr);
   timer->stamp(Timer::COMM);
 
-  if (!may_stay) force_clear();
+  if (to_host) force_clear();
   timer->stamp();
   compute_forces();
   if (in_records) {
-    const RecordTravel travel = records.pair()->travel();
+    const RecordTravel travel = system->travel();
     lists.ask(&travel);
   }
 
@@ -162,35 +153,19 @@ void VerletProxy::step()
   }
 }
 
-void VerletProxy::update_proxies()
-{
-  ProxyPacker *packer = records.prepare_exchange();
-  CommProxy *proxy = current();
-  if (proxy && proxy->has_plan() && (overlaps || packer)) {
-    proxy->begin(packer);
-    if (overlaps)
-      proxy->counters().overlapped++;
-    else
-      proxy->finish();
-  } else
-    comm->forward_comm();
-  timer->stamp(Timer::COMM);
-}
-
 /* Before the end of a run that nobody saw coming, ghosts included. */
 
 void VerletProxy::bring_back()
 {
-  PairGranPenalty *keeper = records.keeper();
-  if (!keeper) return;
-  keeper->return_state(true);
+  if (system->residence() == Residence::HOST) return;
+  system->return_to_host(true);
   comm->forward_comm();
 }
 
 void VerletProxy::rebuild()
 {
-  if (PairGranPenalty *keeper = records.keeper()) keeper->return_state(false);
-  records.forget_plan();
+  system->return_to_host(false);
+  system->forget_plan();
   timer->stamp(Timer::COMM);
   if (modify->n_pre_exchange) {
     modify->pre_exchange();
@@ -235,7 +210,7 @@ void VerletProxy::compute_forces()
     timer->stamp(Timer::PAIR);
   }
   // the pair style has done that; everything below may read proxies
-  if (CommProxy *proxy = current()) proxy->finish();
+  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->finish();
 
   if (atom->molecular != Atom::ATOMIC) {
     if (force->bond) force->bond->compute(eflag, vflag);
@@ -267,9 +242,9 @@ void VerletProxy::cleanup()
                    "a particle was accelerated to more than the largest speed in one step, or "
                    "moved by something else than its velocity: increase the skin",
                    lists.num_late());
-  if (CommProxy *proxy = current()) {
-    proxy->set_overlap(false);
-    const std::string text = summarize_exchange(proxy->counters().since(at_start), world);
+  if (ProxyUpdates *proxies = system->proxy_updates()) {
+    proxies->set_overlap(false);
+    const std::string text = summarize_exchange(proxies->counters().since(at_start), world);
     if (comm->me == 0) utils::logmesg(lmp, text);
   }
 }

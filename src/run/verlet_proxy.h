@@ -4,18 +4,18 @@
 // while pairs inside the sub-domain are computed, and without a step in which every rank waits for
 // every other. doc/run_style_verlet_proxy.md is the user's page.
 //
-// The only place that begins an exchange without finishing it: the pair style finishes it
-// (comm/pending_exchange.h).
+// The only place that lets an exchange be under way while forces are computed: GranularSystem finishes
+// it.
 
 #ifndef LMP_VERLET_PROXY_H
 #define LMP_VERLET_PROXY_H
 
-#include "exchange/exchange_counters.h"
 #include "run/rebuild_check.h"
-#include "run/record_steps.h"
+#include "system/granular_system.h"
 
 #include "verlet.h"
 
+#include <memory>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -31,16 +31,14 @@ class VerletProxy : public Verlet {
 
  private:
   void step();
-  void update_proxies();
   void bring_back();
   void rebuild();
   void compute_forces();
-  class CommProxy *current() const;
 
   void say_where_steps_are_made();
 
   Talus::RebuildCheck lists;
-  Talus::RecordSteps records;
+  std::shared_ptr<Talus::GranularSystem> system;
   bool wanted = true;                  ///< overlap yes
   bool overlaps = false;               ///< in this run
   Talus::ExchangeCounters at_start;    ///< of the run

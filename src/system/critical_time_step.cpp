@@ -2,14 +2,13 @@
 
 #include "system/critical_time_step.h"
 
-#include "fix/fix_large_body.h"
+#include "system/granular_system.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"
 #include "comm.h"
 #include "force.h"
 #include "math_const.h"
-#include "modify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,19 +141,17 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 {
   double smallest = 0.0;
   std::map<int, Sizes> known{{group, sizes}};
-  for (const auto &ifix : modify->get_fix_by_style("^large/body$")) {
-    auto *body = dynamic_cast<FixLargeBody *>(ifix);
-    if (!body) continue;
-    const int groups = group | body->groupbit;
+  for (SystemBody *body : GranularSystem::of(lmp)->bodies()) {
+    const int groups = group | body->group_bits();
     if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
     const auto &[radius, mass] = known[groups];
     for (int type = 1; type <= types; type++) {
       if (std::isinf(radius[type])) continue;
       smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
       if (looks_at_damping)
-        consider_damping(fmt::format("type {} with fix large/body {}", type, body->id),
-                         body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
-                         mass[type], radius[type]);
+        consider_damping(fmt::format("type {} with {}", type, body->name()), body->law_of(type),
+                         body->coefficients_of(type), 0.01 * radius[type], mass[type],
+                         radius[type]);
     }
   }
   return smallest;

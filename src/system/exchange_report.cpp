@@ -1,14 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "comm/exchange_report.h"
-
-#include "comm/comm_proxy.h"
+#include "system/exchange_report.h"
 
 #include "fmt/format.h"
 
 #include <algorithm>
 
-using namespace LAMMPS_NS;
 using namespace Talus;
 
 namespace {
@@ -38,22 +35,24 @@ Spread Talus::spread_over_ranks(double value, MPI_Comm world)
   return s;
 }
 
-std::string Talus::describe_exchange(CommProxy &comm, MPI_Comm world)
+std::string Talus::describe_exchange(ProxyUpdates &proxies, double share_without_proxies,
+                                     MPI_Comm world)
 {
-  const ExchangePlan &plan = comm.plan();
-  const ExchangeCounters &c = comm.counters();
+  const ExchangePlan &plan = proxies.plan();
+  const ExchangeCounters &c = proxies.counters();
   const double owned = plan.num_owned();
-  std::string text = "comm_proxy: on" + std::string(comm.is_checking() ? ", checking" : "") + "\n";
-  text += "  message: " + comm.describe_message() + "\n";
+  std::string text =
+      "comm_proxy: on" + std::string(proxies.is_checking() ? ", checking" : "") + "\n";
+  text += "  message: " + proxies.describe_message() + "\n";
   text += fmt::format("  {:<34} {:>12} {:>12} {:>12}\n", "per rank", "least", "mean", "largest");
   text += line("owned particles", owned, world);
   text += line("proxies", plan.num_proxies(), world);
   text += line("neighbor ranks", static_cast<double>(plan.neighbors().size()), world);
-  text += line("messages per exchange", comm.messages_per_exchange(), world);
-  text += line("bytes per exchange", comm.bytes_per_exchange(), world);
+  text += line("messages per exchange", proxies.messages_per_exchange(), world);
+  text += line("bytes per exchange", proxies.bytes_per_exchange(), world);
   text += line("share of owned that are no proxies",
                owned > 0.0 ? plan.num_interior() / owned : 1.0, world);
-  text += line("share computed without proxies", comm.share_overlapped(), world);
+  text += line("share computed without proxies", share_without_proxies, world);
   text += line("exchanges so far", c.exchanges, world);
   text += line("  of them overlapped", c.overlapped, world);
   text += line("messages sent", c.messages, world);

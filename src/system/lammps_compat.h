@@ -3,8 +3,8 @@
 // The only place where LAMMPS versions are told apart. Sources include it and use the names
 // defined here; nothing else may test TALUS_LAMMPS_VERSION (yyyymmdd, set by the build).
 
-#ifndef TALUS_LAMMPS_COMPAT_H
-#define TALUS_LAMMPS_COMPAT_H
+#ifndef TALUS_SYSTEM_LAMMPS_COMPAT_H
+#define TALUS_SYSTEM_LAMMPS_COMPAT_H
 
 #if !defined(TALUS_LAMMPS_VERSION)
 #error "link the CMake target lammps_host: it defines TALUS_LAMMPS_VERSION"

@@ -2,7 +2,9 @@
 //
 // What travels with a particle: to another place or rank, to its ghosts, and into restart files.
 
-#include "fix/fix_contact_store.h"
+#include "system/fix_contact_store.h"
+
+#include "system/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -182,7 +184,7 @@ void FixContactStore::agree_on_shared_pairs()
   ghost_entries.assign(static_cast<std::size_t>(atom->nghost) * most_entries * comm_forward, 0.0);
   for (sent_entry = 0; sent_entry < most_entries; sent_entry++) comm->forward_comm(this);
 
-  client->adopt_first_copies(partners, [this](int atom_index, std::int64_t tag) -> const double * {
+  system->adopt_first_copies(partners, [this](int atom_index, std::int64_t tag) -> const double * {
     for (int n = 0; n < most_entries; n++) {
       const double *entry = ghost_entry(atom_index, n);
       if (from_double<std::int64_t>(entry[0]) == tag) return entry + 1;

@@ -2,7 +2,9 @@
 //
 // Particles in memory follow the canonical order while a run lasts.
 
-#include "fix/fix_contact_store.h"
+#include "system/fix_contact_store.h"
+
+#include "system/granular_system.h"
 
 #include "base/in_parallel.h"
 #include "base/nearly_sorted.h"

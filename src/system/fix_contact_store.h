@@ -27,6 +27,10 @@
 #include <functional>
 #include <vector>
 
+namespace Talus {
+class GranularSystem;
+}
+
 namespace LAMMPS_NS {
 
 class FixContactStore : public Fix {
@@ -34,44 +38,16 @@ class FixContactStore : public Fix {
   /// Values of ghost `atom` with the partner `tag`, or nullptr.
   using GhostValues = std::function<const double *(int atom, std::int64_t tag)>;
 
-  /// What the pair style has to provide.
-  class Client {
-   public:
-    /// The pairs are still those of the last step: a look at them, on all ranks.
-    virtual void look_at_pairs() = 0;
-    /// Hands the history of the current pairs over until renumber_pairs(). `particles_may_leave`:
-    /// see KeptContacts.
-    virtual void keep_history(Talus::KeptContacts &kept, bool particles_may_leave) = 0;
-    /// Files the history of the current pairs by particle.
-    virtual void file_history(Talus::PartnerLists &partners) = 0;
-    /// Makes both copies of a pair that is computed twice the same: that of its first particle.
-    virtual void adopt_first_copies(Talus::PartnerLists &partners, const GhostValues &ghosts) = 0;
-    /// A new neighbor list exists: number the pairs anew and fetch their history.
-    virtual void renumber_pairs() = 0;
-    /// The state of the last step is not needed any more: its memory is free for others.
-    virtual void release_records() = 0;
-    /// The same for the pairs: histories are elsewhere, and renumber_pairs() will follow.
-    virtual void release_pairs() = 0;
-    /// Something is still to be asked about the pairs of the last step.
-    virtual bool pairs_are_needed() const = 0;
-    /// The integrator has moved the velocities, and particles are still numbered as in the last
-    /// compute().
-    virtual void velocities_have_moved() = 0;
-
-   protected:
-    ~Client() = default;    // never deleted through this interface
-  };
-
   /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order
   /// (length).
   FixContactStore(class LAMMPS *, int, char **);
   ~FixContactStore() override;
 
-  /// To be called by the pair style right after creation.
-  void serve(Client *c) { client = c; }
+  /// Called by the system right after creation; it outlives this fix.
+  void serve(Talus::GranularSystem *of) { system = of; }
   /// Impact speed and age of contacts are kept as well.
   void keep_impacts(bool yes) { partners.set_values(yes ? 8 : 4); }
-  /// To be called by the pair style whenever it has computed forces: its pairs hold the latest
+  /// To be called by the system whenever it has computed forces: its pairs hold the latest
   /// history, and the lists need not.
   void pairs_are_current();
   /// The same when pairs have been numbered: the slots of owned particles.
@@ -130,7 +106,7 @@ class FixContactStore : public Fix {
   bigint next_refresh(bigint step) const;
   double *ghost_entry(int atom, int n);
 
-  Client *client = nullptr;
+  Talus::GranularSystem *system = nullptr;
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;

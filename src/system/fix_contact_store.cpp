@@ -1,6 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "fix/fix_contact_store.h"
+#include "system/fix_contact_store.h"
+
+#include "system/granular_system.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -88,7 +90,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   store_histories(Occasion::REBUILD);
-  if (client) client->release_pairs();
+  if (system) system->release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
@@ -100,7 +102,7 @@ void FixContactStore::pre_exchange()
 
 void FixContactStore::post_integrate()
 {
-  if (client) client->velocities_have_moved();
+  if (system) system->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()
@@ -129,7 +131,7 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (client) client->renumber_pairs();
+  if (system) system->renumber_pairs();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -167,7 +169,7 @@ void FixContactStore::pairs_are_numbered(const std::vector<int> &slot_of_atom)
 void FixContactStore::post_run()
 {
   store_histories(Occasion::END_OF_RUN);
-  if (client && !kept.empty()) client->release_pairs();
+  if (system && !kept.empty()) system->release_pairs();
   give_sorting_back();
 }
 
@@ -182,15 +184,15 @@ bool FixContactStore::in_periodic_box() const
 
 void FixContactStore::store_histories(Occasion occasion)
 {
-  if (!client || !current) return;
-  client->look_at_pairs();
-  if (occasion != Occasion::RESTART_FILE) client->release_records();
+  if (!system || !current) return;
+  system->look_at_contacts();
+  if (occasion != Occasion::RESTART_FILE) system->release_records();
   const bool last_use = occasion == Occasion::REBUILD ||
-                        (occasion == Occasion::END_OF_RUN && !client->pairs_are_needed());
+                        (occasion == Occasion::END_OF_RUN && !system->account_waits_for_move());
   if (last_use && !in_periodic_box())
-    client->keep_history(kept, comm->nprocs > 1 || occasion == Occasion::END_OF_RUN);
+    system->keep_history(kept, comm->nprocs > 1 || occasion == Occasion::END_OF_RUN);
   else
-    client->file_history(partners);
+    system->file_history(partners);
   // ghosts too: a run may go on without new ones
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) filed_tags[i] = atom->tag[i];
   if (in_periodic_box()) agree_on_shared_pairs();

@@ -1,0 +1,166 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/granular_system.h"
+
+#include "system/fix_contact_store.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <map>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+namespace {
+
+// The same in every process: restart files find fixes by ID.
+constexpr const char *store_id = "TALUS_CONTACTS";
+// Keeps the place of the store in the list of fixes until the first run: only then read_restart has
+// brought what it is to continue with.
+constexpr const char *placeholder_id = "TALUS_CONTACTS_LATER";
+
+}    // namespace
+
+std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
+{
+  static std::map<const LAMMPS *, std::weak_ptr<GranularSystem>> systems;
+  std::shared_ptr<GranularSystem> its = systems[lmp].lock();
+  if (!its) {
+    its.reset(new GranularSystem(lmp));
+    systems[lmp] = its;
+  }
+  return its;
+}
+
+GranularSystem::GranularSystem(LAMMPS *lmp) :
+    Pointers(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
+    packer(lmp)
+{
+  pipeline.emplace();
+}
+
+GranularSystem::~GranularSystem() = default;
+
+/* ---------------------------------------------------------------------- */
+
+void GranularSystem::attach(Pair *style)
+{
+  if (pair)
+    error->all(FLERR, "Pair style gran/penalty can be used only once, also in pair_style hybrid: "
+                      "give each pair of types a law of its own with pair_coeff");
+  pair = style;
+  modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+}
+
+/* A second pair style has never been attached. */
+
+void GranularSystem::detach(const Pair *style)
+{
+  if (style != pair) return;
+  pair = nullptr;
+  store = nullptr;
+  book = LawBook{};
+  laws_current = keeps_account = false;
+  announced.clear();
+  account = EnergyAccount{};
+  pipeline.emplace();
+  for (const auto *internal : {store_id, placeholder_id})
+    if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
+}
+
+bool GranularSystem::pair_style_is_alone() const
+{
+  return pair && force->pair == pair;
+}
+
+void GranularSystem::init_pair_style()
+{
+  neighbors.init(pair);
+  masses.find_fixes();
+  radii.find(masses.frozen_groups());
+  create_store();
+  monitor.start();
+  time_step.start();
+  laws_current = false;    // init_one() will mix what is not set
+}
+
+void GranularSystem::create_store()
+{
+  const char *expected = store ? store_id : placeholder_id;
+  if (!modify->get_fix_by_id(expected))
+    error->all(FLERR,
+               "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
+               "command",
+               expected);
+  if (store) return;
+  // well below the smallest particle of usual scenes: tags decide only where keys are equal
+  const double cell = radii.largest() > 0.0 ? 0.125 * radii.largest() : 1.0;
+  const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
+  store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
+  if (!store) error->all(FLERR, "Pair style gran/penalty: cannot create fix {}", store_id);
+  store->serve(this);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const ContactSpec *GranularSystem::own_law(int type) const
+{
+  return type <= book.num_types() && book.is_set(type, type) ? &book.spec(type, type) : nullptr;
+}
+
+/* Once all pairs of types are known: at the first rebuild of a run, or the first question. */
+
+void GranularSystem::prepare_laws()
+{
+  const LawTable table = book.table();
+  store->keep_impacts(table.has_impact());
+  pipeline->set_laws(table);
+  laws_current = true;
+
+  const std::string description = "Talus gran/penalty: " + book.describe(table);
+  if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
+  announced = description;
+  warn_small_periods();
+}
+
+const LawTable &GranularSystem::law_table()
+{
+  if (!laws_current) prepare_laws();
+  return pipeline->law_table();
+}
+
+void GranularSystem::warn_small_periods()
+{
+  if (!pipeline->keeps_history() || comm->me) return;
+  const double cut = 2.0 * radii.largest();
+  for (int d = 0; d < 3; d++)
+    if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
+      error->warning(
+          FLERR,
+          "Pair style gran/penalty: the box is periodic in {} with a period below "
+          "two diameters: particles that touch from both sides share one contact history",
+          "xyz"[d]);
+}
+
+std::vector<SystemBody *> GranularSystem::bodies() const
+{
+  std::vector<SystemBody *> found;
+  for (const auto &fix : modify->get_fix_list())
+    if (auto *body = dynamic_cast<SystemBody *>(fix)) found.push_back(body);
+  return found;
+}
+
+ProxyUpdates *GranularSystem::proxy_updates() const
+{
+  return dynamic_cast<ProxyUpdates *>(comm);
+}
+
+}    // namespace Talus

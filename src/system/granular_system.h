@@ -1,0 +1,215 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The one owner of what Talus knows of a LAMMPS instance: contact laws, particles in canonical
+// order, pairs, contacts with their history, and the question where the state of the particles
+// lives. The commands (pair style, fixes, computes, communication, run style) hold a reference and
+// call it; they do not know each other.
+//
+//   granular_system.cpp   life, the pair style, laws
+//   step.cpp              one step, from the move to the forces
+//   rebuild.cpp           from old neighbor lists to new ones
+//   residence.cpp         which steps are made in the records
+//   questions.cpp         answers for outputs
+//
+// A step is made in the arrays of the host, or, if only Talus looks at the particles in it, in the
+// records of the contacts (see contact/contact_pipeline.h), with the same bits.
+
+#ifndef TALUS_SYSTEM_GRANULAR_SYSTEM_H
+#define TALUS_SYSTEM_GRANULAR_SYSTEM_H
+
+#include "comm/record_packer.h"
+#include "contact/contact_pipeline.h"
+#include "exchange/exchange_plan.h"
+#include "material/law_book.h"
+#include "system/contact_monitor.h"
+#include "system/effective_masses.h"
+#include "system/largest_radii.h"
+#include "system/neighbor_source.h"
+#include "system/proxy_updates.h"
+#include "system/system_fix.h"
+#include "system/time_step_monitor.h"
+
+#include "lmptype.h"
+#include "pointers.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Fix;
+class FixContactStore;
+class Pair;
+}    // namespace LAMMPS_NS
+
+namespace Talus {
+
+/// Where positions, velocities and forces of the owned particles are up to date.
+enum class Residence { HOST, RECORDS };
+
+class GranularSystem : protected LAMMPS_NS::Pointers {
+ public:
+  /// The system of a LAMMPS instance: made when it is first asked for, and gone with the last
+  /// command that holds it.
+  static std::shared_ptr<GranularSystem> of(LAMMPS_NS::LAMMPS *lmp);
+  ~GranularSystem() override;
+  GranularSystem(const GranularSystem &) = delete;
+  GranularSystem &operator=(const GranularSystem &) = delete;
+
+  // ---- the pair style and its laws
+
+  /// In the constructor of the pair style, and in its destructor. An error if there is one already.
+  void attach(LAMMPS_NS::Pair *pair);
+  void detach(const LAMMPS_NS::Pair *pair);
+  bool has_pair_style() const { return pair != nullptr; }
+  /// The pair style is not part of hybrid: nothing else computes pairs.
+  bool pair_style_is_alone() const;
+  /// In its init_style().
+  void init_pair_style();
+  /// Of types i and j, after init_pair_style() (length).
+  double cutoff(int i, int j) const { return radii.cutoff(i, j); }
+
+  Talus::LawBook &laws() { return book; }
+  const Talus::LawBook &laws() const { return book; }
+  /// After each change of laws().
+  void laws_have_changed() { laws_current = false; }
+  /// The law of a type with itself, as set by pair_coeff, or nullptr.
+  const Talus::ContactSpec *own_law(int type) const;
+
+  // ---- one step
+
+  /// Moves the owned particles of a group in the records, at the latest while the next
+  /// compute_contacts() goes on. Only if residence() is RECORDS.
+  void advance(const RecordStep &step, int group_bits);
+  /// The forces of all contacts between particles. `report`, if given, is called for each of them.
+  void compute_contacts(const std::function<void(const ReportedContact &)> *report);
+  /// How far the particles went in the last step, if it was made in the records.
+  RecordTravel travel() const { return pipeline->travel(); }
+  /// Waits for proxies that are under way.
+  void finish_proxies();
+
+  // ---- residence
+
+  Residence residence() const
+  {
+    return pipeline->holds_state() ? Residence::RECORDS : Residence::HOST;
+  }
+  /// At the start of a run, after setup: finds out whether it may have steps in the records.
+  /// Collective; `pairs_computed`: the run style calls the pair style.
+  void start_run(bool pairs_computed);
+  /// "" if this run has such steps, else the first reason why not, for people.
+  const std::string &reason_for_host() const { return host_reason; }
+  /// Before the forces of a step are computed: where the particles will be after it. `tallied`:
+  /// energies or virials are asked for in it.
+  Residence choose_residence(LAMMPS_NS::bigint step, bool tallied);
+  /// Updates the proxies, after choose_residence(); pending on return if `overlap`.
+  void update_proxies(bool overlap);
+  /// The exchange plan is a new one.
+  void forget_plan() { sent_is_known = false; }
+  /// Brings the particles back to the arrays of the host, if they are in the records, on request
+  /// with the forces that will move them in the next step.
+  void return_to_host(bool with_forces);
+  /// The same at the end of a run, however it ends.
+  void end_run();
+  /// In the records: for forces other than those between particles, in the order of slots.
+  ParticleRecords &records() { return pipeline->records(); }
+  const int *slot_of_atom() const { return pipeline->particle_order().slot_of_atom.data(); }
+
+  // ---- rebuild: called by FixContactStore, in this order
+
+  /// The pairs are still those of the last step, on all ranks.
+  void look_at_contacts();
+  /// Histories go to `kept`, or into lists by particle.
+  void keep_history(KeptContacts &kept, bool particles_may_leave);
+  void file_history(PartnerLists &partners);
+  void adopt_first_copies(PartnerLists &partners,
+                          const std::function<const double *(int, std::int64_t)> &ghost_values);
+  /// Memory that is free for others until renumber_pairs().
+  void release_records();
+  void release_pairs() { pipeline->release(); }
+  /// New neighbor lists are due: finds the pairs, and their histories.
+  void renumber_pairs();
+
+  // ---- energies
+
+  /// For computes: from the next step on energies are accounted for; what the last step found.
+  void keep_account();
+  const EnergyAccount &energy_account() const { return account; }
+  /// Velocities have moved, and particles are still numbered as in the last step.
+  void velocities_have_moved();
+  /// Something is still to be asked about the pairs of the last step.
+  bool account_waits_for_move() const { return account.waits_for_move(); }
+
+  // ---- questions
+
+  const ContactPipeline &contacts() const { return *pipeline; }
+  /// History and impact of a pair of host's indices as i sees it, in a run or between two.
+  TangentialHistory<double> history_of(int i, int j, ContactImpact<double> &impact);
+  /// Laws and coefficients as the kernels have them.
+  const LawTable &law_table();
+  /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
+  double mass_in_contacts(int i) const { return masses.mass(i); }
+  double *mass_override() { return masses.override_or_null(); }
+  /// The direct exchange, or nullptr while the host's is in force.
+  ProxyUpdates *proxy_updates() const;
+  /// Forces between particles depend on the angular velocity of proxies; true as long as it is not
+  /// known. The same on all ranks.
+  bool reads_proxy_omega() const;
+  /// Contacts between particles exert torques.
+  bool turns_particles() const { return pipeline->keeps_spins(); }
+  /// Share of the owned particles of this rank whose forces are computed before a pending update of
+  /// proxies is finished.
+  double share_without_proxies() const;
+  /// All large bodies, in the order of the script.
+  std::vector<SystemBody *> bodies() const;
+  double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
+
+ private:
+  explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
+  void create_store();
+  void prepare_laws();
+  void warn_small_periods();
+
+  ParticleView view() const;
+  std::size_t bodies_that_join();
+  void compute_around_proxies(ContactStep &step);
+  void deliver_positions();
+
+  std::string find_reason_for_host(bool pairs_computed);
+  std::string reason_of_fix(LAMMPS_NS::Fix *fix, int mask);
+  bool is_looked_at(LAMMPS_NS::bigint step) const;
+  void find_sent_particles(const ProxyUpdates *proxies);
+  ProxyPacker *packer_of_records(const ProxyUpdates *proxies);
+
+  // the pair style
+  LAMMPS_NS::Pair *pair = nullptr;
+  LAMMPS_NS::FixContactStore *store = nullptr;
+  Talus::LawBook book;
+  bool laws_current = false;
+  std::string announced;    // last description of the laws in the log
+
+  // particles, pairs, contacts
+  std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
+  LAMMPS_NS::NeighborSource neighbors;
+  LAMMPS_NS::EffectiveMasses masses;
+  LAMMPS_NS::LargestRadii radii;
+  LAMMPS_NS::ContactMonitor monitor;
+  LAMMPS_NS::TimeStepMonitor time_step;
+  bool keeps_account = false;
+  EnergyAccount account;
+
+  // residence
+  std::string host_reason = "no run yet";
+  Residence next_residence = Residence::HOST;
+  std::vector<LAMMPS_NS::Fix *> at_end_of_step;
+  std::vector<SystemBody *> bodies_of_run;
+  std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
+  bool sent_is_known = false, proxies_are_in_records = false;
+  RecordPacker packer;
+};
+
+}    // namespace Talus
+
+#endif

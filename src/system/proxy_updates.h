@@ -1,0 +1,66 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The direct exchange as the system and the run style see it: states of proxies are valid only once
+// nothing is pending. The communication object of the host implements it while `comm_proxy yes` is
+// in force; scripts may replace that object at any time, so GranularSystem::proxy_updates() looks
+// for it anew in every step.
+
+#ifndef TALUS_SYSTEM_PROXY_UPDATES_H
+#define TALUS_SYSTEM_PROXY_UPDATES_H
+
+#include "exchange/exchange_counters.h"
+#include "exchange/exchange_plan.h"
+#include "exchange/proxy_packer.h"
+
+#include <string>
+
+namespace Talus {
+
+class ProxyUpdates {
+ public:
+  /// Whether begin() can be called: after borders() until the next exchange(). The same on all
+  /// ranks.
+  virtual bool has_plan() const = 0;
+  virtual const ExchangePlan &plan() const = 0;
+
+  /// Starts the update of all proxies; the caller sees to it that they are not read before
+  /// finish(). Collective among neighbors. `packer`: if states are not in the arrays of the host, on
+  /// all ranks; else nullptr.
+  virtual void begin(ProxyPacker *packer) = 0;
+
+  /// At the start of a run: whether begin() will be called without finish() in each step.
+  virtual void set_overlap(bool yes) = 0;
+  /// In this run, updates are pending when forces are computed. The same on all ranks.
+  virtual bool overlaps() const = 0;
+
+  /// Proxies must not be read now. The same on all ranks.
+  virtual bool pending() const = 0;
+
+  /// To be called now and then while computing without proxies: MPI moves data only inside its
+  /// calls. Cheap, never waits; does nothing if nothing is pending.
+  virtual void progress() = 0;
+
+  /// Waits for all messages and stores them; afterwards proxies are valid. Does nothing if nothing
+  /// is pending.
+  virtual void finish() = 0;
+
+  /// Every state is compared with the one that the exchange of the host brings: all updates go
+  /// through the arrays of the host.
+  virtual bool is_checking() const = 0;
+
+  // for reports
+
+  virtual ExchangeCounters &counters() = 0;
+  /// Of this rank, for one update with the present plan.
+  virtual double messages_per_exchange() const = 0;
+  virtual double bytes_per_exchange() const = 0;
+  /// What the message of a proxy holds, and why; for people.
+  virtual std::string describe_message() const = 0;
+
+ protected:
+  ~ProxyUpdates() = default;    // never deleted through this interface
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,84 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// From old neighbor lists to new ones. FixContactStore calls these at the host's hooks:
+//
+//   pre_exchange     look_at_contacts(), keep_history() or file_history(), release_*()
+//                    the host migrates particles, which carry their slots or their histories
+//   post_neighbor    renumber_pairs()
+
+#include "system/granular_system.h"
+
+#include "system/fix_contact_store.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "pair.h"
+#include "timer.h"
+
+#include <new>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+void GranularSystem::look_at_contacts()
+{
+  monitor.look(*pipeline);
+  time_step.look_for_smaller_particles(book);
+}
+
+void GranularSystem::keep_history(KeptContacts &kept, bool particles_may_leave)
+{
+  pipeline->keep_history(kept, particles_may_leave);
+}
+
+void GranularSystem::file_history(PartnerLists &partners)
+{
+  pipeline->file_history(partners);
+}
+
+void GranularSystem::adopt_first_copies(
+    PartnerLists &partners,
+    const std::function<const double *(int, std::int64_t)> &ghost_values)
+{
+  pipeline->adopt_first_copies(partners, ghost_values);
+}
+
+void GranularSystem::release_records()
+{
+  if (!account.waits_for_move()) pipeline->release_records();
+}
+
+/* The timer of the host stands at the fixes; the work is that of neighbor lists. */
+
+void GranularSystem::renumber_pairs()
+{
+  if (!laws_current) prepare_laws();
+  timer->stamp(Timer::MODIFY);
+  pipeline->release();
+  const int nall = atom->nlocal + atom->nghost;
+  const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
+  const ProxyUpdates *proxies = proxy_updates();
+  pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
+  try {
+    pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type},
+                       neighbors.find(pair->list));
+    neighbors.release();
+    pipeline->start_pairs(store->histories());
+  } catch (const std::length_error &problem) {
+    error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
+  } catch (const std::bad_alloc &) {
+    error->one(FLERR,
+               "Pair style gran/penalty: not enough memory for the pairs of {} particles and {} "
+               "ghosts of a rank: use more machines",
+               atom->nlocal, atom->nghost);
+  }
+  store->pairs_are_numbered(pipeline->particle_order().slot_of_atom);
+  timer->stamp(Timer::NEIGH);
+  masses.update();
+  if (masses.needed()) comm->forward_comm(pair);
+}
+
+}    // namespace Talus

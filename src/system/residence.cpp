@@ -1,0 +1,156 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Which steps are made in the records: those in which only Talus looks at the particles. The arrays
+// of the host are then neither read nor written. The particles come back to them for every step with
+// output, a fix of the host at its end or new neighbor lists, and at the end of a run, also of one
+// that ends in an error.
+
+#include "system/granular_system.h"
+
+#include "system/fix_contact_store.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+namespace Talus {
+
+void GranularSystem::start_run(bool pairs_computed)
+{
+  at_end_of_step.clear();
+  forget_plan();
+  host_reason = find_reason_for_host(pairs_computed);
+  bodies_of_run = bodies();
+}
+
+std::string GranularSystem::find_reason_for_host(bool pairs_computed)
+{
+  if (!pair_style_is_alone() || !pairs_computed)
+    return "the pair style is not gran/penalty on its own";
+  if (keeps_account) return "energies of contacts are accounted for";
+  if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
+  if (atom->molecular != Atom::ATOMIC || force->kspace)
+    return "there are bonds or long-range forces";
+  if (atom->avec->size_forward != 3)
+    return std::string("radii or more vary with atom style ") + atom->atom_style;
+  if (neighbor->includegroup || atom->firstgroupname)
+    return "neighbor lists or particles are restricted to a group";
+  const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if ((comm->nprocs > 1 || periodic) && !proxy_updates())
+    return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
+
+  int integrators = 0;
+  for (int n = 0; n < modify->nfix; n++) {
+    Fix *fix = modify->fix[n];
+    const auto *ours = dynamic_cast<SystemFix *>(fix);
+    if (ours && ours->integrates()) integrators++;
+    const std::string its = reason_of_fix(fix, modify->fmask[n]);
+    if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
+    if (modify->fmask[n] & END_OF_STEP) at_end_of_step.push_back(fix);
+  }
+  return integrators == 1 ? "" : "it takes one fix nve/sphere/symplectic";
+}
+
+/* A fix of the host that is called in every step may read or change anything. Fix freeze and OMP
+   change nothing that a step in the records needs. */
+
+std::string GranularSystem::reason_of_fix(Fix *fix, int mask)
+{
+  if (auto *ours = dynamic_cast<SystemFix *>(fix)) return ours->needs_host_arrays();
+  if (fix == store || std::strcmp(fix->style, "OMP") == 0 || utils::strmatch(fix->style, "^freeze"))
+    return "";
+  constexpr int in_every_step =
+      INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
+  return mask & in_every_step ? "may look at particles in every step" : "";
+}
+
+Residence GranularSystem::choose_residence(bigint step, bool tallied)
+{
+  const bool stay = host_reason.empty() && !tallied && !is_looked_at(step);
+  next_residence = stay ? Residence::RECORDS : Residence::HOST;
+  if (stay && !sent_is_known) find_sent_particles(proxy_updates());
+  return next_residence;
+}
+
+bool GranularSystem::is_looked_at(bigint step) const
+{
+  if (step >= update->laststep || step >= output->next) return true;
+  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(), [step](const Fix *fix) {
+    return fix->nevery <= 0 || step % fix->nevery == 0;
+  });
+}
+
+void GranularSystem::find_sent_particles(const ProxyUpdates *proxies)
+{
+  sent.clear();
+  if (proxies) {
+    sent = proxies->plan().self().send_index;
+    for (const ExchangeNeighbor &n : proxies->plan().neighbors())
+      sent.insert(sent.end(), n.send_index.begin(), n.send_index.end());
+  }
+  std::sort(sent.begin(), sent.end());
+  sent.erase(std::unique(sent.begin(), sent.end()), sent.end());
+  sent_is_known = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GranularSystem::update_proxies(bool overlap)
+{
+  ProxyUpdates *proxies = proxy_updates();
+  ProxyPacker *from_records = packer_of_records(proxies);
+  if (!proxies || !proxies->has_plan() || !(overlap || from_records)) {
+    comm->forward_comm();    // complete at its end
+    return;
+  }
+  proxies->begin(from_records);
+  if (overlap)
+    proxies->counters().overlapped++;
+  else
+    proxies->finish();
+}
+
+/* From records to records, or nullptr if the states go through the arrays of the host, which then
+   have to show the particles that are sent: a step that is looked at may show its ghosts. */
+
+ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
+{
+  if (residence() == Residence::HOST) return nullptr;
+  if (next_residence == Residence::HOST || !proxies || proxies->is_checking()) {
+    if (!sent.empty()) pipeline->show_state(sent, atom->x[0], atom->v[0], atom->omega[0]);
+    return nullptr;
+  }
+  packer.set(pipeline->records(), slot_of_atom());
+  proxies_are_in_records = true;
+  return &packer;
+}
+
+void GranularSystem::return_to_host(bool with_forces)
+{
+  if (residence() == Residence::HOST) return;
+  const bool any = atom->nlocal > 0;
+  pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
+                         any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,
+                         any && with_forces ? atom->torque[0] : nullptr);
+}
+
+void GranularSystem::end_run()
+{
+  next_residence = Residence::HOST;
+  return_to_host(true);
+}
+
+}    // namespace Talus
