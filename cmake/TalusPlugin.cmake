@@ -61,11 +61,22 @@ function(talus_add_module name exported)
   target_link_options(${name} PRIVATE "LINKER:--version-script=${map}" "LINKER:-z,nodelete")
 endfunction()
 
+# talus_add_styles_module(module suffix sources...): a module with the styles talus_styles${suffix} and more sources.
+function(talus_add_styles_module module suffix)
+  talus_add_module(${module} "talus_register_*" "${PROJECT_SOURCE_DIR}/src/talusstyles.cpp"
+    $<TARGET_OBJECTS:talus_styles${suffix}> ${ARGN})
+  target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+endfunction()
+
 # talus_add_styles(module suffix): the styles, on top of the code with that suffix.
 function(talus_add_styles module suffix)
-  talus_add_module(${module} "talus_register_*" src/talusstyles.cpp ${talus_style_sources})
-  target_include_directories(${module} PRIVATE src)
-  target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+  add_library(talus_styles${suffix} OBJECT ${talus_style_sources})
+  set_target_properties(talus_styles${suffix} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_include_directories(talus_styles${suffix} PRIVATE src)
+  target_link_libraries(talus_styles${suffix} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+  talus_add_styles_module(${module} "${suffix}")
 endfunction()
 
 # The plugin is two files. LAMMPS opens plugins with all symbols bound at once, so one that uses

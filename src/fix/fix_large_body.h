@@ -76,7 +76,7 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   double contact_period(int type, double mass, double radius) override;
 
   /// Law and coefficients of contacts of particles of this type with the body.
-  const Talus::ContactLaw &law_of(int type) const override { return specs[type].law; }
+  Talus::ContactLaw law_of(int type) const override { return specs[type].law; }
   Talus::ContactCoefficients coefficients_of(int type) override;
 
   void grow_arrays(int) override;

@@ -21,8 +21,10 @@ ContactLanes<double> response_of(const ContactLaw &law, const ContactCoefficient
   s.overlap = overlap;
   s.mass = mass_eff;
   s.radius = radius_eff;
-  for (Stage stage : {Stage::NORMAL, Stage::DAMPING})
-    law[stage].one(s, law.coefficients(stage, row), nullptr, 0.0);
+  for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) {
+    double nothing[ContactBatch::history_size] = {};
+    law[stage].one(s, law.coefficients(stage, row), nothing, 0.0);
+  }
   return s;
 }
 
@@ -48,8 +50,8 @@ ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &r
 
   e.friction = s.tangential;
   e.friction_moment = cross(s.normal, s.tangential);
-  e.elastic_tangential =
-      stored(Stage::TANGENTIAL) + stored(Stage::ROLLING) + stored(Stage::TWISTING);
+  e.elastic_tangential = stored(Stage::TANGENTIAL);
+  e.elastic_resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
   e.rolling_moment = s.moment - e.friction_moment;
   e.twisting_torque = s.couple;
   return e;
@@ -76,20 +78,19 @@ ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coef
 double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                          double mass_eff, double radius_eff)
 {
-  return law.normal().exponent * response_of(law, row, overlap, mass_eff, radius_eff).kn;
+  return response_of(law, row, overlap, mass_eff, radius_eff).tangent_n;
 }
 
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                      double mass_eff, double radius_eff)
 {
   const ContactLanes<double> s = response_of(law, row, overlap, mass_eff, radius_eff);
-  const double tangent = law.normal().exponent * s.kn;
-  return tangent > 0.0 ? s.gn / (2.0 * std::sqrt(mass_eff * tangent)) : 0.0;
+  return s.tangent_n > 0.0 ? s.gn / (2.0 * std::sqrt(mass_eff * s.tangent_n)) : 0.0;
 }
 
 void EnergyAccount::begin_step(int num_particles)
 {
-  elastic_normal = elastic_tangential = 0.0;
+  elastic_normal = elastic_tangential = elastic_resistance = 0.0;
   forces.assign(num_particles, Forces{});
 }
 
@@ -107,6 +108,7 @@ void EnergyAccount::add(const ContactEnergy &e, double share, int first, double 
 {
   elastic_normal += share * e.elastic_normal;
   elastic_tangential += share * e.elastic_tangential;
+  elastic_resistance += share * e.elastic_resistance;
   add_end(e, first, first_radius, 1.0);
   if (second >= 0) add_end(e, second, second_radius, -1.0);
 }

@@ -18,7 +18,8 @@ namespace Talus {
 /// couple.
 struct ContactEnergy {
   double elastic_normal = 0.0;        ///< of normal law and cohesion
-  double elastic_tangential = 0.0;    ///< of all others
+  double elastic_tangential = 0.0;    ///< of the tangential law
+  double elastic_resistance = 0.0;    ///< of rolling and twisting
   Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force
   Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
   Vector3<double> friction_moment{0.0, 0.0, 0.0};
@@ -47,8 +48,8 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficie
 /// Running account of the contacts of one rank. Work is that of the time step as the integrator
 /// takes it: force times the mean of the velocities before and after the kick, so that for
 /// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by
-/// friction is the work of the tangential forces less what is stored at the time of asking: what a
-/// contact still stores when it opens is lost, and counted so.
+/// friction or resistance is the work of these forces less what is stored at the time of asking: what
+/// a contact still stores when it opens is lost, and counted so.
 class EnergyAccount {
  public:
   /// Before the contacts of a step: forgets the forces of the last one and what it stored.
@@ -67,10 +68,10 @@ class EnergyAccount {
   void end_step() { forces.clear(); }
   bool waits_for_move() const { return !forces.empty(); }
 
-  double elastic() const { return elastic_normal + elastic_tangential; }
+  double elastic() const { return elastic_normal + elastic_tangential + elastic_resistance; }
   double dissipated_normal() const { return work_normal; }
   double dissipated_tangential() const { return work_tangential - elastic_tangential; }
-  double dissipated_resistance() const { return work_resistance; }
+  double dissipated_resistance() const { return work_resistance - elastic_resistance; }
 
  private:
   struct Forces {
@@ -80,7 +81,7 @@ class EnergyAccount {
   void add_end(const ContactEnergy &e, int particle, double radius, double sign);
 
   std::vector<Forces> forces;    // by particle
-  double elastic_normal = 0.0, elastic_tangential = 0.0;
+  double elastic_normal = 0.0, elastic_tangential = 0.0, elastic_resistance = 0.0;
   double work_normal = 0.0, work_tangential = 0.0, work_resistance = 0.0;
 };
 

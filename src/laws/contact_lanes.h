@@ -35,7 +35,7 @@ template <class Real> struct ContactLanes : ContactState<Real> {
 
   // normal
   Real kn{}, kt{};           ///< force/length: elastic force over overlap, tangential stiffness
-  Real tangent_n{}, tangent_t{};    ///< force/length: what damping by restitution refers to
+  Real tangent_n{}, tangent_t{};    ///< force/length: d elastic/d overlap, and the like for kt
   Real contact_radius{};     ///< length; 0 of laws that have none
   Real elastic{};            ///< normal force without damping
 

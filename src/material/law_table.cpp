@@ -50,7 +50,7 @@ template <class Predicate> bool LawTable::any(Predicate holds) const
 
 bool LawTable::has_friction() const
 {
-  return any([](const ContactLaw &law) { return law.has_friction(); });
+  return any([](const ContactLaw &law) { return law.has_friction() || law.has_history(); });
 }
 
 bool LawTable::has_history() const

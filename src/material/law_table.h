@@ -39,6 +39,7 @@ class LawTable {
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
   bool uniform() const { return one_row; }
+  /// Spins are read. They are wherever something is remembered: contacts without are the fast ones.
   bool has_friction() const;
   bool has_history() const;
   bool has_impact() const;

@@ -45,7 +45,7 @@ LawTable resisting_law()
   named::NamedLaw law{named::Normal::HERTZ, named::Tangential::MULTISTEP};
   law.resists = true;
   for (int i = 1; i <= slow::num_types; i++)
-    for (int j = i; j <= slow::num_types; j++) set(table, i, j, law, c);
+    for (int j = i; j <= slow::num_types; j++) named::set(table, i, j, law, c);
   table.finish();
   return table;
 }

@@ -36,7 +36,7 @@ LawTable resisting(bool delayed)
   c.mu_roll = 0.1;
   c.mu_twist = 0.2;
   for (int i = 1; i <= num_types; i++)
-    for (int j = i; j <= num_types; j++) set(table, i, j, law, c);
+    for (int j = i; j <= num_types; j++) named::set(table, i, j, law, c);
   table.finish();
   return table;
 }

@@ -7,6 +7,7 @@
 #include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
 #include "random_source.h"
+#include "named_law.h"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +85,7 @@ LawTable sliding_law()
   c.gt = 10.0;
   c.mu = 0.4;
   c.force_floor = -1.0e300;
-  set(table, 1, 1, {named::Normal::HERTZ, named::Tangential::MULTISTEP}, c);
+  named::set(table, 1, 1, {named::Normal::HERTZ, named::Tangential::MULTISTEP}, c);
   table.finish();
   return table;
 }
