@@ -7,10 +7,10 @@
 
 #include "particles/canonical_key.h"
 
-#include <stdexcept>
-#include <string>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include <random>
 
@@ -218,7 +218,8 @@ std::vector<Bed> two_ranks(const Bed &bed)
 
 Talus::LawTable one_law(const char *normal, const char *tangential)
 {
-  const bool smooth = std::string(tangential) == "none", has_kt = std::string(tangential) != "dashpot";
+  const bool smooth = std::string(tangential) == "none",
+             has_kt = std::string(tangential) != "dashpot";
   std::vector<const char *> text{normal, "1000.0", "10.0", "tangential", tangential};
   if (!smooth && has_kt) text.push_back("300.0");
   if (!smooth) text.insert(text.end(), {"5.0", "0.5"});

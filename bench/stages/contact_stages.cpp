@@ -160,15 +160,11 @@ void contacts(benchmark::State &state, const char *normal, const char *tangentia
   Prepared p = prepared(state, normal, tangential);
   repeat(state, p, [&] { p.compute(); });
 }
-BENCHMARK_CAPTURE(contacts, hooke_frictionless, "hooke", "none")
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hertz_frictionless, "hertz", "none")
-    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hooke_frictionless, "hooke", "none")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_frictionless, "hertz", "none")->Apply(sizes);
 BENCHMARK_CAPTURE(contacts, hertz_onestep, "hertz", "onestep")->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hooke_multistep, "hooke", "multistep")
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hertz_multistep, "hertz", "multistep")
-    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hooke_multistep, "hooke", "multistep")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_multistep, "hertz", "multistep")->Apply(sizes);
 
 void add_to_host(benchmark::State &state)
 {

@@ -168,8 +168,8 @@ void ContactChunk::keep_impacts(int end)
   to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
 }
 
-void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width],
-                                const double *fourth, int end, Record *records)
+void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth,
+                                int end, Record *records)
 {
   const std::uint32_t *place = history.all_places();
   for (int k = 0; k < end; k += 4)

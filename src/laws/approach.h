@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What every contact begins with: normal velocity, effective mass and radius, and the impact of laws
-// that keep it.
+// What every contact begins with: normal velocity, effective mass and radius, and the impact of
+// laws that keep it.
 
 #ifndef TALUS_LAWS_APPROACH_H
 #define TALUS_LAWS_APPROACH_H
@@ -29,8 +29,8 @@ inline void follow_impact(ContactImpact<Real> &impact, Real normal_velocity, dou
   impact.begun = one;
 }
 
-/// Finds normal_velocity, mass and, if it is needed, radius. Between two infinitely heavy bodies the
-/// effective mass is 0.
+/// Finds normal_velocity, mass and, if it is needed, radius. Between two infinitely heavy bodies
+/// the effective mass is 0.
 template <bool with_radius, class Real> TALUS_INLINE void approach(ContactLanes<Real> &s)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);

@@ -38,8 +38,8 @@ struct ContactBatch {
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {
-    alignas(64) double normal_velocity[width], mass[width], radius[width], impact_speed[width],
-        age[width];
+    alignas(64) double normal_velocity[width], mass[width], radius[width],
+        impact_speed[width], age[width];
     alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],
         contact_radius[width], elastic[width];
     alignas(64) double gn[width], gt[width], normal_force[width], delayed_force[width];

@@ -17,9 +17,9 @@ namespace Talus {
 /// Forces act on the first body, torques on body i are -r_i times a moment, plus or minus the
 /// couple.
 struct ContactEnergy {
-  double elastic_normal = 0.0;        ///< of normal law and cohesion
-  double elastic_tangential = 0.0;    ///< of the tangential law
-  double elastic_resistance = 0.0;    ///< of rolling and twisting
+  double elastic_normal = 0.0;                ///< of normal law and cohesion
+  double elastic_tangential = 0.0;            ///< of the tangential law
+  double elastic_resistance = 0.0;            ///< of rolling and twisting
   Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force
   Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
   Vector3<double> friction_moment{0.0, 0.0, 0.0};
@@ -48,8 +48,8 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficie
 /// Running account of the contacts of one rank. Work is that of the time step as the integrator
 /// takes it: force times the mean of the velocities before and after the kick, so that for
 /// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by
-/// friction or resistance is the work of these forces less what is stored at the time of asking: what
-/// a contact still stores when it opens is lost, and counted so.
+/// friction or resistance is the work of these forces less what is stored at the time of asking:
+/// what a contact still stores when it opens is lost, and counted so.
 class EnergyAccount {
  public:
   /// Before the contacts of a step: forgets the forces of the last one and what it stored.

@@ -54,8 +54,7 @@ template <class Visit> void for_each_stage(const ContactLaw &law, Visit visit)
 /// The law resists by Chrono's rule: to be found before the first stage that asks.
 bool needs_delay(const ContactLaw &law, Stage stage)
 {
-  return law.delayed() &&
-         stage == (law.rolling().acts ? Stage::ROLLING : Stage::TWISTING);
+  return law.delayed() && stage == (law.rolling().acts ? Stage::ROLLING : Stage::TWISTING);
 }
 
 }    // namespace

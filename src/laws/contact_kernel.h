@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The computation of a batch of contacts: the stages of their law, one after the other, each over all
-// contacts; a batch and what stages leave for each other fit into the first cache. For the few laws
-// that nearly everybody uses there is one function with all stages in it (see fused_kernels.h), with
-// the same bits.
+// The computation of a batch of contacts: the stages of their law, one after the other, each over
+// all contacts; a batch and what stages leave for each other fit into the first cache. For the few
+// laws that nearly everybody uses there is one function with all stages in it (see
+// fused_kernels.h), with the same bits.
 
 #ifndef TALUS_LAWS_CONTACT_KERNEL_H
 #define TALUS_LAWS_CONTACT_KERNEL_H
@@ -54,7 +54,8 @@ class ContactKernel {
 
 /// The kernel of a law.
 ///   uniform  every contact has the coefficients table[0]
-///   advance  true in a step of a run: the history advances; false while setting up: it is only read
+///   advance  true in a step of a run: the history advances; false while setting up: it is only
+///   read
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance);
 
 /// The same, stage by stage in any case.

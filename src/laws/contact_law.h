@@ -13,8 +13,8 @@
 
 namespace Talus {
 
-/// Where a contact keeps what its laws remember, see ContactBatch::history. Values that change their
-/// sign with the order of the bodies have the first three places.
+/// Where a contact keeps what its laws remember, see ContactBatch::history. Values that change
+/// their sign with the order of the bodies have the first three places.
 struct HistoryLayout {
   std::array<HistoryPlaces, num_stages> of_stage{};
   HistoryPlaces impact{};    ///< speed, age, and 1 after the first step

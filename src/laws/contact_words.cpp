@@ -14,10 +14,7 @@ namespace {
 
 class Parser {
  public:
-  Parser(Words &words, double pressure_unit) :
-      words(words), reader{words, spec, pressure_unit}
-  {
-  }
+  Parser(Words &words, double pressure_unit) : words(words), reader{words, spec, pressure_unit} {}
 
   ContactSpec parse()
   {
@@ -82,7 +79,10 @@ class Parser {
   void rolling() { named_or_first(Stage::ROLLING); }
   void spinning() { named_or_first(Stage::TWISTING); }
 
-  void adhesion() { read_law(Stage::COHESION, words.choice("adhesion", words_of(Stage::COHESION))); }
+  void adhesion()
+  {
+    read_law(Stage::COHESION, words.choice("adhesion", words_of(Stage::COHESION)));
+  }
 
   void vmin()
   {

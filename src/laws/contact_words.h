@@ -17,8 +17,9 @@
 
 namespace Talus {
 
-/// Reads a law, and stops at the first word that belongs to none. Bad, missing and repeated words end
-/// in Words::fail(). `pressure_unit`: the caller's unit of pressure in terms of force and length.
+/// Reads a law, and stops at the first word that belongs to none. Bad, missing and repeated words
+/// end in Words::fail(). `pressure_unit`: the caller's unit of pressure in terms of force and
+/// length.
 ContactSpec parse_contact(Words &words, double pressure_unit);
 
 /// The keywords that parse_contact() knows, for messages about others.

@@ -5,8 +5,8 @@
 //   normal -> damping -> tangential -> rolling -> twisting -> cohesion,
 //
 // and a pair of materials names one law for each. A law is one file in the folder of its stage: a
-// struct with its equation, its words, the mixing of two materials, and what it remembers, stores and
-// needs; see law_definition.h for what such a struct consists of. law_list.cpp names them all.
+// struct with its equation, its words, the mixing of two materials, and what it remembers, stores
+// and needs; see law_definition.h for what such a struct consists of. law_list.cpp names them all.
 
 #ifndef TALUS_LAWS_LAW_H
 #define TALUS_LAWS_LAW_H
@@ -59,8 +59,8 @@ struct CoefficientName {
 
 struct Law {
   Stage stage;
-  const char *name;     ///< word of scripts, name in restart files and in the log; no two of a stage
-                        ///< have the same
+  const char *name;    ///< word of scripts, name in restart files and in the log; no two of a stage
+                       ///< have the same
   const char *label;    ///< in descriptions of whole laws, nullptr to leave it out
 
   const CoefficientName *coefficients;
@@ -70,25 +70,26 @@ struct Law {
   /// sign if the other body counts as the first (displacements, forces), then those that do not.
   int odd_history, even_history;
 
-  bool acts;                ///< false of laws "none"
-  bool needs_radius;        ///< reads the effective radius, or what follows from it
-  bool reads_impact;        ///< reads impact speed or age; they are kept if the tangential law remembers
-  bool reads_stiffness;     ///< tangential: kt or gt
-  bool has_spring;          ///< tangential: remembers a displacement that stores energy
-  bool is_midpoint;         ///< tangential: second order in the time step
-  bool holds;               ///< rolling: a body at rest is held
-  bool delayed;             ///< rolling, twisting: reads delayed_force
-  double exponent;          ///< normal: elastic force ~ overlap^exponent
-  bool like_stock;          ///< normal: slips by the rule of the stock styles unless another is asked for
-  const char *takes_no_kt, *needs_gt;    ///< normal, damping: why kt or gt has to be, or not be, NULL
+  bool acts;               ///< false of laws "none"
+  bool needs_radius;       ///< reads the effective radius, or what follows from it
+  bool reads_impact;       ///< impact speed or age; kept if the tangential law remembers
+  bool reads_stiffness;    ///< tangential: kt or gt
+  bool has_spring;         ///< tangential: remembers a displacement that stores energy
+  bool is_midpoint;        ///< tangential: second order in the time step
+  bool holds;              ///< rolling: a body at rest is held
+  bool delayed;            ///< rolling, twisting: reads delayed_force
+  double exponent;         ///< normal: elastic force ~ overlap^exponent
+  bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
+  const char *takes_no_kt,
+      *needs_gt;    ///< normal, damping: why kt or gt has to be, or not be, NULL
 
   StageFunction reading, advancing;    ///< history only read; or advanced by this step
   OneContact one;
-  StageFunction delay;      ///< normal: finds delayed_force, by Chrono's rule for this law
+  StageFunction delay;    ///< normal: finds delayed_force, by Chrono's rule for this law
   OneContact one_delay;
 
-  /// Reads words behind the name; nullptr: the law is not chosen by a word of its own but by another
-  /// law's.
+  /// Reads words behind the name; nullptr: the law is not chosen by a word of its own but by
+  /// another law's.
   void (*read)(LawReader &reader);
   /// Coefficients of a contact of two materials to c[0 ... num_coefficients-1].
   void (*mix)(const Mixing &materials, double *c);

@@ -30,7 +30,8 @@
 namespace Talus {
 
 struct LawBase {
-  template <class Real> struct Row {};
+  template <class Real> struct Row {
+  };
   static constexpr CoefficientName coefficients[] = {{nullptr}};    // none
   static Row<double> mix(const Mixing & /*m*/) { return {}; }
   static constexpr std::nullptr_t read = nullptr;
@@ -87,7 +88,8 @@ struct CohesionLaw : LawBase {
   static constexpr bool needs_radius = true;
 };
 
-// ---- from a struct to a Law ----------------------------------------------------------------------
+// ---- from a struct to a Law
+// ----------------------------------------------------------------------
 
 template <class L> inline constexpr int num_coefficients_of()
 {
@@ -140,7 +142,8 @@ TALUS_INLINE void store_vector(LanesOfVector &v, int k, const Vector3<Real> &val
 
 /// The state of the contacts from lane k on, as many as a Real is wide. What is not used afterwards
 /// is not read: compilers see to that.
-template <class Real> TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s)
+template <class Real>
+TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s)
 {
   using In = Memory<Real>;
   s.normal = load_vector<Real>(b.normal, k);
@@ -243,8 +246,7 @@ template <class L, class Real> TALUS_INLINE void find_delayed_force(ContactLanes
   s.delayed_force = s.normal_force * select((damping < one) & (s.age <= duration), zero, one);
 }
 
-template <class L>
-void run_delay(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
+template <class L> void run_delay(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
 {
   for (int k = begin; k < end; k += lanes) {
     ContactLanes<Vec8> s;
@@ -284,7 +286,7 @@ template <class L> constexpr Law make_law()
   constexpr int n = num_coefficients_of<L>();
   static_assert(n == 0 || sizeof(typename L::template Row<double>) == n * sizeof(double),
                 "as many names as coefficients");
-  constexpr bool remembers = history_size_of<L> > 0;
+  constexpr bool remembers = history_size_of < L >> 0;
   Law law{};
   law.stage = L::stage;
   law.name = L::name;

@@ -19,7 +19,9 @@ bool LawBook::can_mix(int i, int j) const
 {
   if (!is_set(i, i) || !is_set(j, j)) return false;
   const ContactSpec &a = spec(i, i), &b = spec(j, j);
-  const auto both_or_none = [&](const char *name) { return a.given.has(name) == b.given.has(name); };
+  const auto both_or_none = [&](const char *name) {
+    return a.given.has(name) == b.given.has(name);
+  };
   return a.law == b.law && (!a.is_material() || (both_or_none("kt") && both_or_none("gt")));
 }
 

@@ -10,8 +10,7 @@
 namespace Talus {
 namespace {
 
-const char *const cure =
-    "write a data file with the Talus that wrote it, or read it with that one";
+const char *const cure = "write a data file with the Talus that wrote it, or read it with that one";
 
 void append(std::string &bytes, const std::string &name)
 {
@@ -94,8 +93,7 @@ ContactSpec from_bytes(const std::string &bytes)
     const Law *its = find_law(stage, name);
     if (!its)
       throw std::runtime_error("the restart file has the " + std::string(name_of(stage)) +
-                               " law '" + name + "' (version " +
-                               std::to_string(law_file_version) +
+                               " law '" + name + "' (version " + std::to_string(law_file_version) +
                                "), which this Talus does not have: " + cure);
     spec.law.choose(stage, its);
   }

@@ -22,8 +22,8 @@ std::string complaint_about_law_file(std::int32_t mark, std::int32_t version);
 /// One pair of materials as a string of bytes.
 std::string to_bytes(const ContactSpec &spec);
 
-/// Its inverse. Throws std::runtime_error, with what is wrong and what to do about it, if the string
-/// names a law that does not exist here or ends early.
+/// Its inverse. Throws std::runtime_error, with what is wrong and what to do about it, if the
+/// string names a law that does not exist here or ends early.
 ContactSpec from_bytes(const std::string &bytes);
 
 }    // namespace Talus

@@ -64,8 +64,8 @@ class LawBits : public testing::TestWithParam<NamedLaw> {
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
-    return {triple_of(batch.force, lane),  triple_of(batch.moment, lane),
-            triple_of(batch.couple, lane), triple_of(batch.history, lane),
+    return {triple_of(batch.force, lane),       triple_of(batch.moment, lane),
+            triple_of(batch.couple, lane),      triple_of(batch.history, lane),
             triple_of(batch.history + 4, lane), batch.history[3][lane]};
   }
 

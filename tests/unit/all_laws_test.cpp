@@ -35,8 +35,7 @@ struct Table {
     for (int r = 0; r < num_rows; r++) {
       const bool limited = random.chance(0.3);
       const ContactSpec a = random_spec(random, law, limited);
-      const ContactSpec b =
-          random.chance(0.5) ? a : random_spec(random, law, random.chance(0.3));
+      const ContactSpec b = random.chance(0.5) ? a : random_spec(random, law, random.chance(0.3));
       const auto rule = static_cast<FrictionMix>(random.below(3));
       composite.push_back(compose(a, b, rule));
       row.push_back(contact_coefficients(a, b, rule));
@@ -197,10 +196,9 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
           kernel(batch, 0, ContactBatch::width, table.row.data(), 1e-5);
           for (int lane = 0; lane < ContactBatch::width; lane++)
             for (int d = 0; d < 3; d++)
-              ASSERT_TRUE(std::isfinite(batch.force[d][lane]) &&
-                          std::isfinite(batch.moment[d][lane]) &&
-                          std::isfinite(batch.couple[d][lane]) &&
-                          std::isfinite(batch.history[d][lane]))
+              ASSERT_TRUE(
+                  std::isfinite(batch.force[d][lane]) && std::isfinite(batch.moment[d][lane]) &&
+                  std::isfinite(batch.couple[d][lane]) && std::isfinite(batch.history[d][lane]))
                   << title(law);
         }
     }

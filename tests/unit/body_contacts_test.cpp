@@ -124,8 +124,8 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
         c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
         const ContactLaw &its = laws.law(row);
-        expected = evaluate(c, named::named_law(its), named::numbers_of(its, laws.coefficients(row)),
-                            dt, advance);
+        expected = evaluate(c, named::named_law(its),
+                            named::numbers_of(its, laws.coefficients(row)), dt, advance);
         touching++;
       }
       const double error = 1e-12 * expected.force_scale;

@@ -133,8 +133,8 @@ class Scene : public TwoSpheres {
     gravity = {0.0, 0.0, -1.0};
     dt = 1e-4;
     law = law_of(c);
-    coefficients = numbers_of(
-        law, contact_coefficients(material(c, 0), material(c, 1), FrictionMix::MINIMUM));
+    coefficients =
+        numbers_of(law, contact_coefficients(material(c, 0), material(c, 1), FrictionMix::MINIMUM));
     if (c.kind == "props") {
       EXPECT_NEAR(coefficients.kn, single_young(), 3e-7 * coefficients.kn);
       coefficients.kn = single_young();
@@ -200,7 +200,8 @@ class Scene : public TwoSpheres {
     const ContactCoefficients row = row_of(its, coefficients);
     for (Stage stage : {Stage::ROLLING, Stage::TWISTING})
       its[stage].one(s, its.coefficients(stage, row), nullptr, dt);
-    const double moment[3] = {s.moment.x, s.moment.y, s.moment.z}, couple[3] = {s.couple.x, s.couple.y, s.couple.z};
+    const double moment[3] = {s.moment.x, s.moment.y, s.moment.z},
+                 couple[3] = {s.couple.x, s.couple.y, s.couple.z};
     for (int d = 0; d < 3; d++) {
       batch.moment[d][0] += moment[d];
       batch.couple[d][0] += couple[d];

@@ -35,8 +35,7 @@ Impact collide(NamedLaw law, double e, bool limited)
   TwoSpheres scene({0.5, 1.0, {0.0, 0.625, 0.0}, {0.0, -1.0, 0.0}},
                    {0.5, 1.0, {0.0, -0.625, 0.0}, {0.0, 1.0, 0.0}});
   scene.law = law;
-  scene.coefficients =
-      numbers_of(law, contact_coefficients(spec, spec, FrictionMix::MINIMUM));
+  scene.coefficients = numbers_of(law, contact_coefficients(spec, spec, FrictionMix::MINIMUM));
   scene.dt = 3e-5;
   int steps = 0;
   for (double time = 0.0; time < 0.5; time += scene.dt) {
@@ -55,10 +54,10 @@ TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 {
   const Normal hooke = Normal::HOOKE_MATERIAL, hertz = Normal::HERTZ_MATERIAL;
   const NamedLaw laws[] = {{hooke, Tangential::ONESTEP},
-                             {hooke, Tangential::MULTISTEP},
-                             {hertz, Tangential::ONESTEP},
-                             {hertz, Tangential::MULTISTEP},
-                             {Normal::PLAINCOULOMB_MATERIAL, Tangential::TANH}};
+                           {hooke, Tangential::MULTISTEP},
+                           {hertz, Tangential::ONESTEP},
+                           {hertz, Tangential::MULTISTEP},
+                           {Normal::PLAINCOULOMB_MATERIAL, Tangential::TANH}};
   std::cout << "e_out - e for e =            0        .25       .5        .75       1      "
                "limited: .25, .5, .75, 1\n"
             << std::setprecision(1) << std::scientific << std::left;
@@ -81,10 +80,8 @@ TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 // The impact speed of a history law enters: elastic contacts last pi sqrt(m/k) with k ~ v^(2/5).
 TEST(ChronoImpact, CharacteristicSpeedIsAtLeastTheImpactSpeed)
 {
-  const double one =
-      collide({Normal::HOOKE_MATERIAL, Tangential::ONESTEP}, 1.0, false).duration;
-  const double two =
-      collide({Normal::HOOKE_MATERIAL, Tangential::MULTISTEP}, 1.0, false).duration;
+  const double one = collide({Normal::HOOKE_MATERIAL, Tangential::ONESTEP}, 1.0, false).duration;
+  const double two = collide({Normal::HOOKE_MATERIAL, Tangential::MULTISTEP}, 1.0, false).duration;
   const double scale = 16.0 / 15.0 * 0.5 * (2e5 / (2.0 * 0.91));    // 16/15 sqrt(R) E
   const auto expected = [=](double v) {
     return std::acos(-1.0) * std::sqrt(0.5 / (scale * std::pow(0.5 * v * v / scale, 0.2)));

@@ -37,8 +37,8 @@ Result result_of(const ContactBatch &batch, int lane)
 }
 
 /// One contact in one lane of a batch whose other lanes hold whatever they held before.
-Result run_in_lane(ContactBatch &batch, int lane, NamedLaw law, const Contact &c,
-                   const Numbers &p, bool uniform, bool advance)
+Result run_in_lane(ContactBatch &batch, int lane, NamedLaw law, const Contact &c, const Numbers &p,
+                   bool uniform, bool advance)
 {
   slow::put(batch, lane, c, 0);
   const int begin = lane / lanes * lanes;
@@ -98,7 +98,8 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
     next();
     const Result kernel = run_in_lane(batch, n % width, law, c, p, true, false);
     const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
-    const ContactLanes<double> query = single_contact(law, row_of(law, p), slow::state_of(c), dt, h);
+    const ContactLanes<double> query =
+        single_contact(law, row_of(law, p), slow::state_of(c), dt, h);
     const Result other{{query.force.x, query.force.y, query.force.z},
                        {query.moment.x, query.moment.y, query.moment.z},
                        c.history,

@@ -56,7 +56,8 @@ double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, cons
   }
   const Vector history = slow::lane_of(batch.history, lane);
   worst = std::max(worst, error_of(history, expected.history, expected.history_scale));
-  if (expected.clear_case && (batch.history[3][lane] > 0.0) != expected.sliding) return slow::infinity;
+  if (expected.clear_case && (batch.history[3][lane] > 0.0) != expected.sliding)
+    return slow::infinity;
   return worst;
 }
 
@@ -67,8 +68,8 @@ std::string describe(const Contact &c, const Outcome &expected, const ContactBat
        << c.mass[1] << " radii " << c.radius[0] << " " << c.radius[1] << "\n";
   for (int d = 0; d < 3; d++)
     text << "force " << batch.force[d][lane] << " expected " << expected.force[d] << " history "
-         << batch.history[d][lane] << " expected " << expected.history[d] << " was "
-         << c.history[d] << "\n";
+         << batch.history[d][lane] << " expected " << expected.history[d] << " was " << c.history[d]
+         << "\n";
   return text.str();
 }
 
@@ -164,7 +165,8 @@ TEST(ContactLaw, ForceAtLimitHasTheLengthOfTheLimit)
       const Numbers p = slow::random_coefficients(random, false);
       const Contact c = slow::random_contact(random, law, p);
       const RememberedValues h{{c.history[0], c.history[1], c.history[2]}};
-      const ContactLanes<double> out = single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
+      const ContactLanes<double> out =
+          single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       const double limit = p.mu * std::fabs(out.normal_force);
       const double size = std::sqrt(dot(out.tangential, out.tangential));
       ASSERT_LE(size, limit * (1.0 + 1e-14));
@@ -184,7 +186,8 @@ TEST(ContactLaw, CoincidentCentersExertNoForce)
       c.normal = {};
       c.overlap = 0.0;
       const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
-      const ContactLanes<double> out = single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
+      const ContactLanes<double> out =
+          single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       ASSERT_EQ(dot(out.force, out.force), 0.0) << slow::title(law);
       ASSERT_EQ(dot(out.moment, out.moment), 0.0) << slow::title(law);
     }

@@ -89,7 +89,9 @@ TEST(Mixing, AdhesionTakesTheMinimumAndSpeedsTheMaximum)
   const struct {
     Adhesion kind;
     const char *name;
-  } kinds[] = {{Adhesion::CONSTANT, "adhesive force"}, {Adhesion::DMT, "adhesion W"}, {Adhesion::PERKO, "adhesion S"}};
+  } kinds[] = {{Adhesion::CONSTANT, "adhesive force"},
+               {Adhesion::DMT, "adhesion W"},
+               {Adhesion::PERKO, "adhesion S"}};
   for (const auto &[kind, name] : kinds) {
     NamedLaw law{Normal::PLAINCOULOMB_MATERIAL, Tangential::TANH, true};
     law.adhesion = kind;
@@ -136,18 +138,17 @@ TEST(Mixing, ModuliByComplianceRestitutionByMinimum)
 
 TEST(Mixing, DampingIsLimitedIfEitherAsksForIt)
 {
-  for (Normal law : {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL,
-                        Normal::FLORES_MATERIAL, Normal::PLAINCOULOMB_MATERIAL}) {
+  for (Normal law : {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL, Normal::FLORES_MATERIAL,
+                     Normal::PLAINCOULOMB_MATERIAL}) {
     const ContactSpec a = material({law}, 2e4, 0.6, 0.3);
     ContactSpec b = a;
-    EXPECT_EQ(mixed(a, b).force_floor,
-              -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(mixed(a, b).force_floor, -std::numeric_limits<double>::infinity());
     b.given["limit_damping"] = 1.0;
     const Numbers c = mixed(a, b);
     EXPECT_EQ(c.force_floor, 0.0);
     const double expected = law == Normal::HOOKE_MATERIAL    ? linear_damping_factor_limited(0.6)
                             : law == Normal::FLORES_MATERIAL ? flores_damping_factor(0.6)
-                                                                : hertz_damping_factor_limited(0.6);
+                                                             : hertz_damping_factor_limited(0.6);
     EXPECT_EQ(c.gn, expected);
   }
 }
@@ -156,8 +157,7 @@ TEST(Mixing, DampingIsLimitedIfEitherAsksForIt)
 // gt the factor of sqrt(S_t m) (hooke/material: sqrt(kn m)).
 TEST(Mixing, NumbersReplaceWhatTheMaterialGives)
 {
-  for (Normal law :
-       {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL, Normal::FLORES_MATERIAL}) {
+  for (Normal law : {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL, Normal::FLORES_MATERIAL}) {
     ContactSpec a = material({law}, 2e4, 0.6, 0.3), b = a;
     const Numbers plain = mixed(a, b);
     a.given["kt"] = 100.0;

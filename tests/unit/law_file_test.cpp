@@ -36,8 +36,10 @@ ContactSpec read(const std::string &text, double pressure_unit = 1.0)
 const char *const examples[] = {
     "hooke 1e4 20.0",
     "hertz 3e4 50.0 tangential multistep NULL 7.0 0.5 midpoint",
-    "hertz/material 1e5 0.6 0.3 tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.2 adhesion dmt 5.0",
-    "flores/material 1e5 0.6 0.3 2.0 tangential multistep 1e4 NULL 0.5 stock rolling 0.1 delayed limit_damping",
+    "hertz/material 1e5 0.6 0.3 tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.2 "
+    "adhesion dmt 5.0",
+    "flores/material 1e5 0.6 0.3 2.0 tangential multistep 1e4 NULL 0.5 stock rolling 0.1 delayed "
+    "limit_damping",
     "plaincoulomb 2e4 5.0 0.5 vmin 0.01 0.02 0.03 adhesion perko 8.0",
     "hooke/material 1e5 0.6 0.3 2.0 tangential dashpot NULL 0.5 spinning 0.1 adhesion constant 0.0",
 };
@@ -62,7 +64,8 @@ TEST(LawFile, NamesTheLawThatIsMissing)
     from_bytes(bytes);
     FAIL();
   } catch (const std::runtime_error &problem) {
-    EXPECT_NE(std::string(problem.what()).find("normal law 'hurts' (version 1), which this Talus does not have"),
+    EXPECT_NE(std::string(problem.what())
+                  .find("normal law 'hurts' (version 1), which this Talus does not have"),
               std::string::npos);
   }
 }
@@ -85,14 +88,19 @@ TEST(LawFile, NoticesThatItEndsEarly)
 TEST(LawFile, RefusesOtherVersions)
 {
   EXPECT_EQ(complaint_about_law_file(law_file_mark, law_file_version), "");
-  EXPECT_NE(complaint_about_law_file(0, 0).find("before they had versions, this Talus reads version 1: write a data file"),
+  EXPECT_NE(complaint_about_law_file(0, 0).find(
+                "before they had versions, this Talus reads version 1: write a data file"),
             std::string::npos);
-  EXPECT_NE(complaint_about_law_file(law_file_mark, 7).find("of version 7, this Talus reads version 1"), std::string::npos);
+  EXPECT_NE(
+      complaint_about_law_file(law_file_mark, 7).find("of version 7, this Talus reads version 1"),
+      std::string::npos);
 }
 
 TEST(Words, ChooseTheRuleOfSlip)
 {
-  const auto law = [](const std::string &words) { return std::string(read(words).law.tangential().name); };
+  const auto law = [](const std::string &words) {
+    return std::string(read(words).law.tangential().name);
+  };
   const std::string hooke = "hooke 1 1 tangential multistep NULL NULL 0.5 ",
                     material = "hertz/material 1e5 0.6 0.3 tangential multistep NULL NULL 0.5 ";
   EXPECT_EQ(law(hooke), "multistep");

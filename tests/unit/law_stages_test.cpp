@@ -40,7 +40,8 @@ TEST(FusedKernels, AreTheirStages)
       const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
       const double dt = random.decade(-6.0, -3.0);
       fused.clear();
-      for (int lane = 0; lane < ContactBatch::width; lane++) put(fused, lane, random_contact(random, its, mixed, dt), 0);
+      for (int lane = 0; lane < ContactBatch::width; lane++)
+        put(fused, lane, random_contact(random, its, mixed, dt), 0);
       staged = fused;
       const int end = lanes * (1 + n % (ContactBatch::width / lanes));
       contact_kernel(law, true, true)(fused, 0, end, &row, dt);

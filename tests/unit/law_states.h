@@ -33,8 +33,7 @@ inline std::vector<NamedLaw> law_pairs()
   for (int n = 0; n < named::num_normal_laws; n++)
     for (int t = 0; t < named::num_tangential_laws; t++) {
       const NamedLaw law{static_cast<Normal>(n), static_cast<Tangential>(t)};
-      if (is_plaincoulomb(law.normal) == (law.tangential == Tangential::TANH))
-        laws.push_back(law);
+      if (is_plaincoulomb(law.normal) == (law.tangential == Tangential::TANH)) laws.push_back(law);
     }
   return laws;
 }
@@ -83,7 +82,8 @@ inline ContactSpec random_spec(RandomSource &random, NamedLaw law, bool limited)
     given["e"] = random.chance(0.3) ? special[random.below(5)] : random.uniform(0.0, 1.0);
     given["vchar"] = random.decade(-3.0, 1.0);
     // the grammar's rule
-    if (with_kt && law.normal != Normal::HOOKE_MATERIAL) given["kt"] = given["E"] * random.uniform(0.5, 2.0);
+    if (with_kt && law.normal != Normal::HOOKE_MATERIAL)
+      given["kt"] = given["E"] * random.uniform(0.5, 2.0);
     if (with_gt) given["gt"] = zero_or(random.uniform(0.1, 2.0));
   } else {
     given["kn"] = random.decade(3.0, 7.0);
@@ -238,8 +238,8 @@ inline Talus::ContactState<double> state_of(const Contact &c)
 inline Talus::RememberedValues remembered(const Contact &c)
 {
   const auto d = [](Number n) { return static_cast<double>(n); };
-  return {{d(-c.history[0]), d(-c.history[1]), d(-c.history[2]), c.sliding ? 1.0 : 0.0, d(c.impact_speed), d(c.age),
-           c.begun ? 1.0 : 0.0}};
+  return {{d(-c.history[0]), d(-c.history[1]), d(-c.history[2]), c.sliding ? 1.0 : 0.0,
+           d(c.impact_speed), d(c.age), c.begun ? 1.0 : 0.0}};
 }
 
 using Lanes = double[3][Talus::ContactBatch::width];

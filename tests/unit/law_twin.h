@@ -123,8 +123,12 @@ inline Composite compose(const Talus::ContactSpec &a, const Talus::ContactSpec &
     c.kt = mean_of("kt");
     c.gt = mean_of("gt");
   } else {
-    const auto kt = [](const auto &s) { return s.has("kt") ? Number(s.value("kt")) : Number(2) / 7 * s.value("kn"); };
-    const auto gt = [](const auto &s) { return s.has("gt") ? Number(s.value("gt")) : Number(s.value("gn")) / 2; };
+    const auto kt = [](const auto &s) {
+      return s.has("kt") ? Number(s.value("kt")) : Number(2) / 7 * s.value("kn");
+    };
+    const auto gt = [](const auto &s) {
+      return s.has("gt") ? Number(s.value("gt")) : Number(s.value("gn")) / 2;
+    };
     c.kn = mean_of("kn");
     c.gn = mean_of("gn");
     c.kt = mean(kt(p), kt(q));
@@ -281,8 +285,7 @@ inline Step step_half_way(const Contact &c, Number v_n, Number dt)
           lasted};
 }
 
-inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Number dt,
-                        bool advance)
+inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Number dt, bool advance)
 {
   Outcome out;
   const Number mass = reduced(c.mass[0], c.mass[1]), radius = reduced(c.radius[0], c.radius[1]);
@@ -344,8 +347,8 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
     bool moved = norm(s) > 0;
     const bool slider =
         law.tangential == Tangential::SLIDER || law.tangential == Tangential::SLIDER_MIDPOINT;
-    const bool midpoint = law.tangential == Tangential::MIDPOINT ||
-                          law.tangential == Tangential::SLIDER_MIDPOINT;
+    const bool midpoint =
+        law.tangential == Tangential::MIDPOINT || law.tangential == Tangential::SLIDER_MIDPOINT;
     Number lasted = dt;
     if (advance && !midpoint) {
       s = s + dt * v_t;
@@ -460,7 +463,8 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
   }
 
   Number pull = 0;
-  if (law.adhesion != Adhesion::NONE) pull = p.adhesion + p.dmt * std::sqrt(radius) + p.perko * radius;
+  if (law.adhesion != Adhesion::NONE)
+    pull = p.adhesion + p.dmt * std::sqrt(radius) + p.perko * radius;
   out.force = Number(-1) * (on_two - pull * c.normal);
   out.force_scale = normal_scale + scale_t + pull;
   return out;

@@ -6,8 +6,8 @@
 #include "body/contact/body_contacts.h"
 #include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
-#include "random_source.h"
 #include "named_law.h"
+#include "random_source.h"
 
 #include <gtest/gtest.h>
 

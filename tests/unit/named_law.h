@@ -44,14 +44,21 @@ inline constexpr int num_normal_laws = 8, num_tangential_laws = 8, num_adhesions
 
 inline const char *name_of(Normal law)
 {
-  const char *const names[] = {"hooke",          "hertz",          "flores",          "plaincoulomb",
-                               "hooke/material", "hertz/material", "flores/material", "plaincoulomb/material"};
+  const char *const names[] = {
+      "hooke",          "hertz",          "flores",          "plaincoulomb",
+      "hooke/material", "hertz/material", "flores/material", "plaincoulomb/material"};
   return names[static_cast<int>(law)];
 }
 inline const char *name_of(Tangential law)
 {
-  const char *const names[] = {"none", "dashpot", "onestep", "multistep", "tanh", "multistep midpoint",
-                               "multistep slider", "multistep slider midpoint"};
+  const char *const names[] = {"none",
+                               "dashpot",
+                               "onestep",
+                               "multistep",
+                               "tanh",
+                               "multistep midpoint",
+                               "multistep slider",
+                               "multistep slider midpoint"};
   return names[static_cast<int>(law)];
 }
 inline const char *name_of(Adhesion law)
@@ -75,7 +82,9 @@ struct NamedLaw {
   ContactLaw law() const
   {
     ContactLaw its;
-    const auto choose = [&](Stage stage, const char *name) { its.choose(stage, Talus::find_law(stage, name)); };
+    const auto choose = [&](Stage stage, const char *name) {
+      its.choose(stage, Talus::find_law(stage, name));
+    };
     choose(Stage::NORMAL, name_of(normal));
     choose(Stage::DAMPING, damping_of(normal));
     choose(Stage::TANGENTIAL, name_of(tangential));
@@ -88,7 +97,10 @@ struct NamedLaw {
 
   // what the laws say of themselves, as the equations have it
   bool has_friction() const { return tangential != Tangential::NONE || resists; }
-  bool has_history() const { return tangential == Tangential::MULTISTEP || tangential >= Tangential::MIDPOINT; }
+  bool has_history() const
+  {
+    return tangential == Tangential::MULTISTEP || tangential >= Tangential::MIDPOINT;
+  }
   bool has_impact() const
   {
     const bool speed = normal == Normal::HOOKE_MATERIAL || normal == Normal::FLORES_MATERIAL;
@@ -123,12 +135,14 @@ inline double &number(Numbers &n, const std::string &name)
 }
 
 /// visit(number of the row, its place among the Numbers)
-template <class Row, class Visit> void for_each_coefficient(const ContactLaw &law, Row &row, Numbers &numbers, Visit visit)
+template <class Row, class Visit>
+void for_each_coefficient(const ContactLaw &law, Row &row, Numbers &numbers, Visit visit)
 {
   int place = 0;
   for (int s = 0; s < Talus::num_stages; s++) {
     const Talus::Law &its = law[static_cast<Stage>(s)];
-    for (int n = 0; n < its.num_coefficients; n++) visit(row.c[place++], number(numbers, its.coefficients[n].name));
+    for (int n = 0; n < its.num_coefficients; n++)
+      visit(row.c[place++], number(numbers, its.coefficients[n].name));
   }
 }
 
@@ -151,7 +165,8 @@ inline NamedLaw named_law(const ContactLaw &law)
 {
   NamedLaw its;
   for (int n = 0; n < num_normal_laws; n++)
-    if (name_of(static_cast<Normal>(n)) == std::string(law.normal().name)) its.normal = static_cast<Normal>(n);
+    if (name_of(static_cast<Normal>(n)) == std::string(law.normal().name))
+      its.normal = static_cast<Normal>(n);
   for (int t = 0; t < num_tangential_laws; t++)
     if (name_of(static_cast<Tangential>(t)) == std::string(law.tangential().name))
       its.tangential = static_cast<Tangential>(t);

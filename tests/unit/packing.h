@@ -134,8 +134,9 @@ class BruteForce {
     for (const Neighbors &n : candidates(p, 0.0, weighted)) {
       const Contact c = contact_of(p, n.i, n.j);
       const int row = laws.row(p.type[n.i], p.type[n.j]);
-      const Outcome out = evaluate(c, named::named_law(laws.law(row)),
-                                   named::numbers_of(laws.law(row), laws.coefficients(row)), dt, advance);
+      const Outcome out =
+          evaluate(c, named::named_law(laws.law(row)),
+                   named::numbers_of(laws.law(row), laws.coefficients(row)), dt, advance);
       // the overlap is a small difference: what that costs
       const double condition =
           c.overlap > 0.0 ? 1.0 + (p.radius[n.i] + p.radius[n.j]) / c.overlap : 1.0;

@@ -50,8 +50,7 @@ inline named::Numbers random_coefficients(RandomSource &random, bool limit_dampi
 /// Velocities and history are in proportion to overlap, collision time and damping, so that
 /// contacts stick and slide, approach and separate, in comparable numbers; one in three is
 /// degenerate in some way.
-inline Contact random_contact(RandomSource &random, named::NamedLaw law,
-                              const named::Numbers &p)
+inline Contact random_contact(RandomSource &random, named::NamedLaw law, const named::Numbers &p)
 {
   Contact c;
   c.normal = random.unit_vector();

@@ -86,8 +86,7 @@ Impact impact_of(Normal normal, double e, bool limited)
 TEST(Restitution, IsTheOneAskedForInAnIndependentIntegration)
 {
   std::cout << "largest |e_out - e|\n" << std::scientific << std::setprecision(1);
-  for (Normal law :
-       {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL, Normal::PLAINCOULOMB_MATERIAL})
+  for (Normal law : {Normal::HOOKE_MATERIAL, Normal::HERTZ_MATERIAL, Normal::PLAINCOULOMB_MATERIAL})
     for (bool limited : {false, true}) {
       double worst = 0.0;
       for (double e :

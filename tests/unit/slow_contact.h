@@ -67,8 +67,8 @@ inline double reduced(double a, double b)
   return std::isinf(b) ? a : a * b / (a + b);
 }
 
-inline Outcome evaluate(const Contact &c, named::NamedLaw law,
-                        const named::Numbers &p, double dt, bool advance)
+inline Outcome evaluate(const Contact &c, named::NamedLaw law, const named::Numbers &p, double dt,
+                        bool advance)
 {
   const double m_eff = reduced(c.mass[0], c.mass[1]);
   double factor = 1.0;

@@ -16,7 +16,10 @@ struct ConstantAdhesion : CohesionLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"adhesion"}};
 
-  static void read(LawReader &r) { r.spec.given["adhesive force"] = r.words.not_negative("adhesive force F"); }
+  static void read(LawReader &r)
+  {
+    r.spec.given["adhesive force"] = r.words.not_negative("adhesive force F");
+  }
   static Row<double> mix(const Mixing &m) { return {m.smallest("adhesive force")}; }
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)

@@ -16,7 +16,10 @@ struct DmtAdhesion : CohesionLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"adhesion"}};
 
-  static void read(LawReader &r) { r.spec.given["adhesion W"] = r.words.not_negative("adhesion W"); }
+  static void read(LawReader &r)
+  {
+    r.spec.given["adhesion W"] = r.words.not_negative("adhesion W");
+  }
   static Row<double> mix(const Mixing &m) { return {m.smallest("adhesion W")}; }
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)

@@ -16,7 +16,10 @@ struct PerkoAdhesion : CohesionLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"adhesion"}};
 
-  static void read(LawReader &r) { r.spec.given["adhesion S"] = r.words.not_negative("adhesion S"); }
+  static void read(LawReader &r)
+  {
+    r.spec.given["adhesion S"] = r.words.not_negative("adhesion S");
+  }
   static Row<double> mix(const Mixing &m) { return {m.smallest("adhesion S")}; }
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)

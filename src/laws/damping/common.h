@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What damping laws have in common: F_n = F_e - gn v_n, which is attractive when particles separate fast,
-// unless limit_damping cuts it at zero. m and R are the effective mass and radius, a the contact radius.
+// What damping laws have in common: F_n = F_e - gn v_n, which is attractive when particles separate
+// fast, unless limit_damping cuts it at zero. m and R are the effective mass and radius, a the
+// contact radius.
 
 #ifndef TALUS_LAWS_DAMPING_COMMON_H
 #define TALUS_LAWS_DAMPING_COMMON_H
@@ -11,7 +12,8 @@
 
 namespace Talus {
 
-/// Damping in the units of the law, and the least normal force: 0 with limit_damping, else -infinity.
+/// Damping in the units of the law, and the least normal force: 0 with limit_damping, else
+/// -infinity.
 template <class Real> struct DampingRow {
   Real gn, gt, floor;
 };

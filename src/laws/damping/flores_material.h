@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Flores et al. 2011 from material: gn = f kn overlap/v, gt = h sqrt(S_t m) with f = 8/5 (1-e)/e and
-// h = 2 sqrt(5/6) |beta(e)|, both with e between .01 and 1. v: impact speed if it is kept, at least the
-// characteristic speed. A gt that was given by number replaces h.
+// Flores et al. 2011 from material: gn = f kn overlap/v, gt = h sqrt(S_t m) with f = 8/5 (1-e)/e
+// and h = 2 sqrt(5/6) |beta(e)|, both with e between .01 and 1. v: impact speed if it is kept, at
+// least the characteristic speed. A gt that was given by number replaces h.
 
 #ifndef TALUS_LAWS_DAMPING_FLORES_MATERIAL_H
 #define TALUS_LAWS_DAMPING_FLORES_MATERIAL_H

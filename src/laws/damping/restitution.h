@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Damping that gives a coefficient of restitution: f sqrt(S_n m), f sqrt(S_t m) with the tangent
-// stiffnesses S of the normal law and f of restitution.h. A gt that was given by number replaces the
-// second f.
+// stiffnesses S of the normal law and f of restitution.h. A gt that was given by number replaces
+// the second f.
 
 #ifndef TALUS_LAWS_DAMPING_RESTITUTION_H
 #define TALUS_LAWS_DAMPING_RESTITUTION_H

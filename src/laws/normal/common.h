@@ -4,8 +4,8 @@
 //
 //   F_e = kn overlap ,   kt
 //
-// with overlap = r_i + r_j - |x_i - x_j|; damping adds -gn v_n and gt. m and R are the effective mass
-// and radius. The material laws and flores are those of the penalty solver of Project Chrono
+// with overlap = r_i + r_j - |x_i - x_j|; damping adds -gn v_n and gt. m and R are the effective
+// mass and radius. The material laws and flores are those of the penalty solver of Project Chrono
 // (Fleischmann, Serban, Negrut, Jayakumar, J. Comput. Nonlinear Dyn. 11, 044502, 2016).
 
 #ifndef TALUS_LAWS_NORMAL_COMMON_H
@@ -65,8 +65,8 @@ inline double mixed_shear(const Mixing &m, double modulus_per_kt)
 {
   const GivenNumbers &a = m.a.given, &b = m.b.given;
   return m.both_have("kt")
-      ? modulus_per_kt * m.mean("kt")
-      : effective_shear(a.value("E"), a.value("nu"), b.value("E"), b.value("nu"));
+             ? modulus_per_kt * m.mean("kt")
+             : effective_shear(a.value("E"), a.value("nu"), b.value("E"), b.value("nu"));
 }
 
 /// Hertzian: elastic force ~ overlap^(3/2).

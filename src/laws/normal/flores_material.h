@@ -1,13 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Flores et al. 2011 from material: S_n = 2 E_eff a and S_t = 8 G_eff a as hertz/material, kn = 2/3 S_n,
-// kt = 2/3 S_t; with damping of its own, which takes the impact speed.
+// Flores et al. 2011 from material: S_n = 2 E_eff a and S_t = 8 G_eff a as hertz/material, kn = 2/3
+// S_n, kt = 2/3 S_t; with damping of its own, which takes the impact speed.
 
 #ifndef TALUS_LAWS_NORMAL_FLORES_MATERIAL_H
 #define TALUS_LAWS_NORMAL_FLORES_MATERIAL_H
 
-#include "laws/normal/flores.h"
 #include "laws/normal/common.h"
+#include "laws/normal/flores.h"
 
 namespace Talus {
 

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Hertzian contact with coefficients (stock `gran/hertz/history`, Silbert et al. 2001): with the contact
-// radius a = sqrt(R overlap), F_e = a kn overlap, tangential stiffness a kt; with damping a m gn.
-// kn, kt pressure.
+// Hertzian contact with coefficients (stock `gran/hertz/history`, Silbert et al. 2001): with the
+// contact radius a = sqrt(R overlap), F_e = a kn overlap, tangential stiffness a kt; with damping a
+// m gn. kn, kt pressure.
 
 #ifndef TALUS_LAWS_NORMAL_HERTZ_H
 #define TALUS_LAWS_NORMAL_HERTZ_H

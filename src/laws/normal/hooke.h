@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Linear spring (Cundall and Strack 1979; stock `gran/hooke*`): F_e = kn overlap; with mass damping.
-// kn, kt force/distance.
+// Linear spring (Cundall and Strack 1979; stock `gran/hooke*`): F_e = kn overlap; with mass
+// damping. kn, kt force/distance.
 
 #ifndef TALUS_LAWS_NORMAL_HOOKE_H
 #define TALUS_LAWS_NORMAL_HOOKE_H

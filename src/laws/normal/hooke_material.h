@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Linear spring from material and impact speed v: K = 16/15 sqrt(R) E_eff, kn = kt = K (m v^2/K)^(1/5):
-// an elastic impact at this speed has the largest overlap of a Hertzian one. v: impact speed if it is
-// kept, at least the characteristic speed.
+// Linear spring from material and impact speed v: K = 16/15 sqrt(R) E_eff, kn = kt = K (m
+// v^2/K)^(1/5): an elastic impact at this speed has the largest overlap of a Hertzian one. v:
+// impact speed if it is kept, at least the characteristic speed.
 
 #ifndef TALUS_LAWS_NORMAL_HOOKE_MATERIAL_H
 #define TALUS_LAWS_NORMAL_HOOKE_MATERIAL_H
@@ -25,10 +25,7 @@ struct HookeMaterial : LinearLaw {
     read_material(r, "restitution");
     r.spec.given["vchar"] = r.words.positive("characteristic speed vchar");
   }
-  static Row<double> mix(const Mixing &m)
-  {
-    return {mixed_young(m), m.largest("vchar")};
-  }
+  static Row<double> mix(const Mixing &m) { return {mixed_young(m), m.largest("vchar")}; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Chrono's PlainCoulomb with coefficients: F_e = kn sqrt(overlap) overlap, no tangential spring but a
-// friction of its own. Kept as it is, although kn has no consistent meaning for other radii.
+// Chrono's PlainCoulomb with coefficients: F_e = kn sqrt(overlap) overlap, no tangential spring but
+// a friction of its own. Kept as it is, although kn has no consistent meaning for other radii.
 // kn force/distance^(3/2).
 
 #ifndef TALUS_LAWS_NORMAL_PLAINCOULOMB_H

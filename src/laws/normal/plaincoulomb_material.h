@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Chrono's PlainCoulomb from material: S_n = 2 E_eff sqrt(overlap), kn = 2/3 S_n, no tangential spring
-// but a friction of its own. Dimensionally inconsistent (no radius); kept as it is.
+// Chrono's PlainCoulomb from material: S_n = 2 E_eff sqrt(overlap), kn = 2/3 S_n, no tangential
+// spring but a friction of its own. Dimensionally inconsistent (no radius); kept as it is.
 
 #ifndef TALUS_LAWS_NORMAL_PLAINCOULOMB_MATERIAL_H
 #define TALUS_LAWS_NORMAL_PLAINCOULOMB_MATERIAL_H

@@ -1,14 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Rolling and spinning resistance after Schwartz, Richardson and Michel 2012 (Granular Matter 14, 363), as
-// the penalty solver of Project Chrono has them: torques against the relative rotation that do not
-// depend on its speed (type A of Ai et al. 2011, Powder Technology 206, 269), none below a threshold of
-// speed.
+// Rolling and spinning resistance after Schwartz, Richardson and Michel 2012 (Granular Matter 14,
+// 363), as the penalty solver of Project Chrono has them: torques against the relative rotation
+// that do not depend on its speed (type A of Ai et al. 2011, Powder Technology 206, 269), none
+// below a threshold of speed.
 //
-// A constant torque cannot hold a body: it pushes it back and forth by what it does in one time step, and
-// on a slope the body creeps. `delayed` resistance is so, as Chrono's. The other is limited to what
-// stops the relative rotation, after the pattern of Coulomb friction with a return mapping: a body that
-// does not roll is held up to mu_roll F_n, exactly.
+// A constant torque cannot hold a body: it pushes it back and forth by what it does in one time
+// step, and on a slope the body creeps. `delayed` resistance is so, as Chrono's. The other is
+// limited to what stops the relative rotation, after the pattern of Coulomb friction with a return
+// mapping: a body that does not roll is held up to mu_roll F_n, exactly.
 //
 // The words rolling and spinning bring both, with a coefficient of 0 for the one that is not given.
 

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Rolling that is held: moment M with which the rotation left after the step is 1 - stopping_share of that
-// before, whatever friction does: d(r_1 omega_1 + r_2 omega_2) = -response (friction_moment + M). Not
-// longer than mu_roll F_n, F_n >= 0.
+// Rolling that is held: moment M with which the rotation left after the step is 1 - stopping_share
+// of that before, whatever friction does: d(r_1 omega_1 + r_2 omega_2) = -response (friction_moment
+// + M). Not longer than mu_roll F_n, F_n >= 0.
 
 #ifndef TALUS_LAWS_ROLLING_HOLDING_H
 #define TALUS_LAWS_ROLLING_HOLDING_H
@@ -21,10 +21,7 @@ struct HoldingRolling : RollingLaw {
   static constexpr CoefficientName coefficients[] = {{"mu_r"}, {"roll_min", Shown::NEVER}};
 
   static void read(LawReader &r) { read_resistance(r, "mu_r"); }
-  static Row<double> mix(const Mixing &m)
-  {
-    return {m.friction("mu_r"), m.largest("roll_min")};
-  }
+  static Row<double> mix(const Mixing &m) { return {m.friction("mu_r"), m.largest("roll_min")}; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
@@ -36,8 +33,7 @@ struct HoldingRolling : RollingLaw {
     const auto acts = square_root(dot(rotation, rotation)) >= c.roll_min;
     const Real stop = select(turns > zero, stopping_share / turns, zero);
     const Vector3<Real> needed = stop * cross(s.normal, rotation) - s.moment;
-    s.moment =
-        s.moment + select(acts, splat<Real>(1.0), zero) * capped(needed, c.mu * presses);
+    s.moment = s.moment + select(acts, splat<Real>(1.0), zero) * capped(needed, c.mu * presses);
   }
 };
 

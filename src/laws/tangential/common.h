@@ -11,8 +11,7 @@ namespace Talus {
 
 /// Relative surface velocity of body 1 against body 2 in the tangent plane:
 /// v_t = v - (v.n) n - (r_1 omega_1 + r_2 omega_2) x n  (lever arms are the full radii).
-template <class Real>
-TALUS_INLINE Vector3<Real> surface_velocity(const ContactLanes<Real> &s)
+template <class Real> TALUS_INLINE Vector3<Real> surface_velocity(const ContactLanes<Real> &s)
 {
   return s.velocity - s.normal_velocity * s.normal - cross(s.spin, s.normal);
 }

@@ -25,7 +25,8 @@ void read_friction(LawReader &r, bool with_kt, bool needs_spring)
     words.fail(words.index() - at, what);
   };
   if (!has_gt && law.damping().needs_gt)
-    complain(at_gt, std::string("expected a number for gt instead of NULL: ") + law.damping().needs_gt);
+    complain(at_gt,
+             std::string("expected a number for gt instead of NULL: ") + law.damping().needs_gt);
   if (has_kt && law.normal().takes_no_kt)
     complain(at_kt, std::string("expected NULL for kt: ") + law.normal().takes_no_kt);
   // a spring of a linear law is not a pressure
@@ -53,7 +54,8 @@ void MultistepStock::read(LawReader &r)
       rule = word;
   }
   const bool stock = rule.empty() ? r.spec.law.normal().like_stock : rule == "stock";
-  const std::string name = std::string("multistep") + (stock ? "" : " slider") + (midpoint ? " midpoint" : "");
+  const std::string name =
+      std::string("multistep") + (stock ? "" : " slider") + (midpoint ? " midpoint" : "");
   r.spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, name));
 }
 

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The displacement of the surfaces is kept for the life of a contact: F_t = -(kt d_t + gt v_t), not longer
-// than mu |F_n|; see sliding.h for what happens to d_t at this limit. Every step adds dt v_t and takes
-// away the part of d_t along the normal.
+// The displacement of the surfaces is kept for the life of a contact: F_t = -(kt d_t + gt v_t), not
+// longer than mu |F_n|; see sliding.h for what happens to d_t at this limit. Every step adds dt v_t
+// and takes away the part of d_t along the normal.
 //
 // With `midpoint` the update of the displacement is consistent to second order in the time step:
 //   * the displacement of a step is taken along the surface half way through it, not at its end;
@@ -48,9 +48,10 @@ template <class Real> inline Vector3<Real> turned(const Vector3<Real> &d, const 
 }
 
 template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
-  static constexpr const char *name = slider ? midpoint ? "multistep slider midpoint"
-                                                        : "multistep slider"
-                                             : midpoint ? "multistep midpoint" : "multistep";
+  static constexpr const char *name =
+      slider     ? midpoint ? "multistep slider midpoint" : "multistep slider"
+      : midpoint ? "multistep midpoint"
+                 : "multistep";
   static constexpr const char *label = name;
   static constexpr int odd_history = 3, even_history = 1;    // see TangentialHistory
   static constexpr bool has_spring = true, is_midpoint = midpoint;

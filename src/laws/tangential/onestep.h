@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A spring with the displacement of one time step: F_t = -(kt dt + gt) v_t, not longer than mu |F_n|.
+// A spring with the displacement of one time step: F_t = -(kt dt + gt) v_t, not longer than mu
+// |F_n|.
 
 #ifndef TALUS_LAWS_TANGENTIAL_ONESTEP_H
 #define TALUS_LAWS_TANGENTIAL_ONESTEP_H

@@ -1,16 +1,16 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What a displacement that is kept becomes at the Coulomb limit L = mu |F_n|. T = kt d_t + gt v_t is
-// the force that would be and F = L T/|T| is what remains of it:
+// What a displacement that is kept becomes at the Coulomb limit L = mu |F_n|. T = kt d_t + gt v_t
+// is the force that would be and F = L T/|T| is what remains of it:
 //
 //   stock    d_t <- (F - gt v_t)/kt: spring and dashpot together reach the limit with the velocity
-//            of the whole slip. The rule of Cundall and Strack as the stock gran/*/history styles and
-//            Chrono have it. Where the dashpot alone exceeds the limit it winds the spring up
+//            of the whole slip. The rule of Cundall and Strack as the stock gran/*/history styles
+//            and Chrono have it. Where the dashpot alone exceeds the limit it winds the spring up
 //            against the sliding: friction falls short of the limit later, or energy is gained.
-//   slider   spring and dashpot in parallel, both in series with a slider: the dashpot sees only the
-//            rate of d_t. Backward Euler of gt d_t' = F - kt d_t, which is
-//            d_t <- (dt F + gt d_0)/(dt kt + gt) with d_0 from before the step. F d_t' = gt d_t'^2 +
-//            rate of kt d_t^2/2, and the slip takes the rest of F v_t: no energy can be gained at
+//   slider   spring and dashpot in parallel, both in series with a slider: the dashpot sees only
+//            the rate of d_t. Backward Euler of gt d_t' = F - kt d_t, which is
+//            d_t <- (dt F + gt d_0)/(dt kt + gt) with d_0 from before the step.
+//            F d_t' = gt d_t'^2 + rate of kt d_t^2/2, and the slip takes the rest of F v_t: no energy can be gained at
 //            constant kt, however large gt is. (Return mapping of viscoplasticity: Simo and Hughes
 //            1998, Computational Inelasticity, chapter 1; the body is Bingham's.) Equal to stock if
 //            gt = 0.
@@ -52,8 +52,7 @@ template <class Real> struct Trial {
 };
 
 /// kt |d| + gt |v_t| + L: what a force at the limit consists of, and its rounding errors.
-template <class Real>
-inline Real parts_of(const SlidingInput<Real> &in, const Trial<Real> &trial)
+template <class Real> inline Real parts_of(const SlidingInput<Real> &in, const Trial<Real> &trial)
 {
   return in.kt * square_root(dot(trial.displacement, trial.displacement)) +
          square_root(dot(trial.drag, trial.drag)) + in.limit;

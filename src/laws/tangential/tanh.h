@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has the unit
-// 1/velocity and is not scaled by `units`. None below a speed. Comes with the normal laws of that name.
+// Chrono's PlainCoulomb: F_t = -mu F_n tanh(5 |v_t|) v_t/|v_t|, with the sign of F_n; the 5 has the
+// unit 1/velocity and is not scaled by `units`. None below a speed. Comes with the normal laws of
+// that name.
 
 #ifndef TALUS_LAWS_TANGENTIAL_TANH_H
 #define TALUS_LAWS_TANGENTIAL_TANH_H

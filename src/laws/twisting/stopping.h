@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Spinning that stops: couple -mu_twist r_c F_n (w.n) n/|w| on body 1, its opposite on body 2, with
-// w = omega_1 - omega_2 and r_c the radius of the circle in which the surfaces intersect; but not more
-// than what leaves 1 - stopping_share of the spin after the step; of unlike spheres it leaves more
-// (1/r_1^2 + 1/r_2^2 is less than inverse_radius squared). F_n >= 0.
+// w = omega_1 - omega_2 and r_c the radius of the circle in which the surfaces intersect; but not
+// more than what leaves 1 - stopping_share of the spin after the step; of unlike spheres it leaves
+// more (1/r_1^2 + 1/r_2^2 is less than inverse_radius squared). F_n >= 0.
 
 #ifndef TALUS_LAWS_TWISTING_STOPPING_H
 #define TALUS_LAWS_TWISTING_STOPPING_H
@@ -21,10 +21,7 @@ struct StoppingTwist : TwistingLaw {
   static constexpr CoefficientName coefficients[] = {{"mu_s"}, {"twist_min", Shown::NEVER}};
 
   static void read(LawReader &r) { read_resistance(r, "mu_s"); }
-  static Row<double> mix(const Mixing &m)
-  {
-    return {m.friction("mu_s"), m.largest("twist_min")};
-  }
+  static Row<double> mix(const Mixing &m) { return {m.friction("mu_s"), m.largest("twist_min")}; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
