@@ -104,7 +104,7 @@ def table_of_orders(section, results):
     section.heading("Orders")
     section.table(["scene", "method", "expected", "motion", *errors.QUANTITIES], rows)
     section.text("""Slope of the logarithms over the finer half of the time steps; `rounding`: the errors are no larger
-than that. motion: the largest of position, velocity and spin, each relative to way and speed of the impact. Expected
+than that. motion: the largest of position, velocity and angular velocity, each relative to way and speed of the impact. Expected
 is what theory says for the least accurate part: both starts and velocity Verlet are of second order for forces that
 depend on positions only, if nothing acts at the start; forces that depend on velocity are computed with one that is
 half a step old, which leaves first order. A higher order than expected means that the coefficient of the lower one is

@@ -39,7 +39,7 @@ WAYS = {
 
 
 def stirred(bench, count):
-    """The bed pulled apart upwards, with random velocities and spins: it falls together again."""
+    """The bed pulled apart upwards, with random velocities and rotation: it falls together again."""
     box, rows, _ = beds.read_data(beds.bed(bench, count)[0])
     draw = random.Random(3)
     speeds = [(r[0], *(draw.gauss(0, 0.3) for _ in "xyz"), *(draw.gauss(0, 50.0) for _ in "xyz")) for r in rows]
@@ -109,8 +109,8 @@ def measure(bench):
             section.record(code=code_name, way=name, hash=found, same=found == first)
             if found != first and code == TALUS:
                 different.append(name)
-    section.table(["code", "", "hash of positions, velocities, spins", "same as the first"], rows)
-    section.text(f"""{count} spheres of a bed between floor and walls, pulled apart upwards by a factor of 1.5, with random velocities and spins, {steps} steps, about {bench.builds}
+    section.table(["code", "", "hash of positions, velocities, angular velocities", "same as the first"], rows)
+    section.text(f"""{count} spheres of a bed between floor and walls, pulled apart upwards by a factor of 1.5, with random velocities and rotation, {steps} steps, about {bench.builds}
 rebuilds. The hash is that of all numbers, -0 taken as 0. The stock styles are there to show that the scene tells orders of
 summation apart.""")
     if different:

@@ -37,7 +37,7 @@ def variants(bench):
         "multistep, rolling, spinning": (STICKS + " rolling 0.02 spinning 0.02", True, "sphere", "", "f f f"),
         "multistep, limit_damping": (STICKS + " limit_damping", True, "sphere", "", "f f f"),
         "multistep, adhesion": (STICKS + " adhesion perko 0.01", True, "sphere", "", "f f f"),
-        "multistep, impact speed and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
+        "multistep, impact velocity and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
                                                                                         f"{beds.NU} 1.0 tang"),
                                             True, "sphere", "", "f f f"),
         "multistep, one body instead of five": (STICKS, False, "sphere", "", "f f f"),
@@ -90,7 +90,7 @@ def bytes_per_particle(bench, variant, sizes):
 def message(bench, variant):
     """(bytes of a proxy in the host's messages, in those of the direct exchange).
 
-    The host packs position, velocity and spin of every proxy, 9 doubles, and what else the atom style has. comm_proxy info has
+    The host packs position, velocity and angular velocity of every proxy, 9 doubles, and what else the atom style has. comm_proxy info has
     the bytes and proxies of the direct exchange, which leaves these to the host's own packing if they are more than that."""
     if not features.has(bench, "comm_proxy yes"):
         return 72, "-"
@@ -127,8 +127,8 @@ def costs(bench):
     section.table(["scene", "ns per particle and step", f"time over that of {base}", "bytes per particle",
                    "bytes of a proxy in a message", "direct"], rows)
     section.text(f"""Bed of {count} spheres at rest, floor and four walls, one core, {bench.rounds} rounds in turn; memory: slope of the peak
-between {sizes[0]} and {sizes[1]} spheres. The host's exchange sends position, velocity and spin of every proxy in each
-step, needed or not; direct: measured with comm_proxy on two ranks, which leaves out the spin where no force reads it.""")
+between {sizes[0]} and {sizes[1]} spheres. The host's exchange sends position, velocity and angular velocity of every proxy in each
+step, needed or not; direct: measured with comm_proxy on two ranks, which leaves out the angular velocity where no force reads it.""")
     exchange(bench)
     if rows:
         section.plot("", "Time over that of multistep friction", lambda plt: draw(plt, rows))
@@ -182,7 +182,7 @@ def where_it_matters(bench):
         section.record(feature="left out: " + row[0], scene=row[1], quantity=row[2], full=row[3], left_out=row[4])
     section.heading("What is wrong without it")
     section.table(["feature", "where it matters", "", "with it", "without"], rows)
-    section.text("""Orientation, and spins in messages of scenes without friction, can be left out for nothing. The others are what the scene
+    section.text("""Orientation, and angular velocities in messages of scenes without friction, can be left out for nothing. The others are what the scene
 is about, or can go: friction without memory does not hold anything on a slope, it only slows it down.""")
 
 

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 
 import beds
+import function_stages
 import lammps
 import machine
 import paired
@@ -31,27 +32,7 @@ REFERENCE = {
     "exchange": (float("nan"), 5.81, float("nan")), "other": (9.96, 0.68, 30.0),
 }
 
-# first match counts; symbols of the plugin and of the host
-STAGES = {
-    "waiting": r"opal_|ompi_|mca_|PMPI_|MPI_|pml_|vader|poll",
-    "exchange": r"Comm(Brick|Tiled|Proxy)|ProxyExchange|Packer|pack_comm|unpack_comm|pack_border|unpack_border|pack_exchange"
-                r"|unpack_exchange|RebuildCheck|ExchangePlan|AtomVec::(un)?pack|show_state|write_state",
-    "broad phase": r"NPair|NBin|NStencil|Neighb|NeighList|PairList|PairRows|ParticleOrder|Entry|PartnerLists|ContactHistory::(?!begin|change)"
-                   r"|FixContactStore|FixNeighHistory|renumber|set_pairs|start_pairs|Atom::sort|AtomVec::copy|find_candidates",
-    "narrow phase": r"find_contacts|ContactHistory",
-    "floor and walls": r"BodyContacts|BodyBatch|SparseHistory|FixLargeBody|FixWallGran|Plane::|Rectangle::",
-    "integration": r"ParticleRecords::advance|FixNVE|FixGravity|force_clear",
-    "contact force": r"compute_batch|ContactChunk|ContactPipeline|ParticleRecords|Pair|GranSub|Granular",
-}
 SHOWN = ("broad phase", "narrow phase", "contact force", "floor and walls", "integration", "exchange", "waiting", "other")
-MPI_LIBRARY = r"libmpi|libopen-|mca_|libucp|libpmix|libevent"
-
-
-def stage_of(library, symbol):
-    if re.match(MPI_LIBRARY, library):
-        return "waiting"
-    function = symbol.replace("(anonymous namespace)::", "").split("(")[0]
-    return next((name for name, pattern in STAGES.items() if re.search(pattern, function)), "other")
 
 
 def sampled(bench, script, code, ranks):
@@ -74,7 +55,7 @@ def sampled(bench, script, code, ranks):
     for line in done.stdout.splitlines():
         match = re.match(r"\s*([\d.]+)%\s+(\S+)\s+\[(.)\]\s+(.*)", line)
         if match:
-            stage = "other" if match[3] == "k" else stage_of(match[2], match[4])
+            stage = "other" if match[3] == "k" else function_stages.stage_of(match[2], match[4])
             shares[stage] = shares.get(stage, 0.0) + float(match[1])
     total = sum(shares.values())
     return {stage: share / total for stage, share in shares.items()} if total else None
@@ -101,7 +82,7 @@ def measure(bench):
     count = bench.size(50000, 12500)
     data, _ = beds.bed(bench, count)
     steps = 1000
-    rows, stages, totals = [], {}, {}
+    rows, shares, totals = [], {}, {}
     for name, code, physics, more in VARIANTS:
         for ranks in (1, 2):
             if ranks > len(machine.cores()):
@@ -111,8 +92,8 @@ def measure(bench):
             script = beds.script(data, physics(), 100, steps, more=commands)
             found = breakdown(bench, name, script, code, ranks)
             rows.append([name, ranks, found["total"], *(found.get(key, 0.0) for key in CATEGORIES)])
-            stages[name, ranks], totals[name, ranks] = sampled(bench, script, code, ranks), found["total"]
-    sampled_table(bench, stages, totals)
+            shares[name, ranks], totals[name, ranks] = sampled(bench, script, code, ranks), found["total"]
+    sampled_table(bench, shares, totals)
     section.heading("Timers of the host")
     section.table(["", "ranks", "ns per particle and step", *CATEGORIES], rows)
     section.text(f"""Bed of {count} spheres, Hertz, friction with history, floor and walls, lists rebuilt every 100 steps. ns of
@@ -122,22 +103,22 @@ rebuilds.""")
     section.plot("", "Time of a step by timer of the host", lambda plt: draw(plt, rows))
 
 
-def sampled_table(bench, stages, totals):
+def sampled_table(bench, sampled_shares, totals):
     section = bench.section
     section.heading("Stages")
-    stages = {key: shares for key, shares in stages.items() if shares}
-    if not stages:
+    found = {key: shares for key, shares in sampled_shares.items() if shares}
+    if not found:
         section.text("perf is not available, or may not sample (kernel.perf_event_paranoid): left out.")
         return
     rows, nothing = [], (float("nan"),) * 3
     for stage in SHOWN:
-        shares = [found.get(stage, 0.0) for found in stages.values()]
-        rows.append([stage, *(f"{share * totals[key]:.1f} ({100 * share:.0f} %)" for key, share in zip(stages, shares)),
+        shares = [of_stage.get(stage, 0.0) for of_stage in found.values()]
+        rows.append([stage, *(f"{share * totals[key]:.1f} ({100 * share:.0f} %)" for key, share in zip(found, shares)),
                      *REFERENCE.get(stage, nothing)])
-    rows.append(["whole step", *(f"{totals[key]:.1f}" for key in stages), 100.0, 100.0, 100.0])
-    section.table(["ns per particle and step (share)", *(f"{name}, {ranks} rank{'s' if ranks > 1 else ''}" for name, ranks in stages),
+    rows.append(["whole step", *(f"{totals[key]:.1f}" for key in found), 100.0, 100.0, 100.0])
+    section.table(["ns per particle and step (share)", *(f"{name}, {ranks} rank{'s' if ranks > 1 else ''}" for name, ranks in found),
                    "Chrono::Distributed, 1 rank (%)", "10 ranks (%)", "1 core here (%)"], rows)
-    for (name, ranks), shares in stages.items():
+    for (name, ranks), shares in found.items():
         section.record(variant="samples, " + name, ranks=ranks, **{key: 100 * value for key, value in shares.items()})
     section.text("""Samples of the functions that run (perf, about 1000 per second) during the steps, as shares of the measured time; on
 two ranks of both cores together. broad phase: neighbor lists, sorting, and all that is done with pairs and displacements at

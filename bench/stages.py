@@ -22,9 +22,8 @@ AIM = 1.10          # what canonical order may cost
 STAGES = {
     "order_particles": "rebuild: particles into canonical order",
     "collect_pairs": "rebuild: pairs of the neighbor list, sorted",
-    "keep_history": "rebuild, no periodic borders: displacements kept, fetched by pair",
-    "file_history": "rebuild, periodic box: displacements filed by particle",
-    "fetch_history": "rebuild, periodic box: displacements fetched by pair",
+    "keep_history": "rebuild: displacements put aside, fetched for the new pairs",
+    "keep_history_periodic": "rebuild, periodic box: displacements put aside, fetched for the new pairs",
     "read_particles": "step: records read from the arrays of the host",
     "advance_records": "step: records moved, with the travel since the rebuild",
     "narrow_phase": "step: narrow phase",

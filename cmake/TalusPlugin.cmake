@@ -1,9 +1,11 @@
 # The plugin: libraries of what needs no LAMMPS, which tests use as well, and the files that LAMMPS opens.
 # Sets talus_variants, the files that only a portable build has.
 
-# Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI; then those of LAMMPS.
-set(talus_core_folders base
-  laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion material particles neighbors history contact body/shape body/motion body/contact)
+# Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI and packs the records of
+# particles/; then those of LAMMPS.
+set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
+set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
+  body/contact)
 set(talus_style_folders system pair fix compute comm run)
 
 function(talus_glob result)
@@ -33,7 +35,7 @@ function(talus_add_code suffix)
   add_library(${exchange} STATIC ${talus_exchange_sources})
   target_include_directories(${exchange} SYSTEM PUBLIC ${MPI_CXX_INCLUDE_DIRS})
   target_compile_definitions(${exchange} PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_link_libraries(${exchange} PUBLIC talus_flags${suffix})
+  target_link_libraries(${exchange} PUBLIC talus_flags${suffix} ${core})
   target_compile_options(${exchange} PRIVATE ${talus_index_flags})
 
   foreach(library ${core} ${exchange})
@@ -49,6 +51,7 @@ function(talus_add_module name exported)
     PREFIX "" SUFFIX ".so"
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(${name} PRIVATE ${talus_index_flags})
   if(APPLE)
     target_link_options(${name} PRIVATE "LINKER:-undefined,dynamic_lookup")
     return()

@@ -180,6 +180,17 @@ EXPORTED int MPI_Irecv(void *buffer, int count, MPI_Datatype type, int from, int
   return result;
 }
 
+// A receive that is canceled waits for nothing.
+EXPORTED int MPI_Cancel(MPI_Request *request)
+{
+  const auto found = incoming.find(*request);
+  if (found != incoming.end()) {
+    delete found->second;
+    incoming.erase(found);
+  }
+  return PMPI_Cancel(request);
+}
+
 EXPORTED int MPI_Recv(void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
                       MPI_Status *status)
 {

@@ -27,6 +27,13 @@ EXPORTED int MPI_Rsend(const void *buffer, int count, MPI_Datatype type, int to,
   return PMPI_Rsend(buffer, count, type, to, tag, comm);
 }
 
+EXPORTED int MPI_Issend(const void *buffer, int count, MPI_Datatype type, int to, int tag,
+                        MPI_Comm comm, MPI_Request *request)
+{
+  sees_send(count, type, to, tag, comm);
+  return PMPI_Issend(buffer, count, type, to, tag, comm, request);
+}
+
 EXPORTED int MPI_Isend(const void *buffer, int count, MPI_Datatype type, int to, int tag,
                        MPI_Comm comm, MPI_Request *request)
 {

@@ -14,7 +14,7 @@ def _largest(rows, others):
 
 
 def of(scene, states, reference):
-    """{quantity: error}, each relative to its scale: way during a contact, impact speed, impact speed
+    """{quantity: error}, each relative to its scale: way during a contact, impact velocity, impact velocity
     over radius, initial kinetic energy; force in the middle of the scene, to the largest there."""
     middle, end = states
     exact_middle, exact_end = reference

@@ -56,11 +56,11 @@ def slope(bench):
 
 
 def spinning(bench):
-    """A sphere that spins about the vertical: stops after t = 2 r^2 w/(5 mu_s r_c g) with resistance."""
+    """A sphere that rotates about the vertical: stops after t = 2 r^2 w/(5 mu_s r_c g) with resistance."""
     steps = bench.size(60000, 20000)
     law = f"{MATERIAL} tangential multistep NULL NULL 0.5"
     left = [_one(bench, f"top-{n}", law + words, steps, spin=(0, 0, 1.0))["omegaz"][0] for n, words in enumerate((" spinning 0.3", ""))]
-    return [["spinning resistance", f"sphere that spins on a floor, {steps * DT:g} s", "spin left (of 1)", *left]]
+    return [["spinning resistance", f"sphere that rotates about the normal of a floor, {steps * DT:g} s", "angular velocity left (of 1)", *left]]
 
 
 def damping(bench):
@@ -118,5 +118,5 @@ def exchange(bench):
     script = beds.script(beds.tile_data(bench)[0], beds.talus(beds.FRICTIONLESS, walls=False), 0, steps, boundary="p p f")
     full = _end(bench, "full", script, ranks=2)
     direct = _end(bench, "direct", script.replace("timestep", "comm_proxy yes\ntimestep", 1), ranks=2)
-    return [["spins in messages (comm_proxy, no friction)", f"a bed on 2 ranks, {steps} steps", "largest difference of positions and velocities",
+    return [["angular velocities in messages (comm_proxy, no friction)", f"a bed on 2 ranks, {steps} steps", "largest difference of positions and velocities",
              0.0, _difference(full, direct)]]

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Plots that can be read in grey: series differ by marker, dash and shade, not by hue."""
+"""Plots that can be read in gray: series differ by marker, dash and shade, not by hue."""
 
 STYLES = [
     {"color": "0.0", "marker": "o", "linestyle": "-"},

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Small scenes for the study of errors: spheres of diameter 1 m and 1000 kg/m^3, impact speed 1 m/s.
+"""Small scenes for the study of errors: spheres of diameter 1 m and 1000 kg/m^3, impact velocity 1 m/s.
 
 A Scene is data; methods.py turns it into input scripts for every code."""
 
@@ -63,7 +63,7 @@ class Scene:
         return [self.step / 2**k for k in range(self.levels)]
 
     def length(self):
-        """Scale of position errors: the way at impact speed during a contact."""
+        """Scale of position errors: the way at impact velocity during a contact."""
         return SPEED * self.law.contact_time()
 
 

@@ -193,6 +193,29 @@ Bed make_bed(int spheres)
   return bed;
 }
 
+Bed in_periodic_box(const Bed &bed)
+{
+  constexpr double reach = largest + skin, low = -0.25 * edge;
+  const double period = edge * std::round(std::cbrt(bed.owned / 2.0));
+  Bed periodic;
+  for (int i = 0; i < bed.owned; i++) copy_sphere(periodic, bed, i);
+  periodic.owned = periodic.size();
+  const auto is_near = [&](double x) { return x > low - reach && x < low + period + reach; };
+  for (int shift = 0; shift < 27; shift++)
+    for (int i = 0; i < bed.owned; i++) {
+      const int along[3] = {shift % 3 - 1, shift / 3 % 3 - 1, shift / 9 - 1};
+      double x[3];
+      for (int d = 0; d < 3; d++) x[d] = bed.x[3 * i + d] + along[d] * period;
+      if (shift == 13 || !is_near(x[0]) || !is_near(x[1]) || !is_near(x[2])) continue;
+      copy_sphere(periodic, bed, i);
+      std::copy(x, x + 3, periodic.x.end() - 3);
+      periodic.original.push_back(i);
+    }
+  complete(periodic);
+  periodic.neighbors = make_lists(periodic);
+  return periodic;
+}
+
 std::vector<Bed> two_ranks(const Bed &bed)
 {
   std::vector<double> all;

@@ -36,7 +36,8 @@ struct Bed {
   std::vector<std::uint64_t> key;
   std::vector<std::int64_t> tag;
   std::vector<int> type;
-  Lists neighbors;    ///< each pair in the row of its second member, which may be a ghost
+  Lists neighbors;              ///< each pair in the row of its second member, which may be a ghost
+  std::vector<int> original;    ///< of ghosts that are images of owned spheres
 
   int size() const { return static_cast<int>(radius.size()); }
   Talus::ParticleView view();
@@ -46,6 +47,10 @@ struct Bed {
 /// contacts and 4.0 candidate pairs per sphere (a settled bed: 2.2 and 3.5). `spheres` is rounded
 /// down to what fills the cube.
 Bed make_bed(int spheres);
+
+/// The bed in a periodic box on one rank: what was its surface is in contact with images of the other
+/// side.
+Bed in_periodic_box(const Bed &bed);
 
 /// The bed on two ranks: what is left and right of its middle, each with the ghosts it needs.
 std::vector<Bed> two_ranks(const Bed &bed);

@@ -9,7 +9,6 @@
 #include "contact/narrow_phase.h"
 
 #include <algorithm>
-#include <numeric>
 
 using namespace Talus;
 
@@ -21,40 +20,40 @@ struct Prepared {
   Bed &bed;
   ContactScene scene;
   ParticleOrder order;
-  std::vector<int> slots;
   ParticleRecords records;
-  PartnerLists partners;
-  KeptContacts kept;
+  HistoryStore store;
   ContactChunk part;
 
   Prepared(Bed &given, const char *normal, const char *tangential) :
       bed(given), scene(scene_of(one_law(normal, tangential)))
   {
     order.arrange(bed.owned, bed.key, bed.tag);
-    slots.resize(order.size());
-    std::iota(slots.begin(), slots.end(), 0);
-    partners.resize(bed.owned);
+    store.resize(order.size());
     records.resize(order.size(), order.num_places(), scene.with_friction, scene.with_resistance);
     collect();
-    start_pairs();
+    part.start_pairs(scene, store);
+    store.number(order);
     records.read(order, bed.view(), all());
     compute();    // contacts are known now
   }
 
   SlotChoice all() const { return {0, order.size()}; }
   void collect() { part.pairs.collect(order, PairRows(order, bed.neighbors.view()), 0); }
-  FiledHistories filed() const { return {partners, bed.tag, kept, slots}; }
-  void start_pairs() { part.start_pairs(scene, filed(), slots); }
   void compute()
   {
     part.compute(scene, records, {dt, true}, [](int, int) {});
   }
-  void file()
+  /// All that a rebuild does with histories, but for the exchange with other ranks.
+  void keep_history()
   {
-    partners.begin();
-    part.history.announce(part.pairs, partners);
-    partners.layout();
-    part.history.file(part.pairs, partners);
+    store.begin(order, 1, nullptr, {false, bed.owned < bed.size()});
+    part.history.put_aside(part.pairs, store.chunk(0), false);
+    store.finish(order, 1);
+    for (int a = bed.owned; a < bed.size(); a++)
+      store.set_ghost(bed.owned, a, store.origin(bed.original[a - bed.owned]), 0);
+    store.open(order, 1);
+    part.history.fetch(part.pairs, store);
+    store.number(order);
   }
   double contacts() const
   {
@@ -76,9 +75,9 @@ template <class Work> void repeat(benchmark::State &state, const Prepared &p, Wo
     work();
     benchmark::ClobberMemory();
   }
-  count_spheres(state, p.order.size());
-  state.counters["contacts"] = p.contacts() / p.order.size();
-  state.counters["candidates"] = static_cast<double>(p.part.pairs.num_pairs()) / p.order.size();
+  count_spheres(state, p.bed.owned);
+  state.counters["contacts"] = p.contacts() / p.bed.owned;
+  state.counters["candidates"] = static_cast<double>(p.part.pairs.num_pairs()) / p.bed.owned;
 }
 
 // ---- a rebuild ----------------------------------------------------------------------------------
@@ -97,31 +96,20 @@ void collect_pairs(benchmark::State &state)
 }
 BENCHMARK(collect_pairs)->Apply(sizes);
 
-void file_history(benchmark::State &state)
-{
-  Prepared p = prepared(state);
-  repeat(state, p, [&] { p.file(); });
-}
-BENCHMARK(file_history)->Apply(sizes);
-
-void fetch_history(benchmark::State &state)
-{
-  Prepared p = prepared(state);
-  p.file();
-  repeat(state, p, [&] { p.part.history.fetch(p.part.pairs, p.filed(), p.slots); });
-}
-BENCHMARK(fetch_history)->Apply(sizes);
-
 void keep_history(benchmark::State &state)
 {
   Prepared p = prepared(state);
-  repeat(state, p, [&] {
-    p.kept.begin(p.order, false);
-    p.part.history.keep(p.part.pairs, p.kept.part(0));
-    p.part.history.fetch(p.part.pairs, p.filed(), p.slots);
-  });
+  repeat(state, p, [&] { p.keep_history(); });
 }
 BENCHMARK(keep_history)->Apply(sizes);
+
+void keep_history_periodic(benchmark::State &state)
+{
+  Bed bed = in_periodic_box(bed_of(state));
+  Prepared p(bed, NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+  repeat(state, p, [&] { p.keep_history(); });
+}
+BENCHMARK(keep_history_periodic)->Apply(sizes);
 
 // ---- a step -------------------------------------------------------------------------------------
 

@@ -35,30 +35,37 @@ LawTable law()
   return one_law("hertz", "multistep");
 }
 
+/// Room for the spheres; ghosts are of the other rank.
+void prepare(HistoryStore &store, const Bed &bed)
+{
+  store.resize(bed.size());
+  for (int a = bed.owned; a < bed.size(); a++)
+    store.set_ghost(bed.owned, a, {bed.tag[a], -1, -1}, 1);
+}
+
 /// Talus as it is, on one rank of one or several.
 struct Canonical {
   Bed &bed;
   ContactPipeline pipeline;
-  PartnerLists partners;
-  KeptContacts kept;
-  std::vector<int> kept_slot;
+  HistoryStore histories;
 
   Canonical(Bed &given, int threads, bool two_phases) : bed(given)
   {
     pipeline.set_laws(law());
     pipeline.set_work(threads, two_phases);
-    partners.resize(bed.owned);
+    prepare(histories, bed);
     rebuild();
     run(in_records(true));
   }
 
   void rebuild()
   {
-    if (pipeline.num_particles()) pipeline.keep_history(kept, bed.size() > bed.owned);
-    kept_slot = pipeline.particle_order().slot_of_atom;
+    if (pipeline.num_particles())
+      pipeline.keep_history(histories, {bed.size() > bed.owned, false}, false);
     pipeline.release();
     pipeline.set_pairs({bed.owned, bed.key, bed.tag, bed.type.data()}, bed.neighbors.view());
-    pipeline.start_pairs({partners, bed.tag, kept, kept_slot});
+    pipeline.start_pairs(histories);
+    histories.number(pipeline.particle_order());
   }
   void run(const ContactStep &how)
   {
@@ -86,8 +93,7 @@ struct AsListed {
   ContactScene scene = scene_of(law());
   ParticleOrder order;
   ParticleRecords records;
-  PartnerLists partners;
-  KeptContacts kept;
+  HistoryStore histories;
   ContactChunk part;
   AlignedVector<Record> held, of_other_thread;
   std::vector<std::uint64_t> index;
@@ -107,7 +113,7 @@ struct AsListed {
       std::fill_n(role.begin(), bed.owned, ParticleRecords::MOVES);
     }
     if (threads == 2) of_other_thread.resize(records.load.size());
-    partners.resize(bed.owned);
+    prepare(histories, bed);
     take_pairs();
     start_pairs();
     step();
@@ -115,14 +121,17 @@ struct AsListed {
 
   void rebuild()
   {
-    kept.begin(order, bed.size() > bed.owned);
-    part.history.keep(part.pairs, kept.part(0));
+    histories.begin(order, 1, nullptr, {bed.size() > bed.owned, false});
+    part.history.put_aside(part.pairs, histories.chunk(0), false);
+    histories.finish(order, 1);
     take_pairs();
     start_pairs();
   }
   void start_pairs()
   {
-    part.start_pairs(scene, {partners, bed.tag, kept, order.slot_of_atom}, order.slot_of_atom);
+    histories.open(order, 1);
+    part.start_pairs(scene, histories);
+    histories.number(order);
   }
 
   /// Rows and entries, one after the other.

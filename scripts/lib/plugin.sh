@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 # The build of Talus itself, against the host that prepare_host has made ready.
 
-# What to build: everything, unless a script needs less.
-TALUS_TARGETS=()
+# What to build, as targets of CMake: everything, unless a script needs less.
+read -ra TALUS_TARGETS <<<"${TALUS_TARGETS:-}"
 
 # show_build TITLE DIR LOG [TARGET...]: run Ninja with a display of its progress; the log keeps
 # everything.

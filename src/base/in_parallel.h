@@ -27,7 +27,7 @@ void do_stages(int count, const Guarded &guarded, Stage &stage, Later &...later)
 /// stage(n) for n = 0 ... count-1 by so many threads, each of them a range of n. Of several stages
 /// all of one is done before any of the next one begins; the same thread does all stages for one n,
 /// and threads start and end once. What a stage throws, out of memory for one, is thrown here when
-/// all are done: in a thread nobody would catch it.
+/// all are done: no handler catches exceptions of a thread.
 template <class... Stage> void in_parallel(int count, int threads, Stage... stages)
 {
   std::exception_ptr failure;

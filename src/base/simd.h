@@ -248,7 +248,7 @@ inline Vec8 join(Vec4 lower, Vec4 upper)
 #endif
 
 /// Stores first + k for every bit k of the lower eight, side by side, and returns their number.
-/// Writes eight places in any case: no branch, since nobody could foresee it.
+/// Writes eight places in any case: no branch, which processors could not predict.
 inline int store_places(std::uint32_t *to, std::uint32_t first, unsigned bits)
 {
 #if defined(__AVX512VL__)
@@ -268,7 +268,7 @@ inline int store_places(std::uint32_t *to, std::uint32_t first, unsigned bits)
 #endif
 }
 
-/// The vector, or zero: no branch, since nobody could foresee it.
+/// The vector, or zero: no branch, which processors could not predict.
 TALUS_INLINE Vec4 kept_if(bool condition, Vec4 vector)
 {
   typedef std::int64_t Bits __attribute__((vector_size(32)));
@@ -360,9 +360,9 @@ inline void store(double *address, Vec8 value)
   Memory<Vec8>::store(address, value);
 }
 
-/// For what another core reads next: a store past the caches, which need not be asked for the line
-/// first. If the cores are far from each other, asking takes as long as hundreds of additions.
-/// Stores of this kind may become visible late: streams_are_done() before others are told to read.
+/// For data that another core reads next: a non-temporal store, which does not load the cache line
+/// first. If the cores are far from each other, that load takes as long as hundreds of additions.
+/// Such stores may become visible late: call streams_are_done() before another thread reads them.
 TALUS_INLINE void stream(double *address, Vec4 value)
 {
 #if defined(__AVX__)

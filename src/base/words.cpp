@@ -5,36 +5,51 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace Talus {
 namespace {
 
-/* Decimal numbers only, in any locale; not-a-number for everything else. */
+/* Whether a number beyond the range of doubles is too large rather than too small: by the decimal
+   place of its first digit that counts. */
+
+bool is_large(const std::string &number)
+{
+  const std::size_t exponent = std::min(number.find_first_of("eE"), number.size());
+  const std::size_t point = std::min(number.find('.'), exponent);
+  const auto place =
+      static_cast<double>(point) - static_cast<double>(number.find_first_of("123456789"));
+  const long shift =
+      exponent < number.size() ? std::strtol(number.c_str() + exponent + 1, nullptr, 10) : 0;
+  return place + static_cast<double>(shift) > 0.0;
+}
+
+/* Decimal numbers only, in any locale; not-a-number for everything else. Too small for a double
+   counts as 0, too large is infinite. */
 
 double parse_number(const std::string &word)
 {
   const char *begin = word.data(), *const end = begin + word.size();
-  if (begin != end && *begin == '+') begin++;
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || begin == end || error == std::errc::invalid_argument) return NAN;
-  // too small for a double counts as 0, too large is not finite
-  if (error == std::errc::result_out_of_range)
-    return word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? 0.0
-                                                                                        : INFINITY;
+  if (stop != end || error == std::errc::invalid_argument) return NAN;
+  if (error == std::errc::result_out_of_range) return is_large(word) ? INFINITY : 0.0;
   return value;
 }
+
+/* As %g in the C locale. */
 
 std::string as_text(double number)
 {
   char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
+  const auto [stop, error] =
+      std::to_chars(text, text + sizeof text, number, std::chars_format::general, 6);
+  return error == std::errc() ? std::string(text, stop) : std::string();
 }
 
 /* "a, b or c" */

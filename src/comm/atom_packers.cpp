@@ -2,40 +2,40 @@
 
 #include "comm/atom_packers.h"
 
+#include "system/present_box.h"
+
 #include "atom.h"
 #include "atom_vec.h"
 #include "domain.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-/* The vector of one step along y or z has the tilts of a triclinic box. Written as the host does,
-   zero terms included: they decide about signed zeros. */
+namespace {
 
-const std::vector<std::array<double, 3>> &ShiftSteps::of(const PeriodicShift &shift)
+/// visit(proxy, place, steps) for each proxy: its index, the place of its particle in the message
+/// and the steps of its shift.
+template <class Visit>
+void for_each_shifted(const ExchangeNeighbor &from, const PeriodicBox &box, Visit visit)
 {
-  steps.clear();
-  for (int d = 0; d < 3; d++) {
-    const double s = shift[d] > 0 ? 1.0 : -1.0;
-    std::array<double, 3> step{0.0, 0.0, 0.0};
-    if (d == 0) step[0] = s * domain->xprd;
-    if (d == 1) {
-      if (domain->triclinic) step[0] = s * domain->xy;
-      step[1] = s * domain->yprd;
-    }
-    if (d == 2) {
-      if (domain->triclinic) step[0] = s * domain->xz;
-      if (domain->triclinic) step[1] = s * domain->yz;
-      step[2] = s * domain->zprd;
-    }
-    for (int n = 0; n < std::abs(shift[d]); n++) steps.push_back(step);
-  }
-  return steps;
+  PeriodicShift known{};
+  auto steps = box.steps_of(known);
+  from.for_each_proxy([&](int proxy, int place, const PeriodicShift &shift) {
+    if (shift != known) steps = box.steps_of(known = shift);
+    visit(proxy, place, steps);
+  });
 }
+
+template <class Steps> void add_steps(const Steps &steps, double *x)
+{
+  for (const auto &step : steps)
+    for (int d = 0; d < 3; d++) x[d] += step[d];
+}
+
+}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -48,34 +48,32 @@ void HostPacker::set(int new_size, bool with_velocity)
 /* One particle at a time: the host packs several ones array by array, and the receiver must be able
    to take out single ones. */
 
-void HostPacker::pack(const int *particles, int count, double *out)
+void HostPacker::pack(const ExchangeNeighbor &to, double *out)
 {
   int pbc[6] = {0, 0, 0, 0, 0, 0};
-  for (int k = 0; k < count; k++, out += size) {
-    int particle = particles[k];
+  for (int particle : to.send_index) {
     if (velocity)
       atom->avec->pack_comm_vel(1, &particle, out, 0, pbc);
     else
       atom->avec->pack_comm(1, &particle, out, 0, pbc);
+    out += size;
   }
 }
 
 /* What the host packs begins with x, so that the shift can be added afterwards: the host itself
    could add only one step. */
 
-void HostPacker::unpack(const ProxyRun &run, const int *places, const double *message)
+void HostPacker::unpack(const ExchangeNeighbor &from, const double *message)
 {
-  const auto &steps = shifts.of(run.shift);
   state.resize(size);
-  for (int k = 0; k < run.count; k++) {
-    std::copy_n(message + static_cast<std::size_t>(size) * places[k], size, state.begin());
-    for (const auto &step : steps)
-      for (int d = 0; d < 3; d++) state[d] += step[d];
+  for_each_shifted(from, present_box(*domain), [&](int proxy, int place, const auto &steps) {
+    std::copy_n(message + static_cast<std::size_t>(size) * place, size, state.begin());
+    add_steps(steps, state.data());
     if (velocity)
-      atom->avec->unpack_comm_vel(1, run.first + k, state.data());
+      atom->avec->unpack_comm_vel(1, proxy, state.data());
     else
-      atom->avec->unpack_comm(1, run.first + k, state.data());
-  }
+      atom->avec->unpack_comm(1, proxy, state.data());
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -88,35 +86,22 @@ bool SpherePacker::applies(bool ghost_velocity) const
          !domain->deform_vremap;
 }
 
-void SpherePacker::pack(const int *particles, int count, double *out)
+void SpherePacker::pack(const ExchangeNeighbor &to, double *out)
 {
   const double *const *x = atom->x, *const *v = atom->v, *const *omega = atom->omega;
-  for (int k = 0; k < count; k++, out += stride()) {
-    const int i = particles[k];
-    for (int d = 0; d < 3; d++) {
-      out[d] = x[i][d];
-      out[3 + d] = v[i][d];
-    }
-    if (spins)
-      for (int d = 0; d < 3; d++) out[6 + d] = omega[i][d];
+  for (const int i : to.send_index) {
+    for (const double *row : {x[i], v[i], omega[i]}) out = std::copy_n(row, 3, out);
   }
 }
 
-void SpherePacker::unpack(const ProxyRun &run, const int *places, const double *message)
+void SpherePacker::unpack(const ExchangeNeighbor &from, const double *message)
 {
   double **x = atom->x, **v = atom->v, **omega = atom->omega;
-  const auto width = static_cast<std::size_t>(stride());
-  const auto &steps = shifts.of(run.shift);
-  for (int k = 0; k < run.count; k++) {
-    const int i = run.first + k;
-    const double *in = message + width * places[k];
-    for (int d = 0; d < 3; d++) {
-      x[i][d] = in[d];
-      v[i][d] = in[3 + d];
-    }
-    if (spins)
-      for (int d = 0; d < 3; d++) omega[i][d] = in[6 + d];
-    for (const auto &step : steps)
-      for (int d = 0; d < 3; d++) x[i][d] += step[d];
-  }
+  for_each_shifted(from, present_box(*domain), [&](int proxy, int place, const auto &steps) {
+    const double *in = message + 9L * place;
+    std::copy_n(in, 3, x[proxy]);
+    std::copy_n(in + 3, 3, v[proxy]);
+    std::copy_n(in + 6, 3, omega[proxy]);
+    add_steps(steps, x[proxy]);
+  });
 }

@@ -2,7 +2,6 @@
 
 #include "comm/comm_proxy.h"
 
-#include "comm/spin_readers.h"
 #include "exchange/exchange_tags.h"
 
 #include "atom.h"
@@ -12,6 +11,7 @@
 #include "force.h"
 #include "pair.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -36,7 +36,6 @@ void CommProxy::init()
   refuse_unsupported();
   own_packing = sphere_packer.applies(ghost_velocity);
   host_packer.set(size_forward, ghost_velocity);
-  spin_reader = own_packing ? reader_of_proxy_spins(lmp) : "";
 }
 
 /* Not in the command alone: comm_modify and fix deform may come later. */
@@ -108,19 +107,10 @@ void CommProxy::finish()
   if (checks) check_states();
 }
 
-/* The spins may stay behind if only the pair style can read them, and says that it does not. */
-
-bool CommProxy::sends_spins() const
-{
-  if (!spin_reader.empty()) return true;
-  return system->pair_style_is_alone() && system->reads_proxy_omega();
-}
-
 ProxyPacker &CommProxy::choose_packer()
 {
-  if (!own_packing) return host_packer;
-  sphere_packer.send_spins(sends_spins());
-  return sphere_packer;
+  if (own_packing) return sphere_packer;
+  return host_packer;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -128,12 +118,21 @@ ProxyPacker &CommProxy::choose_packer()
 void CommProxy::derive_plan()
 {
   try {
-    transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors());
+    transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors(), largest_stride());
   } catch (const std::length_error &problem) {
     error->one(FLERR, "comm_proxy: {}", problem.what());
   } catch (const std::invalid_argument &problem) {
     error->one(FLERR, "comm_proxy: {} (internal error)", problem.what());
   }
+}
+
+/* Of what this object and the run style send with one plan: the states of particles, and their
+   identity in a check. */
+
+int CommProxy::largest_stride() const
+{
+  constexpr int identity = 2;
+  return std::max({sphere_packer.stride(), host_packer.stride(), identity});
 }
 
 /* Runs once through the host's swaps, with the identity of particles instead of their state: what
@@ -200,8 +199,7 @@ double CommProxy::messages_per_exchange() const
 
 double CommProxy::bytes_per_exchange() const
 {
-  const int width = own_packing ? (sends_spins() ? 9 : 6) : host_packer.stride();
-  return transfer.bytes_per_exchange(width);
+  return transfer.bytes_per_exchange(own_packing ? sphere_packer.stride() : host_packer.stride());
 }
 
 std::string CommProxy::describe_message() const
@@ -211,15 +209,12 @@ std::string CommProxy::describe_message() const
     return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {})", bytes,
                        atom->atom_style);
   }
-  if (!sends_spins()) return "48 bytes per particle: x, v";
-  const std::string why = spin_reader.empty() ? "for friction" : "for " + spin_reader;
-  return "72 bytes per particle: x, v, omega (" + why + ")";
+  return "72 bytes per particle: x, v, omega";
 }
 
 double CommProxy::memory_usage()
 {
-  return CommBrick::memory_usage() +
-         2.0 * transfer.bytes_per_exchange(own_packing ? 9 : host_packer.stride());
+  return CommBrick::memory_usage() + 2.0 * bytes_per_exchange();
 }
 
 /* ---------------------------------------------------------------------- */

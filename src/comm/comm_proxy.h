@@ -74,6 +74,10 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   bool overlaps() const override { return overlapped_run; }
   bool pending() const override { return transfer.pending(); }
   void progress() override { transfer.progress(); }
+  bool may_progress_beside(int threads) const override
+  {
+    return Talus::ProxyExchange::may_progress_beside(threads);
+  }
   void finish() override;
 
   /// Invariant checks: proxies are poisoned with NaN until they are valid, and every state is
@@ -86,14 +90,14 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   /// Of this rank, for one exchange with the present plan.
   double messages_per_exchange() const override;
   double bytes_per_exchange() const override;
-  /// What a proxy's message holds, and why; for people.
+  /// What a proxy's message holds, for people.
   std::string describe_message() const override;
 
  private:
   Talus::ProxyPacker &choose_packer();
-  bool sends_spins() const;
   void refuse_unsupported();
   void derive_plan();
+  int largest_stride() const;
   std::vector<Talus::ProxyOrigin> trace_origins();
   std::vector<int> possible_neighbors() const;
   void poison_proxies();
@@ -106,7 +110,6 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   Talus::SpherePacker sphere_packer;
   bool have_plan = false;      ///< the same on all ranks
   bool own_packing = false;    ///< atom style sphere
-  std::string spin_reader;     ///< see Talus::reader_of_proxy_spins()
   bool checks = false;
   bool overlapped_run = false;
 };

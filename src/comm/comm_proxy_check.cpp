@@ -24,22 +24,21 @@ class IdentityPacker : public ProxyPacker {
 
   int stride() const override { return 2; }
 
-  void pack(const int *particles, int count, double *out) override
+  void pack(const ExchangeNeighbor &to, double *out) override
   {
-    for (int k = 0; k < count; k++) {
-      out[2 * k] = static_cast<double>(tag_of(particles[k]));
-      out[2 * k + 1] = atom->type[particles[k]];
+    for (const int i : to.send_index) {
+      *out++ = static_cast<double>(tag_of(i));
+      *out++ = atom->type[i];
     }
   }
 
-  void unpack(const ProxyRun &run, const int *places, const double *message) override
+  void unpack(const ExchangeNeighbor &from, const double *message) override
   {
-    for (int k = 0; k < run.count; k++) {
-      const int i = run.first + k;
-      const double *in = message + 2L * places[k];
+    from.for_each_proxy([&](int i, int place, const PeriodicShift &) {
+      const double *in = message + 2L * place;
       seen[i]++;
       if (in[0] != static_cast<double>(tag_of(i)) || in[1] != atom->type[i]) wrong++;
-    }
+    });
   }
 
   /// Proxies with another owner than they should, and proxies without or with several owners.
@@ -86,12 +85,11 @@ void CommProxy::check_owners()
 void CommProxy::poison_proxies()
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const bool spins = own_packing && sends_spins();
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++)
     for (int d = 0; d < 3; d++) {
       atom->x[i][d] = nan;
       if (ghost_velocity) atom->v[i][d] = nan;
-      if (spins) atom->omega[i][d] = nan;
+      if (own_packing) atom->omega[i][d] = nan;
     }
 }
 
@@ -121,10 +119,7 @@ void CommProxy::check_states()
   CommBrick::forward_comm();
   bool wrong = differs_then_restore(atom->x, x);
   if (ghost_velocity) wrong |= differs_then_restore(atom->v, v);
-  if (spins) {
-    const bool differs = differs_then_restore(atom->omega, omega);
-    wrong |= differs && (!own_packing || sends_spins());
-  }
+  if (spins) wrong |= differs_then_restore(atom->omega, omega);
   if (wrong)
     error->one(FLERR, "comm_proxy check: the state of a proxy is not that of its owner "
                       "(internal error)");

@@ -15,15 +15,14 @@ ContactChunk::ContactChunk()
   batch.clear();
 }
 
-void ContactChunk::start_pairs(const ContactScene &scene, const FiledHistories &filed,
-                               const std::vector<int> &slots_then)
+void ContactChunk::start_pairs(const ContactScene &scene, const HistoryStore &histories)
 {
   // the contacts of each law fill whole vectors of the batch: leave room for the gaps
   std::iota(std::begin(lane_of_contact), std::end(lane_of_contact), 0);
   const int laws = scene.laws.num_laws(), gaps = laws > 1 ? (lanes - 1) * laws : 0;
   block_size = std::max(lanes, (ContactBatch::width - gaps) / lanes * lanes);
   if (scene.with_history)
-    history.fetch(pairs, filed, slots_then);
+    history.fetch(pairs, histories);
   else
     history.release();
   touching = 0;

@@ -75,8 +75,7 @@ class ContactChunk {
   ContactChunk();
 
   /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
-  void start_pairs(const ContactScene &scene, const FiledHistories &filed,
-                   const std::vector<int> &slots_then);
+  void start_pairs(const ContactScene &scene, const HistoryStore &histories);
 
   /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
   /// ask.

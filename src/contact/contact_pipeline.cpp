@@ -73,27 +73,11 @@ void ContactPipeline::find_frontier()
               [&](int p) { parts[p].pairs.read_copies(copy_of_slot); });
 }
 
-void ContactPipeline::start_pairs(const FiledHistories &filed)
+void ContactPipeline::start_pairs(HistoryStore &histories)
 {
-  const std::vector<int> slots = slots_then(filed);
-  in_parallel(order.num_chunks(), threads,
-              [&](int p) { parts[p].start_pairs(scene, filed, slots); });
+  histories.open(order, threads);
+  in_parallel(order.num_chunks(), threads, [&](int p) { parts[p].start_pairs(scene, histories); });
   make_room();
-}
-
-/* By present slot: that of the last lists. */
-
-std::vector<int> ContactPipeline::slots_then(const FiledHistories &filed) const
-{
-  if (filed.kept.empty()) return {};
-  std::vector<int> slots(order.size());
-  in_ranges(order.size(), [&](int begin, int end) {
-    for (int s = begin; s < end; s++) {
-      const int atom = order.atom_of_slot[s];
-      slots[s] = filed.slot_then(atom, order.is_owned(atom));
-    }
-  });
-  return slots;
 }
 
 void ContactPipeline::make_room()
@@ -120,37 +104,15 @@ void ContactPipeline::release()
   pairs_known = false;
 }
 
-void ContactPipeline::keep_history(KeptContacts &to, bool particles_may_leave)
+void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay)
 {
   to.clear();
-  pairs_known = false;
+  if (!stay) pairs_known = false;
   if (!scene.with_history) return;
-  to.begin(order, particles_may_leave);
+  to.begin(order, order.num_chunks(), order.chunk_of_slots(), scope);
   in_parallel(order.num_chunks(), threads,
-              [&](int p) { parts[p].history.keep(parts[p].pairs, to.part(p)); });
-  to.finish(threads);
-}
-
-void ContactPipeline::file_history(PartnerLists &partners) const
-{
-  partners.begin();
-  if (!scene.with_history) return;
-  const int num_chunks = static_cast<int>(parts.size());
-  in_parallel(num_chunks, threads,
-              [&](int p) { parts[p].history.announce(parts[p].pairs, partners); });
-  for (const ContactChunk &part : parts) part.history.announce_handed_over(part.pairs, partners);
-  partners.layout();
-  in_parallel(num_chunks, threads, [&](int p) { parts[p].history.file(parts[p].pairs, partners); });
-  for (const ContactChunk &part : parts) part.history.file_handed_over(part.pairs, partners);
-}
-
-void ContactPipeline::adopt_first_copies(
-    PartnerLists &partners,
-    const std::function<const double *(int, std::int64_t)> &ghost_values) const
-{
-  if (!scene.with_history) return;
-  for (const ContactChunk &part : parts)
-    part.history.adopt_first_copies(part.pairs, partners, ghost_values);
+              [&](int p) { parts[p].history.put_aside(parts[p].pairs, to.chunk(p), stay); });
+  to.finish(order, threads);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -247,6 +209,7 @@ void ContactPipeline::bring(const ParticleView &host, const ContactStep &step, i
 
 void ContactPipeline::start_step(const ContactStep &step)
 {
+  remembered.reset();
   if (!particles.has_room()) make_room();
   if (step.account) step.account->begin_step(order.size());
 }

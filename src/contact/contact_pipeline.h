@@ -3,8 +3,8 @@
 // The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical
 // order. Knows nothing of the host: the pair style hands arrays over and adds the result.
 //
-//   at a rebuild   keep_history() or file_history() (if the old pairs are still current),
-//                  release(), set_pairs(), start_pairs()
+//   at a rebuild   keep_history() (if the old pairs are still current), release(),
+//                  set_pairs(), start_pairs()
 //   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
 //   state
 //
@@ -22,6 +22,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace Talus {
@@ -31,6 +32,13 @@ struct DeepestContact {
   double overlap_ratio = 0.0;
   int i = 0, j = 0;
   bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
+};
+
+/// The answers of a ContactPipeline about the contacts of a step, see there.
+struct ContactSurvey {
+  double contacts, candidates;
+  DeepestContact deepest;
+  double smallest_period, largest_speed;
 };
 
 class ContactPipeline {
@@ -57,23 +65,19 @@ class ContactPipeline {
   };
   void set_pairs(const Particles &particles, const NeighborView &neighbors);
   /// After set_pairs(), when the neighbors are no longer needed.
-  void start_pairs(const FiledHistories &filed);
+  void start_pairs(HistoryStore &histories);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the sums in the
   /// records, which the next compute() makes anew; the state must be in the host's arrays. And that
   /// of pairs and histories as well, which are then unknown until set_pairs().
   void release_records();
   void release();
+  /// What counts as much (bytes).
+  void set_worth_giving_back(double bytes) { worth_giving_back = bytes; }
 
-  /// Hands the current history over as it stands; there are no pairs until set_pairs(). Clears `to`
-  /// in a scene without history.
-  void keep_history(KeptContacts &to, bool particles_may_leave);
-  /// Files the current history by particle. Empties the lists in a scene without history.
-  void file_history(PartnerLists &partners) const;
-  /// See ContactHistory::adopt_first_copies(). Call after file_history().
-  void
-  adopt_first_copies(PartnerLists &partners,
-                     const std::function<const double *(int, std::int64_t)> &ghost_values) const;
+  /// Puts the current history aside. Clears `to` in a scene without history. There are no pairs
+  /// then until set_pairs(), unless they `stay`.
+  void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay);
 
   /// Computes all contacts and adds their forces to the host's arrays.
   ///
@@ -121,6 +125,10 @@ class ContactPipeline {
   /// unknown.
   TangentialHistory<double> history_of(int i, int j) const;
   ContactImpact<double> impact_of(int i, int j) const;
+
+  /// At the end of a run, before memory is given back: the answers below, of which early_share() is
+  /// none, are those of now until the next compute().
+  void remember_contacts();
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.
@@ -170,7 +178,6 @@ class ContactPipeline {
   void copy_frontier(int thread);
   void bring(const ParticleView &host, const ContactStep &step, int part, int begin, int end);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
-  std::vector<int> slots_then(const FiledHistories &filed) const;
   /// work(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
   template <class Work> void in_ranges(std::int64_t n, Work work) const
   {
@@ -183,6 +190,8 @@ class ContactPipeline {
   template <class Value, class Result> Value largest_of_parts(Value none, Result result) const;
 
   ContactScene scene;
+  double worth_giving_back = Talus::worth_giving_back;
+  std::optional<ContactSurvey> remembered;
   bool pairs_known = false;
   int threads = 1;    ///< parts of each phase
   int next_threads = 1;

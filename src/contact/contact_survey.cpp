@@ -12,8 +12,16 @@
 
 namespace Talus {
 
+void ContactPipeline::remember_contacts()
+{
+  if (remembered || !pairs_known) return;
+  remembered = ContactSurvey{count_contacts(), count_candidates(), deepest_contact(),
+                             smallest_contact_period(), largest_relative_speed()};
+}
+
 double ContactPipeline::count_contacts() const
 {
+  if (remembered) return remembered->contacts;
   double count = 0.0;
   for (const ContactChunk &part : parts)
     part.for_each_contact([&](std::int64_t pair) {
@@ -24,6 +32,7 @@ double ContactPipeline::count_contacts() const
 
 double ContactPipeline::count_candidates() const
 {
+  if (remembered) return remembered->candidates;
   double count = 0.0;
   for (const ContactChunk &part : parts)
     for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++)
@@ -86,6 +95,7 @@ Value ContactPipeline::largest_of_parts(Value none, Result result) const
 
 DeepestContact ContactPipeline::deepest_contact() const
 {
+  if (remembered) return remembered->deepest;
   return largest_of_parts(DeepestContact{}, [this](const ContactChunk &part) {
     DeepestContact deepest;
     part.for_each_contact([&](std::int64_t pair) {
@@ -105,6 +115,7 @@ DeepestContact ContactPipeline::deepest_contact() const
 
 double ContactPipeline::smallest_contact_period() const
 {
+  if (remembered) return remembered->smallest_period;
   // the largest of the inverse squares
   const double largest = largest_of_parts(0.0, [this](const ContactChunk &part) {
     double of_part = 0.0;
@@ -124,6 +135,7 @@ double ContactPipeline::smallest_contact_period() const
 
 double ContactPipeline::largest_relative_speed() const
 {
+  if (remembered) return remembered->largest_speed;
   return std::sqrt(largest_of_parts(0.0, [this](const ContactChunk &part) {
     double largest = 0.0;
     for (std::int64_t c = 0; c < part.pairs.num_pairs(); c++) {

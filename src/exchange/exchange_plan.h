@@ -53,6 +53,15 @@ struct ExchangeNeighbor {
 
   int send_count() const { return static_cast<int>(send_index.size()); }
   int receive_count() const { return static_cast<int>(receive_index.size()); }
+
+  /// visit(proxy, place, shift) for each proxy: its index, and the place of its particle in the
+  /// message.
+  template <class Visit> void for_each_proxy(Visit visit) const
+  {
+    const int *place = receive_place.data();
+    for (const ProxyRun &run : receive)
+      for (int k = 0; k < run.count; k++) visit(run.first + k, *place++, run.shift);
+  }
 };
 
 /// Numbers in a message of `count` particles with `stride` numbers each. MPI counts with an int:

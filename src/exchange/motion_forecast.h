@@ -1,19 +1,21 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Will a neighbor list still be valid in the next step? A list made with a skin s holds every
-// pair that can touch as long as no particle has moved further than s/2 since it was made. The
+// Will a neighbor list still be valid until it can be made anew? A list made with a skin s holds
+// every pair that can touch as long as no particle has moved further than s/2 since it was made. The
 // stock check asks all ranks in the step itself and waits for their answers. Asked one step ahead,
-// the answers have a step's time to arrive; the price is that the motion of that step has to be
-// estimated from above, so that the list is made anew slightly earlier.
+// the answers have a step's time to arrive; the price is that the motion until then has to be
+// estimated from above, so that the list is made anew slightly earlier. A list that is kept is kept
+// until the next check, N steps later (`neigh_modify every N`): it serves in N steps.
 //
 // Estimate: particle i has moved d_i, at most D, and moved s_i = dt |v_i| in the last step
 // (exactly, when the integrator moves x by dt v), at most S, where D and S are the largest of all
-// particles of all ranks. In the next step it moves at most s_i + S <= 2 S: no contact changes a
-// velocity, within one step, by more than the largest speed there is. (The change in a stable step
-// is about omega dt times the relative speed, with omega dt well below 1; see
+// particles of all ranks. In each of the next N steps it moves at most s_i + S <= 2 S: no contact
+// changes a velocity, before the next check, by more than the largest speed there is. (The change in
+// a stable step is about omega dt times the relative speed, with omega dt well below 1, and a whole
+// collision of equal particles ends with at most the speed of the other one; see
 // doc/run_style_verlet_proxy.md.) Where this does not hold, for instance because positions are set
-// by something else than v, the list may be late by one step: that is noticed in the next forecast
-// by its D, and counts as a dangerous build.
+// by something else than v, the list may be late: that is noticed in the next forecast by its D, and
+// counts as a dangerous build.
 //
 // No LAMMPS, no MPI. Both numbers are maxima, exact in any order: the decision does not depend on
 // the number of ranks.
@@ -27,8 +29,9 @@ struct MotionForecast {
   double moved = 0.0;    ///< D, largest d_i (length)
   double step = 0.0;     ///< S, largest s_i (length)
 
-  /// Whether a particle may be further than `limit` from where it was, one step later.
-  bool may_leave(double limit) const { return moved + 2.0 * step > limit; }
+  /// Whether a particle may be further than `limit` from where it was in one of the next `steps`
+  /// steps.
+  bool may_leave(double limit, int steps) const { return moved + 2.0 * steps * step > limit; }
 };
 
 /// Of particles 0 ... n-1 with positions x, positions x_then when the list was made, and velocities

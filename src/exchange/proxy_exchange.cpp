@@ -43,13 +43,22 @@ ProxyExchange::~ProxyExchange()
 /* ---------------------------------------------------------------------- */
 
 void ProxyExchange::make_plan(int first_proxy, const std::vector<ProxyOrigin> &origins,
-                              const std::vector<int> &candidates)
+                              const std::vector<int> &candidates, int new_largest_stride)
 {
   abandon();
+  cancel_receives();
   complete_sends();
   the_plan.build(me, first_proxy, origins);
+  ask_owners(candidates);
+  largest_stride = new_largest_stride;
+  size_buffers();
+  open_receives();
+}
 
-  // one message to every candidate, empty ones included: the receiver knows how many to expect
+/* One message to every candidate, empty ones included: the receiver knows how many to expect. */
+
+void ProxyExchange::ask_owners(const std::vector<int> &candidates)
+{
   const std::size_t n = candidates.size();
   std::vector<std::vector<int>> request(n);
   std::vector<MPI_Request> handle(n, MPI_REQUEST_NULL);
@@ -70,15 +79,12 @@ void ProxyExchange::make_plan(int first_proxy, const std::vector<ProxyOrigin> &o
   }
   wait_for(handle);
   for (std::size_t c = 0; c < n; c++) the_plan.accept_request(candidates[c], received[c]);
-  stride = 0;
 }
 
-/* Places in the buffers, once per plan and stride. */
+/* Places in the buffers, for the largest messages. */
 
-void ProxyExchange::size_buffers(int new_stride)
+void ProxyExchange::size_buffers()
 {
-  if (stride == new_stride) return;
-  stride = new_stride;
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
   std::size_t sent = 0, received = 0;
   send_start.clear();
@@ -86,14 +92,31 @@ void ProxyExchange::size_buffers(int new_stride)
   for (const ExchangeNeighbor &n : neighbors) {
     send_start.push_back(sent);
     receive_start.push_back(received);
-    sent += message_length(stride, n.send_count());
-    received += message_length(stride, n.receive_count());
+    sent += message_length(largest_stride, n.send_count());
+    received += message_length(largest_stride, n.receive_count());
   }
   send_buffer.resize(sent);
   receive_buffer.resize(received);
-  self_buffer.resize(static_cast<std::size_t>(stride) * the_plan.self().send_count());
+  self_buffer.resize(static_cast<std::size_t>(largest_stride) * the_plan.self().send_count());
   receives.assign(neighbors.size(), MPI_REQUEST_NULL);
   sends.assign(neighbors.size(), MPI_REQUEST_NULL);
+}
+
+void ProxyExchange::open_receives()
+{
+  const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
+  for (std::size_t n = 0; n < neighbors.size(); n++)
+    if (neighbors[n].receive_count())
+      MPI_Irecv(receive_buffer.data() + receive_start[n],
+                message_length(largest_stride, neighbors[n].receive_count()), MPI_DOUBLE,
+                neighbors[n].rank, TAG_STATE, comm, &receives[n]);
+}
+
+void ProxyExchange::cancel_receives()
+{
+  for (MPI_Request &request : receives)
+    if (request != MPI_REQUEST_NULL) MPI_Cancel(&request);
+  wait_for(receives);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -101,17 +124,13 @@ void ProxyExchange::size_buffers(int new_stride)
 void ProxyExchange::begin(ProxyPacker &with)
 {
   if (pending()) throw std::logic_error("an exchange of proxies is pending");
+  if (with.stride() > largest_stride)
+    throw std::logic_error("states of proxies are longer than their plan was told");
   complete_sends();
-  size_buffers(with.stride());
   packer = &with;
 
   const double start = MPI_Wtime();
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
-  for (std::size_t n = 0; n < neighbors.size(); n++)
-    if (neighbors[n].receive_count())
-      MPI_Irecv(receive_buffer.data() + receive_start[n],
-                message_length(stride, neighbors[n].receive_count()), MPI_DOUBLE, neighbors[n].rank,
-                TAG_STATE, comm, &receives[n]);
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
   counters.exchanges++;
@@ -124,8 +143,8 @@ void ProxyExchange::pack_and_send(int n)
 {
   const ExchangeNeighbor &to = the_plan.neighbors()[n];
   double *buffer = send_buffer.data() + send_start[n];
-  packer->pack(to.send_index.data(), to.send_count(), buffer);
-  const int size = message_length(stride, to.send_count());
+  packer->pack(to, buffer);
+  const int size = message_length(packer->stride(), to.send_count());
   MPI_Isend(buffer, size, MPI_DOUBLE, to.rank, TAG_STATE, comm, &sends[n]);
   counters.messages++;
   counters.particles += to.send_count();
@@ -134,20 +153,15 @@ void ProxyExchange::pack_and_send(int n)
 
 /* ---------------------------------------------------------------------- */
 
-void ProxyExchange::unpack_from(const ExchangeNeighbor &from, const double *buffer)
+void ProxyExchange::unpack_from(int n)
 {
-  const int *places = from.receive_place.data();
-  for (const ProxyRun &run : from.receive) {
-    packer->unpack(run, places, buffer);
-    places += run.count;
-  }
+  packer->unpack(the_plan.neighbors()[n], receive_buffer.data() + receive_start[n]);
 }
 
 void ProxyExchange::copy_to_self()
 {
-  const ExchangeNeighbor &own = the_plan.self();
-  packer->pack(own.send_index.data(), own.send_count(), self_buffer.data());
-  unpack_from(own, self_buffer.data());
+  packer->pack(the_plan.self(), self_buffer.data());
+  packer->unpack(the_plan.self(), self_buffer.data());
 }
 
 void ProxyExchange::progress()
@@ -159,10 +173,16 @@ void ProxyExchange::progress()
                MPI_STATUSES_IGNORE);
   if (count == MPI_UNDEFINED || count == 0) return;
   const double start = MPI_Wtime();
-  for (int k = 0; k < count; k++)
-    unpack_from(the_plan.neighbors()[arrived[k]],
-                receive_buffer.data() + receive_start[arrived[k]]);
+  for (int k = 0; k < count; k++) unpack_from(arrived[k]);
   counters.unpack_seconds += MPI_Wtime() - start;
+}
+
+bool ProxyExchange::may_progress_beside(int threads)
+{
+  if (threads == 1) return true;
+  int level = MPI_THREAD_SINGLE;
+  MPI_Query_thread(&level);
+  return level >= MPI_THREAD_FUNNELED;
 }
 
 void ProxyExchange::finish()
@@ -182,10 +202,11 @@ void ProxyExchange::finish()
     MPI_Waitany(static_cast<int>(receives.size()), receives.data(), &n, MPI_STATUS_IGNORE);
     lap(counters.wait_seconds);
     if (n == MPI_UNDEFINED) break;
-    unpack_from(the_plan.neighbors()[n], receive_buffer.data() + receive_start[n]);
+    unpack_from(n);
     lap(counters.unpack_seconds);
   }
   packer = nullptr;
+  open_receives();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -195,6 +216,7 @@ void ProxyExchange::abandon()
   if (!pending()) return;
   wait_for(receives);
   packer = nullptr;
+  open_receives();
 }
 
 /* A message can still be on its way out when all that we wait for has arrived: a receiver that is
@@ -213,15 +235,11 @@ void ProxyExchange::complete_or_cancel()
   const double start = MPI_Wtime();
   bool complete = false;
   while (!complete && MPI_Wtime() - start < patience) {
-    const bool received = done(receives);
+    const bool received = !pending() || done(receives);
     complete = done(sends) && received;
   }
   packer = nullptr;
-  if (complete) return;
-
-  for (MPI_Request &request : receives)
-    if (request != MPI_REQUEST_NULL) MPI_Cancel(&request);
-  wait_for(receives);
+  cancel_receives();
   bool unsent = false;
   for (MPI_Request &request : sends)
     if (request != MPI_REQUEST_NULL) {
@@ -229,7 +247,7 @@ void ProxyExchange::complete_or_cancel()
       unsent = true;
     }
   // A send that was given up may still be read by its receiver: its buffer must outlive us.
-  if (unsent) new std::vector<double>(std::move(send_buffer));
+  if (unsent) new AlignedVector<double>(std::move(send_buffer));
 }
 
 double ProxyExchange::bytes_per_exchange(int of_stride) const

@@ -11,16 +11,16 @@ namespace Talus {
 
 class ProxyPacker {
  public:
-  /// Numbers per particle in a message. The same on all ranks, and constant from begin() to
-  /// finish() of an exchange.
+  /// Numbers per particle in a message. The same on all ranks, constant from begin() to finish() of
+  /// an exchange, and at most the `largest_stride` of ProxyExchange::make_plan().
   virtual int stride() const = 0;
 
-  /// Writes the states of `count` owned particles.
-  virtual void pack(const int *particles, int count, double *out) = 0;
+  /// Writes the states of the particles to.send_index, one after the other. `to` is a neighbor of
+  /// the plan, or the plan's self().
+  virtual void pack(const ExchangeNeighbor &to, double *out) = 0;
 
-  /// Sets the state of the proxies of a run: proxy run.first + k is the particle whose state is the
-  /// places[k]-th one of `message`, shifted by whole periods.
-  virtual void unpack(const ProxyRun &run, const int *places, const double *message) = 0;
+  /// Sets the states of all proxies that `from` owns, see ExchangeNeighbor::for_each_proxy().
+  virtual void unpack(const ExchangeNeighbor &from, const double *message) = 0;
 
  protected:
   ~ProxyPacker() = default;    // never deleted through this interface

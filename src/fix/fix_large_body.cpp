@@ -49,10 +49,13 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
                             [](const ContactSpec &s) { return s.law.has_impact(); });
   offer_output();
   keep_history();
+  system->run_monitor().add(this,
+                            monitor.checks([this] { return find_worst(); }, motion.moves(), id));
 }
 
 FixLargeBody::~FixLargeBody()
 {
+  system->run_monitor().remove(this);
   finish_reduction();
   if (!with_history) return;
   atom->delete_callback(id, Atom::GROW);
@@ -165,8 +168,8 @@ double FixLargeBody::contact_period(int type, double mass, double radius)
 
 int FixLargeBody::setmask()
 {
-  return POST_INTEGRATE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE | MIN_POST_FORCE |
-         (nevery ? END_OF_STEP : 0);
+  return POST_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_FORCE |
+         MIN_POST_FORCE | (nevery ? END_OF_STEP : 0);
 }
 
 void FixLargeBody::init()
@@ -176,7 +179,7 @@ void FixLargeBody::init()
   if (thermo_energy) keeps_account = true;
   joined = false;    // a step that an error ended may have left it
   motion.init();
-  monitor.start();
+  system->run_monitor().start();
   masses.find_fixes();
   find_region();
   find_frozen();
@@ -239,17 +242,23 @@ void FixLargeBody::post_neighbor()
 {
   masses.update();
   list_particles();
-  look_for_trouble();
+}
+
+/* Pair style gran/penalty looks earlier for all; without it the first body does. */
+
+void FixLargeBody::pre_exchange()
+{
+  system->run_monitor().look(RunMonitor::Moment::REBUILD);
 }
 
 void FixLargeBody::post_run()
 {
-  look_for_trouble();
+  system->run_monitor().look(RunMonitor::Moment::END);
 }
 
-void FixLargeBody::look_for_trouble()
+BodyContacts::Worst FixLargeBody::find_worst()
 {
-  monitor.look(contacts.worst(*shape, motion.frame(), view(), comm->nthreads), motion.moves(), id);
+  return contacts.worst(*shape, motion.frame(), view(), comm->nthreads);
 }
 
 void FixLargeBody::list_particles()
@@ -265,6 +274,7 @@ void FixLargeBody::list_particles()
 void FixLargeBody::setup(int vflag)
 {
   post_force(vflag);
+  system->run_monitor().look(RunMonitor::Moment::SETUP);
   if (nevery && update->ntimestep % nevery == 0) end_of_step();
 }
 

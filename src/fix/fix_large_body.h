@@ -34,6 +34,7 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   int setmask() override;
   void init() override;
   void post_integrate() override;
+  void pre_exchange() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
   void min_post_neighbor() override;
@@ -100,7 +101,7 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   void set_laws();
   Talus::BodyParticleView view() const;
   void list_particles();
-  void look_for_trouble();
+  Talus::BodyContacts::Worst find_worst();
   void find_region();
   void find_frozen();
   void clear_frozen();

@@ -7,49 +7,54 @@
 #include "error.h"
 #include "update.h"
 
-#include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-void LargeBodyMonitor::look(const BodyContacts::Worst &mine, bool moves, const std::string &id)
+/* One pass over the particles serves both checks, as long as the first one still looks. */
+
+std::vector<RunMonitor::Check>
+LargeBodyMonitor::checks(std::function<BodyContacts::Worst()> find_worst, bool moves,
+                         const std::string &id)
 {
-  double worst, tag;
-  if (!said_overlap && exceeds(mine.overlap, mine.deepest, largest_overlap, worst, tag)) {
-    said_overlap = true;
+  using Finding = RunMonitor::Finding;
+  look = std::move(find_worst);
+  const auto look_for_overlap = [this] {
+    worst = look();
+    just_looked = true;
+    return finding(worst.overlap, worst.deepest);
+  };
+  const auto say_overlap = [this, id](const Finding &found) {
     if (comm->me == 0)
       error->warning(FLERR,
                      "Fix large/body {}: particle {:.0f} overlaps the body by {:.3g} of its radius "
                      "at step {}; contact laws are made for small overlaps: use a higher "
                      "stiffness, or look for particles that overlap from the beginning",
-                     id, tag, worst, update->ntimestep);
-  }
-  if (said_move || !moves) return;
-  if (exceeds(mine.speed * update->dt, mine.fastest, largest_move, worst, tag)) {
-    said_move = true;
+                     id, found.details[0], found.value, update->ntimestep);
+    return true;
+  };
+  const auto look_for_move = [this] {
+    if (!just_looked) worst = look();
+    just_looked = false;
+    return finding(worst.speed * update->dt, worst.fastest);
+  };
+  const auto say_move = [this, id](const Finding &found) {
     if (comm->me == 0)
       error->warning(FLERR,
                      "Fix large/body {}: particle {:.0f} and the body move past each other by "
                      "{:.3g} of its radius in a time step at step {}; an impact is not resolved: "
                      "reduce the time step",
-                     id, tag, worst, update->ntimestep);
-  }
+                     id, found.details[0], found.value, update->ntimestep);
+    return true;
+  };
+  std::vector<RunMonitor::Check> its{{largest_overlap, look_for_overlap, say_overlap}};
+  if (moves) its.push_back({largest_move, look_for_move, say_move});
+  return its;
 }
 
-/* The largest value of all ranks, and its particle. A value that is not a number counts as zero: it
-   is another trouble. */
-
-bool LargeBodyMonitor::exceeds(double mine, int atom_of_mine, double limit, double &worst,
-                               double &tag) const
+RunMonitor::Finding LargeBodyMonitor::finding(double value, int particle) const
 {
-  struct {
-    double value;
-    int rank;
-  } here = {std::isfinite(mine) ? mine : 0.0, comm->me}, all;
-  MPI_Allreduce(&here, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  worst = all.value;
-  if (!(worst > limit)) return false;
-  tag = comm->me == all.rank ? static_cast<double>(atom->tag[atom_of_mine]) : 0.0;
-  MPI_Bcast(&tag, 1, MPI_DOUBLE, all.rank, world);
-  return true;
+  if (!(value > 0.0)) return {};
+  return {value, {static_cast<double>(atom->tag[particle])}};
 }

@@ -1,21 +1,22 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Two warnings of fix large/body, once per run each, as ContactMonitor gives them for pairs:
+// Two checks of fix large/body, as ContactMonitor has them for pairs:
 //
 //   overlap   a particle overlaps the body by more than a tenth of its radius: the laws are those
 //             of small overlaps
 //   move      a particle near a body that moves goes by more than a tenth of its radius past it in
 //             a time step: it may be deep in the body, or through it, before it feels a force
-//
-// Looked for when the neighbor lists have been rebuilt and at the end of a run, not in every step.
 
 #ifndef TALUS_FIX_LARGE_BODY_MONITOR_H
 #define TALUS_FIX_LARGE_BODY_MONITOR_H
 
 #include "body/contact/body_contacts.h"
 #include "pointers.h"
+#include "system/run_monitor.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -26,16 +27,17 @@ class LargeBodyMonitor : protected Pointers {
 
   explicit LargeBodyMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// A run begins: both may be said again.
-  void start() { said_overlap = said_move = false; }
-
-  /// Collective. `worst` of the particles of this rank; `moves`: the body does.
-  void look(const Talus::BodyContacts::Worst &worst, bool moves, const std::string &id);
+  /// `find_worst`: of the particles of this rank; `moves`: the body does. This object must live as
+  /// long as the checks.
+  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyContacts::Worst()> find_worst,
+                                        bool moves, const std::string &id);
 
  private:
-  bool exceeds(double mine, int atom, double limit, double &worst, double &tag) const;
+  RunMonitor::Finding finding(double value, int particle) const;
 
-  bool said_overlap = false, said_move = false;
+  std::function<Talus::BodyContacts::Worst()> look;
+  Talus::BodyContacts::Worst worst;
+  bool just_looked = false;    ///< for the first of the two checks
 };
 
 }    // namespace LAMMPS_NS

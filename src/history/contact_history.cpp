@@ -7,61 +7,26 @@
 
 namespace Talus {
 
-namespace {
+/* Whether the store knows a pair nobody can foresee: so a record is written in any case, and
+   overwritten by the next one if it does not count. */
 
-constexpr Record nothing{};
-
-/// What was filed of one pair: its history as one of its particles sees it. If nothing was, there
-/// are some numbers to read all the same.
-struct Filed {
-  bool known = false, by_first = true;
-  const double *history = nothing.c, *impact = nothing.c;
-};
-
-/// In the list of the first particle, or if that is a ghost of the second.
-Filed in_lists(const FiledHistories &filed, const ParticleOrder &order, int first, int second)
+void ContactHistory::fetch(const PairList &pairs, const HistoryStore &store)
 {
-  const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-  const bool of_first = order.is_owned(a);
-  const int owner = of_first ? a : b, partner = of_first ? b : a;
-  const double *values =
-      filed.name[partner] ? filed.partners.find(owner, filed.name[partner]) : nullptr;
-  if (!values) return {};
-  return {true, of_first, values, filed.partners.num_values() == 8 ? values + 4 : nothing.c};
-}
-
-/* Lists are of those that came from elsewhere: they tell of pairs that were nobody's here. */
-
-Filed in_kept(const FiledHistories &filed, const std::vector<int> &slots_then,
-              const ParticleOrder &order, int first, int second)
-{
-  const int a = slots_then[first], b = slots_then[second];
-  if (a < 0 && b < 0) return in_lists(filed, order, first, second);
-  const KeptContacts::Found found = filed.kept.find(a, b);
-  return {found.known, found.by_a, found.record->c, found.impact->c};
-}
-
-}    // namespace
-
-/* What `find` finds of each pair of slots. Whether it finds anything nobody can foresee: so a
-   record is written in any case, and overwritten by the next one if it does not count. */
-
-template <class Find> void ContactHistory::fill(const PairList &pairs, Find find)
-{
-  const std::int64_t n = pairs.num_pairs();
-  renew(places, n);
-  touching.assign((n + 7) / 8, 0);
+  const std::int64_t n = store.empty() ? 0 : pairs.num_pairs();
+  impact_kept = store.keeps_impacts();
+  renew(places, pairs.num_pairs());
+  touching.assign((pairs.num_pairs() + 7) / 8, 0);
   vacant.clear();
   // addresses for all, that nothing has to move later; only what is written takes memory
-  renew(records, n);
-  renew(impacts, impact_kept ? n : 0);
+  renew(records, pairs.num_pairs());
+  renew(impacts, impact_kept ? pairs.num_pairs() : 0);
   std::uint32_t found = 0;
   for (std::int64_t block = 0; block < n; block += 8) {
     unsigned bits = 0;
     for (std::int64_t c = block; c < std::min(block + 8, n); c++) {
-      const Filed its = find(pairs.first[c], pairs.second[c]);
+      const FoundHistory its = store.find(pairs.first[c], pairs.second[c]);
       std::memcpy(&records[found], its.history, sizeof(Record));
-      if (!its.by_first) records[found] = mirrored(records[found]);
+      if (!its.by_a) records[found] = mirrored(records[found]);
       if (impact_kept) std::memcpy(&impacts[found], its.impact, sizeof(Record));
       places[c] = found;
       found += its.known;
@@ -73,43 +38,43 @@ template <class Find> void ContactHistory::fill(const PairList &pairs, Find find
   impacts.resize(impact_kept ? found : 0);
 }
 
-void ContactHistory::fetch(const PairList &pairs, const FiledHistories &filed,
-                           const std::vector<int> &slots_then)
+void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool keeps_its_own)
 {
-  const ParticleOrder &order = pairs.order();
-  impact_kept = filed.partners.num_values() == 8;
-  if (filed.kept.empty())
-    fill(pairs, [&](int first, int second) { return in_lists(filed, order, first, second); });
-  else
-    fill(pairs,
-         [&](int first, int second) { return in_kept(filed, slots_then, order, first, second); });
-}
-
-void ContactHistory::keep(const PairList &pairs, KeptContacts::Part &part)
-{
-  constexpr std::size_t ahead = 8;
   const std::int64_t n = pairs.num_pairs();
-  part.first_row = n ? pairs.second[0] : 0;
-  part.rows.assign(n ? pairs.second[n - 1] - part.first_row + 2 : 1, 0);
-  renew(part.first, records.size() + 2 * ahead);
-  renew(part.place, records.size() + 2 * ahead);
+  const ParticleOrder &order = pairs.order();
+  const bool with_ghosts = order.owned < order.size();
+  const auto is_ghost = [&](int slot) { return !order.is_owned(order.atom_of_slot[slot]); };
+  to.first_row = n ? pairs.second[0] : 0;
+  to.rows.assign(n ? pairs.second[n - 1] - to.first_row + 2 : 1, 0);
+  renew(to.first, records.size() + SlotContacts::ahead);
+  renew(to.place, records.size() + SlotContacts::ahead);
+  to.with_ghost.clear();
   std::uint32_t count = 0;
   for (std::size_t block = 0; block < touching.size(); block++) {
     std::uint32_t found[8];
     const int its = store_places(found, static_cast<std::uint32_t>(8 * block), touching[block]);
     for (int k = 0; k < its; k++) {
-      part.first[count] = pairs.first[found[k]];
-      part.place[count] = places[found[k]];
-      part.rows[pairs.second[found[k]] - part.first_row + 1] = ++count;
+      const int first = pairs.first[found[k]], second = pairs.second[found[k]];
+      const std::uint32_t place = places[found[k]];
+      to.first[count] = first;
+      to.place[count] = place;
+      to.rows[second - to.first_row + 1] = ++count;
+      if (with_ghosts && (is_ghost(first) || is_ghost(second)))
+        to.with_ghost.push_back({first, second, place});
     }
   }
   // rows without a pair end where they begin
-  for (std::size_t row = 1; row < part.rows.size(); row++)
-    part.rows[row] = std::max(part.rows[row], part.rows[row - 1]);
-  std::fill(part.first.begin() + count, part.first.end(), -1);
-  std::fill(part.place.begin() + count, part.place.end(), 0);
-  part.records.swap(records);
-  part.impacts.swap(impacts);
+  for (std::size_t row = 1; row < to.rows.size(); row++)
+    to.rows[row] = std::max(to.rows[row], to.rows[row - 1]);
+  std::fill(to.first.begin() + count, to.first.end(), -1);
+  std::fill(to.place.begin() + count, to.place.end(), 0);
+  if (keeps_its_own) {
+    to.records = records;
+    to.impacts = impacts;
+    return;
+  }
+  to.records.swap(records);
+  to.impacts.swap(impacts);
   std::fill(touching.begin(), touching.end(), 0);
 }
 
@@ -134,84 +99,6 @@ void ContactHistory::change(std::int64_t block, unsigned bits)
   for (unsigned rest = bits & ~touching[block]; rest; rest &= rest - 1)
     begin(8 * block + __builtin_ctz(rest));
   touching[block] = static_cast<std::uint8_t>(bits);
-}
-
-/* visit(pair, atom, atom is the first) for both ends of every touching pair, where owned and
-   served. */
-
-template <class Visit> void ContactHistory::for_each_end(const PairList &pairs, Visit visit) const
-{
-  const ParticleOrder &order = pairs.order();
-  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    if (!touches(c)) continue;
-    const int first = pairs.first[c], second = pairs.second[c];
-    const int a = order.atom_of_slot[first], b = order.atom_of_slot[second];
-    if (order.is_owned(a) && pairs.serves(first)) visit(c, a, true);
-    if (order.is_owned(b) && pairs.serves(second)) visit(c, b, false);
-  }
-}
-
-/* visit(pair, atom) for every touching pair whose first particle is owned and of another part, to
-   which it is handed over. */
-
-template <class Visit>
-void ContactHistory::for_each_handed_over(const PairList &pairs, Visit visit) const
-{
-  const ParticleOrder &order = pairs.order();
-  for (const std::int64_t c : pairs.handed_over())
-    if (const int a = order.atom_of_slot[pairs.first[c]]; touches(c) && order.is_owned(a))
-      visit(c, a);
-}
-
-void ContactHistory::announce(const PairList &pairs, PartnerLists &partners) const
-{
-  for_each_end(pairs, [&](std::int64_t, int atom, bool) { partners.count(atom); });
-}
-
-void ContactHistory::announce_handed_over(const PairList &pairs, PartnerLists &partners) const
-{
-  for_each_handed_over(pairs, [&](std::int64_t, int atom) { partners.count(atom); });
-}
-
-void ContactHistory::file(const PairList &pairs, PartnerLists &partners) const
-{
-  for_each_end(pairs,
-               [&](std::int64_t c, int, bool of_first) { file_end(pairs, partners, c, of_first); });
-}
-
-void ContactHistory::file_handed_over(const PairList &pairs, PartnerLists &partners) const
-{
-  for_each_handed_over(pairs, [&](std::int64_t c, int) { file_end(pairs, partners, c, true); });
-}
-
-void ContactHistory::file_end(const PairList &pairs, PartnerLists &partners, std::int64_t pair,
-                              bool from_first) const
-{
-  const ParticleOrder &order = pairs.order();
-  const int first = order.atom_of_slot[pairs.first[pair]],
-            second = order.atom_of_slot[pairs.second[pair]];
-  double *values =
-      partners.append(from_first ? first : second, order.tag[from_first ? second : first]);
-  const Record seen = from_first ? record(pair) : mirrored(record(pair));
-  std::copy(std::begin(seen.c), std::end(seen.c), values);
-  if (impact_kept) std::copy(std::begin(impact(pair).c), std::end(impact(pair).c), values + 4);
-}
-
-void ContactHistory::adopt_first_copies(
-    const PairList &pairs, PartnerLists &partners,
-    const std::function<const double *(int, std::int64_t)> &ghost_values) const
-{
-  const ParticleOrder &order = pairs.order();
-  for (std::int64_t c = 0; c < pairs.num_pairs(); c++) {
-    const int a = order.atom_of_slot[pairs.first[c]], b = order.atom_of_slot[pairs.second[c]];
-    if (!touches(c) || order.is_owned(a)) continue;
-    const double *theirs = ghost_values(a, order.tag[b]);
-    double *mine = partners.find(b, order.tag[a]);
-    if (!theirs || !mine) continue;
-    const Record seen = mirrored({{theirs[0], theirs[1], theirs[2], theirs[3]}});
-    std::copy(std::begin(seen.c), std::end(seen.c), mine);
-    std::copy(theirs + 4, theirs + partners.num_values(), mine + 4);
-  }
 }
 
 void ContactHistory::release()

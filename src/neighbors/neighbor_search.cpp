@@ -36,7 +36,7 @@ inline Ints load(const std::int32_t *address)
 }
 
 /// Appends the values where the mask is set; writes up to `width` places, returns how many count.
-/// No branch, since nobody could foresee it.
+/// No branch, which processors could not predict.
 inline int append(Ints mask, Ints values, std::int32_t *to)
 {
 #if defined(__AVX512F__)
@@ -274,7 +274,7 @@ void NeighborSearch::find_row(const Spheres &s, int a, Chunk &found) const
     from[d] = grid.cell(place[d] - reach, d);
     to[d] = grid.cell(place[d] + reach, d);
   }
-  // pairs of two ghosts are somebody else's
+  // pairs of two ghosts belong to other ranks
   const int below = a < s.owned ? s.total : s.owned;
   for (int kz = from[2]; kz <= to[2]; kz++)
     for (int ky = from[1]; ky <= to[1]; ky++) {

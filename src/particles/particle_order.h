@@ -78,7 +78,7 @@ class ParticleOrder {
   Range range_of_thread(int thread) const;
   bool in_two_phases() const { return two_phases; }
 
-  /// Every part has a place behind the slots for what nobody wants, in a cache line of its own if
+  /// Every part has a place behind the slots for unused results, in a cache line of its own if
   /// an entry takes half a line: of entries that begin at a line and are `num_places()` in all.
   std::size_t nowhere(int part) const { return (std::size_t(size()) + 1) / 2 * 2 + 2UL * part; }
   std::size_t num_places() const { return nowhere(parts); }

@@ -2,7 +2,7 @@
 //
 // State of all particles of a rank, owned and ghost, as records in canonical order, and the sums of
 // their contact forces. The host's arrays are read once and written once in a step; or, as long as
-// nobody but us looks at the particles, not at all: advance() then moves them here.
+// no code outside reads the particles, not at all: advance() then moves them here.
 //
 // What a contact needs of its partner apart from the position stands in one cache line, and so does
 // what it adds to it: (velocity, spin) and (force, moment). Scenes without friction have no second
@@ -98,21 +98,21 @@ struct alignas(64) RecordTravel {
 
 class ParticleRecords {
  public:
-  /// Makes room for `n` particles and their sums, whatever stood there before, and for sums that
-  /// nobody wants behind them: there are `places` for sums, at least n. `spins` is false in scenes
+  /// Makes room for `n` particles and their sums, old contents are lost, and for sums that are
+  /// not used behind them: there are `places` for sums, at least n. `spins` is false in scenes
   /// without friction: spin records and moments are then neither read nor kept. `couples`: laws
   /// with resistance occur. `copies`: of the states of some particles, behind those of all.
   void resize(std::size_t n, std::size_t places, bool spins, bool couples, std::size_t copies = 0);
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
-  /// of what they need without sums, and the system takes its time to hand memory out anew.
+  /// of what they need without sums, and allocating memory anew takes time.
   void release_sums();
   bool has_room() const { return !load.empty(); }
 
   /// Reads the state of some slots and clears their sums.
   void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
 
-  /// Forgets what has been added to a particle so far.
+  /// Clears the sums of one particle.
   void clear_sums(int slot)
   {
     for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
@@ -129,7 +129,7 @@ class ParticleRecords {
   void write_forces(int slot, double *f, double *torque) const;
 
   /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
-  /// `held`: position records when lists were made, or nullptr if nobody asks for the travel.
+  /// `held`: position records when lists were made, or nullptr if the travel is not needed.
   enum Role : unsigned char { GHOST, MOVES, RESTS };
   RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
                        const SlotChoice &slots);
@@ -145,9 +145,9 @@ class ParticleRecords {
       stream(motion[stride * to + n], load4(motion[stride * from + n]));
   }
 
-  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added in
-  /// one order whoever adds them up: first those of the contacts, and of these first the lever
-  /// arms.
+  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added
+  /// in one order on any number of threads: first those of the contacts, and of these first the
+  /// lever arms.
   Vec4 torque(int slot) const
   {
     const std::size_t s = slot;

@@ -79,9 +79,10 @@ bool RebuildCheck::decide()
   MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
-  if (!forecast.may_leave(limit())) return false;
+  if (!forecast.may_leave(limit(), neighbor->every)) return false;
   if (forecast.moved > 0.5 * neighbor->skin) {
-    late++;
+    const int first_check = std::max(neighbor->every, neighbor->delay);    // a multiple of `every`
+    (neighbor->ago == first_check ? delayed : unforeseen)++;
     neighbor->ndanger++;
   }
   return true;

@@ -42,9 +42,11 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   /// At the end of a run: what was asked is not needed.
   void drop();
 
-  /// Lists that were used one step too long, in this run.
-  int num_late() const { return late; }
-  void start_count() { late = 0; }
+  /// Lists that were used too long, in this run: because `neigh_modify every` and `delay` left no
+  /// step before in which they could be made anew, or because particles moved further than foreseen.
+  int num_delayed() const { return delayed; }
+  int num_unforeseen() const { return unforeseen; }
+  void start_count() { delayed = unforeseen = 0; }
 
  private:
   using Corners = std::array<std::array<double, 3>, 8>;
@@ -60,7 +62,7 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   std::unique_ptr<Lengths> lengths = std::make_unique<Lengths>();    ///< MPI writes here
   LAMMPS_NS::bigint list_step = -1;    ///< when the lists were made, as far as we know
   Corners corners_of_list{}, corners_when_asked{};
-  int late = 0;
+  int delayed = 0, unforeseen = 0;
 };
 
 }    // namespace Talus

@@ -236,12 +236,18 @@ void VerletProxy::compute_forces()
 void VerletProxy::cleanup()
 {
   Verlet::cleanup();
-  if (lists.num_late() && comm->me == 0)
+  if (lists.num_delayed() && comm->me == 0)
     error->warning(FLERR,
-                   "Run style verlet/proxy: neighbor lists were {} times made one step too late: "
-                   "a particle was accelerated to more than the largest speed in one step, or "
-                   "moved by something else than its velocity: increase the skin",
-                   lists.num_late());
+                   "Run style verlet/proxy: neighbor lists were {} times made too late: particles "
+                   "moved by more than half of the skin before the first check that 'neigh_modify "
+                   "every {} delay {}' allows: reduce these, or increase the skin",
+                   lists.num_delayed(), neighbor->every, neighbor->delay);
+  if (lists.num_unforeseen() && comm->me == 0)
+    error->warning(FLERR,
+                   "Run style verlet/proxy: neighbor lists were {} times made too late: between "
+                   "two checks a particle was accelerated by more than the largest speed, or moved "
+                   "by something else than its velocity: increase the skin",
+                   lists.num_unforeseen());
   if (ProxyUpdates *proxies = system->proxy_updates()) {
     proxies->set_overlap(false);
     const std::string text = summarize_exchange(proxies->counters().since(at_start), world);

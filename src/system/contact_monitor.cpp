@@ -15,70 +15,63 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-void ContactMonitor::look(const ContactPipeline &contacts)
+std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestContact()> find_deepest)
 {
-  double worst;
-  int rank;
-  const DeepestContact mine = said_overlap ? DeepestContact{} : contacts.deepest_contact();
-  if (!said_overlap && exceeds(mine.overlap_ratio, largest_overlap, worst, rank)) {
-    said_overlap = true;
-    double tags[2] = {0.0, 0.0};
-    if (comm->me == rank) {
-      tags[0] = static_cast<double>(std::min(atom->tag[mine.i], atom->tag[mine.j]));
-      tags[1] = static_cast<double>(std::max(atom->tag[mine.i], atom->tag[mine.j]));
-    }
-    MPI_Bcast(tags, 2, MPI_DOUBLE, rank, world);
-    if (comm->me == 0)
-      error->warning(
-          FLERR,
-          "Pair style gran/penalty: particles {:.0f} and {:.0f} overlap by {:.3g} of the "
-          "smaller radius at step {}; contact laws are made for small overlaps: use a "
-          "higher stiffness, or look for particles that overlap from the beginning",
-          tags[0], tags[1], worst, update->ntimestep);
-  }
-  if (said_move) return;
-  const Move longest = largest_own_move();
-  if (exceeds(longest.ratio, largest_move, worst, rank)) {
-    said_move = true;
-    double tag = comm->me == rank ? static_cast<double>(atom->tag[longest.atom]) : 0.0;
-    MPI_Bcast(&tag, 1, MPI_DOUBLE, rank, world);
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "Pair style gran/penalty: particle {:.0f} moves by {:.3g} of its radius in a "
-                     "time step at step {}; an impact is not resolved: reduce the time step",
-                     tag, worst, update->ntimestep);
-  }
+  using Finding = RunMonitor::Finding;
+  const auto say_once = [this](void (ContactMonitor::*say)(const Finding &) const) {
+    return [this, say](const Finding &worst) {
+      if (comm->me == 0) (this->*say)(worst);
+      return true;
+    };
+  };
+  return {
+      {largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
+       say_once(&ContactMonitor::say_overlap)},
+      {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::say_move)}};
 }
 
-/* The largest value of all ranks, and the lowest rank that has it. A value that is not a number
-   counts as zero: it is another trouble. */
-
-bool ContactMonitor::exceeds(double mine, double limit, double &worst, int &rank) const
+RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) const
 {
-  struct {
-    double value;
-    int rank;
-  } here = {std::isfinite(mine) ? mine : 0.0, comm->me}, all;
-  MPI_Allreduce(&here, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  worst = all.value;
-  rank = all.rank;
-  return worst > limit;
+  if (!(deepest.overlap_ratio > 0.0)) return {};
+  const auto [low, high] = std::minmax(atom->tag[deepest.i], atom->tag[deepest.j]);
+  return {deepest.overlap_ratio, {static_cast<double>(low), static_cast<double>(high)}};
 }
 
-ContactMonitor::Move ContactMonitor::largest_own_move() const
+void ContactMonitor::say_overlap(const RunMonitor::Finding &worst) const
 {
+  error->warning(FLERR,
+                 "Pair style gran/penalty: particles {:.0f} and {:.0f} overlap by {:.3g} of the "
+                 "smaller radius at step {}; contact laws are made for small overlaps: use a "
+                 "higher stiffness, or look for particles that overlap from the beginning",
+                 worst.details[0], worst.details[1], worst.value, update->ntimestep);
+}
+
+RunMonitor::Finding ContactMonitor::largest_own_move() const
+{
+  struct Move {
+    double ratio2;    ///< squared speed over squared radius
+    int atom;
+  };
   std::vector<Move> found(comm->nthreads, Move{0.0, 0});
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
     Move its = {0.0, 0};
     for (int i = begin; i < end; i++) {
       const double *v = atom->v[i], r = atom->radius[i];
       const double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
-      if (ratio2 > its.ratio) its = {ratio2, i};
+      if (ratio2 > its.ratio2) its = {ratio2, i};
     }
     found[t] = its;
   });
-  Move longest = *std::max_element(found.begin(), found.end(),
-                                   [](const Move &a, const Move &b) { return a.ratio < b.ratio; });
-  longest.ratio = std::sqrt(longest.ratio) * update->dt;
-  return longest;
+  const Move longest = *std::max_element(
+      found.begin(), found.end(), [](const Move &a, const Move &b) { return a.ratio2 < b.ratio2; });
+  if (!(longest.ratio2 > 0.0)) return {};
+  return {std::sqrt(longest.ratio2) * update->dt, {static_cast<double>(atom->tag[longest.atom])}};
+}
+
+void ContactMonitor::say_move(const RunMonitor::Finding &worst) const
+{
+  error->warning(FLERR,
+                 "Pair style gran/penalty: particle {:.0f} moves by {:.3g} of its radius in a "
+                 "time step at step {}; an impact is not resolved: reduce the time step",
+                 worst.details[0], worst.value, update->ntimestep);
 }

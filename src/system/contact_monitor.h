@@ -1,20 +1,21 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Two warnings, once per run each, for what the laws and the time step are not made for:
+// Two checks of a run, for what the laws and the time step are not made for:
 //
 //   overlap   two particles overlap by more than a tenth of the smaller radius: the laws are those
 //             of small overlaps
 //   move      a particle moves by more than a tenth of its radius in a time step: it may be deep in
 //             another one, or through it, before it feels a force
-//
-// Looked for whenever the neighbor lists are about to be rebuilt and at the end of a run, not in
-// every step.
 
 #ifndef TALUS_SYSTEM_CONTACT_MONITOR_H
 #define TALUS_SYSTEM_CONTACT_MONITOR_H
 
 #include "contact/contact_pipeline.h"
 #include "pointers.h"
+#include "system/run_monitor.h"
+
+#include <functional>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -25,21 +26,15 @@ class ContactMonitor : protected Pointers {
 
   explicit ContactMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// A run begins: both may be said again.
-  void start() { said_overlap = said_move = false; }
-
-  /// Collective. `contacts` are those of the last compute(); particles are still numbered as then.
-  void look(const Talus::ContactPipeline &contacts);
+  /// `find_deepest`: of the contacts of the last step, with particles still numbered as then. This
+  /// object must live as long as the checks.
+  std::vector<RunMonitor::Check> checks(std::function<Talus::DeepestContact()> find_deepest);
 
  private:
-  struct Move {
-    double ratio;    ///< way in a time step over radius
-    int atom;        ///< host's number; meaningless if the ratio is zero
-  };
-  Move largest_own_move() const;
-  bool exceeds(double mine, double limit, double &worst, int &rank) const;
-
-  bool said_overlap = false, said_move = false;
+  RunMonitor::Finding overlap_of(const Talus::DeepestContact &deepest) const;
+  RunMonitor::Finding largest_own_move() const;
+  void say_overlap(const RunMonitor::Finding &worst) const;
+  void say_move(const RunMonitor::Finding &worst) const;
 };
 
 }    // namespace LAMMPS_NS

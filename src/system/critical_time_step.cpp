@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -69,12 +70,12 @@ double CriticalTimeStep::smallest() const
   return smaller_defined(contact, smaller_defined(rayleigh, hertz));
 }
 
-/* Of the particles that are members of all groups, given by their bits. Forces are in LAMMPS'
-   units: force/mass is acceleration only after conversion. */
+/* Of the particles that are members of all groups, given by their bits: radius by type, then mass by
+   type. */
 
-CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int groups) const
+std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
 {
-  std::vector<double> mine(2 * (types + 1), never), all(mine);
+  std::vector<double> mine(2 * (types + 1), never);
   std::vector<std::vector<double>> found(comm->nthreads);
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
     std::vector<double> its(mine.size(), never);
@@ -90,6 +91,27 @@ CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int grou
   for (const std::vector<double> &its : found)
     std::transform(its.begin(), its.end(), mine.begin(), mine.begin(),
                    [](double a, double b) { return std::min(a, b); });
+  return mine;
+}
+
+std::vector<double> CriticalTimeStep::sizes_here(int types, int group) const
+{
+  std::vector<double> sizes_of_all = smallest_here(types, group);
+  std::set<int> known{group};
+  for (const SystemBody *body : GranularSystem::of(lmp)->bodies())
+    if (const int groups = group | body->group_bits(); known.insert(groups).second) {
+      const std::vector<double> its = smallest_here(types, groups);
+      sizes_of_all.insert(sizes_of_all.end(), its.begin(), its.end());
+    }
+  return sizes_of_all;
+}
+
+/* Forces are in LAMMPS' units: force/mass is acceleration only after conversion. */
+
+CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int groups) const
+{
+  const std::vector<double> mine = smallest_here(types, groups);
+  std::vector<double> all(mine);
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
   const auto middle = all.begin() + types + 1;
   std::for_each(middle, all.end(), [this](double &mass) { mass /= force->ftm2v; });

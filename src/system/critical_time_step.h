@@ -45,6 +45,11 @@ class CriticalTimeStep : protected Pointers {
   /// Cheap enough for every rebuild.
   void compute_from_sizes(const Talus::LawBook &laws, int group);
 
+  /// What compute_from_sizes() depends on, of this rank and without communication: radius, then
+  /// mass of the smallest particle of each type, of those in `group` and then of those of them that
+  /// each large body can touch; infinite where there is none.
+  std::vector<double> sizes_here(int types, int group) const;
+
   /// Smallest of those that are defined, 0 if none is.
   double smallest() const;
 
@@ -55,6 +60,7 @@ class CriticalTimeStep : protected Pointers {
     std::vector<double> radius, mass;
   };
   Sizes smallest_particles(int types, int groups) const;
+  std::vector<double> smallest_here(int types, int groups) const;
   double reduce_smallest(double mine) const;
   void consider_pairs(const Talus::LawBook &laws, double speed);
   void consider_pair(const Talus::LawBook &laws, int i, int j, double speed);

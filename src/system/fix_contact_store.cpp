@@ -20,10 +20,12 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using Talus::HistoryStore;
 
 /* ---------------------------------------------------------------------- */
 
-FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), store(comm->me), exchange(world)
 {
   if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
     error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
@@ -33,9 +35,8 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, n
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = 6;
-  comm_border = 2;
-  comm_forward = 1 + 8;    // one entry of a list
+  set_maxexchange(0);
+  comm_border = 1 + HistoryStore::size_origin + 1;
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
 
@@ -64,7 +65,7 @@ int FixContactStore::setmask()
 
 void FixContactStore::init()
 {
-  // the history must be filed before any fix moves particles between ranks
+  // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == this) break;
     if (ifix->pre_exchange_migrate)
@@ -76,7 +77,9 @@ void FixContactStore::init()
   next_reneighbor = next_refresh(update->ntimestep);
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
-  find_maxexchange();    // of lists from a restart file
+  int mine = store.largest_list(atom->nlocal), largest = 0;    // from a restart file
+  MPI_Allreduce(&mine, &largest, 1, MPI_INT, MPI_MAX, world);
+  set_maxexchange(largest);
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -112,7 +115,6 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
-  if (in_periodic_box()) file_kept();    // which it was not in the last run
   take_over_sorting();
   sort_particles();
   keep_positions();
@@ -146,21 +148,17 @@ void FixContactStore::setup_post_neighbor()
 
 void FixContactStore::pairs_are_current()
 {
-  if (!current) {
-    partners.release();
-    kept.clear();
-  }
+  if (!current) store.clear();
   current = true;
 }
 
 /* From here on each particle carries its slot along, whoever moves or deletes it before histories
    are stored. */
 
-void FixContactStore::pairs_are_numbered(const std::vector<int> &slot_of_atom)
+void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 {
-  std::copy_n(slot_of_atom.begin(), atom->nlocal, kept_slots.begin());
-  current = false;    // what is stored has been taken
-  pairs_are_current();
+  store.number(order);    // what is stored has been taken
+  current = true;
 }
 
 /* Between runs particles may be added, deleted, renumbered or moved to other ranks: histories go
@@ -168,8 +166,9 @@ void FixContactStore::pairs_are_numbered(const std::vector<int> &slot_of_atom)
 
 void FixContactStore::post_run()
 {
+  if (system) system->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
-  if (system && !kept.empty()) system->release_pairs();
+  if (system && store.holds_last_lists() && !pairs_stay_after_run()) system->release_pairs();
   give_sorting_back();
 }
 
@@ -180,49 +179,50 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* Across a periodic border a particle meets images of others, which only lists can tell apart. */
+/* Something may still be to be asked about them. And in a periodic box a run that goes on without a
+   new set-up goes on with the histories of both sides as they are, not with what the sides agree on:
+   the same bits as one run. */
+
+bool FixContactStore::pairs_stay_after_run() const
+{
+  return in_periodic_box() || system->account_waits_for_move();
+}
 
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
-  system->look_at_contacts();
+  system->look_at_contacts(occasion == Occasion::END_OF_RUN);
   if (occasion != Occasion::RESTART_FILE) system->release_records();
-  const bool last_use = occasion == Occasion::REBUILD ||
-                        (occasion == Occasion::END_OF_RUN && !system->account_waits_for_move());
-  if (last_use && !in_periodic_box())
-    system->keep_history(kept, comm->nprocs > 1 || occasion == Occasion::END_OF_RUN);
-  else
-    system->file_history(partners);
-  // ghosts too: a run may go on without new ones
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) filed_tags[i] = atom->tag[i];
-  if (in_periodic_box()) agree_on_shared_pairs();
+  const bool pairs_stay = occasion == Occasion::RESTART_FILE ||
+                          (occasion == Occasion::END_OF_RUN && pairs_stay_after_run());
+  const bool particles_may_leave = comm->nprocs > 1 || occasion != Occasion::REBUILD;
+  system->keep_history(store, {particles_may_leave, in_periodic_box()}, pairs_stay);
+  agree_with_other_ranks();
   current = false;
-  find_maxexchange();
 }
 
-/* From what is kept to lists. */
+/* On the histories of contacts across periodic borders, and on what pack_exchange() may have to
+   write, on this rank or on one that a particle passes through. */
 
-void FixContactStore::file_kept()
+void FixContactStore::agree_with_other_ranks()
 {
-  if (kept.empty()) return;
-  std::vector<double> buffer(partners.packed_size_of(kept.most_contacts()));
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (kept_slots[i] < 0) continue;
-    kept.pack(kept_slots[i], partners.num_values(), buffer.data());
-    partners.unpack(i, buffer.data());
+  int largest = store.largest_list(atom->nlocal);
+  if (comm->nprocs > 1 && store.holds_last_lists()) {
+    const int mine = largest;
+    if (in_periodic_box())
+      largest = exchange.run(store.outgoing(), mine,
+                             [this](const std::vector<double> &m) { store.receive(m); });
+    else
+      MPI_Allreduce(&mine, &largest, 1, MPI_INT, MPI_MAX, world);
   }
-  kept.clear();
+  set_maxexchange(largest);
 }
 
-/* What pack_exchange() may have to write, on this rank or on one that a particle passes through. */
+/* Key and position, and what the store packs. */
 
-void FixContactStore::find_maxexchange()
+void FixContactStore::set_maxexchange(int largest_list)
 {
-  int mine = kept.most_contacts(), most = 0;
-  for (int i = 0; !partners.empty() && i < atom->nlocal; i++)
-    mine = std::max(mine, partners.size(i));
-  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
-  maxexchange = 5 + partners.packed_size_of(most);
+  maxexchange = 1 + 3 + HistoryStore::size_origin + largest_list;
 }
 
 void FixContactStore::refresh_key(int i)
@@ -254,8 +254,7 @@ void FixContactStore::put_positions_back()
 
 double FixContactStore::memory_usage()
 {
-  return static_cast<double>((keys.capacity() + filed_tags.capacity()) * sizeof(std::uint64_t) +
-                             positions.capacity() * sizeof(double) +
-                             kept_slots.capacity() * sizeof(int)) +
-         partners.memory_usage() + kept.memory_usage();
+  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
+                             positions.capacity() * sizeof(double)) +
+         store.memory_usage();
 }

@@ -42,7 +42,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    packer(lmp)
+    monitors(lmp)
 {
   pipeline.emplace();
 }
@@ -57,6 +57,8 @@ void GranularSystem::attach(Pair *style)
     error->all(FLERR, "Pair style gran/penalty can be used only once, also in pair_style hybrid: "
                       "give each pair of types a law of its own with pair_coeff");
   pair = style;
+  monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
+  monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
 }
 
@@ -65,6 +67,7 @@ void GranularSystem::attach(Pair *style)
 void GranularSystem::detach(const Pair *style)
 {
   if (style != pair) return;
+  monitors.remove(pair);
   pair = nullptr;
   store = nullptr;
   book = LawBook{};
@@ -87,7 +90,7 @@ void GranularSystem::init_pair_style()
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
-  monitor.start();
+  monitors.start();
   time_step.start();
   laws_current = false;    // init_one() will mix what is not set
 }
@@ -128,7 +131,7 @@ void GranularSystem::prepare_laws()
   const std::string description = "Talus gran/penalty: " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
-  warn_small_periods();
+  refuse_small_periods();
 }
 
 const LawTable &GranularSystem::law_table()
@@ -137,17 +140,24 @@ const LawTable &GranularSystem::law_table()
   return pipeline->law_table();
 }
 
-void GranularSystem::warn_small_periods()
+/* Histories are known by the IDs of the two particles, which two images of one of them share. */
+
+void GranularSystem::refuse_small_periods()
 {
-  if (!pipeline->keeps_history() || comm->me) return;
+  if (!pipeline->keeps_history()) return;
   const double cut = 2.0 * radii.largest();
-  for (int d = 0; d < 3; d++)
-    if (domain->periodicity[d] && !(domain->dimension == 2 && d == 2) && domain->prd[d] < 2.0 * cut)
-      error->warning(
+  for (int d = 0; d < 3; d++) {
+    const double period = domain->prd[d];
+    const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
+    if (matters && period < 2.0 * cut)
+      error->all(
           FLERR,
-          "Pair style gran/penalty: the box is periodic in {} with a period below "
-          "two diameters: particles that touch from both sides share one contact history",
-          "xyz"[d]);
+          "Pair style gran/penalty: the box is periodic in {} with a period of {:.4g}, below "
+          "two diameters of the largest particle: two particles could touch on both sides, "
+          "and laws with history cannot tell these contacts apart: make the box at least "
+          "{:.4g} wide, or use 'boundary f'",
+          "xyz"[d], period, 2.0 * cut);
+  }
 }
 
 std::vector<SystemBody *> GranularSystem::bodies() const

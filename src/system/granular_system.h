@@ -17,15 +17,16 @@
 #ifndef TALUS_SYSTEM_GRANULAR_SYSTEM_H
 #define TALUS_SYSTEM_GRANULAR_SYSTEM_H
 
-#include "comm/record_packer.h"
 #include "contact/contact_pipeline.h"
 #include "exchange/exchange_plan.h"
+#include "exchange/record_packer.h"
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
 #include "system/effective_masses.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
+#include "system/run_monitor.h"
 #include "system/system_fix.h"
 #include "system/time_step_monitor.h"
 
@@ -107,7 +108,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Updates the proxies, after choose_residence(); pending on return if `overlap`.
   void update_proxies(bool overlap);
   /// The exchange plan is a new one.
-  void forget_plan() { sent_is_known = false; }
+  void forget_plan() { sent_is_known = packer_knows_plan = false; }
   /// Brings the particles back to the arrays of the host, if they are in the records, on request
   /// with the forces that will move them in the next step.
   void return_to_host(bool with_forces);
@@ -120,12 +121,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   // ---- rebuild: called by FixContactStore, in this order
 
   /// The pairs are still those of the last step, on all ranks.
-  void look_at_contacts();
-  /// Histories go to `kept`, or into lists by particle.
-  void keep_history(KeptContacts &kept, bool particles_may_leave);
-  void file_history(PartnerLists &partners);
-  void adopt_first_copies(PartnerLists &partners,
-                          const std::function<const double *(int, std::int64_t)> &ghost_values);
+  void look_at_contacts(bool run_is_over);
+  /// A run has ended: what is asked about its contacts is what it would be now.
+  void remember_contacts() { pipeline->remember_contacts(); }
+  /// Puts histories aside. The pairs are gone then until renumber_pairs(), unless they stay.
+  void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
   /// Memory that is free for others until renumber_pairs().
   void release_records();
   void release_pairs() { pipeline->release(); }
@@ -142,6 +142,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Something is still to be asked about the pairs of the last step.
   bool account_waits_for_move() const { return account.waits_for_move(); }
 
+  /// What a run warns about; for everybody who has something to watch.
+  LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
+
   // ---- questions
 
   const ContactPipeline &contacts() const { return *pipeline; }
@@ -154,9 +157,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
   ProxyUpdates *proxy_updates() const;
-  /// Forces between particles depend on the angular velocity of proxies; true as long as it is not
-  /// known. The same on all ranks.
-  bool reads_proxy_omega() const;
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline->keeps_spins(); }
   /// Share of the owned particles of this rank whose forces are computed before a pending update of
@@ -170,7 +170,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();
-  void warn_small_periods();
+  void refuse_small_periods();
 
   ParticleView view() const;
   std::size_t bodies_that_join();
@@ -197,6 +197,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::LargestRadii radii;
   LAMMPS_NS::ContactMonitor monitor;
   LAMMPS_NS::TimeStepMonitor time_step;
+  LAMMPS_NS::RunMonitor monitors;
   bool keeps_account = false;
   EnergyAccount account;
 
@@ -206,7 +207,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
   std::vector<SystemBody *> bodies_of_run;
   std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
-  bool sent_is_known = false, proxies_are_in_records = false;
+  bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
   RecordPacker packer;
 };
 

@@ -40,6 +40,10 @@ class ProxyUpdates {
   /// calls. Cheap, never waits; does nothing if nothing is pending.
   virtual void progress() = 0;
 
+  /// Whether progress() may be called by the first of so many threads while all of them compute. If
+  /// not, only between parallel regions. The same in every step.
+  virtual bool may_progress_beside(int threads) const = 0;
+
   /// Waits for all messages and stores them; afterwards proxies are valid. Does nothing if nothing
   /// is pending.
   virtual void finish() = 0;
@@ -54,7 +58,7 @@ class ProxyUpdates {
   /// Of this rank, for one update with the present plan.
   virtual double messages_per_exchange() const = 0;
   virtual double bytes_per_exchange() const = 0;
-  /// What the message of a proxy holds, and why; for people.
+  /// What the message of a proxy holds, for people.
   virtual std::string describe_message() const = 0;
 
  protected:

@@ -21,20 +21,12 @@ TangentialHistory<double> GranularSystem::history_of(int i, int j, ContactImpact
     impact = pipeline->impact_of(i, j);
     return pipeline->history_of(i, j);
   }
-  const FiledHistories filed = store->histories();
-  if (filed.kept.empty()) return {};
-  const KeptContacts::Found found =
-      filed.kept.find(filed.slot_then(i, i < atom->nlocal), filed.slot_then(j, j < atom->nlocal));
+  const FoundHistory found = store->histories().find_of_atoms(i, j);
   if (!found.known) return {};
-  const Record h = found.by_a ? *found.record : mirrored(*found.record);
+  const Record h = found.seen_by_a();
   const auto &o = found.impact->c;
   impact = {o[0], o[1], o[2]};
   return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
-}
-
-bool GranularSystem::reads_proxy_omega() const
-{
-  return !laws_current || pipeline->keeps_spins() || pipeline->law_table().has_resistance();
 }
 
 double GranularSystem::share_without_proxies() const

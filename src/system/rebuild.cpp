@@ -2,7 +2,7 @@
 //
 // From old neighbor lists to new ones. FixContactStore calls these at the host's hooks:
 //
-//   pre_exchange     look_at_contacts(), keep_history() or file_history(), release_*()
+//   pre_exchange     look_at_contacts(), keep_history(), release_*()
 //                    the host migrates particles, which carry their slots or their histories
 //   post_neighbor    renumber_pairs()
 
@@ -23,27 +23,14 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::look_at_contacts()
+void GranularSystem::look_at_contacts(bool run_is_over)
 {
-  monitor.look(*pipeline);
-  time_step.look_for_smaller_particles(book);
+  monitors.look(run_is_over ? RunMonitor::Moment::END : RunMonitor::Moment::REBUILD);
 }
 
-void GranularSystem::keep_history(KeptContacts &kept, bool particles_may_leave)
+void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
-  pipeline->keep_history(kept, particles_may_leave);
-}
-
-void GranularSystem::file_history(PartnerLists &partners)
-{
-  pipeline->file_history(partners);
-}
-
-void GranularSystem::adopt_first_copies(
-    PartnerLists &partners,
-    const std::function<const double *(int, std::int64_t)> &ghost_values)
-{
-  pipeline->adopt_first_copies(partners, ghost_values);
+  pipeline->keep_history(to, scope, pairs_stay);
 }
 
 void GranularSystem::release_records()
@@ -64,7 +51,7 @@ void GranularSystem::renumber_pairs()
   pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
     pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type},
-                       neighbors.find(pair->list));
+                        neighbors.find(pair->list));
     neighbors.release();
     pipeline->start_pairs(store->histories());
   } catch (const std::length_error &problem) {
@@ -75,7 +62,7 @@ void GranularSystem::renumber_pairs()
                "ghosts of a rank: use more machines",
                atom->nlocal, atom->nghost);
   }
-  store->pairs_are_numbered(pipeline->particle_order().slot_of_atom);
+  store->pairs_are_numbered(pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(pair);

@@ -8,6 +8,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/present_box.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -133,7 +134,9 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
     if (!sent.empty()) pipeline->show_state(sent, atom->x[0], atom->v[0], atom->omega[0]);
     return nullptr;
   }
-  packer.set(pipeline->records(), slot_of_atom());
+  if (!packer_knows_plan) packer.set_plan(proxies->plan(), slot_of_atom());
+  packer_knows_plan = true;
+  packer.set_state(pipeline->records(), present_box(*domain));
   proxies_are_in_records = true;
   return &packer;
 }

@@ -14,6 +14,7 @@
 #include "system/fix_contact_store.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
@@ -28,7 +29,7 @@ void GranularSystem::advance(const RecordStep &step, int group_bits)
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
     const int *mask = atom->mask;
     pipeline->prepare_to_move([=](int i) { return (mask[i] & group_bits) != 0; }, sent,
-                             then && atom->nlocal ? then[0] : nullptr);
+                              then && atom->nlocal ? then[0] : nullptr);
   }
   pipeline->advance(step);
 }
@@ -57,7 +58,9 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   if (step.deliver && !step.read && atom->nlocal)
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
-  if (update->setupflag) time_step.judge_start(book, *pipeline);
+  if (!update->setupflag) return;
+  time_step.judge_start(book, *pipeline);
+  monitors.look(RunMonitor::Moment::SETUP);
 }
 
 /* In two phases pairs without proxies are computed while these are under way. */
@@ -71,7 +74,8 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
   }
   ProxyUpdates *proxies = proxy_updates();
   const std::function<void()> progress = [proxies] { proxies->progress(); };
-  if (proxies && proxies->pending()) step.meanwhile = &progress;
+  if (proxies && proxies->pending() && proxies->may_progress_beside(comm->nthreads))
+    step.meanwhile = &progress;
   pipeline->compute_early(view(), step);
   step.meanwhile = nullptr;
   finish_proxies();

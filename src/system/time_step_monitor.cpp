@@ -6,6 +6,9 @@
 #include "error.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace LAMMPS_NS;
 using namespace Talus;
 
@@ -27,17 +30,48 @@ void TimeStepMonitor::judge_start(const LawBook &laws, const ContactPipeline &co
   }
   critical.compute_from_sizes(laws, everyone);
   limit_at_start = critical.smallest();
+  remember_sizes(laws);
 }
 
-/* Particles that were added or changed during the run. */
-
-void TimeStepMonitor::look_for_smaller_particles(const LawBook &laws)
+void TimeStepMonitor::remember_sizes(const LawBook &laws)
 {
-  if (said) return;
+  const std::vector<double> here = critical.sizes_here(laws.num_types(), everyone);
+  known_sizes.resize(here.size());
+  MPI_Allreduce(here.data(), known_sizes.data(), static_cast<int>(here.size()), MPI_DOUBLE, MPI_MIN,
+                world);
+}
+
+/* Particles that were added or changed during the run: by how much the largest of the sizes known
+   before shrink. */
+
+RunMonitor::Check TimeStepMonitor::check(const LawBook &laws)
+{
+  constexpr double as_before = 1.0;
+  return {as_before, [this, &laws] { return smaller_particles(laws); },
+          [this, &laws](const RunMonitor::Finding &) { return judge_smaller_particles(laws); }};
+}
+
+RunMonitor::Finding TimeStepMonitor::smaller_particles(const LawBook &laws) const
+{
+  if (said) return {};
+  const std::vector<double> here = critical.sizes_here(laws.num_types(), everyone);
+  constexpr double of_new_type = 2.0;    // anything above 1
+  double shrinks = 0.0;
+  for (std::size_t n = 0; n < std::min(here.size(), known_sizes.size()); n++)
+    if (here[n] < known_sizes[n])
+      shrinks =
+          std::max(shrinks, std::isinf(known_sizes[n]) ? of_new_type : known_sizes[n] / here[n]);
+  return {shrinks};
+}
+
+bool TimeStepMonitor::judge_smaller_particles(const LawBook &laws)
+{
   critical.compute_from_sizes(laws, everyone);
   const double limit = critical.smallest();
   const bool smaller = limit_at_start > 0.0 ? limit < limit_at_start : limit > 0.0;
   if (smaller) judge();
+  if (!said) remember_sizes(laws);
+  return said;
 }
 
 void TimeStepMonitor::judge()

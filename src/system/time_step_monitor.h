@@ -7,7 +7,8 @@
 //   undamped    contacts that need a smaller one still: see undamped_friction.h and
 //               elastic_impacts.h; said at the start of a run
 //
-// Used by pair gran/penalty, beside ContactMonitor.
+// The first one is a check of the run: each rank compares its smallest particles with those that
+// there were; only if one is smaller the critical time step is computed.
 
 #ifndef TALUS_SYSTEM_TIME_STEP_MONITOR_H
 #define TALUS_SYSTEM_TIME_STEP_MONITOR_H
@@ -16,6 +17,9 @@
 #include "material/law_book.h"
 #include "pointers.h"
 #include "system/critical_time_step.h"
+#include "system/run_monitor.h"
+
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -31,15 +35,19 @@ class TimeStepMonitor : protected Pointers {
   /// Collective, at the start of a run. `contacts` are those of its first step.
   void judge_start(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts);
 
-  /// Collective, when the neighbor lists are about to be rebuilt.
-  void look_for_smaller_particles(const Talus::LawBook &laws);
+  /// This object and `laws` must live as long as the check.
+  RunMonitor::Check check(const Talus::LawBook &laws);
 
  private:
+  RunMonitor::Finding smaller_particles(const Talus::LawBook &laws) const;
+  bool judge_smaller_particles(const Talus::LawBook &laws);
+  void remember_sizes(const Talus::LawBook &laws);
   void judge();
 
   CriticalTimeStep critical;
-  double limit_at_start = 0.0;    ///< from the sizes of particles, of the present run (time)
-  bool said = true;               ///< too large; the same on all ranks
+  double limit_at_start = 0.0;        ///< from the sizes of particles, of the present run (time)
+  std::vector<double> known_sizes;    ///< see CriticalTimeStep::sizes_here(); of all ranks
+  bool said = true;                   ///< too large; the same on all ranks
 };
 
 }    // namespace LAMMPS_NS

@@ -180,6 +180,7 @@ class SceneCase(unittest.TestCase):
 
     def assert_same_bits(self, frame, other, columns=None):
         """Two dump frames hold the same particles with the same bits, signed zeros included."""
+        self.assertTrue(frame.atoms, "no particles to compare")
         self.assertEqual(sorted(frame.atoms), sorted(other.atoms))
         for key in columns or frame.columns:
             mine, theirs = frame.column(key), other.column(key)

@@ -6,10 +6,14 @@
 // At MPI_Finalize each rank writes the file $TALUS_COUNTS.RANK:
 //   collectives N      blocking ones: barrier, broadcast, reductions, gathers, all-to-all
 //   started N          non-blocking ones
+//   beside N           tests for messages in a parallel region of several threads
 //   to RANK messages N bytes N      point to point, per rank of MPI_COMM_WORLD
-// A program that needs no numbering of its own in duplicated communicators is assumed.
+// A program that needs no numbering of its own in duplicated communicators is assumed. If
+// $TALUS_THREAD_LEVEL is given, MPI_Query_thread() answers with that number.
 
 #include "../../bench/exchange/preloaded_sends.h"
+
+#include <omp.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +26,7 @@ struct Sent {
   long messages = 0, bytes = 0;
 };
 std::map<int, Sent> sent;
-long collectives = 0, started = 0;
+long collectives = 0, started = 0, beside = 0;
 
 void write_counts()
 {
@@ -32,7 +36,7 @@ void write_counts()
   PMPI_Comm_rank(MPI_COMM_WORLD, &me);
   std::FILE *file = std::fopen((std::string(stem) + "." + std::to_string(me)).c_str(), "w");
   if (!file) return;
-  std::fprintf(file, "collectives %ld\nstarted %ld\n", collectives, started);
+  std::fprintf(file, "collectives %ld\nstarted %ld\nbeside %ld\n", collectives, started, beside);
   for (const auto &[rank, s] : sent)
     std::fprintf(file, "to %d messages %ld bytes %ld\n", rank, s.messages, s.bytes);
   std::fclose(file);
@@ -136,4 +140,18 @@ EXPORTED int MPI_Ibarrier(MPI_Comm comm, MPI_Request *request)
 {
   started++;
   return PMPI_Ibarrier(comm, request);
+}
+
+EXPORTED int MPI_Testsome(int count, MPI_Request *requests, int *ended, int *which,
+                          MPI_Status *statuses)
+{
+  beside += omp_in_parallel();
+  return PMPI_Testsome(count, requests, ended, which, statuses);
+}
+
+EXPORTED int MPI_Query_thread(int *level)
+{
+  const int result = PMPI_Query_thread(level);
+  if (const char *wanted = std::getenv("TALUS_THREAD_LEVEL")) *level = std::atoi(wanted);
+  return result;
 }

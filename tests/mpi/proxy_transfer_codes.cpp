@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // ProxyExchange without LAMMPS: random proxies between any ranks, each with a code that tells
-// owner, particle, shift and round. Prints "codes right" on rank 0; any other end is a failure.
+// owner, particle, shift and round. What becomes of each receive is counted through the profiling
+// interface of MPI. Prints "codes right" on rank 0; any other end is a failure.
 
 #include "exchange/proxy_exchange.h"
 
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -25,7 +27,26 @@ int integer(RandomSource &random, int low, int high)
   return low + random.below(high - low + 1);
 }
 
-constexpr int owned_particles = 40;
+constexpr int owned_particles = 40, largest_stride = 9;
+
+/// Receives without blocking of this rank.
+struct Receives {
+  int opened = 0, canceled = 0, completed = 0;
+  std::set<MPI_Request> requests;    ///< that are open
+
+  int open() const { return static_cast<int>(requests.size()); }
+
+  /// Counts the requests that a call completes.
+  template <class Call> int watch(int count, MPI_Request *handles, Call call)
+  {
+    const std::vector<MPI_Request> before(handles, handles + count);
+    const int result = call();
+    for (int k = 0; k < count; k++)
+      if (handles[k] == MPI_REQUEST_NULL) completed += static_cast<int>(requests.erase(before[k]));
+    return result;
+  }
+};
+Receives receives;
 
 double code(int owner, int index, int round, int entry)
 {
@@ -50,19 +71,19 @@ class CodePacker : public ProxyPacker {
   int width = 1, round = 0;
 
   int stride() const override { return width; }
-  void pack(const int *particles, int count, double *out) override
+  void pack(const ExchangeNeighbor &to, double *out) override
   {
-    for (int k = 0; k < count; k++)
-      for (int e = 0; e < width; e++) *out++ = code(me, particles[k], round, e);
+    for (const int particle : to.send_index)
+      for (int e = 0; e < width; e++) *out++ = code(me, particle, round, e);
   }
-  void unpack(const ProxyRun &run, const int *places, const double *message) override
+  void unpack(const ExchangeNeighbor &from, const double *message) override
   {
-    for (int k = 0; k < run.count; k++) {
-      std::vector<double> &proxy = state[run.first + k];
-      const double *in = message + static_cast<std::size_t>(width) * places[k];
+    from.for_each_proxy([&](int index, int place, const PeriodicShift &shift) {
+      std::vector<double> &proxy = state[index];
+      const double *in = message + static_cast<std::size_t>(width) * place;
       proxy.insert(proxy.end(), in, in + width);    // once: forget() has been called
-      for (double &entry : proxy) entry += code_of_shift(run.shift);
-    }
+      for (double &entry : proxy) entry += code_of_shift(shift);
+    });
   }
 
   void forget()
@@ -103,6 +124,14 @@ std::vector<ProxyOrigin> draw_origins(RandomSource &random, int ranks)
   return origins;
 }
 
+/// How many messages an exchange brings.
+int num_messages(const ExchangePlan &plan)
+{
+  int count = 0;
+  for (const ExchangeNeighbor &n : plan.neighbors()) count += n.receive_count() > 0;
+  return count;
+}
+
 int failures = 0;
 void expect(bool holds, const char *what)
 {
@@ -116,12 +145,18 @@ void exchange_codes(ProxyExchange &exchange, CodePacker &packer,
 {
   packer.forget();
   const ExchangeCounters before = exchange.counters;
+  const Receives opened_before = receives;
+  expect(receives.open() == num_messages(exchange.plan()), "receives wait for messages");
   exchange.begin(packer);
+  expect(receives.opened == opened_before.opened, "no receive is opened late");
   expect(exchange.pending(), "pending after begin");
   for (int k = integer(random, 0, 5); k > 0; k--) exchange.progress();
   exchange.finish();
   expect(!exchange.pending(), "not pending after finish");
   expect(packer.num_wrong(origins) == 0, "codes");
+  expect(receives.completed - opened_before.completed == num_messages(exchange.plan()),
+         "one message for each receive");
+  expect(receives.open() == num_messages(exchange.plan()), "receives are open again");
 
   double messages = 0.0, proxies = 0.0;
   for (const ExchangeNeighbor &n : exchange.plan().neighbors()) {
@@ -154,10 +189,11 @@ void run(int me, int ranks)
 
   for (int plan = 0; plan < 25; plan++) {
     const std::vector<ProxyOrigin> origins = draw_origins(random, ranks);
-    exchange->make_plan(owned_particles, origins, others);
+    exchange->make_plan(owned_particles, origins, others, largest_stride);
+    expect(receives.open() == num_messages(exchange->plan()), "receives of old plans are gone");
     CodePacker packer(me, static_cast<int>(origins.size()));
     for (packer.round = 1; packer.round < 8; packer.round++) {
-      packer.width = integer(common, 1, 9);
+      packer.width = integer(common, 1, largest_stride);
       exchange_codes(*exchange, packer, origins, random);
     }
     // left before it is finished: nothing is unpacked, and the next one is right
@@ -170,12 +206,68 @@ void run(int me, int ranks)
       exchange_codes(*exchange, packer, origins, random);
       exchange->begin(packer);
     }
-    if (plan % 5 == 0) exchange = std::make_unique<ProxyExchange>(MPI_COMM_WORLD);
+    if (plan % 5 == 0) {
+      exchange.reset();
+      expect(receives.open() == 0, "no receive is left behind");
+      exchange = std::make_unique<ProxyExchange>(MPI_COMM_WORLD);
+    }
+    if (plan % 3 == 1) {    // receives that wait for an exchange when the next plan comes
+      exchange->make_plan(owned_particles, {}, others, largest_stride);
+      exchange->make_plan(owned_particles, origins, others, largest_stride);
+      packer.width = largest_stride + 1;
+      expect(throws<std::logic_error>([&] { exchange->begin(packer); }), "stride too large");
+    }
   }
+  int canceled = 0;
+  MPI_Allreduce(&receives.canceled, &canceled, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  expect(ranks == 1 || canceled > 0, "some plans came instead of an exchange");
   // the last exchange is pending when the object goes
 }
 
 }    // namespace
+
+// ---- the calls of MPI that end a receive
+
+extern "C" {
+
+int MPI_Irecv(void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
+              MPI_Request *request)
+{
+  const int result = PMPI_Irecv(buffer, count, type, from, tag, comm, request);
+  receives.requests.insert(*request);
+  receives.opened++;
+  return result;
+}
+
+int MPI_Cancel(MPI_Request *request)
+{
+  receives.canceled += static_cast<int>(receives.requests.erase(*request));
+  return PMPI_Cancel(request);
+}
+
+int MPI_Waitall(int count, MPI_Request *requests, MPI_Status *statuses)
+{
+  return receives.watch(count, requests, [&] { return PMPI_Waitall(count, requests, statuses); });
+}
+
+int MPI_Testall(int count, MPI_Request *requests, int *flag, MPI_Status *statuses)
+{
+  return receives.watch(count, requests,
+                        [&] { return PMPI_Testall(count, requests, flag, statuses); });
+}
+
+int MPI_Waitany(int count, MPI_Request *requests, int *which, MPI_Status *status)
+{
+  return receives.watch(count, requests,
+                        [&] { return PMPI_Waitany(count, requests, which, status); });
+}
+
+int MPI_Testsome(int count, MPI_Request *requests, int *ended, int *which, MPI_Status *statuses)
+{
+  return receives.watch(count, requests,
+                        [&] { return PMPI_Testsome(count, requests, ended, which, statuses); });
+}
+}
 
 int main(int argc, char **argv)
 {

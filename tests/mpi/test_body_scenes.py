@@ -34,7 +34,9 @@ class Scenes(SceneCase):
         lines = re.findall(r"^([a-zA-Z /-]+?) {2,}(-?[\d.]\S*)", log.rsplit("\n--- ", 1)[1], re.MULTILINE)
         found = {words: float(number) for words, number in lines}
         print(name, found)
-        for picture in glob.glob(self.path(f"{name}.*.png")):
+        pictures = glob.glob(self.path(f"{name}.*.png"))
+        self.assertTrue(pictures)
+        for picture in pictures:
             with open(picture, "rb") as file:
                 self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
         return found

@@ -4,8 +4,8 @@
 
 Particles at rest: the steps of a long run are those of a short one and more of the same.  What one
 step must send is worked out from the positions: a message to each rank that has at least one proxy of
-ours, of 72 bytes, or 48 without friction, for each of our particles with a proxy there: once, however many
-images of it are there."""
+ours, of 72 bytes for each of our particles with a proxy there: once, however many images of it are there.  In
+scenes without friction steps that nobody looks at send 48 bytes, from records to records."""
 
 import itertools
 import os
@@ -40,12 +40,15 @@ fix step all nve/sphere/symplectic
 comm_proxy {proxies}
 run_style {style}
 thermo 1000
-compute cost all penalty/stats
+{before_run}
 run {steps}
-thermo_style custom step c_cost[8] c_cost[9] c_cost[10] c_cost[11]
-run 0
+{after_run}
 comm_proxy info
 """ % CUT
+STATS = dict(before_run="compute cost all penalty/stats",    # every step then goes through the arrays of LAMMPS
+             after_run="thermo_style custom step c_cost[8] c_cost[9] c_cost[10] c_cost[11]\nrun 0")
+NO_STATS = dict(before_run="", after_run="")
+IN_RECORDS = "steps without output are made in Talus' own records"
 
 
 def grains():
@@ -83,17 +86,17 @@ def expected_proxies(particles, grid, periodic):
 
 class Counts(SceneCase):
 
-    def counted(self, steps, ranks, **scene):
-        """Counts of a run, per rank: {'collectives', 'started', other rank: (messages, bytes)}"""
+    def counted(self, steps, ranks, builds=0, env=None, arguments=(), **scene):
+        """Counts of a run, per rank: {'collectives', 'started', 'beside', other rank: (messages, bytes)}"""
         stem = self.path("counts")
         for name in os.listdir(self.dir):
             if name.startswith("counts."):
                 os.remove(self.path(name))
         library = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "libcount_mpi.so")
         preload = " ".join(filter(None, [os.environ.get("LD_PRELOAD"), library]))
-        result = self.run_lammps(SCRIPT.format(steps=steps, **scene), np=ranks,
-                                 env={"LD_PRELOAD": preload, "TALUS_COUNTS": stem})
-        self.assertIn("Neighbor list builds = 0", result.log)
+        result = self.run_lammps(SCRIPT.format(steps=steps, **scene), np=ranks, arguments=arguments,
+                                 env={"LD_PRELOAD": preload, "TALUS_COUNTS": stem, **(env or {})})
+        self.assertIn(f"Neighbor list builds = {builds}\n", result.log)
         found = []
         for r in range(ranks):
             entries = {}
@@ -125,12 +128,13 @@ class Counts(SceneCase):
             result.append(difference)
         return result, log
 
-    def check(self, grid, boundary="p p p", size=72, style="verlet/proxy", law=None, more=""):
+    def check(self, grid, boundary="p p p", size=72, style="verlet/proxy", law=None, more="", stats=True):
         particles = grains()
         write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), particles)
         ranks = grid[0] * grid[1] * grid[2]
         found, log = self.per_step(ranks, boundary=boundary, law=law or LAWS[size], style=style,
-                                   grid="%d %d %d map zyx" % grid, proxies="yes", more=more)
+                                   grid="%d %d %d map zyx" % grid, proxies="yes", more=more,
+                                   **(STATS if stats else NO_STATS))
         expected = expected_proxies(particles, grid, [b == "p" for b in boundary.split()])
         messages, sent = [], []
         for rank, counts in enumerate(found):
@@ -145,13 +149,18 @@ class Counts(SceneCase):
             messages.append(len(others))
             sent.append(sum(size for _, size in others.values()))
         self.assert_own_counters(log, "messages per exchange", messages)
-        self.assert_own_counters(log, "bytes per exchange", sent)
+        full = [72 * n // size for n in sent]    # from arrays to arrays
+        looked_at = 2 if size == 48 else LONG    # before and after those in records
+        self.assert_own_counters(log, "bytes per exchange", full)
         self.assert_own_counters(log, "messages sent", [LONG * n for n in messages])
-        self.assert_own_counters(log, "bytes sent", [LONG * n for n in sent])
-        stats = thermo(log)[-1]
-        self.assertEqual((stats["c_cost[8]"], stats["c_cost[9]"]), (sum(messages), sum(sent)))
-        self.assertGreaterEqual(stats["c_cost[11]"], 0.0)
-        self.assertGreater(stats["c_cost[10]"], 0.0)
+        self.assert_own_counters(log, "bytes sent", [looked_at * n + (LONG - looked_at) * m
+                                                     for n, m in zip(full, sent)])
+        if not stats:
+            return self.assertIn(IN_RECORDS, log)
+        cost = thermo(log)[-1]
+        self.assertEqual((cost["c_cost[8]"], cost["c_cost[9]"]), (sum(messages), sum(full)))
+        self.assertGreaterEqual(cost["c_cost[11]"], 0.0)
+        self.assertGreater(cost["c_cost[10]"], 0.0)
 
     def assert_own_counters(self, log, name, values):
         numbers = re.search(rf"{name} +(\S+) +(\S+) +(\S+)$", log, re.MULTILINE).groups()
@@ -168,10 +177,45 @@ class Counts(SceneCase):
         self.check((2, 2, 1), boundary="f f f")
         self.check((4, 1, 1), boundary="f p f")
 
-    def test_without_friction_no_spin_is_sent(self):
-        self.check((2, 2, 1), size=48)
-        # unless somebody else may read it
+    def test_without_friction_records_send_no_angular_velocity(self):
+        self.check((2, 2, 1), size=48, stats=False)
+        # where others look at each step, the arrays of LAMMPS are complete
         self.check((2, 1, 1), size=72, law=LAWS[48], more="fix other all langevin 0.0 0.0 1.0 1")
+
+    def test_with_friction_in_records(self):
+        self.check((2, 1, 1), stats=False)
+
+    def test_rebuilds(self):
+        """One reduction for all warnings, of pairs and of bodies, and one for the longest history that may travel;
+        in periodic boxes those by which ranks agree on the histories of pairs that two of them compute."""
+        write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), grains())
+        law = LAWS[72]
+        bodies = "\n".join(f"fix body{n} all large/body plane 0 0 {-n} 0 0 1 contact {law} move linear 0 0 0"
+                           for n in range(1, 4))
+        for boundary, more, law, most in (("f f f", "", LAWS[72], 2), ("f f f", bodies, LAWS[72], 2),
+                                          ("f f f", bodies, LAWS[48], 2), ("p p f", bodies, LAWS[72], 4)):
+            with self.subTest(boundary=boundary, more=more, law=law):
+                counts = []
+                for steps in SHORT, LONG:
+                    found, _ = self.counted(steps, 2, builds=steps, boundary=boundary, law=law, grid="2 1 1",
+                                            style="verlet/proxy", proxies="yes", **NO_STATS,
+                                            more="neigh_modify every 1 delay 0 check no\n" + more)
+                    counts.append([rank["collectives"] for rank in found])
+                for before, after in zip(*counts):
+                    per_rebuild = (after - before) / (LONG - SHORT)
+                    self.assertGreaterEqual(per_rebuild, 1)
+                    self.assertLessEqual(per_rebuild, most)
+
+    def test_messages_are_asked_for_beside_threads_only_where_mpi_allows_it(self):
+        write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), grains())
+        single, funneled = "0", "1"    # the order of MPI_THREAD_SINGLE, MPI_THREAD_FUNNELED in every MPI
+        for threads, level, expected in (2, single, False), (2, funneled, True), (1, single, False):
+            with self.subTest(threads=threads, level=level):
+                found, _ = self.counted(SHORT, 2, boundary="p p p", law=LAWS[72], grid="2 1 1", style="verlet/proxy",
+                                        proxies="yes", more="", **NO_STATS, arguments=("-pk", "omp", threads),
+                                        env={"TALUS_THREAD_LEVEL": level, "OMP_WAIT_POLICY": "passive"})
+                for rank in found:
+                    self.assertEqual(rank["beside"] > 0, expected)
 
     def test_blocking(self):
         self.check((2, 2, 1), style="verlet")

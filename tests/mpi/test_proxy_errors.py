@@ -109,7 +109,7 @@ class Messages(SceneCase):
         log = self.run_scene("comm_proxy info\ncomm_proxy check yes\nrun 2\ncomm_proxy info")
         self.assertIn("comm_proxy: on\n", log)
         self.assertIn("comm_proxy: on, checking\n", log)
-        self.assertIn("48 bytes per particle: x, v\n", log)
+        self.assertIn("72 bytes per particle: x, v, omega\n", log)
 
     def test_partitions(self):
         """Two worlds with an exchange each."""

@@ -187,9 +187,9 @@ class Mfix(CollisionCase):
             tops = [b[n] for (_, a), (_, b), (_, c) in zip(found, found[1:], found[2:])
                     if a[n] < b[n] >= c[n] and b[n] > 1.02 * R][:4]
             exact = [R + e ** (2 * k) * (H0 - R) for k in range(1, len(tops) + 1)]
-            print(f"e = {e}:", *(f"{a:.4f} ({b:.4f})" for a, b in zip(tops, exact)))
+            print(f"e = {e}:", *(f"{a:.4f} ({b:.4f})" for a, b in zip(tops, exact, strict=True)))
             self.assertGreaterEqual(len(tops), 3, f"e = {e}")
-            for a, b in zip(tops, exact):
+            for a, b in zip(tops, exact, strict=True):
                 self.assert_close(a, b, 5e-3, f"e = {e}: height {a} against {b}")
 
     def test_04_slip_to_roll(self):
@@ -214,7 +214,7 @@ thermo_style custom step v_u c_spin f_floor[1]
             sliding = [row for row in rows if row["f_floor[1]"] > 0.99 * limit]
             found = sliding[-1]["Step"] * 0.01 / w, rows[-1]["v_u"], R * rows[-1]["c_spin"]
             print(f"  {friction.split()[0]:10} slip ends {found[0]:.5f} u {found[1]:.6f} w r {found[2]:.6f}")
-            for value, exact, limit in zip(found, (stop, 5 * u0 / 7, 5 * u0 / 7), (5e-3, 1e-3, 1e-3)):
+            for value, exact, limit in zip(found, (stop, 5 * u0 / 7, 5 * u0 / 7), (5e-3, 1e-3, 1e-3), strict=True):
                 self.assert_close(value, exact, limit, friction)
 
 

@@ -134,7 +134,7 @@ class ImpactTables(SceneCase):
             skin=0.2 * radius, dt=repr(dt), steps=steps, every=every or steps))
         frames = read_dump(self.path("out"))
         last = frames[-1]
-        for i, tag in zip(impacts, self.first):
+        for i, tag in zip(impacts, self.first, strict=True):
             row = {key: last.column(key)[tag] for key in last.columns}
             self.assertEqual(row["fz"], 0.0, "still in contact")
             self.assertGreater(row["vz"], 0.0)
@@ -147,7 +147,7 @@ class ImpactTables(SceneCase):
     def assert_hertz(self, title, impacts, expected):
         frames = self.collide(impacts, every=1)
         print(f"\n{title:12}{'overlap (m)':>15}{'force (N)':>15}{'time (s)':>15}   errors")
-        for (name, table), i, tag in zip(expected.items(), impacts, self.first):
+        for (name, table), i, tag in zip(expected.items(), impacts, self.first, strict=True):
             lowest = min(frame.column("z")[tag] for frame in frames)
             found = (i.radius - lowest) * (2 if i.pair else 1), \
                 max(frame.column("fz")[tag] for frame in frames), i.time

@@ -83,10 +83,10 @@ class OnPlane(Scene):
         Frames before `after` do not count."""
         unit = unit or abs(start)
         worst = 0.0
-        for frame in frames:
+        compared = [frame for frame in frames if frame.step * DT >= after]
+        self.assertGreater(len(compared), 10, what)
+        for frame in compared:
             time = frame.step * DT
-            if time < after:
-                continue
             expected = start - math.copysign(rate, start) * time if time < until else 0.0
             worst = max(worst, abs(frame.column(column)[tag] - expected) / unit)
         print(f"{what:44} rate {rate:10.5f}  stops at {until:7.4f} s  worst difference {worst:.1e}")

@@ -75,7 +75,7 @@ class SizeRatio(SceneCase):
                 found = self.energies(word, SYMPLECTIC, finer)
                 print(f"{word:16}time step 1e-6/{finer}{found[STEPS] / PUBLISHED[STEPS]:10.5f}")
                 self.assert_close(found[90000], PUBLISHED[90000], 1e-3)
-                self.assertLess(found[STEPS], 0.01 * PUBLISHED[STEPS], "no artefact any more: tell the doc page")
+                self.assertLess(found[STEPS], 0.01 * PUBLISHED[STEPS], "no artifact any more: tell the doc page")
 
 
 if __name__ == "__main__":

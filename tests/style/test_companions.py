@@ -142,7 +142,7 @@ rerun steps first 50 dump x y z vx vy vz
 undump forces""", steps=0)
             found.append(read_dump(self.path("forces")))
         self.assertGreaterEqual(len(found[0]), 4)
-        for expected, mine in zip(*found):
+        for expected, mine in zip(*found, strict=True):
             self.assertLess(max_difference(mine, expected, ("fx", "fy", "fz")), 1e-9)
 
 

@@ -30,6 +30,8 @@ MOVE = "fix move all nve/sphere\n"
 LAW = "contact hooke 1.0 1.0"
 RUN = PAIR + MOVE + "run 2\n"
 
+NARROW = "group far type 2\ndelete_atoms group far\nchange_box all x final -0.95 0.95 boundary p f f\n"
+
 # 27 000 particles with 1500 pairs each
 MANY_PAIRS = """
 newton off
@@ -168,6 +170,9 @@ INPUT = [    # commands after the box, message
      "been deleted: remove the unfix command"),
     (PAIR + "unfix TALUS_CONTACTS_LATER\n" + MOVE + "run 2", "Pair style gran/penalty: its internal fix "
      "TALUS_CONTACTS_LATER has been deleted: remove the unfix command"),
+    (NARROW + RUN, "Pair style gran/penalty: the box is periodic in x with a period of 1.9, below two diameters of the "
+     "largest particle: two particles could touch on both sides, and laws with history cannot tell these contacts apart: "
+     "make the box at least 2 wide, or use 'boundary f'"),
     (RUN + "replicate 2 1 1", "Cannot replicate with fixes that store per-atom quantities"),
 ]
 
@@ -252,6 +257,8 @@ class Errors(SceneCase):
     def test_what_is_right_runs(self):
         self.run_lammps(f"{box()}fix f all large/body {RECTANGLE} two-sided contact types 2 hertz 1 1 "
                         f"limit_damping contact types *1 hooke 1 1 tangential dashpot 1 1\n{RUN}")
+        # without history the two contacts of a pair need not be told apart
+        self.run_lammps(f"{box()}{NARROW}{STYLE}pair_coeff * * hooke 1 1 tangential dashpot 1 1\n{MOVE}run 2")
 
 
 if __name__ == "__main__":

@@ -124,6 +124,14 @@ class TimestepCompute(SceneCase):
         self.check("flores/material", pairs.replace("hertz/material", "flores/material").replace("\n", " 1.0\n")
                    + " 1.0", TOUCHING, (contact, wave, hertz))
 
+    def test_after_a_run(self):
+        """The contacts are those of its last step, not what is left of them."""
+        for law in "hertz 1e8 10", "hertz 1e8 10 tangential multistep NULL NULL 0.5":
+            self.compute(f"pair_coeff * * {law}", TOUCHING, steps="5\nprint 'after $(c_t[1]:%.17g) $(c_t[3]:%.17g)'")
+            last = thermo(self.log)[-1]
+            after = re.search(r"^after (\S+) (\S+)", self.log, re.MULTILINE).groups()
+            self.assertEqual(tuple(map(float, after)), (last["c_t[1]"], last["c_t[3]"]))
+
     def test_linear_and_plaincoulomb_materials(self):
         """hooke/material: kn from vchar; Rayleigh defined, Hertz not."""
         young, nu, speed = 1e8, 0.3, 2.0

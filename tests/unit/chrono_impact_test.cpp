@@ -2,7 +2,7 @@
 //
 // Chrono's own test of restitution: two equal spheres in a central impact, of radius .5 and mass 1, each at speed 1;
 // Young's modulus 2e5, Poisson's ratio .3, mu .3, time step 3e-5, .5 time units. With displacement history the
-// characteristic speed of hooke/material is the impact speed (2), else the setting (1): its default in Chrono.
+// characteristic speed of hooke/material is the impact velocity (2), else the setting (1): its default in Chrono.
 
 #include "material/contact_spec.h"
 #include "two_spheres.h"
@@ -77,7 +77,7 @@ TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
   }
 }
 
-// The impact speed of a history law enters: elastic contacts last pi sqrt(m/k) with k ~ v^(2/5).
+// The impact velocity of a history law enters: elastic contacts last pi sqrt(m/k) with k ~ v^(2/5).
 TEST(ChronoImpact, CharacteristicSpeedIsAtLeastTheImpactSpeed)
 {
   const double one = collide({Normal::HOOKE_MATERIAL, Tangential::ONESTEP}, 1.0, false).duration;

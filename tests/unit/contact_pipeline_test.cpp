@@ -100,6 +100,42 @@ TEST_P(Pipeline, AgreesWithBruteForce)
   }
 }
 
+// Between runs the memory of contacts is given back if it is much; what is asked about them then
+// does not depend on how much it is.
+TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
+{
+  const auto survey = [](const ContactPipeline &contacts) {
+    const DeepestContact deepest = contacts.deepest_contact();
+    return std::vector<double>{contacts.count_contacts(),
+                               contacts.count_candidates(),
+                               contacts.smallest_contact_period(),
+                               contacts.largest_relative_speed(),
+                               deepest.overlap_ratio,
+                               static_cast<double>(deepest.i),
+                               static_cast<double>(deepest.j)};
+  };
+  RandomSource random(6);
+  Packing p = random_packing(60, random);
+  TestRank rank(GetParam().laws);
+  rank.pipeline.set_worth_giving_back(0.0);
+  rank.rebuild(p, everyone(p), candidates(p, 1.0, false), {}, random);
+  std::vector<double> before;
+  for (int step = 0; step < 2; step++) {
+    rank.compute(p, dt, true);
+    const std::vector<double> at_end = survey(rank.pipeline);
+    for (int n = 0; n < 5; n++) EXPECT_GT(at_end[n], 0.0) << n;
+    EXPECT_NE(at_end, before);
+    rank.pipeline.remember_contacts();
+    rank.pipeline.release_records();
+    EXPECT_EQ(survey(rank.pipeline), at_end);
+    before = at_end;
+    p.move(20.0 * dt, 0.2, random);
+  }
+  rank.pipeline.release();
+  EXPECT_FALSE(rank.pipeline.has_pairs());
+  EXPECT_EQ(survey(rank.pipeline), before);
+}
+
 // Blocks of 64 contacts and vectors of 8 with every kind of remainder.
 TEST_P(Pipeline, HandlesAnyNumberOfContacts)
 {
@@ -165,7 +201,8 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   NeighborLists lists(2);
   lists.add(1, 0, 1.0);
   pipeline.set_pairs({2, {0, 0}, {1, 2}, nullptr}, lists.view());
-  pipeline.start_pairs({PartnerLists(), {1, 2}, KeptContacts(), {}});
+  HistoryStore nothing_kept;
+  pipeline.start_pairs(nothing_kept);
   double f[6] = {10.0, 20.0, 30.0, 40.0, 50.0, 60.0};    // forces are added
   pipeline.compute({x, v, nullptr, radius, mass, nullptr, f, nullptr}, {dt, true});
   const double push = 800.0 * 0.5 + 1.0 * 3.0 * 1.0;    // kn overlap + m_eff gn (approach)
@@ -193,12 +230,12 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
   }
   ContactPipeline pipeline;
   pipeline.set_laws(single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, false));
-  PartnerLists partners;
-  partners.resize(n);
-  KeptContacts kept;
-  const auto start = [&](const std::vector<int> &kept_slot) {
+  HistoryStore store;
+  store.resize(n);
+  const auto start = [&] {
     pipeline.set_pairs({n, key, tag, nullptr}, lists.view());
-    pipeline.start_pairs({partners, tag, kept, kept_slot});
+    pipeline.start_pairs(store);
+    store.number(pipeline.particle_order());
   };
   const auto forces = [&](bool advance) {
     std::vector<double> f(3 * n, 0.0), torque(3 * n, 0.0);
@@ -208,16 +245,15 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
     f.insert(f.end(), torque.begin(), torque.end());
     return f;
   };
-  start(std::vector<int>(n, -1));
+  start();
   const std::vector<double> first = forces(true), before = forces(true);
   ASSERT_TRUE(first != before);    // there is a history
-  const std::vector<int> slots = pipeline.particle_order().slot_of_atom;
   const double used = pipeline.memory_usage();
   ASSERT_GT(used, worth_giving_back);
-  pipeline.keep_history(kept, false);
+  pipeline.keep_history(store, {false, false}, false);
   pipeline.release();
   EXPECT_LT(pipeline.memory_usage(), 0.6 * used);    // the states of the particles stay
-  start(slots);
+  start();
   EXPECT_TRUE(forces(false) == before);
 }
 

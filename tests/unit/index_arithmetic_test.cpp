@@ -7,7 +7,7 @@
 #include "contact/narrow_phase.h"
 #include "exchange/exchange_plan.h"
 #include "history/contact_history.h"
-#include "history/partner_lists.h"
+#include "history/history_store.h"
 #include "neighbors/pair_list.h"
 
 #include <gtest/gtest.h>
@@ -110,12 +110,11 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   ASSERT_EQ(pairs.num_pairs(), std::int64_t{n} * (n - 1) / 2);
   EXPECT_EQ(pairs.find(n - 2, n - 1), pairs.num_pairs() - 1);
 
-  PartnerLists partners;
-  partners.resize(n);
-  partners.begin();
-  partners.layout();
+  HistoryStore store;
+  store.resize(n);
+  store.number(order);
   ContactHistory history;
-  history.fetch(pairs, {partners, tag, KeptContacts(), {}}, {});
+  history.fetch(pairs, store);
   AlignedVector<Record> position(n);
   for (int i = 0; i < n; i++) position[i] = {{1.0e-5 * i, 0.0, 0.0, 0.5}};
   const std::int64_t end = pairs.num_pairs();
@@ -136,13 +135,12 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   EXPECT_EQ(contacts[touching - 1], end - 1);
 
   history.record(end - 1) = {{1.0, 2.0, 3.0, 1.0}};
-  partners.begin();
-  history.announce(pairs, partners);
-  partners.layout();
-  history.file(pairs, partners);
-  EXPECT_EQ(partners.size(n - 1), close - 1);
-  history.record(end - 1) = {};
-  history.fetch(pairs, {partners, tag, KeptContacts(), {}}, {});
+  store.begin(order, 1, nullptr, {true, false});
+  history.put_aside(pairs, store.chunk(0), false);
+  store.finish(order, 1);
+  EXPECT_EQ(store.list_size(n - 1), 2 + (close - 1) * 5);
+  store.open(order, 1);
+  history.fetch(pairs, store);
   EXPECT_EQ(history.record(end - 1).c[1], 2.0);
   EXPECT_TRUE(history.touches(end - 1));
 }

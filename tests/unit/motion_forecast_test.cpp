@@ -30,15 +30,17 @@ TEST(MotionForecast, MaximaOfSingleParticles)
   const MotionForecast f = forecast_motion(2, x.data(), then.data(), v.data(), 0.1);
   EXPECT_DOUBLE_EQ(f.moved, 5.0);
   EXPECT_DOUBLE_EQ(f.step, 2.0);
-  EXPECT_TRUE(f.may_leave(8.9));
-  EXPECT_FALSE(f.may_leave(9.1));
+  EXPECT_TRUE(f.may_leave(8.9, 1));
+  EXPECT_FALSE(f.may_leave(9.1, 1));
+  EXPECT_TRUE(f.may_leave(24.9, 5));
+  EXPECT_FALSE(f.may_leave(25.1, 5));
 }
 
 TEST(MotionForecast, NothingMovesNowhere)
 {
   const MotionForecast f = forecast_motion(0, nullptr, nullptr, nullptr, 1.0);
   EXPECT_EQ(f.moved, 0.0);
-  EXPECT_FALSE(f.may_leave(0.0));
+  EXPECT_FALSE(f.may_leave(0.0, 5));
 }
 
 // Particles that collide with each other in any way that keeps to the assumption are never outside
@@ -67,11 +69,35 @@ TEST(MotionForecast, WarnsOneStepAhead)
       for (int k = 0; k < 3 * n; k++) x[k] += dt * v[k];
       const double moved = forecast_motion(n, x.data(), then.data(), v.data(), dt).moved;
       if (moved > limit) {
-        EXPECT_TRUE(before.may_leave(limit));
+        EXPECT_TRUE(before.may_leave(limit, 1));
         break;
       }
       for (double &c : v) c *= 0.7;
     }
+  }
+}
+
+// A list that is kept serves until the next check: particles at constant velocity are never outside
+// in between, and with steps in mind the list is not made anew at every check either.
+TEST(MotionForecast, SeesAsFarAsTheNextCheck)
+{
+  for (const int every : {1, 2, 7, 20}) {
+    const double dt = 0.01, limit = 1.0;
+    double then[3] = {0, 0, 0}, x[3] = {0, 0, 0};
+    const double v[3] = {0, 0.6, 0.8};
+    int kept = 0;
+    for (int step = 1; step < 300; step++) {
+      // asked one step before a check
+      if (step % every == 0) {
+        if (forecast_motion(1, x, then, v, dt).may_leave(limit, every))
+          std::copy(x, x + 3, then);
+        else
+          kept++;
+      }
+      for (int d = 0; d < 3; d++) x[d] += dt * v[d];
+      EXPECT_LE(forecast_motion(1, x, then, v, dt).moved, limit) << "every " << every;
+    }
+    EXPECT_GT(kept, 0);
   }
 }
 

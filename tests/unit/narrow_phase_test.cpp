@@ -121,11 +121,8 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
   for (int count = 0; count <= 40; count++) {
     const RandomPairs random_pairs(count, random);
     const PairList &pairs = random_pairs.list;
-    PartnerLists none;
-    none.resize(num_particles);
     ContactHistory history;
-    history.fetch(pairs, {none, std::vector<std::int64_t>(num_particles, 0), KeptContacts(), {}},
-                  {});
+    history.fetch(pairs, HistoryStore());
     std::vector<Record> expected(count);
     for (int step = 0; step < 20; step++) {
       const std::vector<Record> position = random_positions(random);

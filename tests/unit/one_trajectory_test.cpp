@@ -29,7 +29,7 @@ class Machine {
  public:
   Machine(int num_ranks, const LawTable &laws, std::uint64_t seed) : random(seed)
   {
-    for (int r = 0; r < num_ranks; r++) ranks.emplace_back(laws);
+    for (int r = 0; r < num_ranks; r++) ranks.emplace_back(laws, r);
   }
 
   void divide(int threads, bool two_phases)

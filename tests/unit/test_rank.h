@@ -18,7 +18,7 @@
 
 namespace slow {
 
-/// Packed histories of particles under way, by particle.
+/// Particles under way as HistoryStore packs them, by particle.
 using Luggage = std::map<int, std::vector<double>>;
 
 class TestRank {
@@ -29,7 +29,10 @@ class TestRank {
   std::vector<Vector> force, torque;    ///< by particle of the packing; of owned ones
   std::vector<Talus::ReportedContact> report;
 
-  explicit TestRank(const Talus::LawTable &laws) { pipeline.set_laws(laws); }
+  explicit TestRank(const Talus::LawTable &laws, int rank = 0) : store(rank)
+  {
+    pipeline.set_laws(laws);
+  }
 
   bool reports = true;    ///< ask for reports, with which parts take turns
 
@@ -37,44 +40,37 @@ class TestRank {
   /// spoiled until the first one is over.
   void divide(int threads, bool two_phases) { pipeline.set_work(threads, two_phases); }
 
-  /// Before a rebuild: histories leave with their particles, all of them.
+  /// Before a rebuild: histories leave with their particles, all of them, as in a restart file.
   void depart(Luggage &luggage)
   {
-    if (particle.empty()) return;
-    pipeline.file_history(partners);
-    pipeline.release();
-    for (int a = 0; a < owned; a++) {
+    put_aside();
+    for (int a = 0; a < owned && !particle.empty(); a++) {
       std::vector<double> &buffer = luggage[particle[a]];
-      buffer.resize(partners.packed_size(a));
-      partners.pack(a, buffer.data());
+      buffer.resize(Talus::HistoryStore::size_origin + store.list_size(a));
+      Talus::HistoryStore::write({store.origin(a).name, -1, -1}, buffer.data());
+      buffer.resize(Talus::HistoryStore::size_origin +
+                    store.pack_list(a, buffer.data() + Talus::HistoryStore::size_origin));
     }
+    store.clear();
+    was_here.clear();
   }
 
   /// The same as in a run: only those of the particles that leave, the others are kept.
   template <class Stays> void depart_and_keep(Luggage &luggage, Stays stays)
   {
-    if (particle.empty()) return;
-    pipeline.keep_history(kept, true);
-    const std::vector<int> slots = pipeline.particle_order().slot_of_atom;
-    pipeline.release();
-    slot_of.clear();
-    for (int a = 0; a < owned; a++) {
-      const int i = particle[a];
-      if (stays(i)) {
-        slot_of[i] = slots[a];
-      } else if (!kept.empty()) {
-        std::vector<double> &buffer = luggage[i];
-        buffer.resize(partners.packed_size_of(kept.most_contacts()));
-        buffer.resize(kept.pack(slots[a], partners.num_values(), buffer.data()));
-      }
+    put_aside();
+    was_here.clear();
+    for (int a = 0; a < owned && !particle.empty(); a++) {
+      std::vector<double> buffer(Talus::HistoryStore::size_origin + store.list_size(a));
+      buffer.resize(store.pack(a, buffer.data()));
+      was_here[particle[a]] = buffer;
+      if (!stays(particle[a])) luggage[particle[a]] = buffer;
     }
   }
 
   /// Takes the given particles in an order of its own, and what it needs of the others as ghosts.
-  /// `old_tag`: the tags under which the luggage was packed, if they have changed since.
   void rebuild(const Packing &p, std::vector<int> mine, const std::vector<Neighbors> &near,
-               const Luggage &luggage, RandomSource &random,
-               const std::vector<std::int64_t> *old_tag = nullptr)
+               const Luggage &luggage, RandomSource &random)
   {
     random.shuffle(mine);
     owned = static_cast<int>(mine.size());
@@ -89,14 +85,25 @@ class TestRank {
           particle.push_back(j);
         }
 
-    partners = Talus::PartnerLists();
-    partners.resize(owned);
-    for (int a = 0; a < owned; a++) {
-      const auto found = luggage.find(particle[a]);
-      if (found != luggage.end()) partners.unpack(a, found->second.data());
+    store.resize(static_cast<int>(particle.size()));
+    for (int a = 0; a < static_cast<int>(particle.size()); a++) {
+      const auto stayed = was_here.find(particle[a]);
+      const auto came = luggage.find(particle[a]);
+      if (a >= owned) {    // of ghosts this rank may know the slot
+        const std::int64_t tag = p.tag[particle[a]];
+        store.set_ghost(owned, a,
+                        stayed != was_here.end() ? Talus::HistoryStore::read(stayed->second.data())
+                                                 : Talus::HistoryStore::Origin{tag, -1, -1},
+                        elsewhere);
+        continue;
+      }
+      store.forget(a);
+      if (came != luggage.end())
+        store.unpack(a, came->second.data());
+      else if (stayed != was_here.end())
+        store.unpack(a, stayed->second.data());
     }
-
-    start(p, near, number, random, old_tag);
+    start(p, near, number, random);
   }
 
   void compute(const Packing &p, double dt, bool advance)
@@ -142,19 +149,16 @@ class TestRank {
 
  private:
   void start(const Packing &p, const std::vector<Neighbors> &near, const std::vector<int> &number,
-             RandomSource &random, const std::vector<std::int64_t> *old_tag)
+             RandomSource &random)
   {
     const auto is_mine = [&](int i) { return number[i] >= 0 && number[i] < owned; };
     std::vector<std::uint64_t> key;
-    std::vector<std::int64_t> tag, filed_tag;
-    std::vector<int> type, kept_slot;
+    std::vector<std::int64_t> tag;
+    std::vector<int> type;
     for (const int i : particle) {
       key.push_back(p.key[i]);
       tag.push_back(p.tag[i]);
-      filed_tag.push_back(old_tag ? (*old_tag)[i] : p.tag[i]);
       type.push_back(p.type[i]);
-      const auto slot = slot_of.find(i);
-      kept_slot.push_back(slot == slot_of.end() ? -1 : slot->second);
     }
     slow::NeighborLists lists(owned);
     std::vector<Neighbors> shuffled = near;
@@ -165,8 +169,15 @@ class TestRank {
       lists.add(number[n.i], number[n.j], n.weight);
     }
     pipeline.set_pairs({owned, key, tag, type.data()}, lists.view());
-    pipeline.start_pairs({partners, filed_tag, kept, kept_slot});
-    kept.clear();
+    pipeline.start_pairs(store);
+    store.number(pipeline.particle_order());
+  }
+
+  void put_aside()
+  {
+    if (particle.empty()) return;
+    pipeline.keep_history(store, {true, false}, false);
+    pipeline.release();
   }
 
   void run(const Talus::ParticleView &view, const Talus::ContactStep &step)
@@ -190,9 +201,9 @@ class TestRank {
     pipeline.compute_late(view, step);
   }
 
-  Talus::PartnerLists partners;
-  Talus::KeptContacts kept;
-  std::map<int, int> slot_of;    // of particles that stay, at the time of keeping
+  static constexpr int elsewhere = -2;    // a rank that is not this one
+  Talus::HistoryStore store;
+  Luggage was_here;    // at the time of keeping
 };
 
 inline std::vector<int> everyone(const Packing &p)

@@ -1,0 +1,143 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "exchange/record_packer.h"
+
+#include "particles/particle_records.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+using namespace Talus;
+
+namespace {
+
+// Slots whose records are prefetched: they stand far from each other, and so many loads from memory
+// can be under way at the same time.
+constexpr int ahead = 24;
+
+/// Four numbers at any address of a message.
+inline Vec4 load_anywhere(const double *address)
+{
+  Vec4 value;
+  std::memcpy(&value, address, sizeof value);
+  return value;
+}
+inline void store_anywhere(double *address, Vec4 value)
+{
+  std::memcpy(address, &value, sizeof value);
+}
+
+/// The first three numbers of one vector, the fourth of another.
+inline Vec4 with_fourth_of(Vec4 row, Vec4 other)
+{
+  return __builtin_shufflevector(row, other, 0, 1, 2, 7);
+}
+/// The last three numbers of one vector, then the fourth of another.
+inline Vec4 last_three_with_fourth_of(Vec4 row, Vec4 other)
+{
+  return __builtin_shufflevector(row, other, 1, 2, 3, 7);
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+void RecordPacker::set_plan(const ExchangePlan &plan, const int *slot_of_atom)
+{
+  slots.clear();
+  for (const ExchangeNeighbor &neighbor : plan.neighbors())
+    slots.push_back(slots_of(neighbor, slot_of_atom));
+  slots.push_back(slots_of(plan.self(), slot_of_atom));
+}
+
+RecordPacker::Slots RecordPacker::slots_of(const ExchangeNeighbor &neighbor,
+                                           const int *slot_of_atom)
+{
+  Slots its{neighbor.rank, neighbor.send_index, {}};
+  for (int &sent : its.sent) sent = slot_of_atom[sent];
+  neighbor.for_each_proxy([&](int proxy, int place, const PeriodicShift &shift) {
+    if (its.received.empty() || its.received.back().shift != shift)
+      its.received.push_back({shift, {}});
+    its.received.back().targets.push_back({slot_of_atom[proxy], place});
+  });
+  return its;
+}
+
+const RecordPacker::Slots &RecordPacker::slots_with(int rank) const
+{
+  const auto found = std::find_if(slots.begin(), slots.end(),
+                                  [rank](const Slots &its) { return its.rank == rank; });
+  assert(found != slots.end());
+  return *found;
+}
+
+void RecordPacker::set_state(ParticleRecords &where, const PeriodicBox &present)
+{
+  records = &where;
+  box = present;
+}
+
+int RecordPacker::stride() const
+{
+  return records->stride == 2 ? 9 : 6;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RecordPacker::pack(const ExchangeNeighbor &to, double *out)
+{
+  const std::vector<int> &sent = slots_with(to.rank).sent;
+  records->stride == 2 ? pack_all<true>(sent, out) : pack_all<false>(sent, out);
+}
+
+/* Each record is stored whole. Its fourth number lands on the first one of the next record, which
+   is stored later: only the last particle of a message must not write behind it. */
+
+template <bool spins> void RecordPacker::pack_all(const std::vector<int> &sent, double *out) const
+{
+  const ParticleRecords &from = *records;
+  constexpr int width = spins ? 9 : 6;
+  const int count = static_cast<int>(sent.size());
+  for (int k = 0; k < count; k++, out += width) {
+    from.call(sent[std::min(k + ahead, count - 1)]);
+    const Record *moves = &from.motion[(spins ? 2L : 1L) * sent[k]];
+    store_anywhere(out, load4(from.position[sent[k]]));
+    if (spins) store_anywhere(out + 3, load4(moves[0]));
+    const Record &last = spins ? moves[1] : moves[0];
+    if (k + 1 < count)
+      store_anywhere(out + width - 3, load4(last));
+    else
+      std::copy_n(last.c, 3, out + width - 3);
+  }
+}
+
+/* The fourth numbers, radius and inverses of mass and radius, do not change between rebuilds. */
+
+void RecordPacker::unpack(const ExchangeNeighbor &from, const double *message)
+{
+  for (const Run &run : slots_with(from.rank).received)
+    records->stride == 2 ? unpack_run<true>(run, message) : unpack_run<false>(run, message);
+}
+
+template <bool spins> void RecordPacker::unpack_run(const Run &run, const double *message)
+{
+  constexpr std::ptrdiff_t width = spins ? 9 : 6;
+  std::vector<Vec4, AlignedAllocator<Vec4>> steps;
+  for (const auto &step : box.steps_of(run.shift))
+    steps.push_back(Vec4{step[0], step[1], step[2], 0.0});
+  const int count = static_cast<int>(run.targets.size());
+  for (int k = 0; k < count; k++) {
+    records->call(run.targets[std::min(k + ahead, count - 1)].slot);
+    const std::size_t s = run.targets[k].slot;
+    const double *in = message + width * run.targets[k].place;
+    Record &position = records->position[s];
+    Record *moves = &records->motion[(spins ? 2 : 1) * s];
+    Vec4 x = with_fourth_of(load_anywhere(in), load4(position));
+    for (const Vec4 &step : steps) x = x + step;
+    store(position, x);
+    if (spins) store(moves[0], with_fourth_of(load_anywhere(in + 3), load4(moves[0])));
+    Record &last = spins ? moves[1] : moves[0];    // one number earlier: it ends with the message
+    store(last, last_three_with_fourth_of(load_anywhere(in + width - 4), load4(last)));
+  }
+}

@@ -1,0 +1,193 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contact histories from one pair list to the next. The contacts of the last lists are put aside as
+// they stand, by the slots of then, and every particle carries along which slot it had: a contact of
+// two particles that were and are owned by this rank is found at once. Names (the tags of then) are
+// needed for the others: contacts with a ghost, and contacts that arrive with a particle from
+// another rank or out of a restart file.
+//
+//   begin(), ContactHistory::put_aside() for     the last lists are still there
+//     every chunk, finish()
+//   outgoing(), receive()                        in periodic boxes, before anything moves
+//   pack(), unpack(), copy(), forget()           particles migrate, are sorted, deleted, added
+//   set_ghost()                                  new ghosts
+//   open(), ContactHistory::fetch() for every    new lists are there
+//     chunk, number()
+//
+// In a periodic box the two sides of a contact across a border compute it from positions that were
+// shifted and rounded differently, and which of the two histories would live on depends on the
+// decomposition: so that of the rank that owns the first particle, in canonical order, is taken
+// everywhere. A pair of names must not have more than one contact: periods of a box have to be
+// longer than two diameters.
+
+#ifndef TALUS_HISTORY_HISTORY_STORE_H
+#define TALUS_HISTORY_HISTORY_STORE_H
+
+#include "history/named_contacts.h"
+#include "history/slot_contacts.h"
+#include "particles/particle_order.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace Talus {
+
+class HistoryStore {
+ public:
+  explicit HistoryStore(int this_rank = 0) : me(this_rank) {}
+
+  /// Impact records are kept as well, from now on.
+  void keep_impacts(bool yes) { with_impacts = yes; }
+  bool keeps_impacts() const { return with_impacts; }
+
+  // ---- what particles carry along, by host's index ---------------------------------------------
+
+  /// Which particle of the last lists this is.
+  struct Origin {
+    std::int64_t name = 0;                ///< its tag then; 0: it was in none
+    std::int32_t rank = -1, slot = -1;    ///< where it was owned, if known
+  };
+  /// Room for particles 0 ... capacity-1; new ones were in no list.
+  void resize(int capacity);
+  void copy(int from, int to);
+  /// A new particle takes this place.
+  void forget(int atom);
+  /// Of `owned` particles and the ghosts behind them: a ghost, and the rank that owns it.
+  void set_ghost(int owned, int atom, const Origin &origin, int owner);
+  int owner_of_ghost(int owned, int atom) const { return owners[atom - owned]; }
+  const Origin &origin(int atom) const { return origins[atom]; }
+  /// As size_origin doubles of a message.
+  static void write(const Origin &origin, double *to);
+  static Origin read(const double *from);
+  static constexpr int size_origin = 2;
+
+  // ---- out of the last lists -------------------------------------------------------------------
+
+  struct Scope {
+    bool particles_may_leave;    ///< without it pack() and largest_list() know of nothing
+    bool periodic;               ///< the first particle decides, see above
+  };
+  /// Chunks are numbered from 0, and a contact is in the chunk of one of its particles; `chunk_of_
+  /// slots` is nullptr if there is one only. Slots of no chunk have a larger number.
+  void begin(const ParticleOrder &order, int num_chunks, const std::uint16_t *chunk_of_slots,
+             Scope scope);
+  SlotContacts &chunk(int c) { return chunks[c]; }
+  void finish(const ParticleOrder &order, int threads);
+
+  /// What other ranks have to take over, by rank: numbers for receive() there. Valid until clear().
+  using Messages = std::map<int, std::vector<double>>;
+  const Messages &outgoing() const { return messages; }
+  void receive(const std::vector<double> &message);
+
+  /// Forgets all histories, and gives the memory back if it is much.
+  void clear();
+  bool empty() const { return !filled && lists.empty(); }
+  /// Histories have been put aside since clear(): the same on all ranks.
+  bool holds_last_lists() const { return filled; }
+
+  // ---- particles under way ---------------------------------------------------------------------
+
+  /// An owned particle with its contacts as a list of doubles, for a message to its new rank.
+  /// Returns their number.
+  int pack(int atom, double *buffer);
+  int unpack(int atom, const double *buffer);
+  /// The same without the origin, for a restart file. Lists of either kind can be read whether
+  /// impacts are kept or not.
+  int pack_list(int atom, double *buffer);
+  int unpack_list(int atom, const double *buffer);
+  /// Upper limits: of one list and of all (doubles).
+  int list_size(int atom) const;
+  int largest_list(int owned) const;
+  /// The name of a particle out of a restart file.
+  void set_name(int atom, std::int64_t name) { origins[atom] = {name, -1, -1}; }
+
+  // ---- into the new lists ----------------------------------------------------------------------
+
+  /// `present` must stay until number().
+  void open(const ParticleOrder &present, int threads);
+  /// Of two slots of the present order. May be called by several threads.
+  FoundHistory find(int a, int b) const
+  {
+    const int then_a = slot_then[a], then_b = slot_then[b];
+    if ((then_a | then_b) >= 0) return find_by_slots(then_a, then_b);
+    return find_of_atoms(order->atom_of_slot[a], order->atom_of_slot[b]);
+  }
+  /// Of two of the host's particles, before open() as well.
+  FoundHistory find_of_atoms(int i, int j) const;
+  /// Histories have been fetched: forgets them. From here on particles carry the present slots.
+  void number(const ParticleOrder &present);
+
+  double memory_usage() const;
+
+ private:
+  bool was_here(const Origin &o) const { return filled && o.rank == me && o.slot >= 0; }
+  int chunk_of(int slot) const { return chunk_of_slot.empty() ? 0 : chunk_of_slot[slot]; }
+  FoundHistory find_by_slots(int a, int b) const;
+  FoundHistory find_in(int c, int a, int b) const;
+  template <class Visit> void for_each_partner(Visit visit);
+  void count_partners();
+  void list_partners();
+  void name_contacts(const ParticleOrder &order);
+  void name_lists(int owned);
+  void add_message(int rank, std::int64_t first, std::int64_t second, const Record &history,
+                   const Record &impact);
+  int plain_slot(int atom) const;
+  int values() const { return with_impacts ? 8 : 4; }
+
+  int me;
+  bool with_impacts = false;
+
+  // by host's index
+  std::vector<Origin> origins;
+  std::vector<std::int32_t> list_of;    // of owned ones that brought their contacts: which; or -1
+  AlignedVector<double> lists;          // one after the other
+  std::vector<std::int64_t> list_begin;
+  std::vector<std::int32_t> owners;    // by ghost
+
+  // contacts of the last lists, by the slots of then
+  bool filled = false;
+  Scope scope{false, false};
+  int threads = 1;
+  std::vector<SlotContacts> chunks;
+  std::vector<std::uint16_t> chunk_of_slot;    // empty if there is one chunk only
+  std::vector<unsigned char> touched_image;    // contacts with images of own ones; empty if none
+  NamedContacts named;                         // with ghosts, and of lists
+  Messages messages;
+
+  // only if particles may leave, by slot
+  std::vector<std::int64_t> name_of_slot;       // negative: of a ghost
+  std::vector<std::uint32_t> partners_begin;    // and the end of the last
+  AlignedVector<int> partners;                  // slots
+  bool partners_listed = false;
+  int most_partners = 0;
+
+  // while histories are fetched
+  const ParticleOrder *order = nullptr;
+  std::vector<int> slot_then;    // by present slot; -1: names may be needed
+};
+
+inline FoundHistory HistoryStore::find_in(int c, int a, int b) const
+{
+  const SlotContacts &its = chunks[c];
+  if (its.records.empty()) return {};
+  const std::int64_t place = its.find(std::min(a, b), std::max(a, b)),
+                     readable = place & ~(place >> 63);
+  return {place >= 0, a < b, its.records.data() + readable,
+          its.impacts.empty() ? &no_history : its.impacts.data() + readable};
+}
+
+inline FoundHistory HistoryStore::find_by_slots(int a, int b) const
+{
+  const int p = chunk_of(a), q = chunk_of(b), num_chunks = static_cast<int>(chunks.size());
+  if (p == q && p < num_chunks) return find_in(p, a, b);
+  FoundHistory found;
+  if (p < num_chunks) found = find_in(p, a, b);
+  if (!found.known && q < num_chunks) found = find_in(q, a, b);
+  return found;
+}
+
+}    // namespace Talus
+
+#endif

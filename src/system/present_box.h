@@ -1,0 +1,22 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_SYSTEM_PRESENT_BOX_H
+#define TALUS_SYSTEM_PRESENT_BOX_H
+
+#include "exchange/periodic_box.h"
+
+#include "domain.h"
+
+namespace Talus {
+
+/// The box of LAMMPS as the exchange knows it. It may change in any step: asked before each
+/// exchange.
+inline PeriodicBox present_box(const LAMMPS_NS::Domain &domain)
+{
+  return {domain.xprd, domain.yprd, domain.zprd, domain.triclinic != 0,
+          domain.xy,   domain.xz,   domain.yz};
+}
+
+}    // namespace Talus
+
+#endif

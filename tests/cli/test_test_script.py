@@ -1,0 +1,118 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""scripts/test: which configurations are built and tested, and that nothing is left out without a word. Build, ctest and
+the hosts are stubs that write down how they are called."""
+
+import os
+import re
+import shutil
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from test_build_errors import ROOT, ScriptCase, write
+
+SECOND = "4Jul2026"
+
+
+class Configurations(ScriptCase):
+
+    def setUp(self):
+        super().setUp()
+        for folder in "scripts", "cmake":
+            shutil.copytree(os.path.join(ROOT, folder), self.path("tree", folder))
+        # build_talus makes the default configuration: packages, host and compilation are not what is tested here
+        with open(self.path("tree", "scripts", "lib", "all.sh"), "a") as file:
+            file.write('build_talus() { TALUS_BUILD=$(build_directory "$1" "$2" "$3"); }\n')
+        note = f"printf '%s ' {{}} \"$@\" >> '{self.path('calls')}'; echo >> '{self.path('calls')}'\n"
+        write(self.path("tree", "scripts", "build"), "#!/bin/sh\n" + note.format('"build [$TALUS_TARGETS]"'), executable=True)
+        self.command("ctest", note.format("ctest") + '[ "$2" != "$FAILING" ]\n')
+        self.command("cmake", "exit 0\n")
+        self.command("ninja", "exit 0\n")
+        self.command("clang++", "exit 0\n")
+
+    def run_test(self, *arguments, **environment):
+        result = self.run_command([self.path("tree", "scripts", "test"), *arguments], **environment)
+        calls = []
+        if os.path.exists(self.path("calls")):
+            with open(self.path("calls")) as file:
+                calls = [line.replace(self.path("tree"), "TREE").strip() for line in file]
+            os.remove(self.path("calls"))
+        return result, calls
+
+    def of_ctest(self, calls):
+        """[(folder, options)]"""
+        found = [re.match(r"ctest --test-dir TREE/(\S+) --output-on-failure --no-tests=error -j \d+ ?(.*)", call)
+                 for call in calls if not call.startswith("build ")]
+        return [match.groups() for match in found]
+
+    def test_without_the_second_host_a_line_says_what_is_left_out(self):
+        result, calls = self.run_test()
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(self.of_ctest(calls), [("build", "-LE slow")])
+        said = [line for line in result.stdout.splitlines() if "left out" in line]
+        self.assertEqual(len(said), 1, result.stdout)
+        for part in "tests/styles", SECOND, "scripts/test --all":
+            self.assertIn(part, said[0])
+
+    def test_in_ci_the_second_host_runs_smoke_tests_and_cases_of_styles(self):
+        result, calls = self.run_test(CI="true")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertNotIn("left out", result.stdout)
+        second = f"build-{SECOND}-smallbig"
+        self.assertEqual(self.of_ctest(calls), [(second, "-L smoke"), (second, "-L dem"), ("build", "-LE slow")])
+        builds = [call for call in calls if call.startswith("build ")]
+        self.assertEqual(builds, [f"build [smoke] --host {SECOND} --sizes smallbig"] * 2)
+
+    def test_a_host_in_the_cache_is_used(self):
+        host = self.run_command(["bash", "-c", f'. "{ROOT}/scripts/lib/all.sh"; released_host_dir {SECOND} smallbig']).stdout
+        for name in "stamp", "build/liblammps.so":
+            write(os.path.join(host, name), "")
+        write(os.path.join(host, "build/lmp"), "", executable=True)
+        result, calls = self.run_test()
+        self.assertIn((f"build-{SECOND}-smallbig", "-L dem"), self.of_ctest(calls))
+        self.assertNotIn("left out", result.stdout)
+
+    def test_options_narrow_the_run_to_the_default_host(self):
+        _, calls = self.run_test("-L", "unit", CI="true")
+        self.assertEqual(self.of_ctest(calls), [("build", "-LE slow -L unit")])
+
+    def test_all(self):
+        result, calls = self.run_test("--all")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        found = self.of_ctest(calls)
+        folders = [folder for folder, _ in found]
+        self.assertEqual(folders, [f"build-{SECOND}-smallbig"] * 2 + ["build-4Feb2025-bigbig", f"build-{SECOND}-bigbig",
+                                   "build-portable", "build-sanitize", "build-tsan", "build"])
+        slow = [folder for folder, options in found if "-LE" not in options and "-L" not in options]
+        self.assertEqual(slow, ["build-tsan", "build"], "slow tests run once, with the default host")
+
+    def test_a_failure_is_remembered(self):
+        for folder, name in ((f"build-{SECOND}-bigbig", f"second host {SECOND}, BIGBIG, smoke tests"),
+                             ("build-tsan", "thread sanitizer"), ("build-4Feb2025-bigbig", "BIGBIG")):
+            result, calls = self.run_test("--all", FAILING=self.path("tree", folder))
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"failed before: {name} (its output is above)", result.stdout)
+            self.assertEqual(self.of_ctest(calls)[-1][0], "build", "the others still run")
+
+    def test_no_clang_is_an_error(self):
+        os.remove(self.path("bin", "clang++"))
+        self.hide("clang++")
+        for option in "--all", "--tsan":
+            result, calls = self.run_test(option)
+            self.assert_message(result, "clang++", "clang libclang-rt-dev libomp-dev")
+            self.assertEqual(calls, [], "said before anything is built")
+
+    def test_clang_is_installed(self):
+        self.command("dpkg-query", 'eval last=\\${$#}; [ "$last" = libomp-dev ] || echo installed\n')
+        self.command("apt-get", f"echo \"$@\" >> '{self.path('apt')}'\n")
+        self.command("id", "echo 0\n")
+        for option, installed in ((), False), (("--tsan",), True), (("--all",), True):
+            result, _ = self.run_test(*option, TALUS_SKIP_PACKAGES="")
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertEqual(os.path.exists(self.path("apt")), installed)
+        with open(self.path("apt")) as file:
+            self.assertIn("libomp-dev", file.read())
+
+
+if __name__ == "__main__":
+    unittest.main()

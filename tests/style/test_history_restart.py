@@ -1,0 +1,66 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Contact history in restart files: of a format that is known, or the reader says so."""
+
+import os
+import struct
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+
+START = """
+units lj
+boundary p f f
+atom_style sphere
+newton off
+comm_modify vel yes
+"""
+PAIR = """
+pair_style gran/penalty
+pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
+"""
+REST = """
+timestep 0.001
+fix step all nve/sphere/symplectic
+"""
+END = "write_dump all custom {} id x y z vx vy vz omegax omegay omegaz fx fy fz modify format float %a\n"
+# the second pair touches across the border
+GRAINS = [Sphere((4.5, 1, 1), v=(0, 1, 0)), Sphere((5.45, 1, 1)), Sphere((9.6, 2, 2), v=(0, 0, 1)), Sphere((0.55, 2, 2))]
+
+
+class HistoryRestart(SceneCase):
+
+    def setUp(self):
+        write_sphere_data(self.path("grains"), ((0, 10), (0, 3), (0, 3)), GRAINS)
+        self.run_lammps(START + "read_data grains\n" + PAIR + REST + "run 10\nwrite_restart half\nrun 10\n" +
+                        END.format("whole"))
+
+    def test_displacements_are_there_again(self):
+        self.run_lammps(START + "read_restart half\n" + REST + "run 10\n" + END.format("again"))
+        whole, again = (read_dump(self.path(name))[0] for name in ("whole", "again"))
+        self.assert_same_bits(whole, again)
+        # with the pair style set anew after write_data they are not
+        self.run_lammps(START + "read_restart half\nwrite_data bare\nclear\n" + START + "read_data bare\n" + PAIR + REST +
+                        "run 10\n" + END.format("without"))
+        without, = read_dump(self.path("without"))
+        for tag in whole.atoms:
+            self.assertNotEqual(whole.column("fy")[tag] + whole.column("fz")[tag],
+                                without.column("fy")[tag] + without.column("fz")[tag])
+
+    def test_other_formats_are_refused(self):
+        with open(self.path("half"), "rb") as file:
+            content = file.read()
+        state = struct.pack("<id", 24, -2.0)    # length and version
+        self.assertEqual(content.count(state), 1)
+        for first, found in ((-3.0, 3), (8.0, 1)):    # files of the first format begin with a length
+            with open(self.path("other"), "wb") as file:
+                file.write(content.replace(state, struct.pack("<id", 24, first)))
+            for np in 1, 2:
+                log = self.run_lammps(START + "read_restart other\n" + REST + "run 0\n", np=np, expect_error=True).log
+                self.assertIn(f"the restart file holds contact history in the format {found}, and this version of Talus "
+                              "reads format 2", " ".join(log.split()))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: procs=2
+"""run_style verlet/proxy: neighbor lists are made in time whatever the distance of the checks, and a warning names what
+was in the way if not."""
+
+import os
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+
+SCRIPT = """
+units si
+boundary f f f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_data data
+comm_proxy yes
+neighbor 0.2 bin
+neigh_modify {checks}
+pair_style gran/penalty
+pair_coeff * * hooke 1000.0 0.0
+fix move all nve/sphere/symplectic
+run_style verlet/proxy
+timestep 0.001
+thermo 1000
+dump all all custom 100 dump id x y z vx vy vz
+dump_modify all format float %a
+{run}
+"""
+DELAYED = "made too late: particles moved by more than half of the skin before the first check"
+UNFORESEEN = "made too late: between two checks"
+
+
+class RebuildChecks(SceneCase):
+
+    def run_scene(self, checks, spheres, run="run 200", np=1):
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
+        log = self.run_lammps(SCRIPT.format(checks=checks, run=run), np=np).log
+        return log, int(re.search(r"Neighbor list builds = (\d+)", log)[1]), int(re.search(r"Dangerous builds = (\d+)", log)[1])
+
+    def collision(self):
+        """In 10 steps the fast one moves by .06, where half of the skin is .1; they meet after some 150 steps."""
+        return [Sphere((-3.0, 0.1, 0), (6.0, 0, 0)), Sphere((-1.1, 0, 0)), Sphere((3.0, 3.0, 3.0))]
+
+    def test_checks_that_are_far_from_each_other(self):
+        for np in 1, 2:
+            _, often, _ = self.run_scene("every 1 delay 0 check yes", self.collision(), np=np)
+            expected = read_dump(self.path("dump"))
+            self.assertGreater(expected[-1].column("vx")[2], 1.0, "they have met")
+            for checks in "every 2 delay 0 check yes", "every 10 delay 0 check yes", "every 3 delay 6 check yes":
+                with self.subTest(checks=checks, np=np):
+                    log, builds, dangerous = self.run_scene(checks, self.collision(), np=np)
+                    self.assertEqual(dangerous, 0)
+                    self.assertNotIn("too late", log)
+                    self.assertGreaterEqual(builds, often)
+                    for mine, theirs in zip(read_dump(self.path("dump")), expected, strict=True):
+                        self.assert_same_bits(mine, theirs)
+
+    def test_lists_are_kept_over_several_checks(self):
+        slow = [Sphere((-3.0, 0, 0), (1.0, 0, 0))]    # .005 between two checks
+        _, builds, dangerous = self.run_scene("every 5 delay 0 check yes", slow)
+        self.assertEqual(dangerous, 0)
+        self.assertGreater(builds, 0)
+        self.assertLess(builds, 5)
+
+    def test_delay(self):
+        log, _, dangerous = self.run_scene("every 1 delay 30 check yes", self.collision())
+        self.assertGreater(dangerous, 0)
+        self.assertIn(DELAYED, log)
+        self.assertIn("'neigh_modify every 1 delay 30'", log)
+        self.assertNotIn(UNFORESEEN, log)
+
+    def test_acceleration(self):
+        """From rest to beyond half of the skin in a step."""
+        log, _, dangerous = self.run_scene("every 1 delay 0 check yes", [Sphere((-3.0, 0, 0))],
+                                           run="fix push all addforce 150000.0 0 0\nrun 3")
+        self.assertGreater(dangerous, 0)
+        self.assertIn(UNFORESEEN, log)
+        self.assertNotIn(DELAYED, log)
+
+
+if __name__ == "__main__":
+    unittest.main()

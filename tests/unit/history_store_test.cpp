@@ -1,0 +1,506 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Histories over random rebuilds on several ranks, against a map of what was written last: with
+// images across periodic borders, particles that migrate, wrap, are deleted, added and renumbered,
+// and restart files in between.
+
+#include "history/contact_history.h"
+#include "neighbor_lists.h"
+#include "random_source.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+using namespace Talus;
+
+namespace {
+
+struct History {
+  Record displacement{}, impact{};
+};
+
+bool same(const Record &a, const Record &b)
+{
+  return std::equal(a.c, a.c + 4, b.c);
+}
+
+/// What is to be in the lists of all ranks: by particle, wherever it is.
+struct World {
+  struct Particle {
+    std::int64_t tag;
+    std::uint64_t key;
+    int owner;
+    bool exists;
+  };
+  std::vector<Particle> particles;
+  /// Candidate pairs by ascending particle. Across a border the two are images of each other.
+  struct Pair {
+    bool touches = false, across = false;
+  };
+  std::map<std::pair<int, int>, Pair> pairs;
+  /// As the particle with the lower number sees it; of contacts of the last lists.
+  std::map<std::pair<int, int>, History> histories;
+
+  bool is_first(int i, int j) const
+  {
+    const Particle &a = particles[i], &b = particles[j];
+    return std::tie(a.key, a.tag) < std::tie(b.key, b.tag);
+  }
+};
+
+struct Settings {
+  int ranks, threads;
+  bool two_phases, periodic, with_impacts;
+};
+
+class Rank {
+ public:
+  Rank(int which, const Settings &given) : me(which), settings(given), store(which)
+  {
+    store.keep_impacts(settings.with_impacts);
+  }
+
+  /// What a particle brings along when it comes to this rank.
+  using Luggage = std::map<int, std::vector<double>>;
+
+  /// New lists, with the histories that the store knows.
+  void rebuild(const World &world, const Luggage &luggage, RandomSource &random)
+  {
+    number_particles(world, luggage, random);
+    std::vector<std::uint64_t> key;
+    std::vector<std::int64_t> tag;
+    for (const int i : particle) {
+      key.push_back(world.particles[i].key);
+      tag.push_back(world.particles[i].tag);
+    }
+    slow::NeighborLists neighbors(owned);
+    for (const auto &[a, b] : local_pairs) neighbors.add(a, b, 1.0);
+    order.arrange(owned, key, tag);
+    order.divide(PairRows(order, neighbors.view(), settings.threads), settings.threads,
+                 settings.two_phases);
+    pairs.resize(order.num_chunks());
+    live.resize(order.num_chunks());
+    store.open(order, 1);
+    for (int c = 0; c < order.num_chunks(); c++) {
+      pairs[c].collect(order, PairRows(order, neighbors.view()), c);
+      live[c].fetch(pairs[c], store);
+    }
+    store.number(order);
+  }
+
+  /// visit(history, pair, particle i, particle j) for all pairs, i being the first.
+  template <class Visit> void for_each_pair(Visit visit)
+  {
+    for (std::size_t c = 0; c < pairs.size(); c++)
+      for (std::int64_t n = 0; n < pairs[c].num_pairs(); n++)
+        visit(live[c], n, atom_of(pairs[c].first[n]), atom_of(pairs[c].second[n]));
+  }
+
+  void put_aside(bool particles_may_leave, bool pairs_stay)
+  {
+    store.begin(order, order.num_chunks(), order.chunk_of_slots(),
+                {particles_may_leave, settings.periodic});
+    for (std::size_t c = 0; c < pairs.size(); c++)
+      live[c].put_aside(pairs[c], store.chunk(static_cast<int>(c)), pairs_stay);
+    store.finish(order, settings.threads);
+  }
+
+  bool is_owned(int atom) const { return atom < owned; }
+
+  int me;
+  Settings settings;
+  HistoryStore store;
+  int owned = 0;
+  std::vector<int> particle;    // by host's index
+  std::map<int, HistoryStore::Origin> last;
+
+ private:
+  int atom_of(int slot) const { return order.atom_of_slot[slot]; }
+
+  /// Owned particles in any order, then a ghost for every pair that needs one.
+  void number_particles(const World &world, const Luggage &luggage, RandomSource &random)
+  {
+    particle.clear();
+    for (std::size_t i = 0; i < world.particles.size(); i++)
+      if (world.particles[i].exists && world.particles[i].owner == me)
+        particle.push_back(static_cast<int>(i));
+    random.shuffle(particle);
+    owned = static_cast<int>(particle.size());
+    std::map<int, int> atom;
+    for (int a = 0; a < owned; a++) atom[particle[a]] = a;
+
+    local_pairs.clear();
+    std::map<std::pair<int, bool>, int> ghost;    // an image of its own for pairs across a border
+    const auto ghost_of = [&](int i, bool across) {
+      const auto [place, is_new] = ghost.insert({{i, across}, static_cast<int>(particle.size())});
+      if (is_new) particle.push_back(i);
+      return place->second;
+    };
+    for (const auto &[ij, pair] : world.pairs) {
+      const auto [i, j] = ij;
+      const bool mine_i = atom.count(i), mine_j = atom.count(j);
+      if (mine_i && mine_j && !pair.across) {
+        local_pairs.emplace_back(atom[i], atom[j]);
+        continue;
+      }
+      if (mine_i) local_pairs.emplace_back(atom[i], ghost_of(j, pair.across));
+      if (mine_j) local_pairs.emplace_back(atom[j], ghost_of(i, pair.across));
+    }
+    carry(world, luggage);
+  }
+
+  void carry(const World &world, const Luggage &luggage)
+  {
+    const int total = static_cast<int>(particle.size());
+    store.resize(total);
+    for (int a = 0; a < total; a++) {
+      const auto found = luggage.find(particle[a]);
+      if (is_owned(a)) {
+        store.forget(a);
+        if (found != luggage.end()) store.unpack(a, found->second.data());
+      } else {
+        const int owner = world.particles[particle[a]].owner;
+        store.set_ghost(owned, a,
+                        found != luggage.end() ? HistoryStore::read(found->second.data())
+                                               : HistoryStore::Origin{},
+                        owner);
+      }
+    }
+  }
+
+  ParticleOrder order;
+  std::vector<std::pair<int, int>> local_pairs;
+  std::vector<PairList> pairs;
+  std::vector<ContactHistory> live;
+};
+
+class Rebuilds : public testing::TestWithParam<Settings> {
+ protected:
+  static constexpr int start = 60, popular = 5;    // the latter has more than eight partners
+  RandomSource random{23};
+  World world;
+  std::vector<Rank> ranks;
+  std::int64_t next_tag = 1;
+
+  Rebuilds()
+  {
+    for (int r = 0; r < GetParam().ranks; r++) ranks.emplace_back(r, GetParam());
+    for (int i = 0; i < start; i++) add_particle();
+  }
+
+  void add_particle()
+  {
+    world.particles.push_back({3 * next_tag++, static_cast<std::uint64_t>(random.below(20)),
+                               random.below(GetParam().ranks), true});
+  }
+
+  /// Contacts go on, also if they were over a border and are not any more; some end, some begin.
+  void choose_pairs()
+  {
+    std::map<std::pair<int, int>, World::Pair> next;
+    const int n = static_cast<int>(world.particles.size());
+    for (int i = 0; i < n; i++)
+      for (int j = i + 1; j < n; j++) {
+        if (!world.particles[i].exists || !world.particles[j].exists) continue;
+        const bool had_history = world.histories.count({i, j});
+        const double chance = i == popular || j == popular ? 0.8 : 0.06;
+        if (!random.chance(had_history ? 0.9 : chance)) continue;
+        const World::Pair before = world.pairs[{i, j}];
+        const bool turned = random.chance(0.3);
+        next[{i, j}] = {random.chance(had_history ? 0.9 : 0.5),
+                        GetParam().periodic && before.across != turned};
+      }
+    world.pairs = next;
+  }
+
+  /// Every pair has the history that its contact in the last lists had, the others begin at zero.
+  void expect_histories()
+  {
+    int found = 0;
+    for (Rank &rank : ranks)
+      rank.for_each_pair([&](ContactHistory &live, std::int64_t n, int a, int b) {
+        const int i = rank.particle[a], j = rank.particle[b];
+        const auto known = world.histories.find(std::minmax(i, j));
+        const bool expected = known != world.histories.end();
+        ASSERT_EQ(live.touches(n), expected) << i << " " << j;
+        if (!expected) return;
+        const Record &as_lower = known->second.displacement;
+        ASSERT_TRUE(same(live.record(n), i < j ? as_lower : mirrored(as_lower))) << i << " " << j;
+        if (GetParam().with_impacts) {
+          ASSERT_TRUE(same(live.impact(n), known->second.impact));
+        }
+        found++;
+      });
+    EXPECT_GT(found, world.histories.empty() ? -1 : 10);
+  }
+
+  /// A step: contacts get new histories. The side that does not decide is off by rounding.
+  void step()
+  {
+    world.histories.clear();
+    for (const auto &[ij, pair] : world.pairs) {
+      if (!pair.touches) continue;
+      History &h = world.histories[ij];
+      for (int k = 0; k < 4; k++) {
+        h.displacement.c[k] = random.uniform(-1.0, 1.0);
+        h.impact.c[k] = random.uniform(-1.0, 1.0);
+      }
+    }
+    for (Rank &rank : ranks)
+      rank.for_each_pair([&](ContactHistory &live, std::int64_t n, int a, int b) {
+        const int i = rank.particle[a], j = rank.particle[b];
+        const World::Pair &pair = world.pairs.at(std::minmax(i, j));
+        set_touching(live, n, pair.touches);
+        if (!pair.touches) return;
+        History h = world.histories.at(std::minmax(i, j));
+        if (pair.across && !rank.is_owned(a))
+          for (double &value : h.displacement.c) value = std::nextafter(value, 2.0);
+        live.record(n) = i < j ? h.displacement : mirrored(h.displacement);
+        if (live.with_impacts()) live.impact(n) = h.impact;
+      });
+  }
+
+  static void set_touching(ContactHistory &live, std::int64_t pair, bool touches)
+  {
+    unsigned bits = 0;
+    for (std::int64_t k = 0; k < 8; k++) {
+      const std::int64_t of_block = pair / 8 * 8 + k;
+      const bool is_on = of_block == pair ? touches : live.touches(of_block);
+      bits |= static_cast<unsigned>(is_on) << k;
+    }
+    live.set_touching(pair / 8, bits);
+  }
+
+  void agree()
+  {
+    for (Rank &from : ranks)
+      for (const auto &[to, message] : from.store.outgoing()) {
+        ASSERT_NE(to, from.me);
+        ASSERT_TRUE(GetParam().periodic);
+        ranks[to].store.receive(message);
+      }
+  }
+
+  /// Particles with what they carry along: as pack() writes it, or as restart files do.
+  Rank::Luggage luggage(bool by_restart_file)
+  {
+    Rank::Luggage all;
+    for (Rank &rank : ranks)
+      for (int a = 0; a < rank.owned; a++) {
+        std::vector<double> &buffer = all[rank.particle[a]];
+        constexpr int header = HistoryStore::size_origin;
+        buffer.resize(header + rank.store.list_size(a));
+        EXPECT_LE(rank.store.list_size(a), rank.store.largest_list(rank.owned));
+        const int size = by_restart_file ? header + rank.store.pack_list(a, &buffer[header])
+                                         : rank.store.pack(a, buffer.data());
+        EXPECT_LE(size, static_cast<int>(buffer.size()));
+        buffer.resize(size);
+        if (by_restart_file)
+          HistoryStore::write({rank.store.origin(a).name, -1, -1}, buffer.data());
+      }
+    return all;
+  }
+
+  void change_particles()
+  {
+    for (std::size_t i = 0; i < world.particles.size(); i++) {
+      World::Particle &p = world.particles[i];
+      if (random.chance(0.2)) p.owner = random.below(GetParam().ranks);
+      if (random.chance(0.2)) p.key = random.below(20);
+      if (random.chance(0.02) && static_cast<int>(i) != popular) remove(static_cast<int>(i));
+    }
+    while (random.chance(0.6)) add_particle();
+  }
+
+  void remove(int i)
+  {
+    world.particles[i].exists = false;
+    for (auto h = world.histories.begin(); h != world.histories.end();)
+      h = h->first.first == i || h->first.second == i ? world.histories.erase(h) : std::next(h);
+  }
+
+  void renumber()
+  {
+    std::vector<std::int64_t> tags;
+    for (const World::Particle &p : world.particles) tags.push_back(p.tag);
+    random.shuffle(tags);
+    for (std::size_t i = 0; i < tags.size(); i++) world.particles[i].tag = tags[i];
+  }
+};
+
+TEST_P(Rebuilds, KeepTheHistoryOfEveryContact)
+{
+  Rank::Luggage all;
+  for (int round = 0; round < 25; round++) {
+    choose_pairs();
+    // of contacts whose pair is gone nobody knows any more
+    for (auto h = world.histories.begin(); h != world.histories.end();)
+      h = world.pairs.count(h->first) ? std::next(h) : world.histories.erase(h);
+    for (Rank &rank : ranks) rank.rebuild(world, all, random);
+    ASSERT_NO_FATAL_FAILURE(expect_histories()) << "round " << round;
+    step();
+    const bool by_restart_file = round % 5 == 4;
+    for (Rank &rank : ranks) rank.put_aside(true, by_restart_file);
+    ASSERT_NO_FATAL_FAILURE(agree());
+    all = luggage(by_restart_file);
+    if (by_restart_file)
+      for (Rank &rank : ranks) rank = Rank(rank.me, GetParam());    // another process
+    change_particles();
+    if (round % 7 == 6) renumber();
+  }
+}
+
+/// Those that pass through another rank on their way bring everything with them, and those that
+/// come back find theirs.
+TEST_P(Rebuilds, ParticlesPassThroughOtherRanks)
+{
+  choose_pairs();
+  for (Rank &rank : ranks) rank.rebuild(world, {}, random);
+  step();
+  for (Rank &rank : ranks) rank.put_aside(true, false);
+  agree();
+  Rank::Luggage all = luggage(false), later;
+  HistoryStore between(77);
+  between.resize(1);
+  for (const auto &[i, buffer] : all) {
+    ASSERT_EQ(between.unpack(0, buffer.data()), static_cast<int>(buffer.size()));
+    ASSERT_EQ(between.list_size(0) + HistoryStore::size_origin, static_cast<int>(buffer.size()));
+    later[i].resize(buffer.size());
+    ASSERT_EQ(between.pack(0, later[i].data()), static_cast<int>(buffer.size()));
+  }
+  change_particles();
+  choose_pairs();
+  for (auto h = world.histories.begin(); h != world.histories.end();)
+    h = world.pairs.count(h->first) ? std::next(h) : world.histories.erase(h);
+  for (Rank &rank : ranks) rank.rebuild(world, later, random);
+  expect_histories();
+}
+
+// A rank alone, from which nobody leaves: slots and names of images are enough.
+TEST_P(Rebuilds, NothingIsPackedIfNobodyMayLeave)
+{
+  if (GetParam().ranks > 1) return;
+  choose_pairs();
+  ranks[0].rebuild(world, {}, random);
+  step();
+  ranks[0].put_aside(false, false);
+  const Rank::Luggage all = luggage(false);
+  for (const auto &[i, buffer] : all) ASSERT_EQ(buffer.size(), HistoryStore::size_origin + 2U) << i;
+  ranks[0].rebuild(world, all, random);
+  expect_histories();
+}
+
+TEST_P(Rebuilds, AContactThatItsFirstSideDoesNotSeeIsNotKept)
+{
+  if (!GetParam().periodic) return;
+  choose_pairs();
+  for (Rank &rank : ranks) rank.rebuild(world, {}, random);
+  step();
+  int forgotten = 0;
+  for (Rank &rank : ranks)
+    rank.for_each_pair([&](ContactHistory &live, std::int64_t n, int a, int b) {
+      if (!rank.is_owned(a) || rank.is_owned(b) || !live.touches(n)) return;
+      set_touching(live, n, false);
+      forgotten += world.histories.erase(std::minmax(rank.particle[a], rank.particle[b]));
+    });
+  EXPECT_GT(forgotten, 10);
+  for (Rank &rank : ranks) rank.put_aside(true, false);
+  agree();
+  const Rank::Luggage all = luggage(false);
+  for (Rank &rank : ranks) rank.rebuild(world, all, random);
+  expect_histories();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ranks, Rebuilds,
+    testing::Values(Settings{1, 1, false, false, false}, Settings{1, 1, false, true, false},
+                    Settings{1, 3, false, true, true}, Settings{3, 1, false, false, true},
+                    Settings{3, 1, false, true, false}, Settings{4, 2, false, true, true},
+                    Settings{2, 1, true, true, false}, Settings{3, 2, true, false, true},
+                    Settings{3, 2, true, true, true}),
+    [](const auto &info) {
+      const Settings &s = info.param;
+      return std::to_string(s.ranks) + "_ranks_" + std::to_string(s.threads) + "_threads" +
+             (s.two_phases ? "_two_phases" : "") + (s.periodic ? "_periodic" : "") +
+             (s.with_impacts ? "_impacts" : "");
+    });
+
+TEST(NamedContacts, HoldTheLastHistoryOfEachPair)
+{
+  RandomSource random(5);
+  NamedContacts contacts;
+  for (int round = 0; round < 3; round++) {
+    std::map<std::pair<std::int64_t, std::int64_t>, Record> model;
+    for (int n = 0; n < 3000; n++) {
+      // consecutive names, and some that differ in high bits only
+      const auto name = [&] {
+        return random.below(60) + 1 +
+               (random.chance(0.3) ? std::int64_t{random.below(50)} << 40 : 0);
+      };
+      const std::int64_t a = name(), b = name();
+      if (a == b) continue;
+      const Record seen = {{random.uniform(-1.0, 1.0), 2.0, 3.0, 1.0}}, impact = {{1.0 * n}};
+      contacts.insert(a, b, seen, impact);
+      model[std::minmax(a, b)] = a < b ? seen : mirrored(seen);
+    }
+    ASSERT_EQ(contacts.size(), model.size());
+    for (const auto &[names, expected] : model) {
+      const FoundHistory one = contacts.find(names.first, names.second),
+                         other = contacts.find(names.second, names.first);
+      ASSERT_TRUE(one.known && other.known);
+      ASSERT_TRUE(same(one.seen_by_a(), expected));
+      ASSERT_TRUE(same(other.seen_by_a(), mirrored(expected)));
+    }
+    for (int n = 0; n < 1000; n++) {
+      const std::int64_t a = random.below(200) + 1, b = random.below(200) + 1;
+      if (!model.count(std::minmax(a, b))) {
+        ASSERT_FALSE(contacts.find(a, b).known);
+      }
+    }
+    contacts.clear();
+    EXPECT_TRUE(contacts.empty());
+    EXPECT_FALSE(contacts.find(1, 2).known);
+  }
+}
+
+TEST(HistoryStore, TakesTheMemoryOfImpactsOnlyForLawsThatNeedThem)
+{
+  // a list with impacts, read by a store that keeps none, and the other way round
+  for (const bool written : {false, true})
+    for (const bool read : {false, true}) {
+      HistoryStore store;
+      store.keep_impacts(read);
+      store.resize(2);
+      std::vector<double> list{1.0, written ? 8.0 : 4.0, 0.0, 1.0, 2.0, 3.0, 1.0};
+      const std::int64_t partner = 20;
+      std::memcpy(&list[2], &partner, sizeof partner);
+      if (written) list.insert(list.end(), {5.0, 6.0, 7.0, 0.0});
+      store.set_name(0, 10);
+      store.set_name(1, partner);
+      ASSERT_EQ(store.unpack_list(0, list.data()), static_cast<int>(list.size()));
+      slow::NeighborLists neighbors(2);
+      neighbors.add(0, 1, 1.0);
+      ParticleOrder order;
+      order.arrange(2, {7, 5}, {10, 20});
+      PairList pairs;
+      pairs.collect(order, PairRows(order, neighbors.view()), 0);
+      store.open(order, 1);
+      ContactHistory history;
+      history.fetch(pairs, store);
+      ASSERT_TRUE(history.touches(0));
+      EXPECT_TRUE(same(history.record(0), {{-1.0, -2.0, -3.0, 1.0}}));    // 20 is the first now
+      ASSERT_EQ(history.with_impacts(), read);
+      if (read) {
+        EXPECT_TRUE(same(history.impact(0), written ? Record{{5.0, 6.0, 7.0, 0.0}} : Record{}));
+      }
+    }
+}
+
+}    // namespace
