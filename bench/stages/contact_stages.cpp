@@ -106,7 +106,7 @@ BENCHMARK(keep_history)->Apply(sizes);
 void keep_history_periodic(benchmark::State &state)
 {
   Bed bed = in_periodic_box(bed_of(state));
-  Prepared p(bed, NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+  Prepared p(bed, "hertz", "multistep");
   repeat(state, p, [&] { p.keep_history(); });
 }
 BENCHMARK(keep_history_periodic)->Apply(sizes);
