@@ -16,6 +16,10 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 target_compile_options(talus_common_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
 
+# Eigen's own vector code fuses multiplication and addition where the processor can, whatever the compiler was told:
+# the motion of a body would depend on the instruction set. Without it types are laid out the same everywhere, too.
+target_compile_definitions(talus_common_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)
+
 # talus_add_flags(target arch): a target with the common flags and those for code at -march=arch.
 function(talus_add_flags target arch)
   set(options "")

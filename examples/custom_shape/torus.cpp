@@ -2,8 +2,10 @@
 //
 // A shape of one's own for fix large/body: a ring, touched from outside.
 //
-//   g++ -std=c++17 -O3 -march=native -ffp-contract=off -shared -fPIC -I TALUS/src torus.cpp -o
-//   torus.so fix ring all large/body custom ./torus.so 8  0 0 0  0 0 1  2.0 0.4  contact ...
+//   g++ -std=c++17 -O3 -march=native -ffp-contract=off -shared -fPIC -I TALUS/src
+//     torus.cpp -o torus.so      (one line)
+//
+//   fix ring all large/body custom ./torus.so 8  0 0 0  0 0 1  2.0 0.4  contact ...
 //
 // Arguments: center (3), axis (3), radius of the ring, radius of its wire.
 
@@ -62,8 +64,7 @@ class Torus : public Talus::LargeBodyShape {
 
 }    // namespace
 
-extern "C" Talus::LargeBodyShape *talus_make_shape(int narg, const char *const *arg, char *problem,
-                                                   int size)
+TALUS_MAKE_SHAPE(int narg, const char *const *arg, char *problem, int size)
 {
   double v[8];
   if (narg != 8) {

@@ -12,8 +12,7 @@ namespace {
 
 constexpr int digit_bits = 32;
 constexpr std::int64_t base = std::int64_t{1} << digit_bits;
-constexpr int lowest = -1074;           // exponent of the lowest bit of digit 0
-constexpr int max_pending = 1 << 29;    // digits stay below 2^62
+constexpr int lowest = -1074;    // exponent of the lowest bit of digit 0
 
 }    // namespace
 

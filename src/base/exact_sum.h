@@ -23,6 +23,9 @@ class ExactSum {
   void add(double value);
   void add(const ExactSum &other);
 
+  /// So many additions are made without a carry: digits stay below 2^53.
+  static constexpr int max_pending = 1 << 20;
+
   /// Carries; at least once before digits are added elsewhere.
   void normalize();
 

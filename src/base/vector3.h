@@ -50,6 +50,12 @@ inline double length(const Vector3<double> &a)
   return std::sqrt(dot(a, a));
 }
 
+/// The same vector in every lane.
+template <class Real> inline Vector3<Real> in_all_lanes(const Vector3<double> &v)
+{
+  return {splat<Real>(v.x), splat<Real>(v.y), splat<Real>(v.z)};
+}
+
 template <class Mask, class Real>
 inline Vector3<Real> select(Mask mask, Vector3<Real> yes, Vector3<Real> no)
 {

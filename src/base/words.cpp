@@ -28,20 +28,6 @@ bool is_large(const std::string &number)
   return place + static_cast<double>(shift) > 0.0;
 }
 
-/* Decimal numbers only, in any locale; not-a-number for everything else. Too small for a double
-   counts as 0, too large is infinite. */
-
-double parse_number(const std::string &word)
-{
-  const char *begin = word.data(), *const end = begin + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || error == std::errc::invalid_argument) return NAN;
-  if (error == std::errc::result_out_of_range) return is_large(word) ? INFINITY : 0.0;
-  return value;
-}
-
 /* As %g in the C locale. */
 
 std::string as_text(double number)
@@ -63,6 +49,17 @@ std::string list_of(const std::vector<std::string> &words)
 }
 
 }    // namespace
+
+double parse_number(const std::string &word)
+{
+  const char *begin = word.data(), *const end = begin + word.size();
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || error == std::errc::invalid_argument) return NAN;
+  if (error == std::errc::result_out_of_range) return is_large(word) ? INFINITY : 0.0;
+  return value;
+}
 
 Words::Words(std::string command_name, int n, const char *const *words, int first, Fail fail_with) :
     command(std::move(command_name)), narg(n), arg(words), next(first),

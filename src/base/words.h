@@ -16,6 +16,10 @@
 
 namespace Talus {
 
+/// A decimal number, in any locale; not-a-number for everything else. Too small for a double counts
+/// as 0, too large is infinite.
+double parse_number(const std::string &word);
+
 class Words {
  public:
   /// Index of the word at fault (of the last word if there is none), and the text. Must not return.

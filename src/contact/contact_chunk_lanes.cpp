@@ -5,6 +5,7 @@
 
 #include "contact/contact_chunk.h"
 
+#include "base/lanes.h"
 #include "laws/circle_of_intersection.h"
 
 #include <algorithm>
@@ -14,25 +15,6 @@ namespace {
 
 constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
 using Lane = double[ContactBatch::width];
-
-/// Four records become lanes k ... k+3 of three numbers and of a fourth.
-inline void spread(Vec4 *rows, Lane *vector, double *fourth, int k)
-{
-  transpose(rows[0], rows[1], rows[2], rows[3]);
-  for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
-  if (fourth) store(&fourth[k], rows[3]);
-}
-
-/// Lanes k ... k+3 become the records where(0) ... where(3).
-template <class Where>
-inline void to_records(const Lane *vector, const double *fourth, int k, Where where)
-{
-  Vec4 rows[4];
-  for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);
-  rows[3] = fourth ? load4(&fourth[k]) : Vec4{};
-  transpose(rows[0], rows[1], rows[2], rows[3]);
-  for (int q = 0; q < 4; q++) store(where(q), rows[q]);
-}
 
 /// Histories that are called into the cache while others are gathered. They stand nearly in the
 /// order in which they are wanted; beyond the end there is nothing to call, and no harm in it.
@@ -90,10 +72,10 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
       if constexpr (history_kept) d[q] = load4(h[place[pair]]);
     }
     if constexpr (history_kept) prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
-    spread(a, batch.normal, batch.overlap, k);
-    spread(b, batch.velocity, batch.inverse_mass, k);
-    if constexpr (friction) spread(c, batch.spin, batch.inverse_radius, k);
-    if constexpr (history_kept) spread(d, batch.history, batch.history[3], k);
+    to_lanes(a, batch.normal, batch.overlap, k);
+    to_lanes(b, batch.velocity, batch.inverse_mass, k);
+    if constexpr (friction) to_lanes(c, batch.spin, batch.inverse_radius, k);
+    if constexpr (history_kept) to_lanes(d, batch.history, batch.history[3], k);
   }
 }
 
@@ -103,7 +85,7 @@ void ContactChunk::gather_impacts(int end)
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = impact(k + q);
-    spread(row, batch.history + 4, batch.history[7], k);
+    to_lanes(row, batch.history + 4, batch.history[7], k);
   }
 }
 
@@ -148,7 +130,7 @@ void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
-    spread(row, batch.relative_omega, nullptr, k);
+    to_lanes(row, batch.relative_omega, nullptr, k);
   }
   for (int k = 0; k < end; k += lanes)
     store(&batch.circle[k],
@@ -168,19 +150,19 @@ void ContactChunk::keep_impacts(int end)
   to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
 }
 
-void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth,
-                                int end, Record *records)
+void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width],
+                                const double *fourth, int end, Record *records)
 {
   const std::uint32_t *place = history.all_places();
   for (int k = 0; k < end; k += 4)
-    to_records(lanes_of, fourth, k,
-               [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
+    to_rows(lanes_of, fourth, k,
+            [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
 }
 
 template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)
 {
   const auto rows_of = [](const Lane *vector, int k, Record *records) {
-    to_records(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
+    to_rows(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
   };
   for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, k, force_of_lane);

@@ -3,6 +3,7 @@
 #ifndef LMP_CONSTANT_GRAVITY_H
 #define LMP_CONSTANT_GRAVITY_H
 
+#include "base/words.h"
 #include "pointers.h"
 
 namespace LAMMPS_NS {
@@ -15,28 +16,24 @@ namespace LAMMPS_NS {
      gravity G vector x y z
 
    Called by the constructor of the fix. G in force/mass units, angles in degrees.
-   Errors: error->all at the word of the fix command line, named after `command`.
 ------------------------------------------------------------------------- */
 
 class ConstantGravity : protected Pointers {
  public:
-  ConstantGravity(class LAMMPS *, const char *command);
+  explicit ConstantGravity(class LAMMPS *lmp) : Pointers(lmp) {}
 
-  // iarg: index of the word gravity; returns the number of words read
-  int parse(int narg, char **arg, int iarg);
+  // reads what follows the word gravity, which has been read
+  void parse(Talus::Words &words);
 
-  bool given() const { return words > 0; }
+  bool given() const { return is_given; }
   const double *acceleration() const { return g; }
 
  private:
-  const char *command;
-  int words = 0;
+  bool is_given = false;
   double g[3] = {0.0, 0.0, 0.0};
 
-  void need(int, char **, int, int, const char *);
-  double number(char **, int, const char *);
   void set(double, double, double);
-  void set(double, double, double, double);
+  void set_along(double, Talus::Vector3<double>, Talus::Words &);
 };
 
 }    // namespace LAMMPS_NS

@@ -11,7 +11,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -36,13 +35,13 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   spec_is_set.assign(atom->ntypes + 1, false);
 
   // `two-sided` is a property of the shape, so it is looked for before the shape is made
-  LargeBodyWords words(lmp, narg, arg, 3);
+  Words words = command_words(lmp, "fix large/body", narg, arg, 3);
   for (int iarg = 4; iarg < narg; iarg++)
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   shape = LargeBodyShapes(lmp, words).parse(two_sided);
   surface = std::make_unique<LargeBodySurface>(lmp, *shape);
-  parse_keywords(words);
-  motion.finish(words, shape->reference_point());
+  parse_keywords(words, narg, arg);
+  motion.finish(shape->reference_point());
   with_history = std::any_of(specs.begin(), specs.end(),
                              [](const ContactSpec &s) { return s.law.has_history(); });
   with_impact = std::any_of(specs.begin(), specs.end(),
@@ -84,19 +83,19 @@ void FixLargeBody::offer_output()
 
 /* ---------------------------------------------------------------------- */
 
-void FixLargeBody::parse_keywords(LargeBodyWords &words)
+void FixLargeBody::parse_keywords(Words &words, int narg, char **arg)
 {
   while (!words.at_end()) {
-    if (words.is_next("contact")) {
-      words.next++;
+    words.about("");
+    if (words.take("contact")) {
       parse_contact_words(words);
     } else if (words.take("two-sided") || motion.parse(words) || surface->parse(words)) {
       continue;
     } else {
-      error->all(FLERR, words.next,
-                 "fix large/body: unknown word '{}', expected contact, two-sided, move, servo, "
-                 "gravity, load, pressure, vtk, or in a contact {}",
-                 words.arg[words.next], contact_keywords);
+      words.fail(0, "unknown word '" + words.peek() +
+                        "', expected contact, two-sided, move, servo, gravity, load, pressure, "
+                        "vtk, or in a contact " +
+                        contact_keywords);
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
@@ -107,16 +106,13 @@ void FixLargeBody::parse_keywords(LargeBodyWords &words)
                  type, type);
 }
 
-void FixLargeBody::parse_contact_words(LargeBodyWords &words)
+void FixLargeBody::parse_contact_words(Words &words)
 {
   int lo = 1, hi = atom->ntypes;
-  if (words.take("types")) {
-    words.about("contact");
+  words.about("contact");
+  if (words.take("types"))
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
-  }
-  Words its = command_words(lmp, "fix large/body contact", words.narg, words.arg, words.next);
-  const ContactSpec parsed = parse_contact(its, 1.0 / force->nktv2p);
-  words.next = its.index();
+  const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
   for (int type = lo; type <= hi; type++) {
     specs[type] = parsed;
     spec_is_set[type] = true;
@@ -130,7 +126,7 @@ void FixLargeBody::set_laws()
   for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
   table.finish();
-  contacts.set_laws(table, shape->one_contact());
+  contacts.set_laws(table);
 }
 
 /* A body given by numbers is used as given; a body given by its material is mixed with the material
@@ -256,17 +252,17 @@ void FixLargeBody::post_run()
   system->run_monitor().look(RunMonitor::Moment::END);
 }
 
-BodyContacts::Worst FixLargeBody::find_worst()
+BodyFindings FixLargeBody::find_worst()
 {
-  return contacts.worst(*shape, motion.frame(), view(), comm->nthreads);
+  return contacts.look_for_trouble(*shape, motion.frame(), view(), comm->nthreads);
 }
 
 void FixLargeBody::list_particles()
 {
   const BodyParticleView particles = view();
   if (shape->wants_focus())
-    shape->focus(
-        BodyContacts::asked_for(motion.frame(), particles, atom->mask, groupbit, neighbor->skin));
+    shape->focus(BodyCandidates::bounds_of_search(motion.frame(), particles, atom->mask, groupbit,
+                                                  neighbor->skin));
   contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin,
                            comm->nthreads);
 }
@@ -351,7 +347,7 @@ void FixLargeBody::add_contacts(bool advance)
 bool FixLargeBody::join_step()
 {
   joined = (comm->nthreads == 1 || shape->thread_safe()) &&
-           contacts.begin_at_rest(*shape, motion.frame(), view(), step_of(true));
+           contacts.begin_static(*shape, motion.frame(), view(), step_of(true));
   return joined;
 }
 
@@ -361,7 +357,7 @@ void FixLargeBody::post_force(int vflag)
   v_init(vflag);
   const bool advance = update->setupflag == 0;
   if (joined)
-    mine = contacts.load_at_rest();
+    mine = contacts.static_load();
   else
     add_contacts(advance);
   joined = false;

@@ -16,7 +16,6 @@
 #include "fix/large_body_monitor.h"
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
-#include "fix/large_body_words.h"
 #include "laws/contact_words.h"
 #include "system/effective_masses.h"
 #include "system/granular_system.h"
@@ -94,14 +93,14 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   double memory_usage() override;
 
  private:
-  void parse_keywords(LargeBodyWords &words);
-  void parse_contact_words(LargeBodyWords &words);
+  void parse_keywords(Talus::Words &words, int narg, char **arg);
+  void parse_contact_words(Talus::Words &words);
   void offer_output();
   void keep_history();
   void set_laws();
   Talus::BodyParticleView view() const;
   void list_particles();
-  Talus::BodyContacts::Worst find_worst();
+  Talus::BodyFindings find_worst();
   void find_region();
   void find_frozen();
   void clear_frozen();
@@ -114,7 +113,6 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   void finish_reduction();
   void reduce_load();
   void reduce_exactly();
-  int max_packed() const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   bool two_sided = false;

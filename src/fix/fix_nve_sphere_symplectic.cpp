@@ -10,20 +10,24 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
+#include "system/command_words.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using Talus::command_words;
+using Talus::Words;
 
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
-    gravity(lmp, "Fix nve/sphere/symplectic")
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)), gravity(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -34,12 +38,15 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
                "Fix nve/sphere/symplectic requires atom attributes radius, rmass, "
                "omega and torque (atom_style sphere)");
 
-  int iarg = 3;
-  while (iarg < narg) {
-    for (int k = 3; k < iarg; k++)
-      if (strcmp(arg[k], arg[iarg]) == 0)
-        error->all(FLERR, iarg, "Fix nve/sphere/symplectic: keyword '{}' given twice", arg[iarg]);
-    iarg += parse_keyword(narg, arg, iarg);
+  Words words = command_words(lmp, "fix nve/sphere/symplectic", narg, arg, 3);
+  std::vector<std::string> known;
+  while (!words.at_end()) {
+    const std::string keyword = words.peek();
+    if (std::find(known.begin(), known.end(), keyword) != known.end())
+      words.fail(0, "keyword '" + keyword + "' given twice");
+    known.push_back(keyword);
+    parse_keyword(words);
+    words.about("");
   }
 
   if (gravity.given()) {
@@ -51,56 +58,27 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
 }
 
 /* ----------------------------------------------------------------------
-   one keyword with its values; returns the number of words
+   one keyword with its values
 ------------------------------------------------------------------------- */
 
-int FixNVESphereSymplectic::parse_keyword(int narg, char **arg, int iarg)
+void FixNVESphereSymplectic::parse_keyword(Words &words)
 {
-  const std::string keyword = arg[iarg];
-
+  static const std::vector<std::string> keywords = {"start", "gravity", "orientation", "disc"};
+  const std::string keyword = keywords[words.choice("keyword", keywords)];
+  words.about(keyword);
   if (keyword == "start") {
-    half_start = choice(narg, arg, iarg, "half", "plain");
-    return 2;
-  }
-
-  if (keyword == "gravity") return gravity.parse(narg, arg, iarg);
-
-  if (keyword == "orientation") {
-    rotates = choice(narg, arg, iarg, "yes", "no");
+    half_start = words.choice("value", {"half", "plain"}) == 0;
+  } else if (keyword == "gravity") {
+    gravity.parse(words);
+  } else if (keyword == "orientation") {
+    rotates = words.choice("value", {"yes", "no"}) == 0;
     if (rotates && !atom->quat_flag && !atom->mu_flag)
-      error->all(FLERR, iarg + 1,
-                 "Fix nve/sphere/symplectic orientation: expected an atom style "
-                 "with a quaternion or a dipole (bpm/sphere or hybrid sphere dipole)");
-    return 2;
-  }
-
-  if (keyword == "disc") {
-    if (domain->dimension != 2)
-      error->all(FLERR, iarg, "Fix nve/sphere/symplectic disc: expected a 2d simulation");
+      words.fail(1, "expected an atom style with a quaternion or a dipole (bpm/sphere or hybrid "
+                    "sphere dipole)");
+  } else {
+    if (domain->dimension != 2) words.fail(1, "expected a 2d simulation");
     inertia = 0.5;
-    return 1;
   }
-
-  error->all(FLERR, iarg,
-             "Fix nve/sphere/symplectic: expected keyword start, gravity, "
-             "orientation or disc instead of '{}'",
-             keyword);
-}
-
-/* ----------------------------------------------------------------------
-   value of a keyword that is one of two words: whether it is the first
-------------------------------------------------------------------------- */
-
-bool FixNVESphereSymplectic::choice(int narg, char **arg, int iarg, const char *yes, const char *no)
-{
-  if (iarg + 1 >= narg)
-    error->all(FLERR, iarg, "Fix nve/sphere/symplectic {}: expected {} or {} after '{}'", arg[iarg],
-               yes, no, arg[iarg]);
-  const std::string value = arg[iarg + 1];
-  if (value != yes && value != no)
-    error->all(FLERR, iarg + 1, "Fix nve/sphere/symplectic {}: expected {} or {} instead of '{}'",
-               arg[iarg], yes, no, value);
-  return value == yes;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -74,8 +74,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only
 
-  int parse_keyword(int, char **, int);
-  bool choice(int, char **, int, const char *, const char *);
+  void parse_keyword(Talus::Words &);
 
   void check_fix(Fix *);
   bigint count_members(const std::function<bool(int)> &);

@@ -15,7 +15,7 @@ using namespace Talus;
 /* One pass over the particles serves both checks, as long as the first one still looks. */
 
 std::vector<RunMonitor::Check>
-LargeBodyMonitor::checks(std::function<BodyContacts::Worst()> find_worst, bool moves,
+LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst, bool moves,
                          const std::string &id)
 {
   using Finding = RunMonitor::Finding;

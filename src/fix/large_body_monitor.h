@@ -29,14 +29,14 @@ class LargeBodyMonitor : protected Pointers {
 
   /// `find_worst`: of the particles of this rank; `moves`: the body does. This object must live as
   /// long as the checks.
-  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyContacts::Worst()> find_worst,
+  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst,
                                         bool moves, const std::string &id);
 
  private:
   RunMonitor::Finding finding(double value, int particle) const;
 
-  std::function<Talus::BodyContacts::Worst()> look;
-  Talus::BodyContacts::Worst worst;
+  std::function<Talus::BodyFindings()> look;
+  Talus::BodyFindings worst;
   bool just_looked = false;    ///< for the first of the two checks
 };
 

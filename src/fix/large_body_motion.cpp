@@ -19,27 +19,29 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-LargeBodyMotion::LargeBodyMotion(LAMMPS *lmp) : Pointers(lmp), gravity(lmp, "Fix large/body")
+LargeBodyMotion::LargeBodyMotion(LAMMPS *lmp) : Pointers(lmp), gravity(lmp)
 {
   clock.step = update->ntimestep;
 }
 
 /* ---- words ---------------------------------------------------------------------------------- */
 
-bool LargeBodyMotion::parse(LargeBodyWords &words)
+bool LargeBodyMotion::parse(Words &words)
 {
-  if (words.is_next("move") || words.is_next("servo")) {
-    words.about(words.text("keyword"));
+  for (const char *keyword : {"move", "servo"}) {
+    if (!words.take(keyword)) continue;
+    words.about(keyword);
     if (kind != Kind::NONE) words.fail(1, "the body has a motion already");
-    if (strcmp(words.arg[words.next - 1], "move") == 0)
+    if (keyword == std::string("move"))
       parse_move(words);
     else
       parse_servo(words);
     return true;
   }
-  if (words.is_next("gravity")) {
-    if (gravity.given()) words.fail(0, "keyword 'gravity' given twice");
-    words.next += gravity.parse(words.narg, words.arg, words.next);
+  if (words.take("gravity")) {
+    words.about("gravity");
+    if (gravity.given()) words.fail(1, "given twice");
+    gravity.parse(words);
     return true;
   }
   if (words.take("load")) {
@@ -51,9 +53,11 @@ bool LargeBodyMotion::parse(LargeBodyWords &words)
   return false;
 }
 
-void LargeBodyMotion::parse_move(LargeBodyWords &words)
+void LargeBodyMotion::parse_move(Words &words)
 {
-  const std::string style = words.text("style of motion");
+  static const std::vector<std::string> styles = {"none",     "linear",   "wiggle", "rotate",
+                                                  "variable", "external", "free"};
+  const std::string style = styles[words.choice("style of motion", styles)];
   words.about("move " + style);
   kind = Kind::PRESCRIBED;
   if (style == "none") {
@@ -79,19 +83,15 @@ void LargeBodyMotion::parse_move(LargeBodyWords &words)
     parse_variable(words);
   } else if (style == "external") {
     kind = Kind::EXTERNAL;
-  } else if (style == "free") {
+  } else {
     kind = Kind::FREE;
     parse_free(words);
-  } else {
-    words.about("move");
-    words.fail(1, "expected none, linear, wiggle, rotate, variable, external or free instead of '" +
-                      style + "'");
   }
 }
 
 /* The words of fix move variable, and an angle about an axis through the reference point. */
 
-void LargeBodyMotion::parse_variable(LargeBodyWords &words)
+void LargeBodyMotion::parse_variable(Words &words)
 {
   for (int k = 0; k < 6; k++) path[k] = quantity(words, "displacement and velocity");
   if (!words.take("angle")) return;
@@ -99,7 +99,7 @@ void LargeBodyMotion::parse_variable(LargeBodyWords &words)
   angle_axis = words.direction("axis (ax ay az)");
 }
 
-void LargeBodyMotion::parse_free(LargeBodyWords &words)
+void LargeBodyMotion::parse_free(Words &words)
 {
   static const char *const freedoms[] = {"x", "y", "z", "rx", "ry", "rz"};
   for (bool more = true; more;) {
@@ -112,15 +112,16 @@ void LargeBodyMotion::parse_free(LargeBodyWords &words)
     } else if (words.take("velocity")) {
       initial.velocity = words.vector("velocity (vx vy vz)");
     } else if (words.take("spin")) {
-      initial.spin = words.vector("spin (wx wy wz)");
+      initial.omega = words.vector("spin (wx wy wz)");
     } else if (words.take("lock")) {
-      const int first = words.next;
+      const int first = words.index();
       for (bool known = true; known;) {
         known = false;
         for (int k = 0; k < 6; k++)
           if (words.take(freedoms[k])) known = rigid.locked[k] = true;
       }
-      if (words.next == first) words.fail(0, "expected one or more of x y z rx ry rz after lock");
+      if (words.index() == first)
+        words.fail(0, "expected one or more of x y z rx ry rz after lock");
     } else {
       more = false;
     }
@@ -133,13 +134,10 @@ void LargeBodyMotion::parse_free(LargeBodyWords &words)
       words.fail(1, "no body has these moments of inertia: each is at most the sum of the others");
 }
 
-void LargeBodyMotion::parse_servo(LargeBodyWords &words)
+void LargeBodyMotion::parse_servo(Words &words)
 {
   kind = Kind::SERVO;
-  const std::string what = words.text("force or torque");
-  if (what != "force" && what != "torque")
-    words.fail(1, "expected force or torque instead of '" + what + "'");
-  servo.turns = what == "torque";
+  servo.turns = words.choice("quantity", {"force", "torque"}) == 1;
   servo.axis = words.direction("axis (x y z)");
   servo.target = words.number("target");
   if (servo.target == 0.0) words.fail(1, "target must not be zero");
@@ -147,20 +145,18 @@ void LargeBodyMotion::parse_servo(LargeBodyWords &words)
   if (words.take("gain")) servo.gain = words.positive("gain");
 }
 
-LargeBodyMotion::Quantity LargeBodyMotion::quantity(LargeBodyWords &words, const char *name)
+LargeBodyMotion::Quantity LargeBodyMotion::quantity(Words &words, const char *name)
 {
   Quantity q;
-  const bool is_variable = !words.at_end() && utils::strmatch(words.arg[words.next], "^v_");
-  if (is_variable)
-    q.name = words.arg[words.next++] + 2;
+  if (words.peek().compare(0, 2, "v_") == 0)
+    q.name = words.text(name).substr(2);
   else
     q.value = words.number_or_null(name);
   return q;
 }
 
-void LargeBodyMotion::finish(LargeBodyWords &words, const Vector3<double> &reference)
+void LargeBodyMotion::finish(const Vector3<double> &reference)
 {
-  words.about("");
   if (gravity.given() && kind != Kind::FREE)
     error->all(FLERR, "fix large/body: gravity acts on bodies with 'move free' only");
   if (has_load && kind != Kind::FREE)
@@ -213,8 +209,8 @@ void LargeBodyMotion::evaluate_state()
   BodyState state;
   state.position = now.origin + Vector3<double>{value[0], value[1], value[2]};
   state.velocity = {value[3], value[4], value[5]};
-  if (value[6] != 0.0) state.orientation = Quaternion::turn(value[6], angle_axis);
-  state.spin = value[7] * angle_axis;
+  if (value[6] != 0.0) state.orientation = Eigen::AngleAxisd(value[6], to_eigen(angle_axis));
+  state.omega = value[7] * angle_axis;
   now.set(state);
 }
 

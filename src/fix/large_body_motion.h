@@ -6,13 +6,13 @@
 #ifndef TALUS_FIX_LARGE_BODY_MOTION_H
 #define TALUS_FIX_LARGE_BODY_MOTION_H
 
+#include "base/words.h"
 #include "body/contact/body_load.h"
 #include "body/motion/body_state.h"
 #include "body/motion/guided_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
 #include "fix/constant_gravity.h"
-#include "fix/large_body_words.h"
 #include "lmptype.h"
 
 #include <memory>
@@ -26,9 +26,9 @@ class LargeBodyMotion : protected Pointers {
   explicit LargeBodyMotion(LAMMPS *lmp);
 
   /// One of move, servo, gravity, load with its arguments, if that is the next word.
-  bool parse(LargeBodyWords &words);
+  bool parse(Talus::Words &words);
   /// After all words: checks that they go together. `reference`: of the shape.
-  void finish(LargeBodyWords &words, const Talus::Vector3<double> &reference);
+  void finish(const Talus::Vector3<double> &reference);
 
   /// The body as contacts see it; changes with place() and advance().
   const Talus::BodyFrame &frame() const { return now; }
@@ -68,11 +68,11 @@ class LargeBodyMotion : protected Pointers {
     std::string name;
     int index = -1;
   };
-  void parse_move(LargeBodyWords &words);
-  void parse_variable(LargeBodyWords &words);
-  void parse_free(LargeBodyWords &words);
-  void parse_servo(LargeBodyWords &words);
-  Quantity quantity(LargeBodyWords &words, const char *name);
+  void parse_move(Talus::Words &words);
+  void parse_variable(Talus::Words &words);
+  void parse_free(Talus::Words &words);
+  void parse_servo(Talus::Words &words);
+  Quantity quantity(Talus::Words &words, const char *name);
   void find(Quantity &q);
   double evaluate(const Quantity &q);
   void evaluate_state();
@@ -87,7 +87,7 @@ class LargeBodyMotion : protected Pointers {
   Talus::GuidedMotion guided;
   Talus::RigidBody rigid;
   Talus::Servo servo;
-  Talus::BodyState initial;    // velocity and spin of a free body
+  Talus::BodyState initial;    // velocities of a free body
   std::unique_ptr<Talus::Vector3<double>> center_of_mass;
   ConstantGravity gravity;
   bool has_load = false;

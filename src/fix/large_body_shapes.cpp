@@ -29,25 +29,42 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
+namespace {
+
+/// Of a library without the function of this version: was it built with that of another one?
+std::string why_no_shape(void *library)
+{
+  for (int version = 1; version < 100; version++)
+    if (platform::dlsym(library, make_shape_name(version)))
+      return fmt::format("was built with version {} of custom_shape.h, this Talus has version {}: "
+                         "compile it anew",
+                         version, shape_version);
+  return fmt::format("has no function {}: see custom_shape.h", make_shape_name(shape_version));
+}
+
+}    // namespace
+
 std::unique_ptr<LargeBodyShape> LargeBodyShapes::parse(bool two_sided)
 {
-  if (words.at_end()) error->all(FLERR, "fix large/body: missing shape: {}", known);
-  const std::string shape = words.text("shape");
-  words.about(shape);
-  if (shape == "plane") return plane(two_sided);
-  if (shape == "rectangle") return rectangle(two_sided);
-  if (shape == "mesh") return mesh(two_sided);
-  const bool is_solid = shape == "box" || shape == "sphere" || shape == "cylinder" ||
-                        shape == "cone" || shape == "region" || shape == "custom";
-  if (!is_solid)
-    error->all(FLERR, 3, "fix large/body: unknown shape '{}', expected {}", shape, known);
-  if (two_sided) words.fail(1, "two-sided is for plane, rectangle and mesh");
-  if (shape == "box") return box();
-  if (shape == "sphere") return ball();
-  if (shape == "cylinder") return cylinder();
-  if (shape == "cone") return cone();
-  if (shape == "region") return region();
-  return custom();
+  using Solid = Shape (LargeBodyShapes::*)();
+  static const std::vector<std::string> shapes = {
+      "plane", "rectangle", "mesh", "box", "sphere", "cylinder", "cone", "region", "custom"};
+  static const Solid solids[] = {&LargeBodyShapes::box,      &LargeBodyShapes::ball,
+                                 &LargeBodyShapes::cylinder, &LargeBodyShapes::cone,
+                                 &LargeBodyShapes::region,   &LargeBodyShapes::custom};
+  const int which = words.choice("shape", shapes);
+  words.about(shapes[which]);
+  switch (which) {
+  case 0:
+    return plane(two_sided);
+  case 1:
+    return rectangle(two_sided);
+  case 2:
+    return mesh(two_sided);
+  default:
+    if (two_sided) words.fail(1, "two-sided is for plane, rectangle and mesh");
+    return (this->*solids[which - 3])();
+  }
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::plane(bool two_sided)
@@ -61,8 +78,7 @@ LargeBodyShapes::Shape LargeBodyShapes::rectangle(bool two_sided)
   const Vector3<double> center = words.vector("center (px py pz)");
   const Vector3<double> normal = words.direction("normal (nx ny nz)");
   const Vector3<double> edge = words.direction("first edge (ux uy uz)");
-  const double lu = words.number("edge length lu"), lv = words.number("edge length lv");
-  if (!(lu > 0.0) || !(lv > 0.0)) words.fail(2, "edge lengths must be positive");
+  const double lu = words.positive("edge length lu"), lv = words.positive("edge length lv");
 
   // the part of the edge that lies in the plane, so that users need not orthogonalise
   const Vector3<double> inside = edge - dot(edge, normal) * normal;
@@ -73,10 +89,7 @@ LargeBodyShapes::Shape LargeBodyShapes::rectangle(bool two_sided)
 
 bool LargeBodyShapes::parse_inside()
 {
-  const std::string side = words.text("inside or outside");
-  if (side != "inside" && side != "outside")
-    words.fail(1, "expected inside or outside instead of '" + side + "'");
-  return side == "inside";
+  return words.choice("side", {"inside", "outside"}) == 0;
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::box()
@@ -141,16 +154,24 @@ std::string LargeBodyShapes::read_everywhere(const std::string &file)
 LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
 {
   const std::string file = words.text("file");
-  const int file_word = words.next;
-  std::vector<Triangle> soup;
+  const int file_word = words.index();
+  StlContent content;
   try {
-    soup = parse_stl(read_everywhere(file));
+    content = parse_stl(read_everywhere(file));
   } catch (const std::runtime_error &problem) {
     words.fail(1, "'" + file + "': " + problem.what());
   }
 
+  std::vector<Triangle> &soup = content.triangles;
+  if (content.trailing_bytes && comm->me == 0)
+    error->warning(
+        FLERR,
+        "fix large/body mesh '{}': {} bytes behind the last of the {} triangles that the "
+        "file announces are not read",
+        file, content.trailing_bytes, soup.size());
+
   double scale = 1.0;
-  Rotation turn;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vector3<double> shift{0.0, 0.0, 0.0};
   for (bool more = true; more;) {    // scaled, then turned, then shifted, in whatever order given
     if (words.take("scale")) {
@@ -160,19 +181,19 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
     } else if (words.take("rotate")) {
       const double angle = words.number("rotate theta");
       const Vector3<double> axis = words.direction("rotate axis (ax ay az)");
-      turn = Rotation(Quaternion::turn(angle * std::acos(-1.0) / 180.0, axis));
+      turn = Eigen::AngleAxisd(angle * std::acos(-1.0) / 180.0, to_eigen(axis)).toRotationMatrix();
     } else {
       more = false;
     }
   }
   for (Triangle &t : soup)
-    for (Vector3<double> &p : t.corner) p = turn.to_space(scale * p) + shift;
+    for (Vector3<double> &p : t.corner) p = rotated(turn, scale * p) + shift;
 
   std::unique_ptr<MeshShape> shape;
   try {
     shape = std::make_unique<MeshShape>(TriangleMesh(soup), two_sided, true);
   } catch (const std::runtime_error &problem) {
-    words.fail(words.next - file_word + 1, "'" + file + "': " + problem.what());
+    words.fail(words.index() - file_word + 1, "'" + file + "': " + problem.what());
   }
 
   const TriangleMesh &surface = shape->surface();
@@ -184,7 +205,7 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   };
   if (r.turned_edges && !two_sided)
     words.fail(
-        words.next - file_word + 1,
+        words.index() - file_word + 1,
         fmt::format("'{}': {} edges lie between triangles that face opposite sides, the first "
                     "at triangle {}: repair the file, or use two-sided",
                     file, r.turned_edges, r.first_turned));
@@ -218,18 +239,16 @@ LargeBodyShapes::Shape LargeBodyShapes::custom()
 {
   const std::string file = words.text("shared library");
   const int count = words.integer("number of arguments", 0);
+  std::vector<std::string> texts;
+  for (int k = 0; k < count; k++) texts.push_back(words.text("argument"));
   std::vector<const char *> arguments;
-  for (int k = 0; k < count; k++) {
-    words.text("argument");
-    arguments.push_back(words.arg[words.next - 1]);
-  }
+  for (const std::string &text : texts) arguments.push_back(text.c_str());
   // stays open: shapes made by it may outlive this command
   void *library = platform::dlopen(file);
   if (!library) words.fail(count + 2, "cannot open '" + file + "': " + platform::dlerror());
-  auto make = reinterpret_cast<MakeShapeFunction>(platform::dlsym(library, TALUS_MAKE_SHAPE_NAME));
-  if (!make)
-    words.fail(count + 2,
-               "'" + file + "' has no function " + TALUS_MAKE_SHAPE_NAME + ": see custom_shape.h");
+  auto make =
+      reinterpret_cast<MakeShapeFunction>(platform::dlsym(library, make_shape_name(shape_version)));
+  if (!make) words.fail(count + 2, "'" + file + "' " + why_no_shape(library));
   char problem[256] = "";
   Shape shape(make(count, arguments.data(), problem, sizeof problem));
   if (!shape) words.fail(count + 2, "'" + file + "': " + problem);

@@ -5,8 +5,9 @@
 #ifndef TALUS_FIX_LARGE_BODY_SHAPES_H
 #define TALUS_FIX_LARGE_BODY_SHAPES_H
 
+#include "base/words.h"
 #include "body/shape/large_body_shape.h"
-#include "fix/large_body_words.h"
+#include "pointers.h"
 
 #include <memory>
 #include <string>
@@ -15,13 +16,10 @@ namespace LAMMPS_NS {
 
 class LargeBodyShapes : protected Pointers {
  public:
-  LargeBodyShapes(LAMMPS *lmp, LargeBodyWords &words) : Pointers(lmp), words(words) {}
+  LargeBodyShapes(LAMMPS *lmp, Talus::Words &words) : Pointers(lmp), words(words) {}
 
   /// Reads the shape and its arguments. Call on all ranks.
   std::unique_ptr<Talus::LargeBodyShape> parse(bool two_sided);
-
-  static constexpr const char *known =
-      "plane, rectangle, box, sphere, cylinder, cone, mesh, region or custom";
 
  private:
   using Shape = std::unique_ptr<Talus::LargeBodyShape>;
@@ -37,7 +35,7 @@ class LargeBodyShapes : protected Pointers {
   bool parse_inside();
   std::string read_everywhere(const std::string &file);
 
-  LargeBodyWords &words;
+  Talus::Words &words;
 };
 
 }    // namespace LAMMPS_NS

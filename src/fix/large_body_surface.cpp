@@ -30,15 +30,12 @@ LargeBodySurface::LargeBodySurface(LAMMPS *lmp, const LargeBodyShape &its_shape)
 {
 }
 
-bool LargeBodySurface::parse(LargeBodyWords &words)
+bool LargeBodySurface::parse(Words &words)
 {
   if (words.take("pressure")) {
     words.about("pressure");
-    const std::string choice = words.text("yes or no");
-    if (choice != "yes" && choice != "no")
-      words.fail(1, "expected yes or no instead of '" + choice + "'");
+    with_loads = words.choice("value", {"yes", "no"}) == 0;
     if (!mesh) words.fail(2, "only the triangles of a mesh are looked at one by one");
-    with_loads = choice == "yes";
     loads.assign(with_loads ? fields * size() : 0, 0.0);
     loads_of_all = loads;
     return true;
@@ -114,16 +111,12 @@ void LargeBodySurface::read_work(const std::vector<double> &values, int first)
 std::vector<Triangle> LargeBodySurface::triangles_in_space(const BodyFrame &frame) const
 {
   // the simulation box as the body sees it
-  Bounds visible{{1.0e300, 1.0e300, 1.0e300}, {-1.0e300, -1.0e300, -1.0e300}};
+  Eigen::AlignedBox3d visible;
   for (int corner = 0; corner < 8; corner++) {
     const Vector3<double> x{corner & 1 ? domain->boxhi[0] : domain->boxlo[0],
                             corner & 2 ? domain->boxhi[1] : domain->boxlo[1],
                             corner & 4 ? domain->boxhi[2] : domain->boxlo[2]};
-    const Vector3<double> p = frame.point_to_body(x);
-    visible.low = {std::min(visible.low.x, p.x), std::min(visible.low.y, p.y),
-                   std::min(visible.low.z, p.z)};
-    visible.high = {std::max(visible.high.x, p.x), std::max(visible.high.y, p.y),
-                    std::max(visible.high.z, p.z)};
+    visible.extend(to_eigen(frame.point_to_body(x)));
   }
   std::vector<Triangle> triangles;
   shape.tessellate(visible, triangles);

@@ -6,10 +6,11 @@
 #ifndef TALUS_FIX_LARGE_BODY_SURFACE_H
 #define TALUS_FIX_LARGE_BODY_SURFACE_H
 
+#include "base/words.h"
 #include "body/contact/body_batch.h"
 #include "body/motion/body_state.h"
 #include "body/shape/mesh_shape.h"
-#include "fix/large_body_words.h"
+#include "pointers.h"
 
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ class LargeBodySurface : protected Pointers {
   LargeBodySurface(LAMMPS *lmp, const Talus::LargeBodyShape &shape);
 
   /// `pressure yes|no` or `vtk N file`, if that is the next word.
-  bool parse(LargeBodyWords &words);
+  bool parse(Talus::Words &words);
 
   /// Loads of triangles are asked for; how many there are.
   bool records() const { return with_loads; }

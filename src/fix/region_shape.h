@@ -27,7 +27,7 @@ class RegionShape : public Talus::LargeBodyShape {
                Talus::SurfaceContact &contact) const override;
   double distance_bound(const Talus::Vector3<double> &center) const override;
   Talus::Vector3<double> reference_point() const override { return middle; }
-  bool one_contact() const override { return false; }
+  int most_contacts() const override { return max_contacts; }
   bool thread_safe() const override { return false; }
   int find_contacts(const Talus::Vector3<double> &center, double radius, Talus::NearParts parts,
                     Talus::SurfaceContact *found) const override;

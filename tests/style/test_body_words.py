@@ -5,6 +5,7 @@ one's own; regions of the host."""
 
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -39,46 +40,47 @@ variable atoms atom x
 
 REFUSED = [    # words of the fix, message, marked word
     ("box 0 0 0 1 1", "fix large/body box: missing edge length lz", "1"),
-    ("box 0 0 0 1 0 1 inside " + LAW, "box: edge length ly must be positive", "0"),
-    ("box 0 0 0 1 1 1 within " + LAW, "box: expected inside or outside instead of 'within'", "within"),
+    ("box 0 0 0 1 0 1 inside " + LAW, "box: expected edge length ly (a number > 0) instead of '0'", "0"),
+    ("box 0 0 0 1 1 1 within " + LAW, "box: unknown side 'within', expected inside or outside", "within"),
     (f"{BOX} {LAW} two-sided", "two-sided is for plane, rectangle and mesh", None),
-    ("sphere 0 0 0 -1 inside " + LAW, "sphere: radius r must be positive", "-1"),
+    ("sphere 0 0 0 -1 inside " + LAW, "sphere: expected radius r (a number > 0) instead of '-1'", "-1"),
     ("cylinder 0 0 0 0 0 0 1 1 inside " + LAW, "cylinder: axis (ax ay az) must not be zero", "0"),
-    ("cylinder 0 0 0 0 0 1 1 long inside " + LAW, "cylinder: expected a number for length l", "long"),
+    ("cylinder 0 0 0 0 0 1 1 long inside " + LAW, "cylinder: expected length l (a number > 0) instead of 'long'", "long"),
     ("cone 0 0 0 0 0 1 0 0 1 inside " + LAW, "cone: radii must not be negative, and one of them", "0"),
-    ("cone 0 0 0 0 0 1 1 2 INF inside " + LAW, "cone: expected a number for length l", "INF"),
+    ("cone 0 0 0 0 0 1 1 2 INF inside " + LAW, "cone: expected length l (a number > 0) instead of 'INF'", "INF"),
     ("region nowhere " + LAW, "region: region 'nowhere' does not exist", "nowhere"),
     ("region turning " + LAW, "region 'turning' moves or changes: use move of this fix", "turning"),
     ("mesh", "mesh: missing file", "mesh"),
     ("mesh nothing.stl " + LAW, "mesh: cannot read the file 'nothing.stl'", "nothing.stl"),
     ("mesh empty.stl " + LAW, "mesh: 'empty.stl': the file is empty", "empty.stl"),
     ("mesh cut.stl " + LAW, "mesh: 'cut.stl': it announces", "cut.stl"),
+    ("mesh letter.stl " + LAW, "mesh: 'letter.stl': it is no STL file: it begins with 'Dear all,'", "letter.stl"),
     ("mesh flat.stl " + LAW, "mesh: 'flat.stl': all its triangles are without area", "flat.stl"),
     ("mesh turned.stl " + LAW, "mesh: 'turned.stl': 3 edges lie between triangles that face opposite sides, "
      "the first at triangle", None),
-    ("mesh good.stl scale 0 " + LAW, "mesh: scale s must be positive", "0"),
+    ("mesh good.stl scale 0 " + LAW, "mesh: expected scale s (a number > 0) instead of '0'", "0"),
     ("mesh good.stl rotate 30 0 0 0 " + LAW, "mesh: rotate axis (ax ay az) must not be zero", "0"),
     ("custom nothing.so 0 " + LAW, "custom: cannot open 'nothing.so'", "nothing.so"),
-    ("custom good.so -1 " + LAW, "custom: expected a whole number of 0 or more for number of arguments", "-1"),
+    ("custom good.so -1 " + LAW, "custom: expected number of arguments (a whole number >= 0) instead of '-1'", "-1"),
     (f"{BOX} {LAW} move", "fix large/body move: missing style of motion", "move"),
-    (f"{BOX} {LAW} move about", "move: expected none, linear, wiggle, rotate, variable, external or free", "about"),
+    (f"{BOX} {LAW} move about", "move: unknown style of motion 'about', expected none, linear, wiggle, rotate, variable, external or free", "about"),
     (f"{BOX} {LAW} move linear 1 2", "move linear: missing velocity (vx vy vz)", "2"),
-    (f"{BOX} {LAW} move wiggle 1 2 3 0", "move wiggle: period must be positive", "0"),
+    (f"{BOX} {LAW} move wiggle 1 2 3 0", "move wiggle: expected period (a number > 0) instead of '0'", "0"),
     (f"{BOX} {LAW} move rotate 0 0 0 0 0 0 1", "move rotate: axis (ax ay az) must not be zero", "0"),
     (f"{BOX} {LAW} move linear 1 0 0 move none", "move: the body has a motion already", "move"),
     (f"{BOX} {LAW} move free mass 1", "move free: missing inertia Ixx Iyy Izz", None),
     (f"{BOX} {LAW} move free inertia 1 1 1", "move free: missing mass M", None),
     (f"{BOX} {LAW} move free mass 1 inertia 1 1 3", "no body has these moments of inertia", None),
     (f"{BOX} {LAW} {FREE} lock", "expected one or more of x y z rx ry rz after lock", None),
-    (f"{BOX} {LAW} {FREE} gravity", "Fix large/body gravity: expected magnitude and one of", "gravity"),
+    (f"{BOX} {LAW} {FREE} gravity", "fix large/body gravity: missing magnitude", "gravity"),
     (f"{BOX} {LAW} gravity 9.81 vector 0 0 -1", "gravity acts on bodies with 'move free' only", None),
     (f"{BOX} {LAW} load 0 0 0 0 0 1", "load acts on bodies with 'move free' only", None),
-    (f"{BOX} {LAW} servo weight", "servo: expected force or torque instead of 'weight'", "weight"),
+    (f"{BOX} {LAW} servo weight", "servo: unknown quantity 'weight', expected force or torque", "weight"),
     (f"{BOX} {LAW} servo force 0 0 1 0 1", "servo: target must not be zero", "0"),
-    (f"{BOX} {LAW} servo force 0 0 1 5 0", "servo: vmax must be positive", "0"),
+    (f"{BOX} {LAW} servo force 0 0 1 5 0", "servo: expected vmax (a number > 0) instead of '0'", "0"),
     (f"{BOX} {LAW} pressure yes", "only the triangles of a mesh are looked at one by one", None),
-    (f"mesh good.stl {LAW} pressure maybe", "pressure: expected yes or no instead of 'maybe'", "maybe"),
-    (f"{BOX} {LAW} vtk 0 a.*", "vtk: expected a whole number of 1 or more for interval N instead of '0'", "0"),
+    (f"mesh good.stl {LAW} pressure maybe", "pressure: unknown value 'maybe', expected yes or no", "maybe"),
+    (f"{BOX} {LAW} vtk 0 a.*", "vtk: expected interval N (a whole number >= 1) instead of '0'", "0"),
     (f"{BOX} {LAW} vtk 5 a.vtk", "vtk: the name of the file needs a * for the time step", "a.vtk"),
 ]
 REFUSED_AT_RUN = [
@@ -110,6 +112,8 @@ class Words(SceneCase):
         body_meshes.write_stl(self.path("whole.stl"), tetrahedron, binary=True)
         with open(self.path("whole.stl"), "rb") as whole, open(self.path("cut.stl"), "wb") as cut:
             cut.write(whole.read()[:-20])
+        with open(self.path("letter.stl"), "w") as letter:
+            letter.write("Dear all,\nthis is no surface.\n")
         for k, (words, message, word) in enumerate(REFUSED):
             with self.subTest(words):
                 self.refuse(words, message, word, np=2 if k % 4 == 3 else 1)
@@ -126,6 +130,30 @@ class Words(SceneCase):
                      "1 triangles that are there already are left out; the first is triangle 5",
                      "1 edges belong to more than two triangles; the first is triangle 3", "3 triangles, 6 open edges"):
             self.assertIn(text, log)
+
+    def test_bytes_behind_a_mesh_are_reported(self):
+        plate = [((-2, -2, 0), (2, -2, 0), (2, 2, 0)), ((-2, -2, 0), (2, 2, 0), (-2, 2, 0))]
+        body_meshes.write_stl(self.path("plate.stl"), plate, binary=True)
+        with open(self.path("plate.stl"), "ab") as file:
+            file.write(b"made by a program")
+        log = self.run_lammps(SCENE + f"fix body all large/body mesh plate.stl two-sided {LAW}\nrun 0\n").log
+        self.assertIn("17 bytes behind the last of the 2 triangles that the file announces are not read", log)
+
+    def test_directions_of_any_length(self):
+        # squares of these numbers are no numbers any more, or zero
+        for length in ("1", "1e200", "1e-200"):
+            # energy of the contact, and of a body of mass 1 in the field of gravity at z = -9
+            for fix, energy in ((f"plane 0 0 -0.2 0 0 {length} {LAW}", 50.0),
+                                (f"box 0 0 -9 20 20 17.6 outside {LAW} {FREE} lock x y z rx ry rz "
+                                 f"gravity 1 vector 0 0 -{length}", 41.0)):
+                with self.subTest(fix):
+                    rows = thermo(self.run_lammps(SCENE + f"""
+fix body all large/body {fix}
+thermo_style custom step f_body f_body[3]
+run 0
+""").log)
+                    self.assertAlmostEqual(rows[0]["f_body[3]"], -1e3, delta=1e-6)
+                    self.assertAlmostEqual(rows[0]["f_body"], energy, delta=1e-6)
 
     def test_scale_rotate_translate(self):
         # scaled by 2, turned by 90 degrees about y: the plate looks along +x, then shifted
@@ -202,11 +230,25 @@ run 10
                 moved = math.dist(*places)
                 self.assertEqual(moved > 2.0, bool(more), f"moved by {moved} pixels")
 
-    def test_own_shape(self):
+    def compile_shape(self, source, library):
         subprocess.run([os.environ.get("TALUS_CXX", "g++"), "-std=c++17", "-O2", "-march=native", "-ffp-contract=off",
-                        "-Wno-psabi", "-shared", "-fPIC", "-I", os.path.join(SOURCE, "src"),
-                        os.path.join(SOURCE, "examples", "custom_shape", "torus.cpp"), "-o", self.path("torus.so")],
-                       check=True)
+                        "-Wno-psabi", "-shared", "-fPIC", "-I", os.path.join(SOURCE, "src"), source, "-o",
+                        self.path(library)], check=True)
+
+    def test_own_shape_of_another_version(self):
+        with open(os.path.join(SOURCE, "src", "body", "shape", "custom_shape.h")) as file:
+            version = int(re.search("define TALUS_SHAPE_VERSION ([0-9]+)", file.read()).group(1))
+        makers = {"talus_make_shape": 1, f"talus_make_shape_{version + 1}": version + 1, "make_a_shape": None}
+        for name, other in makers.items():
+            with open(self.path("maker.cpp"), "w") as file:
+                file.write(f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
+            self.compile_shape(self.path("maker.cpp"), f"{name}.so")
+            message = (f"was built with version {other} of custom_shape.h, this Talus has version {version}: compile "
+                       "it anew") if other else f"has no function talus_make_shape_{version}: see custom_shape.h"
+            self.refuse(f"custom ./{name}.so 0 {LAW}", message, f"./{name}.so", 1)
+
+    def test_own_shape(self):
+        self.compile_shape(os.path.join(SOURCE, "examples", "custom_shape", "torus.cpp"), "torus.so")
         # in the hole of the ring, touching its wire at x = 1.2
         write_sphere_data(self.path("grains"), ((-9, 9), (-9, 9), (-9, 9)), [Sphere((0.8, 0, 0))])
         ring = "custom ./torus.so 8 0 0 0 0 0 2 1.6 0.4"

@@ -39,7 +39,7 @@ neigh_modify exclude group clump clump""", {}),
     "wall/gran/region": (f"{BED}\nregion tube cylinder z 3 3 2.6 -5 12 side in\n"
                          f"fix wall grains wall/gran/region {WALL} region tube", {}),
     "fix pour": (f"{BED}\nregion slab block 1.5 4.5 1.5 4.5 8.0 10.0 units box\nfix pour grains pour 30 1 "
-                 "4767 vol 0.9 200 diam range 2.0 3.2 region slab vel 0 0 0 0 -11", {"gravity": "0 0"}),
+                 "4767 vol 0.9 200 diam range 2.0 2.95 region slab vel 0 0 0 0 -11", {"gravity": "0 0"}),
     "fix deposit": (f"{BED}\nregion slab block 0.8 5.2 0.8 5.2 7.1 10 units box\n"
                     "fix drop grains deposit 10 1 20 4767 region slab near 1.2 vz -9 -9", {}),
     "fix adapt diameter": (f"{BED}\nvariable size equal 1.05-0.0004*step\n"

@@ -107,28 +107,28 @@ SURPLUS = [    # words behind a complete law
 
 PLANE, RECTANGLE = "plane 0 0 0 0 0 1", "rectangle 0 0 0 0 0 1 1 0 0 2 3"
 LARGE_BODY = [    # words after fix f all large/body, message, marked word
-    ("", "fix large/body: missing shape: plane, rectangle, box, sphere", None),
-    ("flat 0 0 0 0 0 1 " + LAW, "fix large/body: unknown shape 'flat', expected plane, rectangle, box",
+    ("", "fix large/body: missing shape: plane, rectangle, mesh, box, sphere", None),
+    ("flat 0 0 0 0 0 1 " + LAW, "fix large/body: unknown shape 'flat', expected plane, rectangle, mesh, box",
      "flat"),
     ("plane", "fix large/body plane: missing point (px py pz)", "plane"),
     ("plane 0 0 77", "fix large/body plane: missing normal (nx ny nz)", "77"),
-    ("plane 0 x 0 0 0 1 " + LAW, "plane: expected a number for point (px py pz) instead of 'x'", "x"),
-    ("plane 0 0 1e999 0 0 1 " + LAW, "plane: expected a number for point (px py pz) instead of "
+    ("plane 0 x 0 0 0 1 " + LAW, "plane: expected point (px py pz) (a number) instead of 'x'", "x"),
+    ("plane 0 0 1e999 0 0 1 " + LAW, "plane: expected point (px py pz) (a number) instead of "
      "'1e999'", "1e999"),
-    ("plane 0 0 0 0 0 " + LAW, "plane: expected a number for normal (nx ny nz) instead of 'contact'",
+    ("plane 0 0 0 0 0 " + LAW, "plane: expected normal (nx ny nz) (a number) instead of 'contact'",
      "contact"),
     ("plane 1 1 1 0 0 0 " + LAW, "fix large/body plane: normal (nx ny nz) must not be zero", "0"),
     ("rectangle 1 1", "fix large/body rectangle: missing center (px py pz)", "1"),
-    ("rectangle 1 1 1 0 0 nan", "rectangle: expected a number for normal (nx ny nz) instead of 'nan'",
+    ("rectangle 1 1 1 0 0 nan", "rectangle: expected normal (nx ny nz) (a number) instead of 'nan'",
      "nan"),
     ("rectangle 1 1 1 0 0 5", "fix large/body rectangle: missing first edge (ux uy uz)", "5"),
-    ("rectangle 1 1 1 0 0 5 1 0 0 " + LAW, "expected a number for edge length lu instead of 'contact'",
+    ("rectangle 1 1 1 0 0 5 1 0 0 " + LAW, "expected edge length lu (a number > 0) instead of 'contact'",
      "contact"),
-    ("rectangle 1 1 1 0 0 5 1 0 0 2 " + LAW, "expected a number for edge length lv instead of "
+    ("rectangle 1 1 1 0 0 5 1 0 0 2 " + LAW, "expected edge length lv (a number > 0) instead of "
      "'contact'", "contact"),
     ("rectangle 1 1 1 0 0 5 0 0 7 2 3 " + LAW, "first edge is parallel to the normal", "0"),
     ("rectangle 1 1 1 0 0 5 0.0 0 0 2 3 " + LAW, "first edge (ux uy uz) must not be zero", "0.0"),
-    ("rectangle 1 1 1 0 0 5 1 0 0 -2 3 " + LAW, "edge lengths must be positive", "-2"),
+    ("rectangle 1 1 1 0 0 5 1 0 0 -2 3 " + LAW, "expected edge length lu (a number > 0) instead of '-2'", "-2"),
     (PLANE, "fix large/body: no contact law for particles of type 1: add 'contact NORMAL args ...' "
      "or 'contact types 1 NORMAL args ...'", None),
     (f"{RECTANGLE} contact types 1 hooke 1 1", "fix large/body: no contact law for particles of type 2",

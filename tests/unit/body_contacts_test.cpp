@@ -33,7 +33,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
     laws = GetParam() < 2
                ? mixed_laws()
                : single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, GetParam() == 2);
-    contacts.set_laws(laws, true);
+    contacts.set_laws(laws);
     frame.origin = shape->reference_point();
     if (contacts.keeps_history()) contacts.history.grow(p.size());
     mask.assign(p.size(), 1);
@@ -177,7 +177,7 @@ TEST_P(BodyContactsTest, TheWorstContactAndTheFastestParticle)
     deepest = i;
   }
   for (int threads : {1, 2, 7}) {
-    const BodyContacts::Worst worst = contacts.worst(*shape, frame, view(), threads);
+    const BodyFindings worst = contacts.look_for_trouble(*shape, frame, view(), threads);
     EXPECT_EQ(worst.overlap, overlap);
     EXPECT_EQ(worst.deepest, deepest);
     EXPECT_EQ(worst.speed, speed / 0.5);

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -71,6 +73,29 @@ TEST(ExactSum, ManyAdditionsCarry)
   for (int k = 0; k < 3000000; k++) sum.add(0.1);
   // 0.1 as a double times 3e6, exactly
   EXPECT_EQ(sum.value(), static_cast<double>(3.0e6L * 0.1));
+}
+
+// Digits grow with every addition until they are carried, and the sum stays what it is.
+TEST(ExactSum, CarriesAfterTheLargestNumberOfAdditions)
+{
+  const double value = 1.0 - std::pow(2.0, -53);
+  const auto largest_digit = [](const ExactSum &sum) {
+    return *std::max_element(sum.data(), sum.data() + ExactSum::num_digits);
+  };
+  for (const double sign : {1.0, -1.0}) {
+    ExactSum sum;
+    for (int k = 0; k < ExactSum::max_pending; k++) sum.add(sign * value);
+    EXPECT_EQ(sum.value(), sign * value * ExactSum::max_pending);
+    const std::int64_t before =
+        *std::max_element(sum.data(), sum.data() + ExactSum::num_digits,
+                          [](std::int64_t a, std::int64_t b) { return std::abs(a) < std::abs(b); });
+    EXPECT_GT(std::abs(before), std::int64_t{1} << 51);
+    EXPECT_LT(std::abs(before), std::int64_t{1} << 53);
+    sum.add(sign * value);    // one more: carried before
+    EXPECT_LT(largest_digit(sum), std::int64_t{1} << 34);
+    sum.add(-sign * value);
+    EXPECT_EQ(sum.value(), sign * value * ExactSum::max_pending);
+  }
 }
 
 TEST(ExactSum, NotFinite)

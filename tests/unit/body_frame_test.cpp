@@ -57,15 +57,16 @@ class Scene {
       random(3), p(slow::random_packing(500, random)), frame(its_frame), threads(threads)
   {
     frame.origin = box.reference_point();
-    contacts.set_laws(resisting_law(), box.one_contact());
-    contacts.memory.grow(p.size());
+    contacts.set_laws(resisting_law());
+    contacts.history.keep(true, false);
+    contacts.history.grow(p.size());
     mask.assign(p.size(), 1);
     for (int i = 0; i < p.size(); i++) {    // to where the body is, moving with it
       const V x = frame.point_to_space(talus(p.x[i]));
       V v = frame.to_space(talus(p.v[i])), w = frame.to_space(talus(p.omega[i]));
       if (frame.moves) {
         v = v + frame.velocity_at(x);
-        w = w + frame.state.spin;
+        w = w + frame.state.omega;
       }
       p.x[i] = plain(x);
       p.v[i] = plain(v);
@@ -107,9 +108,9 @@ BodyFrame moved_frame()
 {
   BodyState state;
   state.position = {3.0, -7.0, 5.0};
-  state.orientation = Quaternion::turn(0.8, {0.6, 0.0, 0.8});
+  state.orientation = Eigen::AngleAxisd(0.8, Eigen::Vector3d(0.6, 0.0, 0.8));
   state.velocity = {1.0, 0.5, -2.0};
-  state.spin = {0.3, -0.4, 0.2};
+  state.omega = {0.3, -0.4, 0.2};
   BodyFrame frame;
   frame.moves = true;
   frame.set(state);
@@ -137,9 +138,9 @@ TEST(BodyFrameTest, ForcesAreThoseOfTheSceneAtRest)
   }
   int several = 0, touching = 0;
   for (int i = 0; i < rest.p.size(); i++) {
-    ASSERT_EQ(rest.contacts.memory.count(i), moved.contacts.memory.count(i));
-    several += rest.contacts.memory.count(i) > 1;
-    touching += rest.contacts.memory.count(i) > 0;
+    ASSERT_EQ(rest.contacts.history.count(i), moved.contacts.history.count(i));
+    several += rest.contacts.history.count(i) > 1;
+    touching += rest.contacts.history.count(i) > 0;
   }
   EXPECT_GT(touching, 100);
   EXPECT_GT(several, 20);
@@ -168,33 +169,6 @@ TEST(BodyFrameTest, LoadBalancesAndIsTheSameFromAnyNumberOfThreads)
     EXPECT_EQ(one.exact.component[k].value(), three.exact.component[k].value());
   EXPECT_NEAR(one.exact.component[0].value(), one.load.force.x, 1e-12 * scale);
   EXPECT_NEAR(one.exact.component[5].value(), one.load.torque.z, 1e-12 * scale);
-}
-
-TEST(BodyFrameTest, ListsTravelWithParticles)
-{
-  Scene scene({}, 1);
-  for (int step = 0; step < 3; step++) scene.step(step == 0);
-  ContactMemory &memory = scene.contacts.memory;
-  int from = 0;
-  for (int i = 0; i < scene.p.size(); i++)
-    if (memory.count(i) > memory.count(from)) from = i;
-  ASSERT_GE(memory.count(from), 2);
-  double packed[ContactMemory::max_packed], again[ContactMemory::max_packed];
-  const int size = memory.pack(from, packed);
-  EXPECT_EQ(size, memory.size_packed(from));
-  ContactMemory other;
-  other.grow(5);
-  EXPECT_EQ(other.unpack(3, packed), size);
-  other.copy(3, 1);
-  other.forget(3);
-  EXPECT_EQ(other.count(3), 0);
-  EXPECT_EQ(other.pack(1, again), size);
-  EXPECT_TRUE(std::equal(packed, packed + size, again));
-  // a contact is known by its normal, each only once
-  unsigned taken = 0;
-  const V normal = other.begin(1)[1].normal;
-  EXPECT_EQ(other.find(1, normal, taken), 1);
-  EXPECT_NE(other.find(1, normal, taken), 1);
 }
 
 }    // namespace

@@ -71,8 +71,8 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
     for (Body &body : bodies) {
       body.frame.origin = body.shape->reference_point();
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records}) {
-        contacts->set_laws(laws, true);
-        contacts->history.keep_impacts(laws.has_impact());
+        contacts->set_laws(laws);
+        contacts->history.keep(false, laws.has_impact());
         if (laws.has_history()) contacts->history.grow(p.size());
       }
     }
@@ -152,7 +152,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
 
   void expect_same_histories(const Body &body)
   {
-    double a[8], b[8];
+    double a[BodyHistory::max_packed], b[BodyHistory::max_packed];
     for (int i = 0; i < p.size() && laws.has_history(); i++) {
       const int size = body.in_arrays.history.pack(i, a);
       ASSERT_EQ(body.in_records.history.pack(i, b), size);
@@ -165,11 +165,11 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
   {
     step.threads = 3;
     const BodyParticleView of_records = view(true);
-    EXPECT_TRUE(body.in_records.begin_at_rest(*body.shape, body.frame, of_records, step));
+    EXPECT_TRUE(body.in_records.begin_static(*body.shape, body.frame, of_records, step));
     const int a = random.below(p.size()), b = random.below(p.size());
     const int ends[] = {0, std::min(a, b), std::max(a, b), p.size()};
     in_parallel(3, 3, [&](int t) { body.in_records.add_to_slots(t, ends[t], ends[t + 1]); });
-    return body.in_records.load_at_rest();
+    return body.in_records.static_load();
   }
 
   static void expect_near(const V &a, const V &b, double scale)
@@ -221,7 +221,7 @@ TEST_P(BodyRecordsTest, SameBitsAsInArrays)
   EXPECT_GT(contacts, 12.0 * num_bodies * ContactBatch::width / 2);
 }
 
-TEST_P(BodyRecordsTest, WhatIsNotAtRestIsNotBegun)
+TEST_P(BodyRecordsTest, WhatIsNoStaticWallIsNotBegun)
 {
   find();
   load_particles();
@@ -230,14 +230,14 @@ TEST_P(BodyRecordsTest, WhatIsNotAtRestIsNotBegun)
   Body &body = bodies[0];
   const BodyParticleView in_records = view(true), in_arrays = view(false);
   BodyContacts &contacts = body.in_records;
-  EXPECT_TRUE(contacts.begin_at_rest(*body.shape, body.frame, in_records, step));
-  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_arrays, step));
+  EXPECT_TRUE(contacts.begin_static(*body.shape, body.frame, in_records, step));
+  EXPECT_FALSE(contacts.begin_static(*body.shape, body.frame, in_arrays, step));
   ExactLoad exact;
   BodyStep with_exact_load = step;
   with_exact_load.exact = &exact;
-  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_records, with_exact_load));
+  EXPECT_FALSE(contacts.begin_static(*body.shape, body.frame, in_records, with_exact_load));
   body.frame.moves = true;
-  EXPECT_FALSE(contacts.begin_at_rest(*body.shape, body.frame, in_records, step));
+  EXPECT_FALSE(contacts.begin_static(*body.shape, body.frame, in_records, step));
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, BodyRecordsTest,

@@ -44,6 +44,11 @@ Axes random_axes(RandomSource &random)
   return a;
 }
 
+Eigen::AlignedBox3d box_around(const V &low, const V &high)
+{
+  return {to_eigen(low), to_eigen(high)};
+}
+
 /// Squares of the plane -half ... half, n along each side, each cut into two; inner corners may be
 /// shaken within the plane.
 std::vector<Triangle> cut_plane(const Axes &axes, double half, int n, double shake,
@@ -96,11 +101,9 @@ class Roller {
   Roller(const LargeBodyShape &shape, const V &x0, const V &v0, const V &w0, const V &g) :
       shape(shape), gravity(g), x(x0), v(v0), w(w0)
   {
-    contacts.set_laws(sliding_law(), shape.one_contact());
-    if (shape.one_contact())
-      contacts.history.grow(1);
-    else
-      contacts.memory.grow(1);
+    contacts.set_laws(sliding_law());
+    contacts.history.keep(shape.most_contacts() > 1, false);
+    contacts.history.grow(1);
     frame.origin = shape.reference_point();
   }
 
@@ -324,8 +327,8 @@ TEST(MeshFocus, GivesTheContactsOfTheWhole)
   EXPECT_TRUE(part.wants_focus());
   int compared = 0;
   for (const V &corner : {V{-0.8, -0.7, 0}, V{-0.2, 0.1, 0}, V{0.2, -0.4, 0}}) {
-    EXPECT_TRUE(part.focus({corner - V{0, 0, 1}, corner + V{0.4, 0.4, 1}}));
-    EXPECT_FALSE(part.focus({corner, corner + V{0.3, 0.3, 1}})) << "within what there is";
+    EXPECT_TRUE(part.focus(box_around(corner - V{0, 0, 1}, corner + V{0.4, 0.4, 1})));
+    EXPECT_FALSE(part.focus(box_around(corner, corner + V{0.3, 0.3, 1}))) << "within what there is";
     EXPECT_LT(part.size_of_detail(), whole.size_of_detail() / 2);
     EXPECT_LT(part.memory_usage(), 0.7 * whole.memory_usage());
     for (int n = 0; n < 400; n++) {
@@ -352,8 +355,8 @@ TEST(MeshFocus, GivesTheContactsOfTheWhole)
   }
   EXPECT_GT(compared, 300);
   constexpr double far = 1.0e9;
-  EXPECT_FALSE(part.focus({{far, far, far}, {-far, -far, -far}})) << "no particles";
-  EXPECT_TRUE(part.focus({{-far, -far, -far}, {far, far, far}}));
+  EXPECT_FALSE(part.focus(Eigen::AlignedBox3d())) << "no particles";
+  EXPECT_TRUE(part.focus(box_around({-far, -far, -far}, {far, far, far})));
   EXPECT_FALSE(part.wants_focus());
   EXPECT_EQ(part.size_of_detail(), whole.size_of_detail());
 }

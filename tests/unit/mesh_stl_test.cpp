@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <clocale>
 #include <cstring>
 #include <limits>
+#include <locale>
 #include <stdexcept>
 
 using namespace Talus;
@@ -51,7 +54,8 @@ std::string binary(std::uint32_t announced, int n, const std::string &text, floa
 TEST(Stl, Ascii)
 {
   const auto triangles = parse_stl("solid a name with facet in it\n" + facet + facet +
-                                   "endsolid\nsolid b\n" + facet + "endsolid b\n");
+                                   "endsolid\nsolid b\n" + facet + "endsolid b\n")
+                             .triangles;
   ASSERT_EQ(triangles.size(), 3U);
   EXPECT_EQ(triangles[1].corner[1].x, 1.0);
   EXPECT_EQ(triangles[2].corner[2].y, 0.25);
@@ -60,18 +64,73 @@ TEST(Stl, Ascii)
 TEST(Stl, BinaryEvenIfItBeginsWithSolid)
 {
   for (const char *text : {"", "solid of a program that does not care"}) {
-    const auto triangles = parse_stl(binary(2, 2, text));
+    const auto triangles = parse_stl(binary(2, 2, text)).triangles;
     ASSERT_EQ(triangles.size(), 2U);
     EXPECT_EQ(triangles[1].corner[2].y, 0.5);
     EXPECT_EQ(triangles[1].corner[1].x, 1.0);
   }
 }
 
+TEST(Stl, KeywordsInUpperCase)
+{
+  std::string shouted = "\n  SOLID a Name\n" + facet + "ENDSOLID a Name\n";
+  for (char &c : shouted) c = static_cast<char>(std::toupper(c));
+  const auto triangles = parse_stl(shouted).triangles;
+  ASSERT_EQ(triangles.size(), 1U);
+  EXPECT_EQ(triangles[0].corner[2].y, 0.25);
+  EXPECT_EQ(reason("Solid x\nFacet Normal 0 0 1\nOuter Loop\nVertex +1.0 .5 O\n"),
+            "line 4: expected a finite number instead of 'o'");
+}
+
+/// Numbers with a comma, as many countries write them.
+class CommaLocale : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
+TEST(Stl, NumbersDoNotDependOnTheLocale)
+{
+  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaLocale));
+  const char *const known = std::setlocale(LC_NUMERIC, nullptr);
+  const std::string c_before = known ? known : "C";
+  for (const char *name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"})
+    if (std::setlocale(LC_NUMERIC, name)) break;
+  const auto triangles = parse_stl("solid\n" + facet + "endsolid\n").triangles;
+  std::setlocale(LC_NUMERIC, c_before.c_str());
+  std::locale::global(before);
+  ASSERT_EQ(triangles.size(), 1U);
+  EXPECT_EQ(triangles[0].corner[2].y, 0.25);
+}
+
+TEST(Stl, BytesBehindABinaryFileAreCounted)
+{
+  for (const char *text : {"", "solid of a program that does not care"}) {
+    const StlContent content = parse_stl(binary(2, 2, text) + "\nmade by a program");
+    EXPECT_EQ(content.triangles.size(), 2U);
+    EXPECT_EQ(content.trailing_bytes, 18U);
+  }
+  EXPECT_EQ(parse_stl(binary(2, 2, "")).trailing_bytes, 0U);
+}
+
+TEST(Stl, WhatIsNoStlFileIsSaidToBeNone)
+{
+  const std::string rest =
+      ", where an ASCII file has 'solid' and a binary one a header and triangles";
+  const std::string start = "it is no STL file: it begins with ";
+  EXPECT_EQ(reason("PK"), start + "'PK'" + rest);
+  EXPECT_EQ(reason("# a comment\nsolid\n" + facet + "endsolid\n"), start + "'# a comment'" + rest);
+  std::string letter = "Dear all,\n";
+  for (int n = 0; n < 40; n++) letter += "this is no surface at all\n";
+  EXPECT_EQ(reason(letter), start + "'Dear all,'" + rest);
+  std::string png = "\x89PNG\r\n\x1a\n";
+  png.append("\0\0\0\rIHDR\0\0\2\200", 12);
+  for (unsigned n = 0; n < 2000; n++)    // compressed: any bytes
+    png.push_back(static_cast<char>((n * 2654435761U) >> 21));
+  EXPECT_EQ(reason(png), start + "no text" + rest);
+}
+
 TEST(Stl, ReasonsOfRefusal)
 {
   EXPECT_EQ(reason(""), "the file is empty");
-  EXPECT_EQ(reason("PK"),
-            "it is no STL file: it neither begins with 'solid' nor has a binary header");
   EXPECT_EQ(reason("solid nothing\nendsolid\n"), "it has no triangles");
   EXPECT_EQ(reason(binary(0, 0, "")), "it has no triangles");
   EXPECT_EQ(reason(binary(3, 2, "")),

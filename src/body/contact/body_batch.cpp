@@ -3,177 +3,238 @@
 #include "body/contact/body_batch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace Talus {
 namespace {
+
+constexpr int width = EightSpheres::width;
+constexpr std::size_t ahead = 64;    // candidates whose positions are prefetched
+static_assert(width == lanes && ahead + width <= BodyTask::spare);
+
+// the same where each candidate has parts to be looked at, and the parts nearer to their use
+constexpr std::size_t position_ahead = 24, list_ahead = 12, parts_ahead = 6;
+static_assert(position_ahead <= BodyTask::spare);
 
 Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
 {
   return {v[0][k], v[1][k], v[2][k]};
 }
 
-void set_lane(double (&v)[3][ContactBatch::width], int k, const Vector3<double> &value)
+Vector3<Vec8> center_of(const EightSpheres &spheres)
 {
-  v[0][k] = value.x;
-  v[1][k] = value.y;
-  v[2][k] = value.z;
+  const auto &x = spheres.center;
+  return {load8(x[0]), load8(x[1]), load8(x[2])};
 }
 
 }    // namespace
 
+/* No lane may ever hold what is not finite. */
+
 BodyBatch::BodyBatch()
 {
   batch.clear();
+  std::fill(radius, radius + ContactBatch::width, 1.0);
 }
 
-void BodyBatch::start(bool with_exact)
+void BodyBatch::start()
 {
-  filled = 0;
   load = BodyLoad{};
-  largest_overlap = 0.0;
-  if (with_exact) exact.clear();
-  remembered.clear();
+  exact.clear();
   touched.clear();
+  largest_overlap = 0.0;
 }
 
-/* Seen from the body, the particle moves with its velocity less that which the body would have at
-   its center, and spins less the body's spin: so sliding, rolling and spinning are those of the two
-   surfaces. A body that is not free is infinitely heavy: m_eff is the mass of the particle. R_eff
-   is its radius. */
-
-void BodyBatch::add(const BodyTask &task, int law, int i, const SurfaceContact &contact,
-                    const Record &history, const Record &impact, int slot)
+void BodyBatch::compute(const BodyTask &its_task, std::size_t begin, std::size_t last)
 {
-  const BodyParticleView &view = task.view;
-  const BodyFrame &frame = task.frame;
-  const int lane = filled;
-  const double r = view.radius_of(i);
-  Vector3<double> velocity = view.velocity(i), spin = view.spin(i);
-  if (frame.moves) {
-    velocity = frame.to_body(velocity - frame.velocity_at(view.position(i)));
-    spin = frame.to_body(spin - frame.state.spin);
+  task = &its_task;
+  touching = 0.0;
+  load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
+  const bool by_parts = task->shape.most_contacts() > 1;
+  for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
+    law = task->laws.distinct_law(law_index);
+    for (std::size_t c = begin; c < last && by_parts; c++) look_at_parts(c, last);
+    for (std::size_t c = begin / width * width; c < last && !by_parts; c += width)
+      look_at_eight(c, static_cast<int>(begin > c ? begin - c : 0),
+                    static_cast<int>(std::min<std::size_t>(last - c, width)));
+    flush();
   }
-  atom_of_lane[lane] = i;
-  slot_of_lane[lane] = slot;
-  part_of_lane[lane] = contact.part;
-  set_lane(batch.normal, lane, contact.normal);
-  batch.overlap[lane] = contact.overlap;
-  set_lane(batch.velocity, lane, velocity);
-  set_lane(batch.spin, lane, r * spin);
-  batch.inverse_mass[lane] = view.inverse_mass(i) + frame.inverse_mass;
-  batch.inverse_radius[lane] = 1.0 / r;
-  batch.coefficients[lane] = task.row_of(i);
-  if (task.with_resistance) {
-    // the body is flat on the scale of the contact: the circle in which it cuts the sphere
-    const double d = contact.overlap;
-    set_lane(batch.relative_omega, lane, spin);
-    batch.circle[lane] = std::sqrt(std::max(2.0 * r * d - d * d, 0.0));
-  }
-  if (task.with_history) {
-    for (int n = 0; n < 4; n++) batch.history[n][lane] = history.c[n];
-  }
-  if (task.with_impact)
-    for (int n = 0; n < 4; n++) batch.history[4 + n][lane] = impact.c[n];
-  if (++filled == ContactBatch::width) flush(task, law);
+  sum_up();
 }
 
-void BodyBatch::flush(const BodyTask &task, int law)
+/* Of eight candidates those low ... high-1 that have this law. */
+
+unsigned BodyBatch::bits_of_law(std::size_t first, int low, int high) const
 {
-  if (!filled) return;
-  // lanes behind the last contact hold older, finite contacts: computed, but not used
-  const int end = (filled + lanes - 1) / lanes * lanes;
-  task.laws.kernel(law, task.advance)(batch, 0, end, task.laws.coefficients(), task.dt);
-  const ContactLaw &its = task.laws.distinct_law(law);
-  const bool keeps = task.with_history && task.advance;
-  for (int lane = 0; lane < filled; lane++) {
-    apply(task, lane, its);
-    if (keeps) keep_history(lane, task.with_impact);
-    if (task.record_parts) record(task, lane);
-    if (!task.energies) continue;
-    const int i = atom_of_lane[lane];
-    largest_overlap = std::max(largest_overlap, batch.overlap[lane] / task.view.radius_of(i));
-    task.energies->add(
-        lane_energy(its, task.laws.coefficients(batch.coefficients[lane]), batch, lane, task.dt),
-        1.0, i, task.view.radius_of(i), -1, 0.0);
-  }
-  filled = 0;
+  if (task->laws.num_laws() == 1) return (1U << high) - (1U << low);
+  unsigned bits = 0;
+  for (int k = low; k < high; k++)
+    bits |= (task->laws.law_index(task->row_of(first + k)) == law_index ? 1U : 0U) << k;
+  return bits;
 }
 
-void BodyBatch::keep_history(int lane, bool with_impact)
+/* Candidates low ... high-1 of eight: the others are not even read, for they may be on their way
+   through another thread. */
+
+void BodyBatch::look_at_eight(std::size_t first, int low, int high)
 {
-  const int slot = slot_of_lane[lane];
-  Record history, impact;
-  for (int n = 0; n < 4; n++) {
-    history.c[n] = batch.history[n][lane];
-    impact.c[n] = batch.history[4 + n][lane];
-  }
-  if (sparse) {
-    sparse->record(slot) = history;
-    if (with_impact) sparse->impact(slot) = impact;
+  const int *const index = task->index + first;
+  for (int k = 0; k < width; k++) task->view.prefetch_position(index[ahead + k]);
+  if (task->with_history)
+    prefetch_contacts(first + ahead, task->history.touched((first + ahead) / width));
+  load_spheres(index, low, high);
+  const unsigned asked = bits_of_law(first, low, high);
+  const unsigned bits = task->shape.touches_eight(spheres_in_body(), high, contacts) & asked;
+  if (task->with_history) task->history.set_touching(first / width, asked, bits);
+  if (bits) take(first, bits);
+}
+
+void BodyBatch::load_spheres(const int *index, int low, int high)
+{
+  if (task->view.records) {
+    const Record *const positions = task->view.records->position.data();
+    const EightRows state = to_lanes(
+        [=](int k) -> const Record & { return positions[index[std::clamp(k, low, high - 1)]]; });
+    for (int d = 0; d < 3; d++) store(spheres.center[d], state.number[d]);
+    store(spheres.radius, state.number[3]);
     return;
   }
-  remembered[slot].history = history;
-  if (with_impact) remembered[slot].impact = impact;
-}
-
-/* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
-   spinning resistance act as couples of opposite sign: so forces and torques of particle and body
-   balance exactly. */
-
-void BodyBatch::apply(const BodyTask &task, int lane, const ContactLaw &law)
-{
-  const BodyParticleView &view = task.view;
-  const BodyFrame &frame = task.frame;
-  const int i = atom_of_lane[lane];
-  const double r = view.radius_of(i);
-  const Vector3<double> force = frame.to_space(lane_of(batch.force, lane));
-  view.add_force(i, force);
-  Vector3<double> resistance{0.0, 0.0, 0.0};    // couple on the particle
-  if (law.resists()) {
-    const Vector3<double> couple = frame.to_space(lane_of(batch.couple, lane));
-    const Vector3<double> moment = frame.to_space(lane_of(batch.moment, lane));
-    view.add_torque(i, couple - r * moment);
-    const Vector3<double> normal = frame.to_space(lane_of(batch.normal, lane));
-    resistance = couple - r * (moment - cross(normal, force));
-  } else if (law.has_friction()) {
-    view.add_torque(i, -r * frame.to_space(lane_of(batch.moment, lane)));
+  for (int k = 0; k < width; k++) {
+    const int i = index[std::clamp(k, low, high - 1)];
+    for (int d = 0; d < 3; d++) spheres.center[d][k] = task->view.x[3L * i + d];
+    spheres.radius[k] = task->view.radius[i];
   }
-
-  const Vector3<double> branch = r * frame.to_space(lane_of(batch.normal, lane));
-  const Vector3<double> about = frame.moves ? frame.state.position : frame.origin;
-  const Vector3<double> arm = view.position(i) - branch - about;
-  const Vector3<double> torque = -cross(arm, force) - resistance;
-  load.force = load.force - force;
-  load.torque = load.torque + torque;
-  load.contacts += 1.0;
-  if (task.exact) exact.add(-force, torque);
-  if (view.virial) add_virial(view, i, branch, force);
 }
 
-void BodyBatch::add_virial(const BodyParticleView &view, int atom, const Vector3<double> &b,
-                           const Vector3<double> &f)
+const EightSpheres &BodyBatch::spheres_in_body()
 {
-  double *const v = view.virial + 6L * atom;
-  v[0] += b.x * f.x;
-  v[1] += b.y * f.y;
-  v[2] += b.z * f.z;
-  v[3] += b.x * f.y;
-  v[4] += b.x * f.z;
-  v[5] += b.y * f.z;
+  if (!task->frame.moves) return spheres;
+  const Vector3<Vec8> x = task->frame.point_to_body(center_of(spheres));
+  store(seen.center[0], x.x);
+  store(seen.center[1], x.y);
+  store(seen.center[2], x.z);
+  store(seen.radius, load8(spheres.radius));
+  return seen;
 }
 
-void BodyBatch::record(const BodyTask &task, int lane)
+/* What the laws need of particles besides their positions is prefetched of those that probably
+   touch: where histories are kept, of those that did in the step before. */
+
+void BodyBatch::prefetch_contacts(std::size_t first, unsigned bits) const
 {
-  const Vector3<double> n = lane_of(batch.normal, lane), f = lane_of(batch.force, lane);
-  const double pressed = dot(f, n);
-  const Vector3<double> v = lane_of(batch.velocity, lane);
-  const Vector3<double> slip = v - dot(v, n) * n - cross(lane_of(batch.spin, lane), n);
-  const Vector3<double> shear =
-      task.laws.distinct_law(task.laws.law_index(batch.coefficients[lane])).has_friction()
-          ? -(f - pressed * n)
-          : Vector3<double>{0.0, 0.0, 0.0};
-  touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});
+  for (; bits; bits &= bits - 1U)
+    task->view.prefetch_for_contact(task->index[first + __builtin_ctz(bits)]);
+}
+
+void BodyBatch::take(std::size_t first, unsigned bits)
+{
+  for (int d = 0; d < 3; d++) {
+    pack_lanes(&place[d][filled], spheres.center[d], bits);
+    pack_lanes(&batch.normal[d][filled], contacts.normal[d], bits);
+  }
+  pack_lanes(&radius[filled], spheres.radius, bits);
+  pack_lanes(&batch.overlap[filled], contacts.overlap, bits);
+  filled += store_places(&candidate_of_lane[filled], static_cast<std::uint32_t>(first), bits);
+  prefetch_contacts(first, bits);
+  if (filled > ContactBatch::width - width) flush();    // no room for eight more
+}
+
+void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
+{
+  prefetch_parts(c, last);
+  if (task->laws.law_index(task->row_of(c)) != law_index) return;
+  const BodyParticleView &view = task->view;
+  const int i = task->index[c];
+  const Vector3<double> place_now = view.position_at(i), x = task->frame.point_to_body(place_now);
+  const double r = view.radius_at(i);
+  SurfaceContact found[LargeBodyShape::max_contacts];
+  bool may_touch;
+  const NearParts near = task->candidates.parts_near(c, x, r, may_touch);
+  const int count = may_touch ? task->shape.find_contacts(x, r, near, found) : 0;
+  std::size_t slot = 0;
+  if (task->with_history) {
+    slot = task->history.first_slot(c);
+    task->history.continue_contacts(c, found, count);
+  }
+  if (count) view.prefetch_for_contact(i);
+  for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k]);
+}
+
+/* Candidates stand far from each other in memory: what one needs is prefetched a while before.
+   First its position, then the list of parts, then those that it probably touches. */
+
+void BodyBatch::prefetch_parts(std::size_t c, std::size_t last) const
+{
+  const BodyParticleView &view = task->view;
+  view.prefetch_position(task->index[c + position_ahead]);
+  if (c + list_ahead >= last) return;
+  task->candidates.prefetch_list(c + list_ahead, view.radius_at(task->index[c + list_ahead]));
+  task->candidates.prefetch_parts(c + parts_ahead, view.radius_at(task->index[c + parts_ahead]),
+                                  task->shape);
+}
+
+void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x, double r,
+                       const SurfaceContact &contact)
+{
+  const double at[3] = {x.x, x.y, x.z};
+  const double n[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
+  for (int d = 0; d < 3; d++) {
+    place[d][filled] = at[d];
+    batch.normal[d][filled] = n[d];
+  }
+  radius[filled] = r;
+  batch.overlap[filled] = contact.overlap;
+  candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
+  slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
+  part_of_lane[filled] = contact.part;
+  if (++filled == ContactBatch::width) flush();
+}
+
+/* Lanes behind the last contact repeat it with the geometry of older ones: computed, not used. */
+
+void BodyBatch::flush()
+{
+  if (!filled) return;
+  end = (filled + lanes - 1) / lanes * lanes;
+  std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
+  std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
+  gather();
+  task->laws.kernel(law_index, task->advance)(batch, 0, end, task->laws.coefficients(), task->dt);
+  if (task->with_history && task->advance) keep_histories();
+  if (task->energies) account();
+  if (task->record_parts) record_parts();
+  if (task->frame.turned) turn_to_space();
+  if (task->view.records)
+    add_to_records();
+  else
+    add_to_arrays();
+  add_load();
+  if (task->view.virial) add_virials();
+  touching += filled;
+  filled = 0;
+}
+
+void BodyBatch::account()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    const double r = radius[lane];
+    largest_overlap = std::max(largest_overlap, batch.overlap[lane] / r);
+    task->energies->add(
+        lane_energy(law, task->laws.coefficients(batch.coefficients[lane]), batch, lane, task->dt),
+        1.0, task->candidates.atom(candidate_of_lane[lane]), r, -1, 0.0);
+  }
+}
+
+void BodyBatch::record_parts()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    const Vector3<double> n = lane_of(batch.normal, lane), f = lane_of(batch.force, lane);
+    const Vector3<double> v = lane_of(batch.velocity, lane);
+    const double pressed = dot(f, n);
+    const Vector3<double> slip = v - dot(v, n) * n - cross(lane_of(batch.spin, lane), n);
+    const Vector3<double> shear =
+        law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
+    touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});
+  }
 }
 
 }    // namespace Talus

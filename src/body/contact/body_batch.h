@@ -1,23 +1,27 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts of particles with a large body on their way through the kernel: one batch for each
-// thread. Everything is computed in the frame of the body, where the body is at rest and the
-// histories turn with it; forces are turned back.
+// Contacts of particles with one large body on their way through the laws: one batch for each
+// thread, eight contacts at a time. Everything is computed in the frame of the body, where the body
+// is at rest and the histories turn with it; forces are turned back. body_batch.cpp finds the
+// contacts and runs the laws, body_batch_lanes.cpp fetches what laws read of particles and hands
+// out what they yield.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
 
 #include "base/aligned_vector.h"
+#include "base/lanes.h"
+#include "body/contact/body_candidates.h"
+#include "body/contact/body_history.h"
 #include "body/contact/body_load.h"
 #include "body/contact/body_particle_view.h"
-#include "body/contact/contact_memory.h"
-#include "body/contact/sparse_history.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
-#include "particles/record.h"
+
+#include <cstdint>
 
 namespace Talus {
 
@@ -31,20 +35,29 @@ struct TouchedPart {
 
 /// One evaluation of all contacts of a body.
 struct BodyTask {
+  const LargeBodyShape &shape;
   const LawTable &laws;
   const BodyFrame &frame;
   const BodyParticleView &view;
+  const BodyCandidates &candidates;
+  const int
+      *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
+  BodyHistory &history;
   double dt;
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
-  EnergyAccount *energies;    ///< nullptr, or receives them: from one thread only
-  bool with_history, with_impact, with_resistance;    ///< of any law
+  EnergyAccount *energies;           ///< nullptr, or receives them: from one thread only
+  bool with_history, with_impact;    ///< of any law
 
-  /// Row of the table for a particle; types are not read where all have the same law.
-  int row_of(int atom) const
+  static constexpr int spare = 128;
+
+  /// Row of the table for a candidate; types are not read where all have the same law.
+  int row_of(std::size_t c) const
   {
-    return laws.uniform() ? 0 : laws.row(view.type[atom], view.type[atom]);
+    if (laws.uniform()) return 0;
+    const int type = view.type[candidates.atom(c)];
+    return laws.row(type, type);
   }
 };
 
@@ -52,36 +65,78 @@ class BodyBatch {
  public:
   BodyBatch();
 
-  void start(bool exact);
+  /// Forgets the results of the last step.
+  void start();
 
-  /// Adds a contact of a particle, with the history and impact that it continues. `slot`: where the
-  /// new ones go: the candidate in `sparse`, or the index in `remembered`. The batch is computed
-  /// when it is full.
-  void add(const BodyTask &task, int law, int atom, const SurfaceContact &contact,
-           const Record &history, const Record &impact, int slot);
-  /// Computes what is left of this law. Call before contacts of another one are added.
-  void flush(const BodyTask &task, int law);
+  /// Computes the contacts of candidates begin ... end-1. Adds the forces to the particles, and
+  /// keeps histories if the laws have them. Several threads may do so at the same time, each with a
+  /// batch and candidates of its own; nothing else of other candidates is read.
+  void compute(const BodyTask &task, std::size_t begin, std::size_t end);
 
-  /// Where histories go: records by candidate, or lists of this batch.
-  SparseHistory *sparse = nullptr;
-  AlignedVector<RememberedContact> remembered;
-
+  // results since start()
   BodyLoad load;
-  ExactLoad exact;
-  AlignedVector<TouchedPart> touched;
-  double largest_overlap = 0.0;    ///< over radius; only with energies
+  ExactLoad exact;                       ///< if asked for
+  AlignedVector<TouchedPart> touched;    ///< if asked for
+  double largest_overlap = 0.0;          ///< over radius; only with energies
 
  private:
-  void keep_history(int lane, bool with_impact);
-  void apply(const BodyTask &task, int lane, const ContactLaw &law);
-  void add_virial(const BodyParticleView &view, int atom, const Vector3<double> &branch,
-                  const Vector3<double> &force);
-  void record(const BodyTask &task, int lane);
+  using Lanes = double[3][ContactBatch::width];
+
+  // contacts
+  unsigned bits_of_law(std::size_t first, int low, int high) const;
+  void look_at_eight(std::size_t first, int low, int high);
+  void load_spheres(const int *index, int low, int high);
+  const EightSpheres &spheres_in_body();
+  void take(std::size_t first, unsigned bits);
+  void prefetch_contacts(std::size_t first, unsigned bits) const;
+  void look_at_parts(std::size_t candidate, std::size_t last);
+  void prefetch_parts(std::size_t candidate, std::size_t last) const;
+  void append(std::size_t candidate, std::size_t slot, const Vector3<double> &x, double r,
+              const SurfaceContact &contact);
+  void flush();
+  void account();
+  void record_parts();
+
+  // lanes
+  struct Motion {
+    Vector3<Vec8> velocity, omega;
+    Vec8 inverse_mass, inverse_radius;
+  };
+  void gather();
+  Motion motion_in_records(const int *index, int k) const;
+  Motion motion_in_arrays(const int *index, int k) const;
+  void gather_histories(int k);
+  void gather_resistance();
+  void gather_coefficients();
+  void keep_histories();
+  void turn_to_space();
+  EightRows torques(int k) const;
+  void add_to_records();
+  void add_to_arrays();
+  void add_load();
+  void add_virials();
+  void sum_up();
+  const std::uint32_t *slots() const
+  {
+    return task->history.several() ? slot_of_lane : candidate_of_lane;
+  }
+
+  // of the range that is being computed
+  const BodyTask *task = nullptr;
+  ContactLaw law;
+  int law_index = 0;
 
   ContactBatch batch;
-  int filled = 0;
-  int atom_of_lane[ContactBatch::width], slot_of_lane[ContactBatch::width],
-      part_of_lane[ContactBatch::width];
+  int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
+  std::uint32_t candidate_of_lane[ContactBatch::width] = {};
+  std::uint32_t slot_of_lane[ContactBatch::width] = {};    // only with several contacts
+  int part_of_lane[ContactBatch::width] = {};              // the same
+  alignas(64) Lanes place = {};                            // of particles, in space
+  alignas(64) double radius[ContactBatch::width];
+  Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
+  double touching = 0.0;
+  EightSpheres spheres{}, seen{};    // in space, and in the frame of a body that moves
+  EightContacts contacts{};
 };
 
 }    // namespace Talus

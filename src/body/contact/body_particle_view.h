@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The owned particles as contacts with large bodies see them: in the host's arrays, or in the
-// records of ContactPipeline while particles live there. Particles are named by the host's index
-// either way.
+// records of ContactPipeline while particles live there. A particle has the host's index, and in
+// the records a slot; its index in the view is the one or the other.
 
 #ifndef TALUS_BODY_CONTACT_BODY_PARTICLE_VIEW_H
 #define TALUS_BODY_CONTACT_BODY_PARTICLE_VIEW_H
@@ -27,66 +27,59 @@ struct BodyParticleView {
   ParticleRecords *records = nullptr;
   const int *slot_of_atom = nullptr;    ///< of the records
 
-  Vector3<double> position(int i) const
+  // by the host's index
+  int index_of(int atom) const { return records ? slot_of_atom[atom] : atom; }
+  Vector3<double> position(int atom) const { return position_at(index_of(atom)); }
+  double radius_of(int atom) const { return radius_at(index_of(atom)); }
+  Vector3<double> velocity(int atom) const
   {
-    return records ? vector(records->position[slot_of_atom[i]].c) : vector(x + 3L * i);
+    return records ? vector(records->velocity(slot_of_atom[atom]).c) : vector(v + 3L * atom);
   }
-  Vector3<double> velocity(int i) const
+  Vector3<double> angular_velocity(int atom) const
   {
-    return records ? vector(records->velocity(slot_of_atom[i]).c) : vector(v + 3L * i);
-  }
-  Vector3<double> spin(int i) const
-  {
-    if (!records) return vector(omega + 3L * i);
+    if (!records) return vector(omega + 3L * atom);
     if (records->stride == 1) return {0.0, 0.0, 0.0};
-    return vector(records->spin(slot_of_atom[i]).c);
-  }
-  double radius_of(int i) const
-  {
-    return records ? records->position[slot_of_atom[i]].c[3] : radius[i];
-  }
-  double inverse_mass(int i) const
-  {
-    if (records) return records->velocity(slot_of_atom[i]).c[3];
-    const bool replaced = mass_override && mass_override[i] > 0.0;
-    return 1.0 / (replaced ? mass_override[i] : mass[i]);
-  }
-  void add_force(int i, const Vector3<double> &force) const
-  {
-    add(records ? records->load[records->stride * slot_of_atom[i]].c : f + 3L * i, force);
-  }
-  void add_torque(int i, const Vector3<double> &more) const
-  {
-    if (records) records->settle_torque(slot_of_atom[i]);
-    add(records ? records->load[2 * static_cast<std::size_t>(slot_of_atom[i]) + 1].c
-                : torque + 3L * i,
-        more);
+    return vector(records->spin(slot_of_atom[atom]).c);
   }
 
-  /// Calls the state of a particle into the cache.
-  void call(int i) const
+  // by the index in the view
+  Vector3<double> position_at(int index) const
+  {
+    return vector(records ? records->position[index].c : x + 3L * index);
+  }
+  double radius_at(int index) const
+  {
+    return records ? records->position[index].c[3] : radius[index];
+  }
+  /// Without records.
+  double inverse_mass_in_arrays(int index) const
+  {
+    const bool replaced = mass_override && mass_override[index] > 0.0;
+    return 1.0 / (replaced ? mass_override[index] : mass[index]);
+  }
+  void prefetch_position(int index) const
   {
     if (records) {
-      const std::size_t s = slot_of_atom[i];
-      __builtin_prefetch(&records->position[s]);
-      __builtin_prefetch(&records->motion[records->stride * s]);
-      __builtin_prefetch(&records->load[records->stride * s], 1);
+      __builtin_prefetch(records->position.data() + index);
     } else {
-      for (const double *rows :
-           {x, v, omega, static_cast<const double *>(f), static_cast<const double *>(torque)})
-        __builtin_prefetch(rows + 3L * i);
-      for (const double *numbers : {radius, mass}) __builtin_prefetch(numbers + i);
+      __builtin_prefetch(x + 3L * index);
+      __builtin_prefetch(radius + index);
+    }
+  }
+  /// What a contact reads and adds to, once its position is known.
+  void prefetch_for_contact(int index) const
+  {
+    if (records) {
+      records->prefetch_for_contact(index);
+    } else {
+      for (const double *rows : {v, omega}) __builtin_prefetch(rows + 3L * index);
+      for (double *rows : {f, torque}) __builtin_prefetch(rows + 3L * index, 1);
+      __builtin_prefetch(mass + index);
     }
   }
 
  private:
   static Vector3<double> vector(const double *row) { return {row[0], row[1], row[2]}; }
-  static void add(double *row, const Vector3<double> &value)
-  {
-    row[0] += value.x;
-    row[1] += value.y;
-    row[2] += value.z;
-  }
 };
 
 }    // namespace Talus

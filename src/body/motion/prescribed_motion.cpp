@@ -45,10 +45,10 @@ BodyState PrescribedMotion::at(double time, const Vector3<double> &start) const
     state.velocity = rate * std::cos(rate * time) * vector;
     break;
   case Kind::ROTATE:
-    state.orientation = Quaternion::turn(rate * time, vector);
-    state.spin = rate * vector;
-    state.position = point + Rotation(state.orientation).to_space(start - point);
-    state.velocity = cross(state.spin, state.position - point);
+    state.orientation = Eigen::AngleAxisd(rate * time, to_eigen(vector));
+    state.omega = rate * vector;
+    state.position = point + rotated(state.orientation.toRotationMatrix(), start - point);
+    state.velocity = cross(state.omega, state.position - point);
     break;
   }
   return state;

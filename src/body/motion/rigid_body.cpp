@@ -2,10 +2,7 @@
 
 #include "body/motion/rigid_body.h"
 
-// Eigen's vector code fuses multiplication and addition where the processor can, whatever the
-// compiler was told: the motion would depend on the instruction set.
-#define EIGEN_DONT_VECTORIZE
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -13,25 +10,22 @@
 namespace Talus {
 namespace {
 
-Eigen::Matrix3d inertia_in_space(const double (&moments)[3], const Quaternion &orientation)
+Eigen::Matrix3d inertia_in_space(const double (&moments)[3], const Eigen::Quaterniond &orientation)
 {
-  const Rotation turn(orientation);
-  Eigen::Matrix3d axes;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) axes(i, j) = turn.c[i][j];
+  const Eigen::Matrix3d axes = orientation.toRotationMatrix();
   return axes * Eigen::Vector3d(moments[0], moments[1], moments[2]).asDiagonal() * axes.transpose();
 }
 
 }    // namespace
 
-/* Locks hold the components of the spin about axes of space at zero: what remains solves the free
+/* Locks hold the components of omega about axes of space at zero: what remains solves the free
    rows and columns of I omega = L. */
 
-Vector3<double> RigidBody::spin_of(const Vector3<double> &momentum,
-                                   const Quaternion &orientation) const
+Vector3<double> RigidBody::omega_of(const Vector3<double> &momentum,
+                                    const Eigen::Quaterniond &orientation) const
 {
   Eigen::Matrix3d matrix = inertia_in_space(inertia, orientation);
-  Eigen::Vector3d right(momentum.x, momentum.y, momentum.z);
+  Eigen::Vector3d right = to_eigen(momentum);
   for (int k = 0; k < 3; k++) {
     if (!locked[3 + k]) continue;
     matrix.row(k).setZero();
@@ -39,21 +33,19 @@ Vector3<double> RigidBody::spin_of(const Vector3<double> &momentum,
     matrix(k, k) = 1.0;
     right(k) = 0.0;
   }
-  const Eigen::Vector3d spin = matrix.inverse() * right;
-  return {spin(0), spin(1), spin(2)};
+  return from_eigen(matrix.inverse() * right);
 }
 
 Vector3<double> RigidBody::angular_momentum(const BodyState &state) const
 {
-  const Eigen::Vector3d l = inertia_in_space(inertia, state.orientation) *
-                            Eigen::Vector3d(state.spin.x, state.spin.y, state.spin.z);
+  const Eigen::Vector3d l = inertia_in_space(inertia, state.orientation) * to_eigen(state.omega);
   return {locked[3] ? 0.0 : l(0), locked[4] ? 0.0 : l(1), locked[5] ? 0.0 : l(2)};
 }
 
 double RigidBody::kinetic_energy(const BodyState &state) const
 {
   return 0.5 * mass * dot(state.velocity, state.velocity) +
-         0.5 * dot(state.spin, angular_momentum(state));
+         0.5 * dot(state.omega, angular_momentum(state));
 }
 
 void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
@@ -68,14 +60,14 @@ void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
   momentum = {locked[3] ? 0.0 : momentum.x, locked[4] ? 0.0 : momentum.y,
               locked[5] ? 0.0 : momentum.z};
   if (dot(momentum, momentum) == 0.0) {
-    state.spin = {0.0, 0.0, 0.0};
+    state.omega = {0.0, 0.0, 0.0};
     return;
   }
-  const Quaternion &now = state.orientation;
-  const Quaternion half_way = Quaternion::turn(spin_of(momentum, now), 0.5 * dt) * now;
-  const Vector3<double> spin = spin_of(momentum, half_way.normalized());
-  state.orientation = (Quaternion::turn(spin, dt) * now).normalized();
-  state.spin = spin_of(momentum, state.orientation);
+  const Eigen::Quaterniond now = state.orientation;
+  const Eigen::Quaterniond half_way = turn_of(omega_of(momentum, now), 0.5 * dt) * now;
+  const Vector3<double> omega = omega_of(momentum, half_way.normalized());
+  state.orientation = (turn_of(omega, dt) * now).normalized();
+  state.omega = omega_of(momentum, state.orientation);
 }
 
 void Servo::advance(BodyState &state, const Vector3<double> &force, const Vector3<double> &torque,
@@ -85,8 +77,8 @@ void Servo::advance(BodyState &state, const Vector3<double> &force, const Vector
   const double wanted = gain * vmax * (target - pressed) / std::fabs(target);
   const Vector3<double> rate = std::clamp(wanted, -vmax, vmax) * axis;
   if (turns) {
-    state.spin = rate;
-    state.orientation = (Quaternion::turn(rate, dt) * state.orientation).normalized();
+    state.omega = rate;
+    state.orientation = (turn_of(rate, dt) * state.orientation).normalized();
   } else {
     state.velocity = rate;
     state.position = state.position + dt * rate;

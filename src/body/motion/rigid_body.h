@@ -33,7 +33,8 @@ class RigidBody {
   double kinetic_energy(const BodyState &state) const;
 
  private:
-  Vector3<double> spin_of(const Vector3<double> &momentum, const Quaternion &orientation) const;
+  Vector3<double> omega_of(const Vector3<double> &momentum,
+                           const Eigen::Quaterniond &orientation) const;
 };
 
 /// Holds a force or torque by moving along, or turning about, one axis: the velocity is

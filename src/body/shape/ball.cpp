@@ -28,7 +28,8 @@ double Ball::distance_bound(const Vector3<double> &center) const
   return std::fabs(std::sqrt(dot(away, away)) - size);
 }
 
-void Ball::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangles) const
+void Ball::tessellate(const Eigen::AlignedBox3d & /*visible*/,
+                      std::vector<Triangle> &triangles) const
 {
   constexpr int rings = 12, sectors = 24;
   const double pi = std::acos(-1.0);

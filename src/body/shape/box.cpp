@@ -96,7 +96,8 @@ double Box::distance_bound(const Vector3<double> &center) const
   return inside ? deepest : std::sqrt(a * a + b * b + c * c);
 }
 
-void Box::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangles) const
+void Box::tessellate(const Eigen::AlignedBox3d & /*visible*/,
+                     std::vector<Triangle> &triangles) const
 {
   for (int axis = 0; axis < 3; axis++)
     for (const double side : {-1.0, 1.0}) {

@@ -22,10 +22,11 @@ class Box : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  bool one_contact() const override { return !inside; }
+  int most_contacts() const override { return inside ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
-  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   bool touches_from_outside(const Vector3<double> &center, double radius,

@@ -9,11 +9,6 @@
 namespace Talus {
 namespace {
 
-double coordinate(const Vector3<double> &v, int axis)
-{
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 float below(double x)
 {
   return std::nextafterf(static_cast<float>(x), -std::numeric_limits<float>::infinity());
@@ -26,7 +21,7 @@ float above(double x)
 
 }    // namespace
 
-BoxTree::BoxTree(const std::vector<Bounds> &boxes) : things(boxes.size())
+BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d> &boxes) : things(boxes.size())
 {
   std::iota(things.begin(), things.end(), 0);
   nodes.emplace_back();
@@ -34,21 +29,22 @@ BoxTree::BoxTree(const std::vector<Bounds> &boxes) : things(boxes.size())
   nodes.shrink_to_fit();
 }
 
-void BoxTree::split(int node, const std::vector<Bounds> &boxes, int begin, int end)
+void BoxTree::split(int node, const std::vector<Eigen::AlignedBox3d> &boxes, int begin, int end)
 {
-  Bounds all = boxes[things[begin]];
-  for (int k = begin + 1; k < end; k++) all = joined(all, boxes[things[k]]);
-  nodes[node] = {{below(all.low.x), below(all.low.y), below(all.low.z)},
-                 {above(all.high.x), above(all.high.y), above(all.high.z)},
+  Eigen::AlignedBox3d all;
+  for (int k = begin; k < end; k++) all.extend(boxes[things[k]]);
+  const Eigen::Vector3d &low = all.min(), &high = all.max();
+  nodes[node] = {{below(low.x()), below(low.y()), below(low.z())},
+                 {above(high.x()), above(high.y()), above(high.z())},
                  begin,
                  end - begin};
   if (end - begin <= leaf_size) return;
 
-  const Vector3<double> span = all.high - all.low;
-  const int axis = span.x >= span.y && span.x >= span.z ? 0 : span.y >= span.z ? 1 : 2;
+  int axis;    // the longest, of equal ones the first
+  all.sizes().maxCoeff(&axis);
   const int half = begin + (end - begin) / 2;
   const auto middle = [&](int thing) {
-    return coordinate(boxes[thing].low, axis) + coordinate(boxes[thing].high, axis);
+    return boxes[thing].min()(axis) + boxes[thing].max()(axis);
   };
   std::nth_element(things.begin() + begin, things.begin() + half, things.begin() + end,
                    [&](int a, int b) {

@@ -6,7 +6,7 @@
 #ifndef TALUS_BODY_SHAPE_BOX_TREE_H
 #define TALUS_BODY_SHAPE_BOX_TREE_H
 
-#include "body/shape/large_body_shape.h"
+#include "base/linear_algebra.h"
 
 #include <algorithm>
 #include <vector>
@@ -16,7 +16,7 @@ namespace Talus {
 class BoxTree {
  public:
   /// Things are numbered as their boxes. At least one.
-  explicit BoxTree(const std::vector<Bounds> &boxes);
+  explicit BoxTree(const std::vector<Eigen::AlignedBox3d> &boxes);
 
   /// Calls visit(thing) for every thing whose box is nearer to the point than `reach`, perhaps for
   /// some others, in an order that depends on the tree alone.
@@ -45,7 +45,7 @@ class BoxTree {
     float low[3], high[3];    // rounded outward
     int first, count;         // things of a leaf; count 0: children first and first + 1
   };
-  void split(int node, const std::vector<Bounds> &boxes, int begin, int end);
+  void split(int node, const std::vector<Eigen::AlignedBox3d> &boxes, int begin, int end);
 
   static double square_distance(const Vector3<double> &p, const Node &b)
   {

@@ -2,6 +2,8 @@
 
 #include "body/shape/frustum.h"
 
+#include "base/linear_algebra.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -151,11 +153,11 @@ double Frustum::distance_bound(const Vector3<double> &center) const
   return std::sqrt(rho * rho + s * s);
 }
 
-void Frustum::tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const
 {
   constexpr int sectors = 48;
-  const Vector3<double> span = visible.high - visible.low;
-  const Vector3<double> center = visible.low + 0.5 * span;
+  const Vector3<double> span = from_eigen(visible.sizes());
+  const Vector3<double> center = from_eigen(visible.center());
   const double reach = std::sqrt(dot(span, span));
   const double shift = endless ? dot(center - middle, axis) : 0.0;
   const double l = endless ? 0.5 * reach : half;

@@ -27,10 +27,11 @@ class Frustum : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  bool one_contact() const override { return !inside || endless; }
+  int most_contacts() const override { return inside && !endless ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
-  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   /// A point in the plane through the axis: rho from the axis, s along it; and the unit vector away

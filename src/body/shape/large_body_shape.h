@@ -8,10 +8,12 @@
 // the units of the caller. No function but focus() may change the object, and unless thread_safe()
 // says no, all others may be called from several threads.
 //
-// A shape that touches a sphere at one point at most (one_contact()) implements touches() and
-// distance_bound(), and touches_eight() if it is to be fast. One that may touch it at several
-// points, such as the inside of a box, implements find_contacts() as well, and is_near() if it
+// A shape that touches a sphere at one point at most implements touches() and distance_bound(), and
+// touches_eight() if it is to be fast. One that may touch it at several points, such as the inside
+// of a box, says so (most_contacts()) and implements find_contacts() as well, and is_near() if it
 // wants to remember which parts of it are near.
+//
+// Raise TALUS_SHAPE_VERSION in custom_shape.h with every change of what is declared here.
 
 #ifndef TALUS_BODY_SHAPE_LARGE_BODY_SHAPE_H
 #define TALUS_BODY_SHAPE_LARGE_BODY_SHAPE_H
@@ -20,6 +22,12 @@
 
 #include <algorithm>
 #include <vector>
+
+// Only shapes that draw themselves or want a focus need <Eigen/Geometry>.
+namespace Eigen {
+template <typename Scalar, int dimension> class AlignedBox;
+typedef AlignedBox<double, 3> AlignedBox3d;
+}    // namespace Eigen
 
 namespace Talus {
 
@@ -57,28 +65,15 @@ struct Triangle {
   Vector3<double> corner[3];
 };
 
-/// A box parallel to the axes.
-struct Bounds {
-  Vector3<double> low, high;
-};
-
-/// The box around both.
-inline Bounds joined(const Bounds &a, const Bounds &b)
-{
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
 class LargeBodyShape {
  public:
-  /// No sphere touches a body at more points than this.
+  /// No shape may have more contacts with a sphere than this.
   static constexpr int max_contacts = 8;
 
   virtual ~LargeBodyShape() = default;
 
   /// Does the sphere touch the body? Fills `contact` (the deepest) only if it does. Called for
-  /// every candidate particle in every step if one_contact().
+  /// every candidate particle in every step if there is one contact at most.
   virtual bool touches(const Vector3<double> &center, double radius,
                        SurfaceContact &contact) const = 0;
 
@@ -89,10 +84,10 @@ class LargeBodyShape {
   /// Point about which torques on the body are taken, in the frame of the body.
   virtual Vector3<double> reference_point() const = 0;
 
-  /// No sphere touches the body at more than one point.
-  virtual bool one_contact() const { return true; }
+  /// No sphere touches the body at more points than this: 1 ... max_contacts.
+  virtual int most_contacts() const { return 1; }
 
-  /// Fills found[0 ...] with at most max_contacts contacts, in an order that depends on nothing but
+  /// Fills found[0 ...] with at most most_contacts() contacts, in an order that depends on nothing but
   /// the sphere, and returns their number.
   virtual int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                             SurfaceContact *found) const
@@ -110,15 +105,15 @@ class LargeBodyShape {
     return distance_bound(center) < reach;
   }
 
-  /// Starts to load into the cache what find_contacts() will read of a part; a hint, no more.
-  virtual void call_ahead(int part) const { (void) part; }
+  /// Prefetches what find_contacts() will read of a part.
+  virtual void prefetch(int part) const { (void) part; }
 
   /// Has so many parts that it wants to know which may be asked for.
   virtual bool wants_focus() const { return false; }
 
   /// From now on only spheres are asked for that stay within `bounds`, until this is called again:
   /// parts that were listed before are no longer valid then. Returns whether anything changed.
-  virtual bool focus(const Bounds &bounds)
+  virtual bool focus(const Eigen::AlignedBox3d &bounds)
   {
     (void) bounds;
     return false;
@@ -127,15 +122,15 @@ class LargeBodyShape {
   virtual bool thread_safe() const { return true; }
 
   /// For pictures: the surface as triangles; what is infinite ends at `visible`.
-  virtual void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+  virtual void tessellate(const Eigen::AlignedBox3d &visible,
+                          std::vector<Triangle> &triangles) const
   {
     (void) visible;
     (void) triangles;
   }
 
   /// touches() for the first `count` of eight spheres: returns one bit for each, and fills the
-  /// contacts whose bits are set. Called instead of touches() where a body is at rest, so it must
-  /// yield the same bits. To implement it pays for a shape that is computed in a few nanoseconds.
+  /// contacts whose bits are set. Called instead of touches(), so it must yield the same bits. To implement it pays for a shape that is computed in a few nanoseconds.
   virtual unsigned touches_eight(const EightSpheres &spheres, int count,
                                  EightContacts &contacts) const
   {

@@ -21,15 +21,10 @@ bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
   return dot(away, along) > tolerance * length(away) * length(along);
 }
 
-bool overlap(const Bounds &a, const Bounds &b)
-{
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 }    // namespace
 
-MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Bounds &cover) : mesh(its_mesh)
+MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Eigen::AlignedBox3d &cover) :
+    mesh(its_mesh)
 {
   const std::vector<int> numbers = members(cover);
   if (numbers.empty()) return;
@@ -45,11 +40,11 @@ MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Bounds &cover) : mesh
 /* Numbers in the mesh of the triangles within the cover, and of those that share a vertex with
    them. */
 
-std::vector<int> MeshDetail::members(const Bounds &cover)
+std::vector<int> MeshDetail::members(const Eigen::AlignedBox3d &cover)
 {
   std::vector<bool> within(mesh.size()), touched(mesh.num_vertices());
   for (int t = 0; t < mesh.size(); t++) {
-    within[t] = overlap(bounds_of(mesh.triangle(t)), cover);
+    within[t] = cover.intersects(bounds_of(mesh.triangle(t)));
     if (within[t])
       for (const int v : mesh.corners(t).vertex) touched[v] = true;
   }
@@ -197,7 +192,7 @@ float MeshDetail::corner_limit(int v, const Vector3<double> &n) const
 
 void MeshDetail::grow_tree()
 {
-  std::vector<Bounds> boxes;
+  std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(near.size());
   for (const int t : near)
     boxes.push_back(bounds_of({{faces[t].corner[0], faces[t].corner[1], faces[t].corner[2]}}));

@@ -31,7 +31,7 @@ struct NearestPoint {
 class MeshDetail {
  public:
   /// Of all triangles whose boxes touch `cover`.
-  MeshDetail(const TriangleMesh &mesh, const Bounds &cover);
+  MeshDetail(const TriangleMesh &mesh, const Eigen::AlignedBox3d &cover);
 
   /// Calls visit(t) for every triangle whose box is nearer to the point than `reach`, perhaps for
   /// some others.
@@ -54,8 +54,8 @@ class MeshDetail {
   /// distance.
   bool is_local_minimum(int t, const NearestPoint &nearest, double &height) const;
 
-  /// Starts to load what nearest() reads.
-  void call_ahead(int t) const
+  /// Prefetches what nearest() reads.
+  void prefetch(int t) const
   {
     const char *const at = reinterpret_cast<const char *>(&faces[t]);
     for (std::size_t byte = 0; byte < sizeof(Face); byte += 64) __builtin_prefetch(at + byte);
@@ -80,7 +80,7 @@ class MeshDetail {
   };
   static constexpr int none = -1;
 
-  std::vector<int> members(const Bounds &cover);
+  std::vector<int> members(const Eigen::AlignedBox3d &cover);
   void make_faces(const std::vector<int> &numbers);
   void find_neighbors(const MeshEdges &edges);
   void find_vertices(const std::vector<int> &numbers);

@@ -19,19 +19,6 @@ constexpr int max_planes = 4;    // that are remembered to be touched
 constexpr double spare = 0.1;
 constexpr double joins = 4.0;
 
-bool contains(const Bounds &outer, const Bounds &inner)
-{
-  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
-         inner.high.x <= outer.high.x && inner.high.y <= outer.high.y &&
-         inner.high.z <= outer.high.z;
-}
-
-double volume(const Bounds &b)
-{
-  const Vector3<double> span = b.high - b.low;
-  return span.x * span.y * span.z;
-}
-
 /// Keeps the deepest.
 void keep(SurfaceContact *raw, int &count, const SurfaceContact &contact)
 {
@@ -54,21 +41,21 @@ MeshShape::MeshShape(TriangleMesh m, bool both, bool focused) :
   if (!focused) look_at(mesh.bounds());
 }
 
-void MeshShape::look_at(const Bounds &bounds)
+void MeshShape::look_at(const Eigen::AlignedBox3d &bounds)
 {
   cover = bounds;
-  covers_all = contains(cover, mesh.bounds());
+  covers_all = cover.contains(mesh.bounds());
   detail.reset();    // both would be a waste of memory
   detail = std::make_unique<MeshDetail>(mesh, cover);
 }
 
-bool MeshShape::focus(const Bounds &bounds)
+bool MeshShape::focus(const Eigen::AlignedBox3d &bounds)
 {
-  if (bounds.low.x > bounds.high.x) return false;    // no particles: nothing will be asked
-  if (detail && (covers_all || contains(cover, bounds))) return false;
-  const Vector3<double> more = spare * (bounds.high - bounds.low);
-  Bounds wide{bounds.low - more, bounds.high + more};
-  if (detail && volume(joined(cover, wide)) <= joins * volume(wide)) wide = joined(cover, wide);
+  if (bounds.isEmpty()) return false;    // no particles: nothing will be asked
+  if (detail && (covers_all || cover.contains(bounds))) return false;
+  const Eigen::Vector3d more = spare * bounds.sizes();
+  Eigen::AlignedBox3d wide(bounds.min() - more, bounds.max() + more);
+  if (detail && cover.merged(wide).volume() <= joins * wide.volume()) wide.extend(cover);
   look_at(wide);
   return true;
 }
@@ -196,8 +183,7 @@ bool MeshShape::touches(const Vector3<double> &center, double radius, SurfaceCon
 double MeshShape::distance_bound(const Vector3<double> &center) const
 {
   // a first guess that is doubled until something is found
-  const Vector3<double> span = mesh.bounds().high - mesh.bounds().low;
-  double reach = 0.01 * std::sqrt(dot(span, span));
+  double reach = 0.01 * mesh.bounds().diagonal().norm();
   double least = std::numeric_limits<double>::infinity();
   while (std::isinf(least)) {
     detail->visit_near(center, reach,
@@ -208,7 +194,8 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
   return std::sqrt(least);
 }
 
-void MeshShape::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangles) const
+void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,
+                           std::vector<Triangle> &triangles) const
 {
   for (int t = 0; t < mesh.size(); t++) triangles.push_back(mesh.triangle(t));
 }

@@ -42,18 +42,19 @@ class MeshShape : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return mesh.center(); }
-  bool one_contact() const override { return false; }
+  int most_contacts() const override { return max_contacts; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
   bool is_near(const Vector3<double> &center, double reach,
                std::vector<NearPart> &parts) const override;
-  void call_ahead(int part) const override { detail->call_ahead(part); }
+  void prefetch(int part) const override { detail->prefetch(part); }
   bool wants_focus() const override { return !covers_all; }
-  bool focus(const Bounds &bounds) override;
-  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+  bool focus(const Eigen::AlignedBox3d &bounds) override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
-  void look_at(const Bounds &bounds);
+  void look_at(const Eigen::AlignedBox3d &bounds);
   bool contact_with(int t, const Vector3<double> &center, double radius, SurfaceContact &contact,
                     double &face_height) const;
   template <class Take>
@@ -65,7 +66,7 @@ class MeshShape : public LargeBodyShape {
 
   TriangleMesh mesh;
   std::unique_ptr<MeshDetail> detail;
-  Bounds cover;
+  Eigen::AlignedBox3d cover;
   bool covers_all = false;
   bool two_sided;
 };

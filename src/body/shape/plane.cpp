@@ -2,7 +2,8 @@
 
 #include "body/shape/plane.h"
 
-#include "body/contact/record_lanes.h"
+#include "base/lanes.h"
+#include "base/linear_algebra.h"
 
 #include <cmath>
 #include <limits>
@@ -48,13 +49,10 @@ bool Plane::touches(const Vector3<double> &center, double radius, SurfaceContact
 
 unsigned Plane::touches_eight(const EightSpheres &spheres, int count, EightContacts &contacts) const
 {
-  const auto all = [](const Vector3<double> &v) {
-    return Vector3<Vec8>{splat<Vec8>(v.x), splat<Vec8>(v.y), splat<Vec8>(v.z)};
-  };
   const Vector3<Vec8> center{load8(spheres.center[0]), load8(spheres.center[1]),
                              load8(spheres.center[2])};
-  const Vector3<Vec8> n = all(normal);
-  const Vec8 height = dot(center - all(point), n), radius = load8(spheres.radius);
+  const Vector3<Vec8> n = in_all_lanes<Vec8>(normal);
+  const Vec8 height = dot(center - in_all_lanes<Vec8>(point), n), radius = load8(spheres.radius);
   const Vec8 away = magnitude(height);
   const bool_of<Vec8> flip = height < splat<Vec8>(two_sided ? 0.0 : -infinity);
   const Vector3<Vec8> outward = select(flip, -n, n);
@@ -72,10 +70,10 @@ double Plane::distance_bound(const Vector3<double> &center) const
 
 /* A square larger than what is visible, cut off at its sides. */
 
-void Plane::tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const
+void Plane::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const
 {
-  const Vector3<double> span = visible.high - visible.low;
-  const Vector3<double> center = visible.low + 0.5 * span;
+  const Vector3<double> span = from_eigen(visible.sizes());
+  const Vector3<double> center = from_eigen(visible.center());
   const Vector3<double> foot = center - dot(center - point, normal) * normal;
   const Vector3<double> axis =
       std::fabs(normal.x) < 0.6 ? Vector3<double>{1.0, 0.0, 0.0} : Vector3<double>{0.0, 1.0, 0.0};
@@ -86,8 +84,8 @@ void Plane::tessellate(const Bounds &visible, std::vector<Triangle> &triangles) 
   std::vector<Vector3<double>> polygon{foot - u - v, foot + u - v, foot + u + v, foot - u + v};
   const Vector3<double> axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   for (const Vector3<double> &e : axes) {
-    polygon = clipped(polygon, e, dot(visible.low, e));
-    polygon = clipped(polygon, -e, -dot(visible.high, e));
+    polygon = clipped(polygon, e, dot(from_eigen(visible.min()), e));
+    polygon = clipped(polygon, -e, -dot(from_eigen(visible.max()), e));
   }
   for (std::size_t k = 1; k + 1 < polygon.size(); k++)
     triangles.push_back({{polygon[0], polygon[k], polygon[k + 1]}});

@@ -22,7 +22,8 @@ class Plane : public LargeBodyShape {
                          EightContacts &contacts) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return point; }
-  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   Vector3<double> point, normal;

@@ -52,7 +52,8 @@ double Rectangle::distance_bound(const Vector3<double> &center) const
   return std::sqrt(dot(away, away));
 }
 
-void Rectangle::tessellate(const Bounds & /*visible*/, std::vector<Triangle> &triangles) const
+void Rectangle::tessellate(const Eigen::AlignedBox3d & /*visible*/,
+                           std::vector<Triangle> &triangles) const
 {
   const Vector3<double> u = first_half * first, v = second_half * second;
   triangles.push_back({{middle - u - v, middle + u - v, middle + u + v}});

@@ -23,7 +23,8 @@ class Rectangle : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  void tessellate(const Bounds &visible, std::vector<Triangle> &triangles) const override;
+  void tessellate(const Eigen::AlignedBox3d &visible,
+                  std::vector<Triangle> &triangles) const override;
 
  private:
   /// Vector from the nearest point of the rectangle to `center`; `above`: that point is inside it.

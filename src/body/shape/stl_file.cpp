@@ -2,11 +2,12 @@
 
 #include "body/shape/stl_file.h"
 
+#include "base/words.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 
 namespace Talus {
@@ -49,24 +50,20 @@ std::vector<Triangle> parse_binary(const std::string &content, std::size_t count
   return triangles;
 }
 
-/// Words of an ASCII file, with the line they stand in.
-class Words {
+/// Words of an ASCII file in lower case, with the line they stand in.
+class StlWords {
  public:
-  explicit Words(const std::string &content) : lines(content) {}
+  explicit StlWords(const std::string &content) : text(content) {}
 
   bool next(std::string &word)
   {
-    while (!(current >> word)) {
-      std::string line;
-      if (!std::getline(lines, line)) return false;
-      number++;
-      current.clear();
-      current.str(line);
-    }
-    return true;
+    for (; at < text.size() && is_space(text[at]); at++) line += text[at] == '\n' ? 1 : 0;
+    word.clear();
+    for (; at < text.size() && !is_space(text[at]); at++) word.push_back(lower(text[at]));
+    return !word.empty();
   }
-  void skip_line() { current.str(""); }
-  std::string place() const { return "line " + std::to_string(number); }
+  void skip_line() { at = std::min(text.find('\n', at), text.size()); }
+  std::string place() const { return "line " + std::to_string(line); }
 
   void expect(const char *wanted)
   {
@@ -79,19 +76,22 @@ class Words {
   {
     std::string word;
     if (!next(word)) fail("the file ends within a triangle");
-    char *end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end || !std::isfinite(value))
+    const double value = parse_number(word);
+    if (!std::isfinite(value))
       fail(place() + ": expected a finite number instead of '" + word + "'");
     return value;
   }
 
  private:
-  std::istringstream lines, current;
-  int number = 0;
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+  const std::string &text;
+  std::size_t at = 0;
+  int line = 1;
 };
 
-Triangle parse_facet(Words &words)
+Triangle parse_facet(StlWords &words)
 {
   // the normal is not used, and may be "nan" in files of broken programs
   std::string unused;
@@ -114,7 +114,7 @@ Triangle parse_facet(Words &words)
 std::vector<Triangle> parse_ascii(const std::string &content)
 {
   std::vector<Triangle> triangles;
-  Words words(content);
+  StlWords words(content);
   std::string word;
   words.expect("solid");
   words.skip_line();    // its name may have any words
@@ -134,28 +134,65 @@ std::vector<Triangle> parse_ascii(const std::string &content)
   return triangles;
 }
 
+/// Begins with the word that ASCII files begin with, and has no byte that no text has.
+bool is_ascii(const std::string &content)
+{
+  std::string word;
+  return StlWords(content).next(word) && word.compare(0, 5, "solid") == 0 &&
+         content.find('\0') == std::string::npos;
+}
+
+/// A number as coordinates are: other files have all kinds.
+bool is_usual(double value)
+{
+  return value == 0.0 || (std::fabs(value) > 1.0e-20 && std::fabs(value) < 1.0e20);
+}
+
+/// Behind the header stands something like a triangle, or nothing; and it is no text.
+bool looks_binary(const std::string &content)
+{
+  if (content.size() < header || content.find('\0') == std::string::npos) return false;
+  if (content.size() < header + record) return content.size() == header;
+  for (int k = 3; k < 12; k++)
+    if (!is_usual(real(content.data() + header + 4 * k))) return false;
+  return true;
+}
+
+/// How a file begins that is no STL file, as far as it can be printed.
+std::string beginning_of(const std::string &content)
+{
+  std::string text;
+  for (const char c : content) {
+    if (c < ' ' || c > '~' || text.size() == 30) break;
+    text.push_back(c);
+  }
+  return text.empty() ? "no text" : "'" + text + "'";
+}
+
 }    // namespace
 
-std::vector<Triangle> parse_stl(const std::string &content)
+StlContent parse_stl(const std::string &content)
 {
   if (content.empty()) fail("the file is empty");
-  std::vector<Triangle> triangles;
+  StlContent found;
   const bool has_header = content.size() >= header;
   const std::size_t count = has_header ? little_endian(content.data() + 80) : 0;
   const std::size_t size = header + record * count;
-  const bool ascii = content.compare(0, 5, "solid") == 0;
-  if (has_header && size == content.size()) {
-    triangles = parse_binary(content, count);
-  } else if (ascii) {
-    triangles = parse_ascii(content);
-  } else if (has_header) {
+  const bool is_exact = has_header && size == content.size();
+  if (!is_exact && is_ascii(content)) {
+    found.triangles = parse_ascii(content);
+  } else if (is_exact || (size < content.size() && looks_binary(content))) {
+    found.triangles = parse_binary(content, count);
+    found.trailing_bytes = content.size() - size;
+  } else if (looks_binary(content)) {
     fail("it announces " + std::to_string(count) + " triangles, which are " + std::to_string(size) +
          " bytes, but has " + std::to_string(content.size()) + " bytes");
   } else {
-    fail("it is no STL file: it neither begins with 'solid' nor has a binary header");
+    fail("it is no STL file: it begins with " + beginning_of(content) +
+         ", where an ASCII file has 'solid' and a binary one a header and triangles");
   }
-  if (triangles.empty()) fail("it has no triangles");
-  return triangles;
+  if (found.triangles.empty()) fail("it has no triangles");
+  return found;
 }
 
 }    // namespace Talus

@@ -12,12 +12,18 @@
 
 namespace Talus {
 
-/// Reads the content of a file (all its bytes). A file is binary if its length is that which the
-/// count after the 80 bytes of header demands, otherwise ASCII if it begins with `solid`. Normals
+struct StlContent {
+  std::vector<Triangle> triangles;
+  std::size_t trailing_bytes = 0;    ///< of a binary file, behind its triangles; not read
+};
+
+/// Reads the content of a file (all its bytes), in any locale. A file is binary if its length is
+/// that which the count after the 80 bytes of header demands; otherwise ASCII if it is text that
+/// begins with `solid`, in upper or lower case; otherwise binary with something behind it. Normals
 /// in the file are not used: the order of the corners decides. Throws std::runtime_error with a
 /// text that names the triangle (from 1) or the line, and the cause, if the content is empty,
 /// truncated, no STL, holds a coordinate that is not a finite number, or no triangle.
-std::vector<Triangle> parse_stl(const std::string &content);
+StlContent parse_stl(const std::string &content);
 
 }    // namespace Talus
 

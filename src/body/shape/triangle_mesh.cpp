@@ -33,10 +33,10 @@ struct CoordinateHash {
 
 }    // namespace
 
-Bounds bounds_of(const Triangle &t)
+Eigen::AlignedBox3d bounds_of(const Triangle &t)
 {
-  Bounds box{t.corner[0], t.corner[0]};
-  for (const Vector3<double> &p : t.corner) box = joined(box, {p, p});
+  Eigen::AlignedBox3d box;
+  for (const Vector3<double> &p : t.corner) box.extend(to_eigen(p));
   return box;
 }
 
@@ -48,8 +48,7 @@ TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
   triangles.shrink_to_fit();
   if (triangles.size() == soup.size()) file_numbers.clear();
   file_numbers.shrink_to_fit();
-  extent = {vertices[0], vertices[0]};
-  for (const Vector3<double> &p : vertices) extent = joined(extent, {p, p});
+  for (const Vector3<double> &p : vertices) extent.extend(to_eigen(p));
   const MeshEdges edges(triangles);
   look_at_edges(edges);
   find_patches(edges);
@@ -153,7 +152,7 @@ void TriangleMesh::find_planes(const MeshEdges &edges)
 
 void TriangleMesh::spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do)
 {
-  const double allowed = plane_tolerance * length(extent.high - extent.low);
+  const double allowed = plane_tolerance * length(from_eigen(extent.sizes()));
   const Vector3<double> n = normal(first), origin = vertices[triangles[first].vertex[0]];
   planes[first] = first;
   to_do.assign(1, first);

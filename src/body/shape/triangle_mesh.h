@@ -6,6 +6,7 @@
 #ifndef TALUS_BODY_SHAPE_TRIANGLE_MESH_H
 #define TALUS_BODY_SHAPE_TRIANGLE_MESH_H
 
+#include "base/linear_algebra.h"
 #include "body/shape/large_body_shape.h"
 #include "body/shape/mesh_edges.h"
 
@@ -55,7 +56,7 @@ class TriangleMesh {
   /// center of the area.
   double volume() const { return enclosed; }
   const Vector3<double> &center() const { return middle; }
-  const Bounds &bounds() const { return extent; }
+  const Eigen::AlignedBox3d &bounds() const { return extent; }
 
   double memory_usage() const;
 
@@ -72,13 +73,13 @@ class TriangleMesh {
   std::vector<int> patches, planes;
   std::vector<int> file_numbers;    // empty: those of the file
   MeshReport findings;
-  Bounds extent{};
+  Eigen::AlignedBox3d extent;
   double enclosed = 0.0;
   Vector3<double> middle{0.0, 0.0, 0.0};
 };
 
 /// The box around a triangle.
-Bounds bounds_of(const Triangle &t);
+Eigen::AlignedBox3d bounds_of(const Triangle &t);
 
 }    // namespace Talus
 

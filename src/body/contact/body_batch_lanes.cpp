@@ -1,0 +1,265 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What laws read of particles, from records or the host's arrays to lanes; and forces, torques and
+// histories from lanes to where they are kept.
+
+#include "body/contact/body_batch.h"
+
+#include <algorithm>
+
+namespace Talus {
+namespace {
+
+using Lanes = double[3][ContactBatch::width];
+
+inline Vector3<Vec8> vector_at(const Lanes &v, int k)
+{
+  return {load8(&v[0][k]), load8(&v[1][k]), load8(&v[2][k])};
+}
+
+inline void store_at(Lanes &to, int k, const Vector3<Vec8> &v)
+{
+  store(&to[0][k], v.x);
+  store(&to[1][k], v.y);
+  store(&to[2][k], v.z);
+}
+
+inline EightRows rows_of(const Vector3<Vec8> &v, Vec8 fourth)
+{
+  return {{v.x, v.y, v.z, fourth}};
+}
+
+inline Vector3<Vec8> vector_of(const EightRows &rows)
+{
+  return {rows.number[0], rows.number[1], rows.number[2]};
+}
+
+/// A force record whose particle has a settled torque, see ParticleRecords::settle_torque().
+inline Vec4 settled(Vec4 force)
+{
+  return __builtin_shufflevector(force, Vec4{1.0, 1.0, 1.0, 1.0}, 0, 1, 2, 4);
+}
+
+inline double sum_of(Vec8 lane)
+{
+  double sum = 0.0;
+  for (int k = 0; k < lanes; k++) sum += lane[k];
+  return sum;
+}
+
+}    // namespace
+
+/* Seen from the body, the particle moves with its velocity less that which the body would have at
+   its center, and turns with its omega less the body's: so sliding, rolling and twisting are those
+   of the two surfaces. A body that is not free is infinitely heavy: m_eff is the mass of the
+   particle. R_eff is its radius. */
+
+void BodyBatch::gather()
+{
+  const BodyFrame &frame = task->frame;
+  for (int k = 0; k < end; k += lanes) {
+    int index[lanes];
+    for (int q = 0; q < lanes; q++) index[q] = task->index[candidate_of_lane[k + q]];
+    Motion m = task->view.records ? motion_in_records(index, k) : motion_in_arrays(index, k);
+    if (frame.moves) {
+      m.velocity = frame.to_body(m.velocity - frame.velocity_at(vector_at(place, k)));
+      m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
+      m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
+    }
+    store_at(batch.velocity, k, m.velocity);
+    store(&batch.inverse_mass[k], m.inverse_mass);
+    store(&batch.inverse_radius[k], m.inverse_radius);
+    if (law.has_friction()) store_at(batch.spin, k, load8(&radius[k]) * m.omega);
+    if (law.resists()) store_at(batch.relative_omega, k, m.omega);
+    if (task->with_history) gather_histories(k);
+  }
+  if (law.resists()) gather_resistance();
+  if (!task->laws.uniform()) gather_coefficients();
+}
+
+BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const
+{
+  const ParticleRecords &records = *task->view.records;
+  const EightRows velocity =
+      to_lanes([&](int q) -> const Record & { return records.velocity(index[q]); });
+  if (!law.has_friction())
+    return {vector_of(velocity), Vector3<Vec8>{}, velocity.number[3],
+            splat<Vec8>(1.0) / load8(&radius[k])};
+  const EightRows omega = to_lanes([&](int q) -> const Record & { return records.spin(index[q]); });
+  return {vector_of(velocity), vector_of(omega), velocity.number[3], omega.number[3]};
+}
+
+BodyBatch::Motion BodyBatch::motion_in_arrays(const int *index, int k) const
+{
+  const BodyParticleView &view = task->view;
+  const bool turns = law.has_friction();
+  alignas(64) double velocity[3][lanes], omega[3][lanes] = {}, inverse_mass[lanes];
+  for (int q = 0; q < lanes; q++) {
+    const long row = 3L * index[q];
+    for (int d = 0; d < 3; d++) velocity[d][q] = view.v[row + d];
+    for (int d = 0; d < 3 && turns; d++) omega[d][q] = view.omega[row + d];
+    inverse_mass[q] = view.inverse_mass_in_arrays(index[q]);
+  }
+  return {{load8(velocity[0]), load8(velocity[1]), load8(velocity[2])},
+          {load8(omega[0]), load8(omega[1]), load8(omega[2])},
+          load8(inverse_mass),
+          splat<Vec8>(1.0) / load8(&radius[k])};
+}
+
+void BodyBatch::gather_histories(int k)
+{
+  const std::uint32_t *const slot = slots() + k;
+  const auto keep = [&](int first, const EightRows &values) {
+    for (int n = 0; n < 4; n++) store(&batch.history[first + n][k], values.number[n]);
+  };
+  keep(0, to_lanes([&](int q) -> const Record & { return task->history.record(slot[q]); }));
+  if (task->with_impact)
+    keep(4, to_lanes([&](int q) -> const Record & { return task->history.impact(slot[q]); }));
+}
+
+/* The body is flat on the scale of the contact: the circle in which it cuts the sphere. */
+
+void BodyBatch::gather_resistance()
+{
+  const Vec8 zero{};
+  for (int k = 0; k < end; k += lanes) {
+    const Vec8 r = load8(&radius[k]), d = load8(&batch.overlap[k]);
+    const Vec8 square = 2.0 * r * d - d * d;
+    store(&batch.circle[k], square_root(select(square < zero, zero, square)));
+  }
+}
+
+void BodyBatch::gather_coefficients()
+{
+  for (int k = 0; k < end; k++) batch.coefficients[k] = task->row_of(candidate_of_lane[k]);
+}
+
+void BodyBatch::keep_histories()
+{
+  const std::uint32_t *const slot = slots();
+  for (int k = 0; k < filled; k += lanes) {
+    Record its[lanes], impact[lanes];
+    const auto values = [&](int first) {
+      EightRows rows;
+      for (int n = 0; n < 4; n++) rows.number[n] = load8(&batch.history[first + n][k]);
+      return rows;
+    };
+    to_rows(values(0), its);
+    if (task->with_impact) to_rows(values(4), impact);
+    for (int q = 0; q < std::min(lanes, filled - k); q++) {
+      task->history.record(slot[k + q]) = its[q];
+      if (task->with_impact) task->history.impact(slot[k + q]) = impact[q];
+    }
+  }
+}
+
+/* From here on normals, forces, moments and couples are in the axes of space. */
+
+void BodyBatch::turn_to_space()
+{
+  for (int k = 0; k < end; k += lanes) {
+    const auto turn = [&](Lanes &v) { store_at(v, k, task->frame.to_space(vector_at(v, k))); };
+    turn(batch.normal);
+    turn(batch.force);
+    if (law.has_friction()) turn(batch.moment);
+    if (law.resists()) turn(batch.couple);
+  }
+}
+
+/* couple - r moment */
+
+EightRows BodyBatch::torques(int k) const
+{
+  Vector3<Vec8> torque = -load8(&radius[k]) * vector_at(batch.moment, k);
+  if (law.resists()) torque = vector_at(batch.couple, k) + torque;
+  return rows_of(torque, Vec8{});
+}
+
+/* The mark of settle_torque() is set together with the force: a record that is read whole right
+   after one number of it was written is late. */
+
+void BodyBatch::add_to_records()
+{
+  ParticleRecords &records = *task->view.records;
+  const bool turns = law.has_friction();
+  for (int k = 0; k < filled; k += lanes) {
+    Record force[lanes], torque[lanes];
+    to_rows(rows_of(vector_at(batch.force, k), Vec8{}), force);
+    if (turns) to_rows(torques(k), torque);
+    for (int q = 0; q < std::min(lanes, filled - k); q++) {
+      const int slot = task->index[candidate_of_lane[k + q]];
+      Record *const load = &records.load[records.stride * slot];
+      const Vec4 sum = load4(load[0]) + load4(force[q]);
+      if (turns) store(load[1], records.torque(slot) + load4(torque[q]));
+      store(load[0], turns ? settled(sum) : sum);
+    }
+  }
+}
+
+void BodyBatch::add_to_arrays()
+{
+  const bool turns = law.has_friction();
+  for (int k = 0; k < filled; k += lanes) {
+    Record torque[lanes];
+    if (turns) to_rows(torques(k), torque);
+    for (int q = 0; q < std::min(lanes, filled - k); q++) {
+      const long row = 3L * task->index[candidate_of_lane[k + q]];
+      for (int d = 0; d < 3; d++) task->view.f[row + d] += batch.force[d][k + q];
+      for (int d = 0; d < 3 && turns; d++) task->view.torque[row + d] += torque[q].c[d];
+    }
+  }
+}
+
+/* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
+   twisting resistance act as couples of opposite sign: so forces and torques of particle and body
+   balance exactly. */
+
+void BodyBatch::add_load()
+{
+  for (auto *vector : {batch.force, batch.moment, batch.couple})
+    for (int d = 0; d < 3; d++) std::fill(vector[d] + filled, vector[d] + end, 0.0);
+  const BodyFrame &frame = task->frame;
+  const Vector3<Vec8> about = in_all_lanes<Vec8>(frame.moves ? frame.state.position : frame.origin);
+  for (int k = 0; k < end; k += lanes) {
+    const Vec8 r = load8(&radius[k]);
+    const Vector3<Vec8> force = vector_at(batch.force, k), normal = vector_at(batch.normal, k);
+    const Vector3<Vec8> arm = vector_at(place, k) - r * normal - about;
+    Vector3<Vec8> torque = -cross(arm, force);
+    if (law.resists())
+      torque = torque - (vector_at(batch.couple, k) -
+                         r * (vector_at(batch.moment, k) - cross(normal, force)));
+    load_of_lanes[0] = load_of_lanes[0] - force;
+    load_of_lanes[1] = load_of_lanes[1] + torque;
+    for (int q = 0; q < std::min(lanes, filled - k) && task->exact; q++)
+      exact.add({-force.x[q], -force.y[q], -force.z[q]}, {torque.x[q], torque.y[q], torque.z[q]});
+  }
+}
+
+/* Branch from the surface to the center, times force: xx yy zz xy xz yz. */
+
+void BodyBatch::add_virials()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    const double r = radius[lane];
+    const Vector3<double> f{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
+    const Vector3<double> b{r * batch.normal[0][lane], r * batch.normal[1][lane],
+                            r * batch.normal[2][lane]};
+    double *const v = task->view.virial + 6L * task->candidates.atom(candidate_of_lane[lane]);
+    v[0] += b.x * f.x;
+    v[1] += b.y * f.y;
+    v[2] += b.z * f.z;
+    v[3] += b.x * f.y;
+    v[4] += b.x * f.z;
+    v[5] += b.y * f.z;
+  }
+}
+
+void BodyBatch::sum_up()
+{
+  const auto sum = [](const Vector3<Vec8> &lane) {
+    return Vector3<double>{sum_of(lane.x), sum_of(lane.y), sum_of(lane.z)};
+  };
+  load.add({sum(load_of_lanes[0]), sum(load_of_lanes[1]), touching});
+}
+
+}    // namespace Talus

@@ -1,0 +1,167 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "body/contact/body_candidates.h"
+
+#include "base/in_parallel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace Talus {
+namespace {
+
+// A body may go half a skin before its list is made anew; particles may each go half a skin in one
+// direction before the rebuild that the list is made after, and half a skin in the other.
+constexpr double free_way = 0.5;
+
+constexpr double near = 1.01;    // of the radius: parts within it are probably touched
+
+}    // namespace
+
+struct BodyCandidates::Search {
+  const LargeBodyShape &shape;
+  const BodyFrame &frame;
+  const BodyParticleView &view;
+  const int *mask;
+  int group;
+  double margin;
+
+  bool wants(int i) const { return mask[i] & group; }
+  Vector3<double> place(int i) const { return frame.point_to_body(view.position(i)); }
+  double reach(int i) const { return view.radius_of(i) + margin; }
+  /// From the reference point; asked for only if the body moves.
+  double farthest(const Vector3<double> &x, double reach) const
+  {
+    return frame.moves ? length(x - frame.origin) + reach : 0.0;
+  }
+};
+
+void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
+                          const BodyParticleView &view, const int *mask, int group, double skin,
+                          int threads)
+{
+  particles.clear();
+  listed.clear();
+  most_contacts.clear();
+  parts.clear();
+  parts_begin.assign(1, 0);
+  listed_frame = frame;
+  listed_reach = 0.0;
+  const double margin = frame.moves ? (1.0 + free_way) * skin : skin;
+  const Search search{shape, frame, view, mask, group, margin};
+  if (shape.most_contacts() == 1)
+    list_near(search, shape.thread_safe() ? threads : 1);
+  else
+    list_with_parts(search);
+}
+
+/* By several threads, each for a range of the particles. */
+
+void BodyCandidates::list_near(const Search &search, int threads)
+{
+  struct Found {
+    std::vector<int> near;
+    double farthest = 0.0;
+  };
+  std::vector<Found> found(threads);
+  in_ranges(search.view.owned, threads, [&](int t, int begin, int end) {
+    Found its;
+    for (int i = begin; i < end; i++) {
+      if (!search.wants(i)) continue;
+      const Vector3<double> x = search.place(i);
+      const double reach = search.reach(i);
+      its.farthest = std::max(its.farthest, search.farthest(x, reach));
+      if (search.shape.distance_bound(x) < reach) its.near.push_back(i);
+    }
+    found[t] = std::move(its);
+  });
+  for (const Found &its : found) {
+    particles.insert(particles.end(), its.near.begin(), its.near.end());
+    listed_reach = std::max(listed_reach, its.farthest);
+  }
+}
+
+void BodyCandidates::list_with_parts(const Search &search)
+{
+  const std::size_t most = search.shape.most_contacts();
+  for (int i = 0; i < search.view.owned; i++) {
+    if (!search.wants(i)) continue;
+    const Vector3<double> x = search.place(i);
+    const double reach = search.reach(i);
+    listed_reach = std::max(listed_reach, search.farthest(x, reach));
+    if (!search.shape.is_near(x, reach, parts)) continue;
+    const std::size_t num_parts = parts.size() - parts_begin.back();
+    listed.push_back({x, num_parts ? parts[parts_begin.back()].distance : 0.0});
+    most_contacts.push_back(
+        static_cast<std::uint8_t>(num_parts ? std::min(num_parts, most) : most));
+    parts_begin.push_back(parts.size());
+    particles.push_back(i);
+  }
+}
+
+bool BodyCandidates::sort_by_slot(const int *slot_of_atom)
+{
+  const auto before = [slot_of_atom](int a, int b) { return slot_of_atom[a] < slot_of_atom[b]; };
+  if (std::is_sorted(particles.begin(), particles.end(), before)) return false;
+  std::sort(particles.begin(), particles.end(), before);
+  return true;
+}
+
+bool BodyCandidates::are_stale(const BodyFrame &frame, double skin) const
+{
+  return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
+}
+
+NearParts BodyCandidates::parts_near(std::size_t c, const Vector3<double> &x, double radius,
+                                     bool &may_touch) const
+{
+  // a little more than the way that it went: rounding must not hide a part
+  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed[c].at) + 1.0e-9 * radius;
+  may_touch = listed[c].nearest < reach;
+  const NearPart *const begin = parts.data() + parts_begin[c];
+  const NearPart *const last = parts.data() + parts_begin[c + 1];
+  const NearPart *end = begin;
+  while (end != last && end->distance < reach) end++;
+  return {begin, end};
+}
+
+void BodyCandidates::prefetch_list(std::size_t c, double radius) const
+{
+  if (listed[c].nearest < near * radius) __builtin_prefetch(parts.data() + parts_begin[c]);
+}
+
+void BodyCandidates::prefetch_parts(std::size_t c, double radius, const LargeBodyShape &shape) const
+{
+  if (listed[c].nearest >= near * radius) return;
+  for (std::size_t p = parts_begin[c]; p < parts_begin[c + 1]; p++) {
+    if (parts[p].distance > near * radius) break;
+    shape.prefetch(parts[p].part);
+  }
+}
+
+Eigen::AlignedBox3d BodyCandidates::bounds_of_search(const BodyFrame &frame,
+                                                     const BodyParticleView &view, const int *mask,
+                                                     int group, double skin)
+{
+  Eigen::AlignedBox3d box;
+  double largest = 0.0;
+  for (int i = 0; i < view.owned; i++) {
+    if (!(mask[i] & group)) continue;
+    box.extend(to_eigen(frame.point_to_body(view.position(i))));
+    largest = std::max(largest, view.radius_of(i));
+  }
+  if (box.isEmpty()) return box;
+  // listed with the margin of list(); they go half a skin, the body what it may until it is stale
+  const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
+  return {box.min() - around, box.max() + around};
+}
+
+double BodyCandidates::memory_usage() const
+{
+  const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
+  return bytes(particles) + bytes(listed) + bytes(most_contacts) + bytes(parts_begin) +
+         bytes(parts);
+}
+
+}    // namespace Talus

@@ -1,0 +1,83 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The owned particles of a rank that may touch a large body before they are listed anew, and of
+// shapes with parts which of these are near each of them.
+
+#ifndef TALUS_BODY_CONTACT_BODY_CANDIDATES_H
+#define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
+
+#include "base/linear_algebra.h"
+#include "body/contact/body_particle_view.h"
+#include "body/motion/body_state.h"
+#include "body/shape/large_body_shape.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+class BodyCandidates {
+ public:
+  /// Lists the particles (mask & group) that may touch the body while no particle moves further
+  /// than `skin`, and the body not too far. `threads` are used for shapes that are thread_safe()
+  /// and touch at one point at most.
+  void list(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
+            const int *mask, int group, double skin, int threads);
+
+  /// The body has moved so far that particles must be listed anew.
+  bool are_stale(const BodyFrame &frame, double skin) const;
+
+  /// The box, in the frame of the body, around all that list() may ask the shape for until the next
+  /// call; empty without particles.
+  static Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const BodyParticleView &view,
+                                              const int *mask, int group, double skin);
+
+  /// Distance from the reference point within which all particles were when they were last listed;
+  /// only of bodies that move.
+  double reach() const { return listed_reach; }
+
+  std::size_t size() const { return particles.size(); }
+  /// Host's indices.
+  const std::vector<int> &atoms() const { return particles; }
+  int atom(std::size_t c) const { return particles[c]; }
+  /// How many contacts each may have at the same time; only of shapes with several.
+  const std::vector<std::uint8_t> &room() const { return most_contacts; }
+
+  /// Sorts candidates by slot, so that a step goes through the records from their beginning to
+  /// their end; returns whether this changed anything. Only without parts.
+  bool sort_by_slot(const int *slot_of_atom);
+
+  /// The parts that candidate c can have reached since it was listed, if it is at `x` (frame of the
+  /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.
+  NearParts parts_near(std::size_t c, const Vector3<double> &x, double radius,
+                       bool &may_touch) const;
+
+  /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
+  void prefetch_list(std::size_t c, double radius) const;
+  void prefetch_parts(std::size_t c, double radius, const LargeBodyShape &shape) const;
+
+  double memory_usage() const;
+
+ private:
+  struct Search;
+  void list_near(const Search &search, int threads);
+  void list_with_parts(const Search &search);
+
+  std::vector<int> particles;
+  BodyFrame listed_frame;
+  double listed_reach = 0.0;    // largest distance of a particle from the reference point
+
+  // by candidate, only of shapes with several contacts
+  struct Listed {
+    Vector3<double> at;    // frame of the body
+    double nearest;        // distance of the nearest of its parts, 0 without parts
+  };
+  std::vector<Listed> listed;
+  std::vector<std::uint8_t> most_contacts;
+  std::vector<std::size_t> parts_begin;    // and one more
+  std::vector<NearPart> parts;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,164 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "body/contact/body_history.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace Talus {
+
+int BodyHistory::count_of_entry(std::size_t entry) const
+{
+  if (with_several) return counts[entry];
+  if (entry >= num_candidates) return 1;
+  return static_cast<int>(touched(entry / 8) >> entry % 8 & 1U);
+}
+
+int BodyHistory::count(int particle) const
+{
+  return entry_of[particle] == nowhere ? 0 : count_of_entry(entry_of[particle]);
+}
+
+Record BodyHistory::of_particle(int particle) const
+{
+  return count(particle) ? records[first_slot(entry_of[particle])] : Record{};
+}
+
+BodyHistory::Contact BodyHistory::contact_at(std::size_t slot) const
+{
+  return {with_several ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0}, records[slot],
+          with_impact ? impacts[slot] : Record{}};
+}
+
+void BodyHistory::put(std::size_t slot, const Contact &contact)
+{
+  records[slot] = contact.history;
+  if (with_impact) impacts[slot] = contact.impact;
+  if (with_several) normals[slot] = contact.normal;
+}
+
+void BodyHistory::resize_slots(std::size_t n)
+{
+  records.resize(n);
+  impacts.resize(with_impact ? n : 0);
+  normals.resize(with_several ? n : 0);
+}
+
+int BodyHistory::pack(int particle, double *buf) const
+{
+  const int number = count(particle);
+  double *to = buf;
+  *to++ = number;
+  for (int k = 0; k < number; k++) {
+    const Contact c = contact_at(first_slot(entry_of[particle]) + k);
+    for (const double component : {c.normal.x, c.normal.y, c.normal.z}) *to++ = component;
+    to = std::copy(c.history.c, c.history.c + 4, to);
+    to = std::copy(c.impact.c, c.impact.c + 3, to);
+  }
+  return static_cast<int>(to - buf);
+}
+
+/* Most particles that arrive are far from the body: they get no slot. The file of a restart may
+   hold more contacts than the body can have now. */
+
+int BodyHistory::unpack(int particle, const double *buf)
+{
+  const int number = static_cast<int>(buf[0]);
+  const int kept = std::min(number, with_several ? LargeBodyShape::max_contacts : 1);
+  entry_of[particle] = nowhere;
+  if (kept) {
+    const std::size_t slot = records.size();
+    entry_of[particle] = static_cast<int>(with_several ? first.size() : slot);
+    if (with_several) {
+      first.push_back(static_cast<std::uint32_t>(slot));
+      counts.push_back(static_cast<std::uint8_t>(kept));
+    }
+    resize_slots(slot + kept);
+    for (int k = 0; k < kept; k++) {
+      const double *c = buf + 1 + k * size_contact;
+      put(slot + k, {{c[0], c[1], c[2]}, {{c[3], c[4], c[5], c[6]}}, {{c[7], c[8], c[9], 0.0}}});
+    }
+  }
+  return 1 + number * size_contact;
+}
+
+void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room)
+{
+  const std::size_t n = candidates.size();
+  std::vector<int> from(n);
+  for (std::size_t c = 0; c < n; c++) from[c] = entry_of[candidates[c]];
+  std::fill(entry_of.begin(), entry_of.end(), nowhere);
+  for (std::size_t c = 0; c < n; c++) entry_of[candidates[c]] = static_cast<int>(c);
+
+  BodyHistory old = std::exchange(*this, BodyHistory{});
+  keep(old.with_several, old.with_impact);
+  entry_of.swap(old.entry_of);
+  num_candidates = n;
+  touching = std::vector<std::atomic<std::uint8_t>>(with_several ? 0 : (n + 7) / 8);
+  const auto old_count = [&](std::size_t c) {
+    return from[c] == nowhere ? 0 : old.count_of_entry(from[c]);
+  };
+  std::size_t slots = 0;
+  for (std::size_t c = 0; c < n && with_several; c++) {
+    counts.push_back(static_cast<std::uint8_t>(old_count(c)));
+    first.push_back(static_cast<std::uint32_t>(slots));
+    slots += std::max(room[c], counts[c]);
+  }
+  resize_slots(with_several ? slots : n);
+  for (std::size_t c = 0; c < n; c++) {
+    const int number = old_count(c);
+    for (int k = 0; k < number; k++)
+      put(first_slot(c) + k, old.contact_at(old.first_slot(from[c]) + k));
+    if (with_several) continue;
+    if (number)
+      touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8));
+    else
+      put(c, Contact{});
+  }
+}
+
+void BodyHistory::clear(std::size_t block, unsigned separated)
+{
+  for (std::size_t c = 8 * block; separated; c++, separated >>= 1U) {
+    if (!(separated & 1U)) continue;
+    records[c] = Record{};
+    if (with_impact) impacts[c] = Record{};
+  }
+}
+
+void BodyHistory::continue_contacts(std::size_t candidate, const SurfaceContact *found, int count)
+{
+  constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
+  Contact old[LargeBodyShape::max_contacts];
+  const int known = counts[candidate];
+  const std::size_t slot = first[candidate];
+  for (int k = 0; k < known; k++) old[k] = contact_at(slot + k);
+  unsigned taken = 0;
+  for (int n = 0; n < count; n++) {
+    Contact now{found[n].normal, Record{}, Record{}};
+    int best = -1;
+    double largest = least_cosine;
+    for (int k = 0; k < known; k++) {
+      const double cosine = dot(old[k].normal, now.normal);
+      if ((taken >> k & 1U) || cosine <= largest) continue;
+      largest = cosine;
+      best = k;
+    }
+    if (best >= 0) {
+      taken |= 1U << best;
+      now.history = old[best].history;
+      now.impact = old[best].impact;
+    }
+    put(slot + n, now);
+  }
+  counts[candidate] = static_cast<std::uint8_t>(count);
+}
+
+double BodyHistory::memory_usage() const
+{
+  const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
+  return bytes(entry_of) + bytes(first) + bytes(counts) + bytes(records) + bytes(impacts) +
+         bytes(normals) + bytes(touching);
+}
+
+}    // namespace Talus

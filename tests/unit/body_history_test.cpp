@@ -1,0 +1,223 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Histories of the candidates of a body, on their way with the particles; and which contact of the
+// step before one of several continues.
+
+#include "body/contact/body_history.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace Talus;
+
+namespace {
+
+using V = Vector3<double>;
+using Packed = std::vector<double>;
+const std::vector<std::uint8_t> no_room;
+
+/// Whether impacts are kept, and whether there may be several contacts.
+class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
+ protected:
+  bool impacts() const { return std::get<0>(GetParam()); }
+  bool several() const { return std::get<1>(GetParam()); }
+
+  BodyHistoryTest()
+  {
+    history.keep(several(), impacts());
+    history.grow(20);
+    follow({3, 17, 5, 11});
+    for (int c = 0; c < 4; c++) set(c, 10.0 * (c + 1));
+  }
+
+  void follow(const std::vector<int> &candidates)
+  {
+    history.follow(candidates, std::vector<std::uint8_t>(several() ? candidates.size() : 0, 2));
+  }
+
+  /// A candidate touches: at one point, or at two whose histories differ by 100.
+  void set(int candidate, double value)
+  {
+    if (several()) {
+      const SurfaceContact found[2] = {{V{0.0, 0.0, 1.0}, 0.1}, {V{1.0, 0.0, 0.0}, 0.1}};
+      history.continue_contacts(candidate, found, 2);
+    } else {
+      history.set_touching(0, 1U << candidate, 1U << candidate);
+    }
+    for (int k = 0; k < (several() ? 2 : 1); k++) {
+      const double its = value + 100.0 * k;
+      const std::uint32_t slot = history.first_slot(candidate) + k;
+      history.record(slot) = {{its, its + 1.0, its + 2.0, 1.0}};
+      if (impacts()) history.impact(slot) = {{its + 3.0, its + 4.0, 1.0, 0.0}};
+    }
+  }
+
+  Packed packed(int particle) const
+  {
+    Packed values(history.size_packed(particle), 7.0);
+    EXPECT_EQ(history.pack(particle, values.data()), values.size());
+    return values;
+  }
+
+  Packed expected(double value) const
+  {
+    if (value == 0.0) return {0.0};
+    Packed values{several() ? 2.0 : 1.0};
+    for (int k = 0; k < values[0]; k++) {
+      const double its = value + 100.0 * k;
+      const Packed normal =
+          several() ? (k ? Packed{1.0, 0.0, 0.0} : Packed{0.0, 0.0, 1.0}) : Packed(3, 0.0);
+      values.insert(values.end(), normal.begin(), normal.end());
+      for (const double a : {its, its + 1.0, its + 2.0, 1.0}) values.push_back(a);
+      for (const double a : {its + 3.0, its + 4.0, 1.0}) values.push_back(impacts() ? a : 0.0);
+    }
+    return values;
+  }
+
+  BodyHistory history;
+};
+
+TEST_P(BodyHistoryTest, ParticlesKnowTheirContacts)
+{
+  const double value[20] = {0, 0, 0, 10, 0, 30, 0, 0, 0, 0, 0, 40, 0, 0, 0, 0, 0, 20};
+  for (int i = 0; i < 20; i++) {
+    EXPECT_EQ(packed(i), expected(value[i])) << i;
+    EXPECT_EQ(history.of_particle(i).c[0], value[i]);
+    EXPECT_EQ(history.count(i), expected(value[i])[0]);
+  }
+}
+
+TEST_P(BodyHistoryTest, FollowKeepsThoseThatStayAndForgetsTheOthers)
+{
+  follow({11, 4, 3});
+  EXPECT_EQ(packed(11), expected(40.0));
+  EXPECT_EQ(packed(4), expected(0.0));
+  EXPECT_EQ(packed(3), expected(10.0));
+  EXPECT_EQ(packed(17), expected(0.0));
+  follow({});
+  follow({3, 11});
+  EXPECT_EQ(packed(3), expected(0.0));
+  if (!several()) {
+    EXPECT_EQ(history.record(0).c[0], 0.0);
+  }
+}
+
+// The last particle takes the place of one that leaves, and new ones come in behind.
+TEST_P(BodyHistoryTest, MovesWithItsParticles)
+{
+  const Packed of_5 = packed(5), of_0 = packed(0);
+  history.copy(17, 5);
+  history.forget(17);
+  history.grow(40);
+  EXPECT_EQ(history.unpack(30, of_5.data()), of_5.size());
+  EXPECT_EQ(history.unpack(31, of_0.data()), of_0.size());
+  EXPECT_EQ(history.unpack(11, of_0.data()), of_0.size());    // replaces what was there
+  const auto check = [this] {
+    EXPECT_EQ(packed(5), expected(20.0));
+    EXPECT_EQ(packed(17), expected(0.0));
+    EXPECT_EQ(packed(30), expected(30.0));
+    EXPECT_EQ(packed(31), expected(0.0));
+    EXPECT_EQ(packed(11), expected(0.0));
+    EXPECT_EQ(packed(3), expected(10.0));
+  };
+  check();
+  follow({30, 31, 3, 5, 11});
+  check();
+}
+
+// The sign of a zero is kept as well, or bits would depend on who owns a particle.
+TEST_P(BodyHistoryTest, NegativeZerosTravel)
+{
+  Packed values = packed(3);
+  for (double &v : values)
+    if (&v > &values[3]) v = -0.0;    // behind number and normal
+  EXPECT_EQ(history.unpack(9, values.data()), values.size());
+  follow({9});
+  EXPECT_TRUE(std::signbit(packed(9)[4]));
+  EXPECT_TRUE(std::signbit(history.of_particle(9).c[1]));
+}
+
+TEST_P(BodyHistoryTest, MemoryIsThatOfTheCandidates)
+{
+  const double few = history.memory_usage();
+  history.grow(100000);
+  follow({3, 17, 5, 11});
+  EXPECT_LE(history.memory_usage(), few + 4.0 * 200000);
+}
+
+INSTANTIATE_TEST_SUITE_P(ImpactsAndSeveral, BodyHistoryTest,
+                         testing::Combine(testing::Bool(), testing::Bool()));
+
+TEST(OneContact, SeparatedOnesAreForgotten)
+{
+  BodyHistory history;
+  history.keep(false, true);
+  history.grow(20);
+  history.follow({3, 17, 5, 11}, no_room);
+  history.set_touching(0, 0xfU, 0xfU);
+  for (int c = 0; c < 4; c++) {
+    history.record(c).c[0] = c + 1.0;
+    history.impact(c).c[0] = c + 1.0;
+  }
+  history.set_touching(0, 0xfU, 0xdU);    // the second has gone
+  EXPECT_EQ(history.record(1).c[0] + history.impact(1).c[0], 0.0);
+  EXPECT_EQ(history.count(17), 0);
+  EXPECT_EQ(history.of_particle(3).c[0], 1.0);
+  history.set_touching(0, 0x3U, 0x1U);    // the others are not asked for
+  EXPECT_EQ(history.of_particle(5).c[0], 3.0);
+  EXPECT_EQ(history.of_particle(11).c[0], 4.0);
+  EXPECT_EQ(history.touched(0), 0xdU);
+  history.set_touching(0, 0xfU, 0x2U);
+  for (const int i : {3, 5, 11}) EXPECT_EQ(history.of_particle(i).c[0], 0.0);
+  EXPECT_EQ(history.touched(1), 0U);    // there are no such candidates
+}
+
+V tilted(double angle)
+{
+  return {std::sin(angle), 0.0, std::cos(angle)};
+}
+
+// Each contact continues the nearest of those that nobody has continued yet, if it is near enough.
+TEST(SeveralContacts, AreKnownByTheirNormals)
+{
+  BodyHistory history;
+  history.keep(true, false);
+  history.grow(1);
+  history.follow({0}, {4});
+  const SurfaceContact first[3] = {{tilted(0.0), 0.3}, {tilted(0.5), 0.2}, {tilted(1.5), 0.1}};
+  history.continue_contacts(0, first, 3);
+  for (int k = 0; k < 3; k++) history.record(k).c[0] = k + 1.0;
+
+  const SurfaceContact next[4] = {
+      {tilted(0.45), 0.3}, {tilted(0.4), 0.2}, {tilted(-1.0), 0.1}, {tilted(1.4), 0.1}};
+  history.continue_contacts(0, next, 4);
+  ASSERT_EQ(history.count(0), 4);
+  const double continued[4] = {2.0, 1.0, 0.0, 3.0};
+  for (int k = 0; k < 4; k++) EXPECT_EQ(history.record(k).c[0], continued[k]) << k;
+
+  history.continue_contacts(0, next, 0);
+  EXPECT_EQ(history.count(0), 0);
+  history.continue_contacts(0, next, 1);
+  EXPECT_EQ(history.record(0).c[0], 0.0) << "what has separated is forgotten";
+}
+
+// A particle keeps its contacts even if the new list has less room for it.
+TEST(SeveralContacts, RoomIsThatOfTheCandidatesAndOfWhatTheyHave)
+{
+  BodyHistory history;
+  history.keep(true, false);
+  history.grow(3);
+  history.follow({2, 0}, {1, 3});
+  EXPECT_EQ(history.first_slot(1), 1U);
+  const SurfaceContact found[3] = {{tilted(0.0), 0.3}, {tilted(1.0), 0.2}, {tilted(2.0), 0.1}};
+  history.continue_contacts(1, found, 3);
+  for (int k = 0; k < 3; k++) history.record(1 + k).c[0] = k + 1.0;
+  history.follow({0, 1}, {1, 1});
+  EXPECT_EQ(history.count(0), 3);
+  EXPECT_EQ(history.first_slot(1), 3U);
+  EXPECT_EQ(history.record(2).c[0], 3.0);
+}
+
+}    // namespace
