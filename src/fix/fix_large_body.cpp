@@ -11,6 +11,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -40,7 +41,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   shape = LargeBodyShapes(lmp, words).parse(two_sided);
   surface = std::make_unique<LargeBodySurface>(lmp, *shape);
-  parse_keywords(words, narg, arg);
+  parse_keywords(words);
   motion.finish(shape->reference_point());
   with_history = std::any_of(specs.begin(), specs.end(),
                              [](const ContactSpec &s) { return s.law.has_history(); });
@@ -83,7 +84,7 @@ void FixLargeBody::offer_output()
 
 /* ---------------------------------------------------------------------- */
 
-void FixLargeBody::parse_keywords(Words &words, int narg, char **arg)
+void FixLargeBody::parse_keywords(Words &words)
 {
   while (!words.at_end()) {
     words.about("");

@@ -93,7 +93,7 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   double memory_usage() override;
 
  private:
-  void parse_keywords(Talus::Words &words, int narg, char **arg);
+  void parse_keywords(Talus::Words &words);
   void parse_contact_words(Talus::Words &words);
   void offer_output();
   void keep_history();
