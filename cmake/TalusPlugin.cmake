@@ -3,7 +3,9 @@
 
 # Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI and packs the records of
 # particles/; then those of LAMMPS.
-set(talus_core_folders base laws material particles neighbors history contact body/shape body/motion body/contact)
+set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
+set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
+  body/contact)
 set(talus_style_folders system pair fix compute comm run)
 
 function(talus_glob result)
@@ -19,10 +21,6 @@ talus_glob(talus_style_sources ${talus_style_folders})
 
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
-if(TALUS_SANITIZE)
-  # A thousand kernels with checks in them: optimized, they take the compiler more than a quarter of an hour.
-  set_source_files_properties(src/laws/contact_kernel.cpp PROPERTIES COMPILE_OPTIONS "-O0;-g1")
-endif()
 
 # talus_add_code(suffix): libraries talus_core and talus_exchange with the flags talus_flags, each name with the suffix.
 function(talus_add_code suffix)
@@ -66,11 +64,22 @@ function(talus_add_module name exported)
   target_link_options(${name} PRIVATE "LINKER:--version-script=${map}" "LINKER:-z,nodelete")
 endfunction()
 
+# talus_add_styles_module(module suffix sources...): a module with the styles talus_styles${suffix} and more sources.
+function(talus_add_styles_module module suffix)
+  talus_add_module(${module} "talus_register_*" "${PROJECT_SOURCE_DIR}/src/talusstyles.cpp"
+    $<TARGET_OBJECTS:talus_styles${suffix}> ${ARGN})
+  target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+endfunction()
+
 # talus_add_styles(module suffix): the styles, on top of the code with that suffix.
 function(talus_add_styles module suffix)
-  talus_add_module(${module} "talus_register_*" src/talusstyles.cpp ${talus_style_sources})
-  target_include_directories(${module} PRIVATE src)
-  target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+  add_library(talus_styles${suffix} OBJECT ${talus_style_sources})
+  set_target_properties(talus_styles${suffix} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_include_directories(talus_styles${suffix} PRIVATE src)
+  target_link_libraries(talus_styles${suffix} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+  talus_add_styles_module(${module} "${suffix}")
 endfunction()
 
 # The plugin is two files. LAMMPS opens plugins with all symbols bound at once, so one that uses

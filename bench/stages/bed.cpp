@@ -2,11 +2,16 @@
 
 #include "bed.h"
 
+#include "laws/contact_words.h"
+#include "material/contact_spec.h"
+
 #include "particles/canonical_key.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
+#include <string>
+
 #include <random>
 
 namespace Bench {
@@ -234,12 +239,19 @@ std::vector<Bed> two_ranks(const Bed &bed)
   return ranks;
 }
 
-Talus::LawTable one_law(Talus::NormalLaw normal, Talus::TangentialLaw tangential)
+Talus::LawTable one_law(const char *normal, const char *tangential)
 {
+  const bool smooth = std::string(tangential) == "none",
+             has_kt = std::string(tangential) != "dashpot";
+  std::vector<const char *> text{normal, "1000.0", "10.0", "tangential", tangential};
+  if (!smooth && has_kt) text.push_back("300.0");
+  if (!smooth) text.insert(text.end(), {"5.0", "0.5"});
+  Talus::Words words("law of the bed", static_cast<int>(text.size()), text.data(), 0,
+                     [](int, const std::string &problem) { throw std::invalid_argument(problem); });
+  const Talus::ContactSpec spec = Talus::parse_contact(words, 1.0);
   Talus::LawTable table;
   table.reset(1);
-  table.set(1, 1, {normal, tangential},
-            {1000.0, 10.0, 300.0, 5.0, 0.5, -std::numeric_limits<double>::infinity()});
+  table.set(1, 1, spec.law, contact_coefficients(spec, spec, Talus::FrictionMix::MINIMUM));
   table.finish();
   return table;
 }

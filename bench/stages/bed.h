@@ -55,8 +55,8 @@ Bed in_periodic_box(const Bed &bed);
 /// The bed on two ranks: what is left and right of its middle, each with the ghosts it needs.
 std::vector<Bed> two_ranks(const Bed &bed);
 
-/// A table with one law for all.
-Talus::LawTable one_law(Talus::NormalLaw normal, Talus::TangentialLaw tangential);
+/// A table with one law for all, e.g. "hertz" and "multistep", with coefficients of the bed's units.
+Talus::LawTable one_law(const char *normal, const char *tangential);
 
 /// What ContactPipeline makes of it.
 Talus::ContactScene scene_of(const Talus::LawTable &laws);

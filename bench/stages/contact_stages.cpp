@@ -25,7 +25,7 @@ struct Prepared {
   HistoryStore store;
   ContactChunk part;
 
-  Prepared(Bed &given, NormalLaw normal, TangentialLaw tangential) :
+  Prepared(Bed &given, const char *normal, const char *tangential) :
       bed(given), scene(scene_of(one_law(normal, tangential)))
   {
     order.arrange(bed.owned, bed.key, bed.tag);
@@ -65,8 +65,8 @@ struct Prepared {
   }
 };
 
-Prepared prepared(const benchmark::State &state, NormalLaw normal = NormalLaw::HERTZ,
-                  TangentialLaw tangential = TangentialLaw::MULTISTEP)
+Prepared prepared(const benchmark::State &state, const char *normal = "hertz",
+                  const char *tangential = "multistep")
 {
   return {bed_of(state), normal, tangential};
 }
@@ -108,7 +108,7 @@ BENCHMARK(keep_history)->Apply(sizes);
 void keep_history_periodic(benchmark::State &state)
 {
   Bed bed = in_periodic_box(bed_of(state));
-  Prepared p(bed, NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+  Prepared p(bed, "hertz", "multistep");
   repeat(state, p, [&] { p.keep_history(); });
 }
 BENCHMARK(keep_history_periodic)->Apply(sizes);
@@ -145,20 +145,16 @@ void narrow_phase(benchmark::State &state)
 BENCHMARK(narrow_phase)->Apply(sizes);
 
 /// Narrow phase, gather, kernel, and sum.
-void contacts(benchmark::State &state, NormalLaw normal, TangentialLaw tangential)
+void contacts(benchmark::State &state, const char *normal, const char *tangential)
 {
   Prepared p = prepared(state, normal, tangential);
   repeat(state, p, [&] { p.compute(); });
 }
-BENCHMARK_CAPTURE(contacts, hooke_frictionless, NormalLaw::HOOKE, TangentialLaw::NONE)
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hertz_frictionless, NormalLaw::HERTZ, TangentialLaw::NONE)
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hertz_onestep, NormalLaw::HERTZ, TangentialLaw::ONESTEP)->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hooke_multistep, NormalLaw::HOOKE, TangentialLaw::MULTISTEP)
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(contacts, hertz_multistep, NormalLaw::HERTZ, TangentialLaw::MULTISTEP)
-    ->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hooke_frictionless, "hooke", "none")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_frictionless, "hertz", "none")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_onestep, "hertz", "onestep")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hooke_multistep, "hooke", "multistep")->Apply(sizes);
+BENCHMARK_CAPTURE(contacts, hertz_multistep, "hertz", "multistep")->Apply(sizes);
 
 void add_to_host(benchmark::State &state)
 {

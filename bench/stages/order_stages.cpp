@@ -32,7 +32,7 @@ ContactStep in_records(bool first = false)
 
 LawTable law()
 {
-  return one_law(NormalLaw::HERTZ, TangentialLaw::MULTISTEP);
+  return one_law("hertz", "multistep");
 }
 
 /// Room for the spheres; ghosts are of the other rank.

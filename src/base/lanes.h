@@ -13,7 +13,7 @@ namespace Talus {
 
 /// Four rows become lanes k ... k+3 of a vector and of a scalar, if this is not nullptr.
 template <int width>
-inline void to_lanes(Vec4 *rows, double (&vector)[3][width], double *fourth, int k)
+inline void to_lanes(Vec4 *rows, double (*vector)[width], double *fourth, int k)
 {
   transpose(rows[0], rows[1], rows[2], rows[3]);
   for (int q = 0; q < 3; q++) store(&vector[q][k], rows[q]);
@@ -22,7 +22,7 @@ inline void to_lanes(Vec4 *rows, double (&vector)[3][width], double *fourth, int
 
 /// Lanes k ... k+3 become the rows where(0) ... where(3); without a scalar the fourth number is 0.
 template <int width, class Where>
-inline void to_rows(const double (&vector)[3][width], const double *fourth, int k, Where where)
+inline void to_rows(const double (*vector)[width], const double *fourth, int k, Where where)
 {
   Vec4 rows[4];
   for (int q = 0; q < 3; q++) rows[q] = load4(&vector[q][k]);

@@ -182,10 +182,10 @@ void ContactChunk::run_kernels(const Step &step)
     laws.kernel(range.law, step.advance)(batch, range.begin, range.end, laws.coefficients(),
                                          step.dt);
     // not written by the kernels of laws that have none
-    const ContactLaw law = laws.distinct_law(range.law);
+    const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())
       clear_lanes(batch.moment, range.begin, range.end);
-    if (step.scene.with_resistance && !law.resists)
+    if (step.scene.with_resistance && !law.resists())
       clear_lanes(batch.couple, range.begin, range.end);
   }
 }

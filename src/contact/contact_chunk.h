@@ -129,7 +129,7 @@ class ContactChunk {
   void run_kernels(const Step &step);
   void keep_history(int end);
   void keep_impacts(int end);
-  void to_histories(const double (&lanes_of)[3][ContactBatch::width], const double *fourth, int end,
+  void to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth, int end,
                     Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);

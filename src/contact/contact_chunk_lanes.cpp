@@ -6,7 +6,7 @@
 #include "contact/contact_chunk.h"
 
 #include "base/lanes.h"
-#include "laws/resistance.h"
+#include "laws/circle_of_intersection.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace Talus {
 namespace {
 
 constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
-using Lanes = double[3][ContactBatch::width];
+using Lane = double[ContactBatch::width];
 
 /// Histories that are called into the cache while others are gathered. They stand nearly in the
 /// order in which they are wanted; beyond the end there is nothing to call, and no harm in it.
@@ -75,7 +75,7 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
     to_lanes(a, batch.normal, batch.overlap, k);
     to_lanes(b, batch.velocity, batch.inverse_mass, k);
     if constexpr (friction) to_lanes(c, batch.spin, batch.inverse_radius, k);
-    if constexpr (history_kept) to_lanes(d, batch.displacement, batch.sliding, k);
+    if constexpr (history_kept) to_lanes(d, batch.history, batch.history[3], k);
   }
 }
 
@@ -85,7 +85,7 @@ void ContactChunk::gather_impacts(int end)
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = impact(k + q);
-    to_lanes(row, batch.impact, nullptr, k);
+    to_lanes(row, batch.history + 4, batch.history[7], k);
   }
 }
 
@@ -142,15 +142,15 @@ void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
 
 void ContactChunk::keep_history(int end)
 {
-  to_histories(batch.displacement, batch.sliding, end, history.all_records());
+  to_histories(batch.history, batch.history[3], end, history.all_records());
 }
 
 void ContactChunk::keep_impacts(int end)
 {
-  to_histories(batch.impact, nullptr, end, history.all_impacts());
+  to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
 }
 
-void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width],
+void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width],
                                 const double *fourth, int end, Record *records)
 {
   const std::uint32_t *place = history.all_places();
@@ -161,7 +161,7 @@ void ContactChunk::to_histories(const double (&lanes_of)[3][ContactBatch::width]
 
 template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)
 {
-  const auto rows_of = [](const Lanes &vector, int k, Record *records) {
+  const auto rows_of = [](const Lane *vector, int k, Record *records) {
     to_rows(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
   };
   for (int k = 0; k < end; k += 4) {

@@ -11,6 +11,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -40,7 +41,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   shape = LargeBodyShapes(lmp, words).parse(two_sided);
   surface = std::make_unique<LargeBodySurface>(lmp, *shape);
-  parse_keywords(words, narg, arg);
+  parse_keywords(words);
   motion.finish(shape->reference_point());
   with_history = std::any_of(specs.begin(), specs.end(),
                              [](const ContactSpec &s) { return s.law.has_history(); });
@@ -83,12 +84,12 @@ void FixLargeBody::offer_output()
 
 /* ---------------------------------------------------------------------- */
 
-void FixLargeBody::parse_keywords(Words &words, int narg, char **arg)
+void FixLargeBody::parse_keywords(Words &words)
 {
   while (!words.at_end()) {
     words.about("");
     if (words.take("contact")) {
-      parse_contact_words(words, narg, arg);
+      parse_contact_words(words);
     } else if (words.take("two-sided") || motion.parse(words) || surface->parse(words)) {
       continue;
     } else {
@@ -106,16 +107,13 @@ void FixLargeBody::parse_keywords(Words &words, int narg, char **arg)
                  type, type);
 }
 
-void FixLargeBody::parse_contact_words(Words &words, int narg, char **arg)
+void FixLargeBody::parse_contact_words(Words &words)
 {
   int lo = 1, hi = atom->ntypes;
   words.about("contact");
   if (words.take("types"))
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
-  int next = words.index();
-  const CommandWords command{lmp, "fix large/body contact", narg, arg};
-  const ContactSpec parsed = parse_contact(command, next);
-  words.skip(next - words.index());
+  const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
   for (int type = lo; type <= hi; type++) {
     specs[type] = parsed;
     spec_is_set[type] = true;
@@ -147,17 +145,12 @@ ContactCoefficients FixLargeBody::coefficients_of(int type)
         FLERR,
         "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
         "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
-        id, name_of(body.law.normal), type, type, type);
+        id, body.law.normal().name, type, type, type);
   ContactSpec particle = body;
-  particle.young = own->young;
-  particle.poisson = own->poisson;
-  particle.restitution = own->restitution;
-  particle.limit_damping = own->limit_damping;
-  if (own->law.tangential != TangentialLaw::NONE) particle.given.mu = own->given.mu;
-  if (own->law.resists) {
-    particle.given.mu_roll = own->given.mu_roll;
-    particle.given.mu_twist = own->given.mu_twist;
-  }
+  for (const char *name : {"E", "nu", "e", "mu", "limit_damping"})
+    if (own->given.has(name)) particle.given[name] = own->given.value(name);
+  if (own->law.resists())
+    for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
   return contact_coefficients(body, particle, system->laws().mix);
 }
 

@@ -16,7 +16,7 @@
 #include "fix/large_body_monitor.h"
 #include "fix/large_body_motion.h"
 #include "fix/large_body_surface.h"
-#include "pair/contact_command.h"
+#include "laws/contact_words.h"
 #include "system/effective_masses.h"
 #include "system/granular_system.h"
 
@@ -93,8 +93,8 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   double memory_usage() override;
 
  private:
-  void parse_keywords(Talus::Words &words, int narg, char **arg);
-  void parse_contact_words(Talus::Words &words, int narg, char **arg);
+  void parse_keywords(Talus::Words &words);
+  void parse_contact_words(Talus::Words &words);
   void offer_output();
   void keep_history();
   void set_laws();
@@ -121,7 +121,7 @@ class FixLargeBody : public Fix, public Talus::SystemBody {
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
   LargeBodyMonitor monitor;
-  std::vector<ContactSpec> specs;    // by type
+  std::vector<Talus::ContactSpec> specs;    // by type
   std::vector<bool> spec_is_set;
   Talus::BodyContacts contacts;
   EffectiveMasses masses;

@@ -9,13 +9,12 @@ namespace Talus {
 
 void ContactBatch::clear()
 {
-  for (auto *vector :
-       {normal, velocity, spin, relative_omega, displacement, impact, force, moment, couple})
+  for (auto *vector : {normal, velocity, spin, relative_omega, force, moment, couple})
     for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
+  for (auto &value : history) std::fill(std::begin(value), std::end(value), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
   std::fill(std::begin(circle), std::end(circle), 0.0);
-  std::fill(std::begin(sliding), std::end(sliding), 0.0);
   std::fill(std::begin(inverse_mass), std::end(inverse_mass), 1.0);
   std::fill(std::begin(inverse_radius), std::end(inverse_radius), 1.0);
   std::fill(std::begin(coefficients), std::end(coefficients), 0);

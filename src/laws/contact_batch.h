@@ -13,6 +13,7 @@ namespace Talus {
 /// so that every contact is computed by the same vector instructions and no scalar tail exists.
 struct ContactBatch {
   static constexpr int width = 64;
+  static constexpr int history_size = 8;
 
   // input, see ContactState
   alignas(64) double normal[3][width];
@@ -26,15 +27,23 @@ struct ContactBatch {
   alignas(64) double inverse_distance[width];
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
-  // input and output: TangentialHistory and ContactImpact; only laws that keep them touch them
-  alignas(64) double displacement[3][width];
-  alignas(64) double sliding[width];
-  alignas(64) double impact[3][width];    ///< speed, age, begun
+  /// Input and output, as seen from the first body: which law remembers what here, see
+  /// HistoryLayout. The first three change their sign if the other body counts as the first.
+  alignas(64) double history[history_size][width];
 
-  // output, see ContactForce
+  // output, see ContactLanes; only laws with torques write the last two
   alignas(64) double force[3][width];
   alignas(64) double moment[3][width];
   alignas(64) double couple[3][width];
+
+  /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
+  struct Between {
+    alignas(64) double normal_velocity[width], mass[width], radius[width],
+        impact_speed[width], age[width];
+    alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],
+        contact_radius[width], elastic[width];
+    alignas(64) double gn[width], gt[width], normal_force[width], delayed_force[width];
+  } between;
 
   /// Puts a harmless contact of overlap zero into every lane. Call once after construction.
   void clear();

@@ -2,9 +2,6 @@
 
 #include "laws/contact_energy.h"
 
-#include "laws/contact_kernel.h"
-#include "laws/model_dispatch.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -16,58 +13,51 @@ Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
   return {v[0][k], v[1][k], v[2][k]};
 }
 
-struct Inputs {
-  double mass, radius, speed;
-};
-
-Inputs inputs_of(const ContactCoefficients &c, const ContactState<double> &s,
-                 const ContactImpact<double> &impact)
+/// Normal law and damping of a contact at rest with nothing remembered.
+ContactLanes<double> response_of(const ContactLaw &law, const ContactCoefficients &row,
+                                 double overlap, double mass_eff, double radius_eff)
 {
-  return {s.inverse_mass > 0.0 ? 1.0 / s.inverse_mass : 0.0,
-          s.inverse_radius > 0.0 ? 1.0 / s.inverse_radius : 0.0, std::max(impact.speed, c.speed)};
-}
-
-Stiffness<double> stiffness_of(ContactLaw law, const ContactCoefficients &c, double overlap,
-                               const Inputs &in)
-{
-  return dispatch_model(law, [&](auto model) {
-    return decltype(model)::Normal::stiffness(
-        c, NormalInput<double>{overlap, in.mass, in.radius, in.speed});
-  });
+  ContactLanes<double> s;
+  s.overlap = overlap;
+  s.mass = mass_eff;
+  s.radius = radius_eff;
+  for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) {
+    double nothing[ContactBatch::history_size] = {};
+    law[stage].one(s, law.coefficients(stage, row), nothing, 0.0);
+  }
+  return s;
 }
 
 }    // namespace
 
-ContactEnergy contact_energy(ContactLaw law, const ContactCoefficients &c,
-                             const ContactState<double> &s, double dt,
-                             const TangentialHistory<double> &history,
-                             const ContactImpact<double> &impact)
+ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &row,
+                             const ContactState<double> &state, double dt,
+                             const RememberedValues &memory)
 {
-  const Inputs in = inputs_of(c, s, impact);
-  const Stiffness<double> k = stiffness_of(law, c, s.overlap, in);
-  const ContactForce<double> out = single_contact(law, c, s, dt, history, impact);
-  const double elastic = k.kn * s.overlap;
-  const double adhesion = law.adheres ? c.adhesion + c.adhesion_dmt * std::sqrt(in.radius) +
-                                            c.adhesion_perko * in.radius
-                                      : 0.0;
+  const ContactLanes<double> s = single_contact(law, row, state, dt, memory);
+  const HistoryLayout history = law.history();
+  const auto stored = [&](Stage stage) {
+    double values[ContactBatch::history_size] = {};
+    for (int n = 0; n < law[stage].odd_history + law[stage].even_history; n++)
+      values[n] = memory.value[history.of_stage[static_cast<int>(stage)][n]];
+    return law[stage].stored(s, law.coefficients(stage, row), values);
+  };
 
   ContactEnergy e;
-  // F ~ overlap: F overlap/2; F ~ overlap^(3/2): 2/5 F overlap
-  e.elastic_normal =
-      (is_linear(law.normal) ? 0.5 : 0.4) * elastic * s.overlap - adhesion * s.overlap;
-  e.damping = (out.normal - elastic) * s.normal;
+  e.elastic_normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
+  e.damping = (s.normal_force - s.elastic) * s.normal;
   if (!law.has_friction()) return e;
 
-  e.friction = out.tangential;
-  e.friction_moment = cross(s.normal, out.tangential);
-  if (law.has_history())
-    e.elastic_tangential = 0.5 * k.kt * dot(history.displacement, history.displacement);
-  e.rolling_moment = out.moment - e.friction_moment;
-  e.twisting_torque = out.couple;
+  e.friction = s.tangential;
+  e.friction_moment = cross(s.normal, s.tangential);
+  e.elastic_tangential = stored(Stage::TANGENTIAL);
+  e.elastic_resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
+  e.rolling_moment = s.moment - e.friction_moment;
+  e.twisting_torque = s.couple;
   return e;
 }
 
-ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficients,
+ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
                           const ContactBatch &b, int k, double dt)
 {
   ContactState<double> s;
@@ -80,28 +70,27 @@ ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficient
   s.relative_omega = lane_of(b.relative_omega, k);
   s.circle = b.circle[k];
   s.inverse_distance = b.inverse_distance[k];
-  return contact_energy(law, coefficients, s, dt, {lane_of(b.displacement, k), b.sliding[k]},
-                        {b.impact[0][k], b.impact[1][k], b.impact[2][k]});
+  RememberedValues memory;
+  for (int n = 0; n < ContactBatch::history_size; n++) memory.value[n] = b.history[n][k];
+  return contact_energy(law, coefficients, s, dt, memory);
 }
 
-double tangent_stiffness(ContactLaw law, const ContactCoefficients &c, double overlap,
+double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                          double mass_eff, double radius_eff)
 {
-  const Stiffness<double> k = stiffness_of(law, c, overlap, {mass_eff, radius_eff, c.speed});
-  return (is_linear(law.normal) ? 1.0 : 1.5) * k.kn;
+  return response_of(law, row, overlap, mass_eff, radius_eff).tangent_n;
 }
 
-double damping_ratio(ContactLaw law, const ContactCoefficients &c, double overlap, double mass_eff,
-                     double radius_eff)
+double damping_ratio(const ContactLaw &law, const ContactCoefficients &row, double overlap,
+                     double mass_eff, double radius_eff)
 {
-  const Stiffness<double> k = stiffness_of(law, c, overlap, {mass_eff, radius_eff, c.speed});
-  const double tangent = (is_linear(law.normal) ? 1.0 : 1.5) * k.kn;
-  return tangent > 0.0 ? k.gn / (2.0 * std::sqrt(mass_eff * tangent)) : 0.0;
+  const ContactLanes<double> s = response_of(law, row, overlap, mass_eff, radius_eff);
+  return s.tangent_n > 0.0 ? s.gn / (2.0 * std::sqrt(mass_eff * s.tangent_n)) : 0.0;
 }
 
 void EnergyAccount::begin_step(int num_particles)
 {
-  elastic_normal = elastic_tangential = 0.0;
+  elastic_normal = elastic_tangential = elastic_resistance = 0.0;
   forces.assign(num_particles, Forces{});
 }
 
@@ -119,6 +108,7 @@ void EnergyAccount::add(const ContactEnergy &e, double share, int first, double 
 {
   elastic_normal += share * e.elastic_normal;
   elastic_tangential += share * e.elastic_tangential;
+  elastic_resistance += share * e.elastic_resistance;
   add_end(e, first, first_radius, 1.0);
   if (second >= 0) add_end(e, second, second_radius, -1.0);
 }

@@ -7,8 +7,7 @@
 #define TALUS_LAWS_CONTACT_ENERGY_H
 
 #include "laws/contact_batch.h"
-#include "laws/contact_law.h"
-#include "laws/contact_model.h"
+#include "laws/contact_kernel.h"
 
 #include <vector>
 
@@ -18,41 +17,39 @@ namespace Talus {
 /// Forces act on the first body, torques on body i are -r_i times a moment, plus or minus the
 /// couple.
 struct ContactEnergy {
-  double elastic_normal =
-      0.0;    ///< integral of the normal force without damping, less adhesion's work
-  double elastic_tangential = 0.0;           ///< kt d_t^2/2 of laws with history
-  Vector3<double> damping{0.0, 0.0, 0.0};    ///< normal damping force
-  Vector3<double> friction{0.0, 0.0,
-                           0.0};    ///< tangential force, whether its work is stored or dissipated
+  double elastic_normal = 0.0;                ///< of normal law and cohesion
+  double elastic_tangential = 0.0;            ///< of the tangential law
+  double elastic_resistance = 0.0;            ///< of rolling and twisting
+  Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force
+  Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
   Vector3<double> friction_moment{0.0, 0.0, 0.0};
   Vector3<double> rolling_moment{0.0, 0.0, 0.0};
   Vector3<double> twisting_torque{0.0, 0.0, 0.0};
 };
 
-/// `history` and `impact` as they are after the step.
-ContactEnergy contact_energy(ContactLaw law, const ContactCoefficients &coefficients,
+/// `memory` as it is after the step.
+ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
                              const ContactState<double> &state, double dt,
-                             const TangentialHistory<double> &history,
-                             const ContactImpact<double> &impact);
+                             const RememberedValues &memory);
 
 /// The same for one lane of a batch after its kernel has run.
-ContactEnergy lane_energy(ContactLaw law, const ContactCoefficients &coefficients,
+ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
                           const ContactBatch &batch, int lane, double dt);
 
 /// Tangent stiffness dF_n/d overlap of the elastic normal force (force/distance) of a contact.
-double tangent_stiffness(ContactLaw law, const ContactCoefficients &coefficients, double overlap,
-                         double mass_eff, double radius_eff);
+double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &coefficients,
+                         double overlap, double mass_eff, double radius_eff);
 
 /// Normal damping over the critical one of that stiffness, gn/(2 sqrt(m_eff dF_n/d overlap)), 0
 /// without stiffness.
-double damping_ratio(ContactLaw law, const ContactCoefficients &coefficients, double overlap,
+double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficients, double overlap,
                      double mass_eff, double radius_eff);
 
 /// Running account of the contacts of one rank. Work is that of the time step as the integrator
 /// takes it: force times the mean of the velocities before and after the kick, so that for
 /// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by
-/// friction is the work of the tangential forces less what is stored at the time of asking: what a
-/// contact still stores when it opens is lost, and counted so.
+/// friction or resistance is the work of these forces less what is stored at the time of asking:
+/// what a contact still stores when it opens is lost, and counted so.
 class EnergyAccount {
  public:
   /// Before the contacts of a step: forgets the forces of the last one and what it stored.
@@ -71,10 +68,10 @@ class EnergyAccount {
   void end_step() { forces.clear(); }
   bool waits_for_move() const { return !forces.empty(); }
 
-  double elastic() const { return elastic_normal + elastic_tangential; }
+  double elastic() const { return elastic_normal + elastic_tangential + elastic_resistance; }
   double dissipated_normal() const { return work_normal; }
   double dissipated_tangential() const { return work_tangential - elastic_tangential; }
-  double dissipated_resistance() const { return work_resistance; }
+  double dissipated_resistance() const { return work_resistance - elastic_resistance; }
 
  private:
   struct Forces {
@@ -84,7 +81,7 @@ class EnergyAccount {
   void add_end(const ContactEnergy &e, int particle, double radius, double sign);
 
   std::vector<Forces> forces;    // by particle
-  double elastic_normal = 0.0, elastic_tangential = 0.0;
+  double elastic_normal = 0.0, elastic_tangential = 0.0, elastic_resistance = 0.0;
   double work_normal = 0.0, work_tangential = 0.0, work_resistance = 0.0;
 };
 

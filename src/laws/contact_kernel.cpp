@@ -2,147 +2,127 @@
 
 #include "laws/contact_kernel.h"
 
-#include "laws/model_dispatch.h"
+#include "laws/fused_kernels.h"
+#include "laws/law_definition.h"
+
+#include <algorithm>
 
 namespace Talus {
 namespace {
 
-using Lanes = double[3][ContactBatch::width];
-
-// A contact is a long chain of operations that wait for each other, too long for a processor to
-// look beyond it to the next one. So kernels compute two vectors of the machine at a time.
-#if defined(__AVX512F__)
-using Wide = Twice<Vec8>;
-#else
-using Wide = Vec8;
-#endif
-constexpr int wide_lanes = sizeof(Wide) / sizeof(double);
-
-template <class Real> inline Vector3<Real> load_lanes(const Lanes &v, int k)
+template <bool with_radius, bool impact, bool advance>
+void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
 {
-  using In = Memory<Real>;
-  return {In::load(&v[0][k]), In::load(&v[1][k]), In::load(&v[2][k])};
-}
-
-template <class Real> inline void store_lanes(Lanes &v, int k, const Vector3<Real> &value)
-{
-  Memory<Real>::store(&v[0][k], value.x);
-  Memory<Real>::store(&v[1][k], value.y);
-  Memory<Real>::store(&v[2][k], value.z);
-}
-
-// Coefficients<Real> is a row of Reals: the same numbers, one or several contacts wide
-constexpr int num_coefficients = sizeof(ContactCoefficients) / sizeof(double);
-static_assert(sizeof(Coefficients<Vec8>) == num_coefficients * sizeof(Vec8));
-
-Coefficients<Vec8> collect(const ContactCoefficients *table, const int *row)
-{
-  Coefficients<Vec8> c;
-  auto *wide = reinterpret_cast<double *>(&c);
-  for (int lane = 0; lane < lanes; lane++) {
-    const auto *one = reinterpret_cast<const double *>(&table[row[lane]]);
-    for (int n = 0; n < num_coefficients; n++) wide[n * lanes + lane] = one[n];
+  for (int k = begin; k < end; k += lanes) {
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    approach<with_radius>(s);
+    if constexpr (impact) {
+      double *const at[3] = {&b.history[in.places[0]][k], &b.history[in.places[1]][k],
+                             &b.history[in.places[2]][k]};
+      ContactImpact<Vec8> its{load8(at[0]), load8(at[1]), load8(at[2])};
+      follow_impact<advance>(its, s.normal_velocity, in.dt);
+      s.impact_speed = its.speed;
+      s.age = its.age;
+      if constexpr (advance) {
+        store(at[0], its.speed);
+        store(at[1], its.age);
+        store(at[2], its.begun);
+      }
+    }
+    visit_approach(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
   }
-  return c;
 }
 
-/// The same coefficients in every lane. What a model does not use costs nothing.
-template <class Real> TALUS_INLINE Coefficients<Real> spread(const ContactCoefficients &c)
+template <bool with_radius> StageFunction approach_function(bool impact, bool advance)
 {
-  const auto all = splat<Real>;
-  return {all(c.kn),       all(c.gn),          all(c.kt),           all(c.gt),
-          all(c.mu),       all(c.force_floor), all(c.speed),        all(c.mu_roll),
-          all(c.mu_twist), all(c.adhesion),    all(c.adhesion_dmt), all(c.adhesion_perko),
-          all(c.slip_min), all(c.roll_min),    all(c.twist_min)};
+  if (!impact) return run_approach<with_radius, false, false>;
+  return advance ? run_approach<with_radius, true, true> : run_approach<with_radius, true, false>;
 }
 
-template <class Model, class Real>
-TALUS_INLINE ContactState<Real> load_state(const ContactBatch &b, int k)
+/// The stages that a law has, in their order: visit(stage, law of the stage).
+template <class Visit> void for_each_stage(const ContactLaw &law, Visit visit)
 {
-  using In = Memory<Real>;
-  ContactState<Real> s{};
-  s.normal = load_lanes<Real>(b.normal, k);
-  s.overlap = In::load(&b.overlap[k]);
-  s.velocity = load_lanes<Real>(b.velocity, k);
-  s.inverse_mass = In::load(&b.inverse_mass[k]);
-  if constexpr (Model::needs_radius) s.inverse_radius = In::load(&b.inverse_radius[k]);
-  if constexpr (Model::rotates) s.spin = load_lanes<Real>(b.spin, k);
-  if constexpr (Model::midpoint) s.inverse_distance = In::load(&b.inverse_distance[k]);
-  if constexpr (Model::resists) {
-    s.relative_omega = load_lanes<Real>(b.relative_omega, k);
-    s.circle = In::load(&b.circle[k]);
+  for (Stage stage : {Stage::NORMAL, Stage::DAMPING, Stage::TANGENTIAL, Stage::ROLLING,
+                      Stage::TWISTING, Stage::COHESION}) {
+    const bool turns = stage == Stage::TANGENTIAL && law.has_friction();
+    const bool spins = stage == Stage::TWISTING && law.resists();
+    if (law[stage].acts || turns || spins) visit(stage, law[stage]);
   }
-  return s;
 }
 
-/// The contacts from lane k on, as many as a Real is wide.
-template <class Model, bool advance, class Real>
-TALUS_INLINE void compute_lanes(ContactBatch &b, int k, const Coefficients<Real> &c, double dt)
+/// The law resists by Chrono's rule: to be found before the first stage that asks.
+bool needs_delay(const ContactLaw &law, Stage stage)
 {
-  using InOut = Memory<Real>;
-  TangentialHistory<Real> history;
-  ContactImpact<Real> impact;
-  if constexpr (Model::history)
-    history = {load_lanes<Real>(b.displacement, k), InOut::load(&b.sliding[k])};
-  if constexpr (Model::impact)
-    impact = {InOut::load(&b.impact[0][k]), InOut::load(&b.impact[1][k]),
-              InOut::load(&b.impact[2][k])};
-
-  const auto out =
-      evaluate_contact<Model, advance>(c, load_state<Model, Real>(b, k), dt, history, impact);
-
-  store_lanes(b.force, k, out.force);
-  if constexpr (Model::rotates) store_lanes(b.moment, k, out.moment);
-  if constexpr (Model::resists) store_lanes(b.couple, k, out.couple);
-  if constexpr (Model::history && advance) {
-    store_lanes(b.displacement, k, history.displacement);
-    InOut::store(&b.sliding[k], history.sliding);
-  }
-  if constexpr (Model::impact && advance)
-    store_lanes<Real>(b.impact, k, {impact.speed, impact.age, impact.begun});
-}
-
-template <class Model, bool uniform, bool advance>
-void compute_batch(ContactBatch &b, int begin, int end, const ContactCoefficients *table, double dt)
-{
-  int k = begin;
-  if constexpr (uniform) {
-    const Coefficients<Wide> common = spread<Wide>(table[0]);
-    for (; k + wide_lanes <= end; k += wide_lanes)
-      compute_lanes<Model, advance, Wide>(b, k, common, dt);
-  }
-  const Coefficients<Vec8> common = spread<Vec8>(table[0]);
-  for (; k < end; k += lanes)
-    compute_lanes<Model, advance, Vec8>(b, k, uniform ? common : collect(table, &b.coefficients[k]),
-                                        dt);
-}
-
-template <class Model> ContactKernel pick(bool uniform, bool advance)
-{
-  constexpr bool live = Model::history;    // without history both kinds of step are the same
-  if (uniform)
-    return advance && live ? compute_batch<Model, true, live> : compute_batch<Model, true, false>;
-  return advance && live ? compute_batch<Model, false, live> : compute_batch<Model, false, false>;
+  return law.delayed() && stage == (law.rolling().acts ? Stage::ROLLING : Stage::TWISTING);
 }
 
 }    // namespace
 
-ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance)
+bool ContactKernel::operator==(const ContactKernel &other) const
 {
-  return dispatch_model(law, [=](auto model) { return pick<decltype(model)>(uniform, advance); });
+  return uniform == other.uniform && count == other.count &&
+         std::equal(steps.begin(), steps.begin() + count, other.steps.begin(),
+                    [](const Step &a, const Step &b) {
+                      return a.run == b.run && a.first_coefficient == b.first_coefficient &&
+                             a.places == b.places;
+                    });
 }
 
-ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
-                                    const ContactState<double> &state, double dt,
-                                    const TangentialHistory<double> &history,
-                                    const ContactImpact<double> &impact)
+ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
-  TangentialHistory<double> history_copy = history;
-  ContactImpact<double> impact_copy = impact;
-  return dispatch_model(law, [&](auto model) {
-    return evaluate_contact<decltype(model), false>(coefficients, state, dt, history_copy,
-                                                    impact_copy);
+  const HistoryLayout history = law.history();
+  ContactKernel kernel;
+  kernel.uniform = uniform;
+  kernel.add(law.needs_radius() ? approach_function<true>(history.keeps_impact, advance)
+                                : approach_function<false>(history.keeps_impact, advance),
+             0, history.impact);
+  for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (needs_delay(law, stage)) kernel.add(law.normal().delay);
+    kernel.add(advance ? its.advancing : its.reading, law.first_coefficient(stage),
+               history.of_stage[static_cast<int>(stage)]);
   });
+  return kernel;
+}
+
+ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
+{
+  const StageFunction fused =
+      uniform && (advance || !law.has_history()) ? fused_function(law) : nullptr;
+  if (!fused) return staged_kernel(law, uniform, advance);
+  ContactKernel kernel;
+  kernel.uniform = true;
+  kernel.add(fused, 0, law.history().of_stage[static_cast<int>(Stage::TANGENTIAL)]);
+  return kernel;
+}
+
+ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
+                                    const ContactState<double> &state, double dt,
+                                    const RememberedValues &memory)
+{
+  ContactLanes<double> s;
+  static_cast<ContactState<double> &>(s) = state;
+  if (law.needs_radius())
+    approach<true>(s);
+  else
+    approach<false>(s);
+  const HistoryLayout history = law.history();
+  const double *const kept = memory.value;
+  if (history.keeps_impact) {
+    const HistoryPlaces &at = history.impact;
+    ContactImpact<double> impact{kept[at[0]], kept[at[1]], kept[at[2]]};
+    follow_impact<false>(impact, s.normal_velocity, dt);
+    s.impact_speed = impact.speed;
+    s.age = impact.age;
+  }
+  for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
+    double values[ContactBatch::history_size] = {};
+    for (int n = 0; n < its.odd_history + its.even_history; n++)
+      values[n] = kept[history.of_stage[static_cast<int>(stage)][n]];
+    its.one(s, law.coefficients(stage, coefficients), values, dt);
+  });
+  return s;
 }
 
 }    // namespace Talus

@@ -1,35 +1,75 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// One kernel is compiled for every combination of laws. A scene picks the ones it needs when a run
-// is set up; nothing that a combination does not use is read, computed or branched upon in it.
+// The computation of a batch of contacts: the stages of their law, one after the other, each over
+// all contacts; a batch and what stages leave for each other fit into the first cache. For the few
+// laws that nearly everybody uses there is one function with all stages in it (see
+// fused_kernels.h), with the same bits.
 
 #ifndef TALUS_LAWS_CONTACT_KERNEL_H
 #define TALUS_LAWS_CONTACT_KERNEL_H
 
+#include "laws/approach.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_law.h"
-#include "laws/contact_model.h"
+#include "laws/tangential/sliding.h"
+
+#include <array>
 
 namespace Talus {
 
-/// Computes the contacts begin ... end-1 of a batch; both are multiples of `lanes`.
-///   table  coefficients; a uniform kernel uses table[0] for every contact, the others
-///          table[batch.coefficients[k]]
-///   dt     time step (time units of the caller)
-using ContactKernel = void (*)(ContactBatch &batch, int begin, int end,
-                               const ContactCoefficients *table, double dt);
+class ContactKernel {
+ public:
+  /// Computes the contacts begin ... end-1 of a batch; both are multiples of `lanes`.
+  ///   table  coefficients, laid out for the law; a uniform kernel uses table[0] for every contact,
+  ///          the others table[batch.coefficients[k]]
+  ///   dt     time step (time units of the caller)
+  void operator()(ContactBatch &batch, int begin, int end, const ContactCoefficients *table,
+                  double dt) const
+  {
+    for (int n = 0; n < count; n++) {
+      const Step &step = steps[n];
+      step.run(batch, begin, end, {table, uniform, step.first_coefficient, step.places, dt});
+    }
+  }
 
-/// The kernel of one combination.
+  bool operator==(const ContactKernel &other) const;
+
+ private:
+  friend ContactKernel contact_kernel(const ContactLaw &, bool, bool);
+  friend ContactKernel staged_kernel(const ContactLaw &, bool, bool);
+  void add(StageFunction run, int first_coefficient = 0, const HistoryPlaces &places = {})
+  {
+    steps[count++] = {run, first_coefficient, places};
+  }
+
+  struct Step {
+    StageFunction run;
+    int first_coefficient;
+    HistoryPlaces places;
+  };
+  std::array<Step, num_stages + 2> steps{};    // and the approach, and Chrono's delay
+  int count = 0;
+  bool uniform = false;
+};
+
+/// The kernel of a law.
 ///   uniform  every contact has the coefficients table[0]
 ///   advance  true in a step of a run: the history advances; false while setting up: it is only
 ///   read
-ContactKernel contact_kernel(ContactLaw law, bool uniform, bool advance);
+ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance);
+
+/// The same, stage by stage in any case.
+ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance);
+
+/// What a contact remembers.
+struct RememberedValues {
+  double value[ContactBatch::history_size] = {};
+};
 
 /// One contact alone, history only read: for queries. Same bits as the kernels.
-ContactForce<double> single_contact(ContactLaw law, const ContactCoefficients &coefficients,
+ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const TangentialHistory<double> &history,
-                                    const ContactImpact<double> &impact = {});
+                                    const RememberedValues &memory = {});
 
 }    // namespace Talus
 

@@ -1,108 +1,76 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Names of the contact laws and the coefficients that one pair of materials has.
-// Plain data: parsed by the styles, read by the kernels, written to restart files.
+// The laws of one pair of materials, one for each stage, and what follows from their choice: which
+// numbers a row of coefficients holds, what a contact remembers, what has to be read and computed.
 
 #ifndef TALUS_LAWS_CONTACT_LAW_H
 #define TALUS_LAWS_CONTACT_LAW_H
 
+#include "laws/law.h"
+
+#include <array>
+#include <string>
+
 namespace Talus {
 
-/// Law of the normal force and of all stiffnesses; see normal_laws.h.
-enum class NormalLaw : int {
-  HOOKE,
-  HERTZ,
-  FLORES,
-  PLAINCOULOMB,
-  HOOKE_MATERIAL,
-  HERTZ_MATERIAL,
-  FLORES_MATERIAL,
-  PLAINCOULOMB_MATERIAL
+/// Where a contact keeps what its laws remember, see ContactBatch::history. Values that change
+/// their sign with the order of the bodies have the first three places.
+struct HistoryLayout {
+  std::array<HistoryPlaces, num_stages> of_stage{};
+  HistoryPlaces impact{};    ///< speed, age, and 1 after the first step
+  bool keeps_impact = false;
+  bool fits = true;    ///< false: the laws remember more than there are places
+  int size = 0;        ///< places in use: 0, up to 4 or up to 8
 };
 
-/// The elastic force is proportional to the overlap; with all others the stiffness grows with it.
-inline bool is_linear(NormalLaw law)
-{
-  return law == NormalLaw::HOOKE || law == NormalLaw::HOOKE_MATERIAL;
-}
+/// Which laws a pair uses; pairs with equal laws share a kernel.
+class ContactLaw {
+ public:
+  /// The first law of each stage in the list: hooke, frictionless.
+  ContactLaw();
 
-/// Where the tangential force comes from; see tangential_laws.h.
-///   NONE       frictionless: no tangential force, no torque, no history
-///   DASHPOT    no displacement: F_t = gt v_t, capped
-///   ONESTEP    displacement of the current step, dt v_t
-///   MULTISTEP  displacement accumulated over the life of the contact
-///   TANH       PlainCoulomb's: mu tanh(5 v_t) F_n
-///   MIDPOINT   MULTISTEP with an update of the displacement that is consistent to second order
-///   SLIDER, SLIDER_MIDPOINT   the same two with the dashpot in series with the slip
-enum class TangentialLaw : int {
-  NONE,
-  DASHPOT,
-  ONESTEP,
-  MULTISTEP,
-  TANH,
-  MIDPOINT,
-  SLIDER,
-  SLIDER_MIDPOINT
-};
+  void choose(Stage stage, const Law *law) { laws[static_cast<int>(stage)] = law; }
+  const Law &operator[](Stage stage) const { return *laws[static_cast<int>(stage)]; }
+  const Law &normal() const { return (*this)[Stage::NORMAL]; }
+  const Law &damping() const { return (*this)[Stage::DAMPING]; }
+  const Law &tangential() const { return (*this)[Stage::TANGENTIAL]; }
+  const Law &rolling() const { return (*this)[Stage::ROLLING]; }
+  const Law &twisting() const { return (*this)[Stage::TWISTING]; }
+  const Law &cohesion() const { return (*this)[Stage::COHESION]; }
 
-inline constexpr int num_normal_laws = 8;
-inline constexpr int num_tangential_laws = 8;
+  bool operator==(const ContactLaw &o) const { return laws == o.laws; }
+  bool operator!=(const ContactLaw &o) const { return laws != o.laws; }
 
-/// Which formulas a pair uses; pairs with equal laws share a kernel.
-struct ContactLaw {
-  NormalLaw normal = NormalLaw::HOOKE;
-  TangentialLaw tangential = TangentialLaw::NONE;
-  bool resists = false;    ///< rolling or spinning resistance; needs friction
-  bool adheres = false;
-  bool delayed = false;    ///< resistance acts only after one collision time
-
-  bool operator==(const ContactLaw &o) const
-  {
-    return normal == o.normal && tangential == o.tangential && resists == o.resists &&
-           adheres == o.adheres && delayed == o.delayed;
-  }
-  bool operator!=(const ContactLaw &o) const { return !(*this == o); }
-
+  /// There is rolling or spinning resistance.
+  bool resists() const { return rolling().acts || twisting().acts; }
+  bool adheres() const { return cohesion().acts; }
+  bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
-  bool has_friction() const { return tangential != TangentialLaw::NONE || resists; }
-  /// The tangential displacement is kept.
-  bool has_history() const
+  bool has_friction() const { return tangential().acts || resists(); }
+  /// Something is remembered of a contact.
+  bool has_history() const { return history().size > 0; }
+  /// More than four values are: a second record is needed.
+  bool has_impact() const { return history().size > 4; }
+  /// The effective radius is needed.
+  bool needs_radius() const;
+  HistoryLayout history() const;
+
+  /// Place of a stage's first coefficient in a row, and behind the last one of the last stage.
+  int first_coefficient(Stage stage) const;
+  int num_coefficients() const;
+  const double *coefficients(Stage stage, const ContactCoefficients &row) const
   {
-    return tangential == TangentialLaw::MULTISTEP || tangential >= TangentialLaw::MIDPOINT;
+    return row.c + first_coefficient(stage);
   }
-  /// Impact speed and age are kept as well.
-  bool has_impact() const
-  {
-    const bool needs_speed =
-        normal == NormalLaw::HOOKE_MATERIAL || normal == NormalLaw::FLORES_MATERIAL;
-    return has_history() && (needs_speed || (resists && delayed));
-  }
+  /// The coefficient of this name, 0 if the law has none.
+  double coefficient(Stage stage, const char *name, const ContactCoefficients &row) const;
+
+ private:
+  std::array<const Law *, num_stages> laws;
 };
 
-/// Numbers of one pair of materials. Units: see normal_laws.h for kn, gn, kt, gt and the adhesive
-/// coefficients; mu, mu_roll, mu_twist are dimensionless.
-template <class Real> struct Coefficients {
-  Real kn{};                ///< normal stiffness, or effective Young's modulus
-  Real gn{};                ///< normal damping
-  Real kt{};                ///< tangential stiffness, or effective shear modulus
-  Real gt{};                ///< tangential damping
-  Real mu{};                ///< coefficient of friction
-  Real force_floor{};       ///< least normal force: 0 with limit_damping, else -infinity
-  Real speed{};             ///< characteristic speed of hooke/material and flores/material
-  Real mu_roll{};           ///< rolling resistance: torque / (radius F_n)
-  Real mu_twist{};          ///< spinning resistance: torque / (radius of the overlap circle F_n)
-  Real adhesion{};          ///< constant adhesive force
-  Real adhesion_dmt{};      ///< times sqrt(R_eff)
-  Real adhesion_perko{};    ///< times R_eff
-  Real slip_min{};          ///< plaincoulomb: no friction below this surface velocity
-  Real roll_min{};          ///< no rolling resistance below this velocity
-  Real twist_min{};         ///< no spinning resistance below this angular velocity
-};
-using ContactCoefficients = Coefficients<double>;
-
-/// Words of the input script.
-const char *name_of(NormalLaw law);
-const char *name_of(TangentialLaw law);
+/// A law in words, e.g. "hertz + multistep + resistance".
+std::string describe_law(const ContactLaw &law);
 
 }    // namespace Talus
 

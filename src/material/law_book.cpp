@@ -5,9 +5,9 @@
 #include "base/simd.h"
 
 #include <cstdio>
+#include <initializer_list>
 
-using namespace LAMMPS_NS;
-using namespace Talus;
+namespace Talus {
 
 void LawBook::resize(int ntypes)
 {
@@ -19,16 +19,13 @@ bool LawBook::can_mix(int i, int j) const
 {
   if (!is_set(i, i) || !is_set(j, j)) return false;
   const ContactSpec &a = spec(i, i), &b = spec(j, j);
-  // a number for one material and NULL for the other, or adhesion by different laws, have no common
-  // meaning
-  const bool same_words = a.kt_given == b.kt_given && a.gt_given == b.gt_given;
-  const auto kind = [](const ContactCoefficients &c) {
-    return c.adhesion > 0.0 ? 1 : c.adhesion_dmt > 0.0 ? 2 : c.adhesion_perko > 0.0 ? 3 : 0;
+  const auto both_or_none = [&](const char *name) {
+    return a.given.has(name) == b.given.has(name);
   };
-  return a.law == b.law && (same_words || !a.is_material()) && kind(a.given) == kind(b.given);
+  return a.law == b.law && (!a.is_material() || (both_or_none("kt") && both_or_none("gt")));
 }
 
-ContactLaw LawBook::law(int i, int j) const
+const ContactLaw &LawBook::law(int i, int j) const
 {
   return (is_set(i, j) ? spec(i, j) : spec(i, i)).law;
 }
@@ -60,30 +57,33 @@ LawTable LawBook::table() const
   return table;
 }
 
+/* Numbers of the normal direction first, then stiffness and damping of the tangential one. */
+
 std::string LawBook::describe_pair(int i, int j) const
 {
-  const ContactLaw l = law(i, j);
-  const ContactCoefficients c = coefficients(i, j);
-  const bool material = l.normal >= NormalLaw::HOOKE_MATERIAL;
+  const ContactLaw &its = law(i, j);
+  const ContactCoefficients row = coefficients(i, j);
   std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
-                     describe_law(l) + (is_set(i, j) ? ";" : "; mixed;");
-  const auto add = [&text](const char *name, double value) {
-    char word[64];
-    snprintf(word, sizeof word, " %s %.6g", name, value);
-    text += word;
+                     describe_law(its) + (is_set(i, j) ? ";" : "; mixed;");
+  const auto add = [&](Stage stage, Shown shown) {
+    const Law &one = its[stage];
+    for (int n = 0; n < one.num_coefficients; n++) {
+      if (one.coefficients[n].shown != shown) continue;
+      char number[32];
+      snprintf(number, sizeof number, " %.6g", its.coefficients(stage, row)[n]);
+      text += std::string(" ") + one.coefficients[n].name + number;
+    }
   };
-  add(material ? "E_eff" : "kn", c.kn);
-  add(material ? "damping" : "gn", c.gn);
-  if (l.tangential != TangentialLaw::NONE && l.tangential != TangentialLaw::TANH) {
-    add(material ? "G_eff" : "kt", c.kt);
-    add(material ? "tangential damping" : "gt", c.gt);
-  }
-  if (l.tangential != TangentialLaw::NONE) add("mu", c.mu);
-  if (l.resists) add("mu_r", c.mu_roll);
-  if (l.resists) add("mu_s", c.mu_twist);
-  if (l.adheres) add("adhesion", c.adhesion + c.adhesion_dmt + c.adhesion_perko);
-  if (c.force_floor == 0.0) text += " limit_damping";
-  return text;
+  const auto always = [&](std::initializer_list<Stage> stages) {
+    for (Stage stage : stages) add(stage, Shown::ALWAYS);
+  };
+  always({Stage::NORMAL, Stage::DAMPING});
+  if (its.tangential().reads_stiffness)
+    for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
+  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION});
+  const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
+  const ContactSpec &b = is_set(i, j) ? a : spec(j, j);
+  return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");
 }
 
 std::string LawBook::describe(const LawTable &table) const
@@ -105,10 +105,4 @@ std::string LawBook::describe(const LawTable &table) const
   return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";
 }
 
-std::string LAMMPS_NS::describe_law(ContactLaw law)
-{
-  std::string text = std::string(name_of(law.normal)) + " + " + name_of(law.tangential);
-  if (law.resists) text += law.delayed ? " + delayed resistance" : " + resistance";
-  if (law.adheres) text += " + adhesion";
-  return text;
-}
+}    // namespace Talus

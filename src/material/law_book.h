@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS {
+namespace Talus {
 
 class LawBook {
  public:
@@ -28,25 +28,25 @@ class LawBook {
   const ContactSpec &spec(int i, int j) const { return entry(i, j).spec; }
 
   /// Both types are set and have the same law, so that the pair can be mixed. Material laws must
-  /// also agree on whether kt and gt are numbers or NULL.
+  /// also agree on whether kt and gt are numbers or NULL: the two have no common meaning.
   bool can_mix(int i, int j) const;
 
   /// The pair is set or can be mixed; the functions below need that.
   bool known(int i, int j) const { return is_set(i, j) || can_mix(i, j); }
 
-  Talus::ContactLaw law(int i, int j) const;
-  Talus::ContactCoefficients coefficients(int i, int j) const;
+  const ContactLaw &law(int i, int j) const;
+  ContactCoefficients coefficients(int i, int j) const;
 
   /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
   std::string describe_pair(int i, int j) const;
 
   /// For the log, several lines: kernels, pairs of types, and what `table` lets a scene do without.
-  std::string describe(const Talus::LawTable &table) const;
+  std::string describe(const LawTable &table) const;
 
   /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another
   /// sub-style of pair hybrid and never come up: they get the row of one that does, so that uniform
   /// laws are recognized.
-  Talus::LawTable table() const;
+  LawTable table() const;
 
  private:
   struct Entry {
@@ -60,9 +60,6 @@ class LawBook {
   std::vector<Entry> entries;
 };
 
-/// A law in words, e.g. "hertz + multistep + resistance".
-std::string describe_law(Talus::ContactLaw law);
-
-}    // namespace LAMMPS_NS
+}    // namespace Talus
 
 #endif

@@ -16,7 +16,7 @@ void LawTable::reset(int ntypes)
   distinct.clear();
 }
 
-void LawTable::set(int i, int j, ContactLaw law, const ContactCoefficients &coefficients)
+void LawTable::set(int i, int j, const ContactLaw &law, const ContactCoefficients &coefficients)
 {
   for (int r : {row(i, j), row(j, i)}) {
     rows[r] = coefficients;
@@ -37,7 +37,7 @@ void LawTable::finish()
   }
   advancing.clear();
   reading.clear();
-  for (const ContactLaw law : distinct) {
+  for (const ContactLaw &law : distinct) {
     advancing.push_back(contact_kernel(law, one_row, true));
     reading.push_back(contact_kernel(law, one_row, false));
   }
@@ -50,22 +50,22 @@ template <class Predicate> bool LawTable::any(Predicate holds) const
 
 bool LawTable::has_friction() const
 {
-  return any([](ContactLaw law) { return law.has_friction(); });
+  return any([](const ContactLaw &law) { return law.has_friction() || law.has_history(); });
 }
 
 bool LawTable::has_history() const
 {
-  return any([](ContactLaw law) { return law.has_history(); });
+  return any([](const ContactLaw &law) { return law.has_history(); });
 }
 
 bool LawTable::has_impact() const
 {
-  return any([](ContactLaw law) { return law.has_impact(); });
+  return any([](const ContactLaw &law) { return law.has_impact(); });
 }
 
 bool LawTable::has_resistance() const
 {
-  return any([](ContactLaw law) { return law.resists; });
+  return any([](const ContactLaw &law) { return law.resists(); });
 }
 
 }    // namespace Talus

@@ -18,7 +18,7 @@ class LawTable {
   void reset(int ntypes);
 
   /// Sets the pair (i, j) = (j, i); types count from 1 as in input scripts.
-  void set(int i, int j, ContactLaw law, const ContactCoefficients &coefficients);
+  void set(int i, int j, const ContactLaw &law, const ContactCoefficients &coefficients);
 
   /// Call once after the last set(): finds which laws occur, and whether one row serves all.
   void finish();
@@ -26,19 +26,20 @@ class LawTable {
   int row(int type_i, int type_j) const { return (type_i - 1) * types + (type_j - 1); }
   const ContactCoefficients *coefficients() const { return rows.data(); }
   const ContactCoefficients &coefficients(int row) const { return rows[row]; }
-  ContactLaw law(int row) const { return laws[row]; }
+  const ContactLaw &law(int row) const { return laws[row]; }
 
   /// Number of different laws, and the one that a row uses (0 ... count-1).
   int num_laws() const { return static_cast<int>(distinct.size()); }
   int law_index(int row) const { return index_of_row[row]; }
-  ContactKernel kernel(int law_index, bool advance) const
+  const ContactKernel &kernel(int law_index, bool advance) const
   {
     return advance ? advancing[law_index] : reading[law_index];
   }
-  ContactLaw distinct_law(int law_index) const { return distinct[law_index]; }
+  const ContactLaw &distinct_law(int law_index) const { return distinct[law_index]; }
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
   bool uniform() const { return one_row; }
+  /// Spins are read. They are wherever something is remembered: contacts without are the fast ones.
   bool has_friction() const;
   bool has_history() const;
   bool has_impact() const;

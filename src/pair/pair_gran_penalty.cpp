@@ -103,8 +103,8 @@ double PairGranPenalty::init_one(int i, int j)
                  i, describe_law(book.law(i, i)), j, describe_law(book.law(j, j)), i, j);
     if (!book.can_mix(i, j))
       error->all(FLERR,
-                 "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt, or "
-                 "adhesion of different kinds: add 'pair_coeff {} {} ...'",
+                 "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt: "
+                 "add 'pair_coeff {} {} ...'",
                  i, j, i, j);
   }
   return system->cutoff(i, j);

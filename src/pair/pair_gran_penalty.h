@@ -11,6 +11,7 @@
 #include "system/granular_system.h"
 #include "system/lammps_compat.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -39,9 +40,11 @@ class PairGranPenalty : public Pair {
   double atom2cut(int) TALUS_OVERRIDE_ATOM2CUT;
   double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
+
  private:
   void allocate();
   void check_host();
+  std::int32_t read_number(FILE *fp);
   void tally(const Talus::ReportedContact &contact);
 
   std::shared_ptr<Talus::GranularSystem> system;

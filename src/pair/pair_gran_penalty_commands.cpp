@@ -4,7 +4,8 @@
 
 #include "pair/pair_gran_penalty.h"
 
-#include "pair/contact_command.h"
+#include "laws/contact_words.h"
+#include "system/command_words.h"
 
 #include "atom.h"
 #include "error.h"
@@ -46,7 +47,6 @@ void PairGranPenalty::coeff(int narg, char **arg)
   if (!allocated) allocate();
   // under pair hybrid the name of the style has been taken out of the words
   const int shift = utils::strmatch(force->pair_style, "^hybrid") ? 1 : 0;
-  const CommandWords words{lmp, "pair_coeff gran/penalty", narg, arg, shift};
   if (narg < 3)
     error->all(FLERR, "pair_coeff gran/penalty: expected two types and a contact law, e.g. "
                       "'pair_coeff * * hertz kn gn tangential multistep NULL NULL mu'");
@@ -55,11 +55,10 @@ void PairGranPenalty::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  int iarg = 2;
-  const ContactSpec parsed = parse_contact(words, iarg);
-  if (iarg < narg)
-    error->all(FLERR, iarg + shift, "pair_coeff gran/penalty: unknown word '{}', expected {}",
-               arg[iarg], contact_keywords);
+  Words words = command_words(lmp, "pair_coeff gran/penalty", narg, arg, 2, shift);
+  const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
+  if (!words.at_end())
+    words.fail(0, "unknown word '" + words.peek() + "', expected " + contact_keywords);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)

@@ -1,23 +1,51 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Pair style gran/penalty: its laws in restart files.
+// Pair style gran/penalty: its laws in restart files, see material/law_file.h.
 
 #include "pair/pair_gran_penalty.h"
+
+#include "material/law_file.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "utils.h"
 
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
 using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+void write_number(std::int32_t number, FILE *fp)
+{
+  fwrite(&number, sizeof number, 1, fp);
+}
+
+}    // namespace
+
+/* Read by the first rank, known to all. */
+
+std::int32_t PairGranPenalty::read_number(FILE *fp)
+{
+  std::int32_t number = 0;
+  if (comm->me == 0) utils::sfread(FLERR, &number, sizeof number, 1, fp, nullptr, error);
+  MPI_Bcast(&number, 1, MPI_INT32_T, 0, world);
+  return number;
+}
 
 void PairGranPenalty::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      fwrite(&system->laws().spec(i, j), sizeof(ContactSpec), 1, fp);
+      const LawBook &book = system->laws();
+      const std::string bytes = book.is_set(i, j) ? to_bytes(book.spec(i, j)) : "";
+      write_number(static_cast<std::int32_t>(bytes.size()), fp);    // 0: mixed
+      fwrite(bytes.data(), 1, bytes.size(), fp);
     }
 }
 
@@ -27,25 +55,33 @@ void PairGranPenalty::read_restart(FILE *fp)
   if (!allocated) allocate();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      ContactSpec spec;
-      if (comm->me == 0) {
-        utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-        utils::sfread(FLERR, &spec, sizeof spec, 1, fp, nullptr, error);
+      const std::int32_t size = read_number(fp);
+      if (size == 0) continue;
+      std::string bytes(size, '\0');
+      if (comm->me == 0) utils::sfread(FLERR, bytes.data(), 1, size, fp, nullptr, error);
+      MPI_Bcast(bytes.data(), size, MPI_BYTE, 0, world);
+      try {
+        system->laws().set(i, j, from_bytes(bytes));
+      } catch (const std::runtime_error &problem) {
+        error->all(FLERR, "Pair style gran/penalty: types {} and {}: {}", i, j, problem.what());
       }
-      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      MPI_Bcast(&spec, sizeof spec, MPI_BYTE, 0, world);
-      if (setflag[i][j]) system->laws().set(i, j, spec);
+      setflag[i][j] = 1;
     }
 }
 
 void PairGranPenalty::write_restart_settings(FILE *fp)
 {
-  fwrite(&system->laws().mix, sizeof system->laws().mix, 1, fp);
+  write_number(law_file_mark, fp);
+  write_number(law_file_version, fp);
+  write_number(static_cast<std::int32_t>(system->laws().mix), fp);
 }
 
 void PairGranPenalty::read_restart_settings(FILE *fp)
 {
-  if (comm->me == 0)
-    utils::sfread(FLERR, &system->laws().mix, sizeof system->laws().mix, 1, fp, nullptr, error);
-  MPI_Bcast(&system->laws().mix, sizeof system->laws().mix, MPI_BYTE, 0, world);
+  const std::int32_t mark = read_number(fp);
+  const std::string unmarked = complaint_about_law_file(mark, law_file_version);
+  if (!unmarked.empty()) error->all(FLERR, "Pair style gran/penalty: {}", unmarked);
+  const std::string complaint = complaint_about_law_file(mark, read_number(fp));
+  if (!complaint.empty()) error->all(FLERR, "Pair style gran/penalty: {}", complaint);
+  system->laws().mix = static_cast<FrictionMix>(read_number(fp));
 }

@@ -4,6 +4,8 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "laws/circle_of_intersection.h"
+
 #include "atom.h"
 #include "update.h"
 
@@ -47,8 +49,10 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   ContactImpact<double> impact;
   const TangentialHistory<double> history = system->history_of(i, j, impact);
   const int row_of_types = laws.row(itype, jtype);
-  const ContactForce<double> out = single_contact(
-      laws.law(row_of_types), laws.coefficients(row_of_types), s, update->dt, history, impact);
+  const Vector3<double> &d = history.displacement;
+  const ContactLanes<double> out =
+      single_contact(laws.law(row_of_types), laws.coefficients(row_of_types), s, update->dt,
+                     {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age, impact.begun}});
 
   const Vector3<double> vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector3<double> ft = out.tangential;

@@ -32,21 +32,6 @@ double smaller_defined(double a, double b)
   return b > 0.0 ? std::min(a, b) : a;
 }
 
-/// Effective Young's modulus of a law with Hertzian stiffness, 0 for others.
-double hertzian_modulus(ContactLaw law, const ContactCoefficients &c)
-{
-  switch (law.normal) {
-  case NormalLaw::HERTZ:
-  case NormalLaw::FLORES:
-    return 0.75 * c.kn;
-  case NormalLaw::HERTZ_MATERIAL:
-  case NormalLaw::FLORES_MATERIAL:
-    return c.kn;
-  default:
-    return 0.0;
-  }
-}
-
 }    // namespace
 
 void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
@@ -145,8 +130,8 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 {
   const std::vector<double> &radius = sizes.radius, &mass = sizes.mass;
   if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
-  if (!laws.is_set(i, j) && !laws.can_mix(i, j)) return;
-  const ContactLaw law = laws.law(i, j);
+  if (!laws.known(i, j)) return;
+  const ContactLaw &law = laws.law(i, j);
   const ContactCoefficients c = laws.coefficients(i, j);
   const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
   const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
@@ -157,14 +142,14 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 
   const double k = tangent_stiffness(law, c, overlap, m, r);
   if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
-  const double modulus = hertzian_modulus(law, c);
+  const double modulus = law.normal().modulus(law.coefficients(Stage::NORMAL, c));
   if (modulus > 0.0 && speed > 0.0)
     hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
   if (i == j && laws.spec(i, i).is_material())
     rayleigh = smaller_defined(rayleigh, rayleigh_of(laws.spec(i, i), i));
 }
 
-void CriticalTimeStep::consider_damping(const std::string &who, ContactLaw law,
+void CriticalTimeStep::consider_damping(const std::string &who, const ContactLaw &law,
                                         const ContactCoefficients &c, double overlap,
                                         double mass_eff, double radius_eff)
 {
@@ -198,6 +183,7 @@ double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
 {
   const double r = sizes.radius[type];
   const double density = sizes.mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
-  const double shear = spec.young / (2.0 * (1.0 + spec.poisson));
-  return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * spec.poisson + 0.8766);
+  const double poisson = spec.given.value("nu");
+  const double shear = spec.given.value("E") / (2.0 * (1.0 + poisson));
+  return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * poisson + 0.8766);
 }

@@ -39,11 +39,11 @@ class CriticalTimeStep : protected Pointers {
   ElasticImpacts elastic;
 
   /// `group` selects the particles whose sizes count.
-  void compute(const LawBook &laws, const Talus::ContactPipeline &contacts, int group);
+  void compute(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts, int group);
 
   /// The same from the sizes of the particles alone: contacts at an overlap of 1 %, no speeds.
   /// Cheap enough for every rebuild.
-  void compute_from_sizes(const LawBook &laws, int group);
+  void compute_from_sizes(const Talus::LawBook &laws, int group);
 
   /// What compute_from_sizes() depends on, of this rank and without communication: radius, then
   /// mass of the smallest particle of each type, of those in `group` and then of those of them that
@@ -62,13 +62,13 @@ class CriticalTimeStep : protected Pointers {
   Sizes smallest_particles(int types, int groups) const;
   std::vector<double> smallest_here(int types, int groups) const;
   double reduce_smallest(double mine) const;
-  void consider_pairs(const LawBook &laws, double speed);
-  void consider_pair(const LawBook &laws, int i, int j, double speed);
-  void consider_damping(const std::string &who, Talus::ContactLaw law,
+  void consider_pairs(const Talus::LawBook &laws, double speed);
+  void consider_pair(const Talus::LawBook &laws, int i, int j, double speed);
+  void consider_damping(const std::string &who, const Talus::ContactLaw &law,
                         const Talus::ContactCoefficients &c, double overlap, double mass_eff,
                         double radius_eff);
   double smallest_body_period(int types, int group);
-  double rayleigh_of(const ContactSpec &spec, int type) const;
+  double rayleigh_of(const Talus::ContactSpec &spec, int type) const;
 
   Sizes sizes;
   double law_period = 0.0;

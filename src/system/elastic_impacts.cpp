@@ -23,15 +23,16 @@ void ElasticImpacts::clear()
   advised = 0.0;
 }
 
-void ElasticImpacts::consider(const std::string &who, ContactLaw law, const ContactCoefficients &c,
-                              double overlap, double mass_eff, double radius_eff)
+void ElasticImpacts::consider(const std::string &who, const ContactLaw &law,
+                              const ContactCoefficients &c, double overlap, double mass_eff,
+                              double radius_eff)
 {
-  const bool rubs = law.has_friction() && c.mu > 0.0;
+  const bool rubs = law.coefficient(Stage::TANGENTIAL, "mu", c) > 0.0;
   if (rubs || damping_ratio(law, c, overlap, mass_eff, radius_eff) > little_damping) {
     loses_energy = true;
     return;
   }
-  const double limit = is_linear(law.normal) ? advised_linear : advised_hertzian;
+  const double limit = law.normal().exponent == 1.0 ? advised_linear : advised_hertzian;
   if (advised > 0.0 && advised <= limit) return;
   strictest = who;
   advised = limit;

@@ -34,7 +34,7 @@ class ElasticImpacts : protected Pointers {
 
   /// A kind of contact of the scene. `who` names it in the warning; the damping is taken at
   /// `overlap` (length) with the effective mass and radius.
-  void consider(const std::string &who, Talus::ContactLaw law,
+  void consider(const std::string &who, const Talus::ContactLaw &law,
                 const Talus::ContactCoefficients &coefficients, double overlap, double mass_eff,
                 double radius_eff);
 

@@ -72,12 +72,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 
-  LAMMPS_NS::LawBook &laws() { return book; }
-  const LAMMPS_NS::LawBook &laws() const { return book; }
+  Talus::LawBook &laws() { return book; }
+  const Talus::LawBook &laws() const { return book; }
   /// After each change of laws().
   void laws_have_changed() { laws_current = false; }
   /// The law of a type with itself, as set by pair_coeff, or nullptr.
-  const LAMMPS_NS::ContactSpec *own_law(int type) const;
+  const Talus::ContactSpec *own_law(int type) const;
 
   // ---- one step
 
@@ -186,7 +186,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   // the pair style
   LAMMPS_NS::Pair *pair = nullptr;
   LAMMPS_NS::FixContactStore *store = nullptr;
-  LAMMPS_NS::LawBook book;
+  Talus::LawBook book;
   bool laws_current = false;
   std::string announced;    // last description of the laws in the log
 

@@ -33,15 +33,15 @@ class TimeStepMonitor : protected Pointers {
   void start() { said = true; }
 
   /// Collective, at the start of a run. `contacts` are those of its first step.
-  void judge_start(const LawBook &laws, const Talus::ContactPipeline &contacts);
+  void judge_start(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts);
 
   /// This object and `laws` must live as long as the check.
-  RunMonitor::Check check(const LawBook &laws);
+  RunMonitor::Check check(const Talus::LawBook &laws);
 
  private:
-  RunMonitor::Finding smaller_particles(const LawBook &laws) const;
-  bool judge_smaller_particles(const LawBook &laws);
-  void remember_sizes(const LawBook &laws);
+  RunMonitor::Finding smaller_particles(const Talus::LawBook &laws) const;
+  bool judge_smaller_particles(const Talus::LawBook &laws);
+  void remember_sizes(const Talus::LawBook &laws);
   void judge();
 
   CriticalTimeStep critical;

@@ -21,11 +21,6 @@ constexpr double strong_friction = 0.5, gripping_friction = 10.0, strong_resista
 // rolling resistance over friction: it takes away more than the first step of the contact gives
 constexpr double braking_resistance = 0.01;
 
-bool is_midpoint(TangentialLaw law)
-{
-  return law == TangentialLaw::MIDPOINT || law == TangentialLaw::SLIDER_MIDPOINT;
-}
-
 /// Damping ratio that outweighs what the update of the displacement gains: none for mu = 1, e = .95
 /// for mu = 5, .85 for mu above 10.
 double outweighing(double mu)
@@ -40,23 +35,25 @@ double harmless_fraction(double mu)
 
 }    // namespace
 
-void UndampedFriction::consider(const std::string &who, ContactLaw law,
+void UndampedFriction::consider(const std::string &who, const ContactLaw &law,
                                 const ContactCoefficients &c, double overlap, double mass_eff,
                                 double radius_eff)
 {
-  if (!law.has_history()) return;
+  if (!law.tangential().has_spring) return;
   const double damping = damping_ratio(law, c, overlap, mass_eff, radius_eff);
-  const double resistance = law.resists && !law.delayed ? c.mu_roll : 0.0;
-  const bool hides = damping >= outweighing(c.mu) || resistance >= braking_resistance * c.mu;
-  if (!is_midpoint(law.tangential) && c.mu > strong_friction && !hides && c.mu > worst_step.mu)
-    worst_step = {who, c.mu, c.mu_roll};
+  const double mu = law.coefficient(Stage::TANGENTIAL, "mu", c);
+  const double mu_roll = law.coefficient(Stage::ROLLING, "mu_r", c);
+  const double resistance = law.rolling().holds ? mu_roll : 0.0;
+  const bool hides = damping >= outweighing(mu) || resistance >= braking_resistance * mu;
+  if (!law.tangential().is_midpoint && mu > strong_friction && !hides && mu > worst_step.mu)
+    worst_step = {who, mu, mu_roll};
 
-  const double held = std::min(c.mu, resistance);
+  const double held = std::min(mu, resistance);
   const double enough = held >= 1.0 ? moderate_damping : weak_damping;
-  const bool grips = c.mu > gripping_friction && damping < weak_damping;
+  const bool grips = mu > gripping_friction && damping < weak_damping;
   const bool holds = held > strong_resistance && damping < enough;
-  if (!is_linear(law.normal) && (grips || holds) && c.mu > worst_spring.mu)
-    worst_spring = {who, c.mu, law.resists ? c.mu_roll : 0.0};
+  if (law.normal().exponent > 1.0 && (grips || holds) && mu > worst_spring.mu)
+    worst_spring = {who, mu, mu_roll};
 }
 
 void UndampedFriction::warn(double fraction) const

@@ -28,11 +28,11 @@ pair_style gran/penalty
 """
 PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
 GOOD = "hertz/material 1e6 0.5 0.3"
-LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, plaincoulomb/material"
+LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material or plaincoulomb/material"
 KEYWORDS = "expected tangential, rolling, spinning, adhesion, vmin or limit_damping"
 
 NOT_NEGATIVE, POSITIVE, UNIT = r"\(a number >= 0\)", r"\(a number > 0\)", r"\(a number from 0 to 1\)"
-POISSON = r"\(a number from -1 to .5\)"
+POISSON = r"\(a number above -1, up to 0.5\)"
 
 # arguments of each normal law: name in messages, range, a good word, bad words
 E = ("Young's modulus E", POSITIVE, "1e6", ("0", "-1", "x", "1e999", "nan"))

@@ -11,6 +11,7 @@
 #include <cstring>
 
 using namespace Talus;
+using namespace named;
 using namespace twin;
 
 namespace {
@@ -19,11 +20,11 @@ constexpr double dt = 2e-5;
 constexpr int width = ContactBatch::width;
 using Triple = std::array<double, 3>;
 
-Triple row_of(const Lanes &v, int lane)
+Triple triple_of(const double (*v)[width], int lane)
 {
   return {v[0][lane], v[1][lane], v[2][lane]};
 }
-Triple row_of(const Vector3<double> &v)
+Triple triple_of(const Vector3<double> &v)
 {
   return {v.x, v.y, v.z};
 }
@@ -42,18 +43,18 @@ bool same_bits(const Result &a, const Result &b)
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-class LawBits : public testing::TestWithParam<ContactLaw> {
+class LawBits : public testing::TestWithParam<NamedLaw> {
  protected:
   LawBits() { batch.clear(); }
 
   /// A new random contact with coefficients and a variant of the law of its own.
   void next()
   {
-    const std::vector<ContactLaw> laws = variants(GetParam());
+    const std::vector<NamedLaw> laws = variants(GetParam());
     law = laws[random.below(static_cast<int>(laws.size()))];
-    const ContactSpec spec = random_spec(random, law.normal, random.chance(0.3));
-    p = contact_coefficients(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM);
-    c = random_contact(random, law, compose(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM), dt);
+    const ContactSpec spec = random_spec(random, law, random.chance(0.3));
+    p = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
+    c = random_contact(random, law, compose(spec, spec, FrictionMix::MINIMUM), dt);
   }
 
   /// One contact in one lane of a batch whose other lanes hold whatever they held before.
@@ -63,14 +64,14 @@ class LawBits : public testing::TestWithParam<ContactLaw> {
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
-    return {row_of(batch.force, lane),  row_of(batch.moment, lane),
-            row_of(batch.couple, lane), row_of(batch.displacement, lane),
-            row_of(batch.impact, lane), batch.sliding[lane]};
+    return {triple_of(batch.force, lane),       triple_of(batch.moment, lane),
+            triple_of(batch.couple, lane),      triple_of(batch.history, lane),
+            triple_of(batch.history + 4, lane), batch.history[3][lane]};
   }
 
   RandomSource random{4711};
   ContactBatch batch;
-  ContactLaw law;
+  NamedLaw law;
   ContactCoefficients p;
   Contact c;
 };
@@ -91,18 +92,16 @@ TEST_P(LawBits, QueriesAgreeWithKernels)
 {
   for (int n = 0; n < 10000; n++) {
     next();
-    const Result kernel = run(n % width, c, true, false);
-    const ContactForce<double> query =
-        single_contact(law, p, state_of(c), dt, history_of(c),
-                       law.has_impact() ? impact_of(c) : ContactImpact<double>{});
-    ASSERT_EQ(kernel.force, row_of(query.force)) << title(law);
-    ASSERT_EQ(kernel.moment, row_of(query.moment)) << title(law);
-    ASSERT_EQ(kernel.couple, row_of(query.couple)) << title(law);
+    const int lane = n % width;
+    const Result kernel = run(lane, c, true, false);
+    const ContactLanes<double> query = single_contact(law, p, state_of(c), dt, remembered(c));
+    ASSERT_EQ(kernel.force, triple_of(query.force)) << title(law);
+    ASSERT_EQ(kernel.moment, triple_of(query.moment)) << title(law);
+    ASSERT_EQ(kernel.couple, triple_of(query.couple)) << title(law);
     // and leave what is remembered
-    ASSERT_EQ(kernel.history, row_of(history_of(c).displacement)) << title(law);
-    ASSERT_EQ(kernel.impact[0], impact_of(c).speed) << title(law);
-    ASSERT_EQ(kernel.impact[1], impact_of(c).age) << title(law);
-    ASSERT_EQ(kernel.impact[2], impact_of(c).begun) << title(law);
+    const RememberedValues before = remembered(c);
+    for (int n = 0; n < ContactBatch::history_size; n++)
+      ASSERT_EQ(batch.history[n][lane], before.value[n]) << title(law);
   }
 }
 

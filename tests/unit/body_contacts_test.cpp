@@ -32,7 +32,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
       shape = std::make_unique<Plane>(point, normal, false);
     laws = GetParam() < 2
                ? mixed_laws()
-               : single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, GetParam() == 2);
+               : single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, GetParam() == 2);
     contacts.set_laws(laws);
     frame.origin = shape->reference_point();
     if (contacts.keeps_history()) contacts.history.grow(p.size());
@@ -123,7 +123,9 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
         c.history = displacement[i];
         c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
-        expected = evaluate(c, laws.law(row), laws.coefficients(row), dt, advance);
+        const ContactLaw &its = laws.law(row);
+        expected = evaluate(c, named::named_law(its),
+                            named::numbers_of(its, laws.coefficients(row)), dt, advance);
         touching++;
       }
       const double error = 1e-12 * expected.force_scale;

@@ -33,7 +33,7 @@ LawTable resisting_law()
 {
   LawTable table;
   table.reset(slow::num_types);
-  ContactCoefficients c;
+  named::Numbers c;
   c.kn = 800.0;
   c.gn = 3.0;
   c.kt = 300.0;
@@ -42,10 +42,10 @@ LawTable resisting_law()
   c.mu_roll = 0.1;
   c.mu_twist = 0.1;
   c.force_floor = -1.0e300;
-  ContactLaw law{NormalLaw::HERTZ, TangentialLaw::MULTISTEP};
+  named::NamedLaw law{named::Normal::HERTZ, named::Tangential::MULTISTEP};
   law.resists = true;
   for (int i = 1; i <= slow::num_types; i++)
-    for (int j = i; j <= slow::num_types; j++) table.set(i, j, law, c);
+    for (int j = i; j <= slow::num_types; j++) named::set(table, i, j, law, c);
   table.finish();
   return table;
 }

@@ -30,21 +30,21 @@ LawTable resisting(bool delayed)
 {
   LawTable table;
   table.reset(num_types);
-  ContactLaw law{NormalLaw::HERTZ, TangentialLaw::MULTISTEP, true};
+  named::NamedLaw law{named::Normal::HERTZ, named::Tangential::MULTISTEP, true};
   law.delayed = delayed;
-  ContactCoefficients c{800.0, 3.0, 300.0, 5.0, 0.3, -infinity};
+  named::Numbers c{800.0, 3.0, 300.0, 5.0, 0.3, -infinity};
   c.mu_roll = 0.1;
   c.mu_twist = 0.2;
   for (int i = 1; i <= num_types; i++)
-    for (int j = i; j <= num_types; j++) table.set(i, j, law, c);
+    for (int j = i; j <= num_types; j++) named::set(table, i, j, law, c);
   table.finish();
   return table;
 }
 
 std::vector<Scene> scenes()
 {
-  const ContactLaw smooth{NormalLaw::HERTZ, TangentialLaw::NONE},
-      rough{NormalLaw::HERTZ, TangentialLaw::MULTISTEP};
+  const named::NamedLaw smooth{named::Normal::HERTZ, named::Tangential::NONE},
+      rough{named::Normal::HERTZ, named::Tangential::MULTISTEP};
   return {{"mixed", mixed_laws()},
           {"smooth", single_law(smooth, true)},
           {"rough", single_law(rough, false)},

@@ -13,6 +13,7 @@
 #include <iostream>
 
 using namespace Talus;
+using namespace named;
 using namespace twin;
 
 namespace {
@@ -21,20 +22,20 @@ struct Impact {
   double restitution, duration;
 };
 
-Impact collide(ContactLaw law, double e, bool limited)
+Impact collide(NamedLaw law, double e, bool limited)
 {
-  LAMMPS_NS::ContactSpec spec;
+  ContactSpec spec;
   spec.law = law;
-  spec.young = 2e5;
-  spec.poisson = 0.3;
-  spec.restitution = e;
-  spec.limit_damping = limited;
-  spec.given.mu = 0.3;
-  spec.given.speed = 1.0;
+  spec.given["E"] = 2e5;
+  spec.given["nu"] = 0.3;
+  spec.given["e"] = e;
+  if (limited) spec.given["limit_damping"] = 1.0;
+  spec.given["mu"] = 0.3;
+  spec.given["vchar"] = 1.0;
   TwoSpheres scene({0.5, 1.0, {0.0, 0.625, 0.0}, {0.0, -1.0, 0.0}},
                    {0.5, 1.0, {0.0, -0.625, 0.0}, {0.0, 1.0, 0.0}});
   scene.law = law;
-  scene.coefficients = contact_coefficients(spec, spec, LAMMPS_NS::FrictionMix::MINIMUM);
+  scene.coefficients = numbers_of(law, contact_coefficients(spec, spec, FrictionMix::MINIMUM));
   scene.dt = 3e-5;
   int steps = 0;
   for (double time = 0.0; time < 0.5; time += scene.dt) {
@@ -51,16 +52,16 @@ Impact collide(ContactLaw law, double e, bool limited)
 
 TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 {
-  const NormalLaw hooke = NormalLaw::HOOKE_MATERIAL, hertz = NormalLaw::HERTZ_MATERIAL;
-  const ContactLaw laws[] = {{hooke, TangentialLaw::ONESTEP},
-                             {hooke, TangentialLaw::MULTISTEP},
-                             {hertz, TangentialLaw::ONESTEP},
-                             {hertz, TangentialLaw::MULTISTEP},
-                             {NormalLaw::PLAINCOULOMB_MATERIAL, TangentialLaw::TANH}};
+  const Normal hooke = Normal::HOOKE_MATERIAL, hertz = Normal::HERTZ_MATERIAL;
+  const NamedLaw laws[] = {{hooke, Tangential::ONESTEP},
+                           {hooke, Tangential::MULTISTEP},
+                           {hertz, Tangential::ONESTEP},
+                           {hertz, Tangential::MULTISTEP},
+                           {Normal::PLAINCOULOMB_MATERIAL, Tangential::TANH}};
   std::cout << "e_out - e for e =            0        .25       .5        .75       1      "
                "limited: .25, .5, .75, 1\n"
             << std::setprecision(1) << std::scientific << std::left;
-  for (const ContactLaw &law : laws) {
+  for (const NamedLaw &law : laws) {
     std::cout << std::setw(14) << name_of(law.normal) << " " << std::setw(9)
               << name_of(law.tangential);
     for (bool limited : {false, true})
@@ -79,10 +80,8 @@ TEST(ChronoImpact, RestitutionIsTheOneAskedFor)
 // The impact velocity of a history law enters: elastic contacts last pi sqrt(m/k) with k ~ v^(2/5).
 TEST(ChronoImpact, CharacteristicSpeedIsAtLeastTheImpactSpeed)
 {
-  const double one =
-      collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::ONESTEP}, 1.0, false).duration;
-  const double two =
-      collide({NormalLaw::HOOKE_MATERIAL, TangentialLaw::MULTISTEP}, 1.0, false).duration;
+  const double one = collide({Normal::HOOKE_MATERIAL, Tangential::ONESTEP}, 1.0, false).duration;
+  const double two = collide({Normal::HOOKE_MATERIAL, Tangential::MULTISTEP}, 1.0, false).duration;
   const double scale = 16.0 / 15.0 * 0.5 * (2e5 / (2.0 * 0.91));    // 16/15 sqrt(R) E
   const auto expected = [=](double v) {
     return std::acos(-1.0) * std::sqrt(0.5 / (scale * std::pow(0.5 * v * v / scale, 0.2)));

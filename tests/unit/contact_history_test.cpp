@@ -18,7 +18,7 @@ constexpr std::size_t empty = 2 + 2;    // luggage without contacts: origin, hea
 
 LawTable history_laws()
 {
-  return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, true);
+  return single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, true);
 }
 
 void rebuild(TestRank &rank, const Packing &p, double skin, RandomSource &random)
@@ -222,7 +222,7 @@ TEST(ContactHistory, NoneWithoutLawsThatKeepIt)
 {
   RandomSource random(7);
   const Packing p = two_spheres();
-  TestRank rank(single_law({NormalLaw::HERTZ, TangentialLaw::ONESTEP}, true));
+  TestRank rank(single_law({named::Normal::HERTZ, named::Tangential::ONESTEP}, true));
   rebuild(rank, p, 0.5, random);
   rank.compute(p, dt, true);
   EXPECT_FALSE(rank.pipeline.keeps_history());
@@ -242,7 +242,7 @@ TEST(ContactHistory, DoesNotComeBackAfterALawWithoutIt)
   Luggage with, without;
   rank.depart(with);
   EXPECT_EQ(with[0].size(), empty + 1U + 4U);    // name of a partner and history
-  rank.pipeline.set_laws(single_law({NormalLaw::HERTZ, TangentialLaw::ONESTEP}, true));
+  rank.pipeline.set_laws(single_law({named::Normal::HERTZ, named::Tangential::ONESTEP}, true));
   rank.depart(without);
   EXPECT_EQ(without[0].size(), empty);
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 
 using namespace Talus;
+using namespace named;
 using slow::Contact;
 using slow::Vector;
 
@@ -32,20 +33,21 @@ bool same_bits(const Result &a, const Result &b)
 Result result_of(const ContactBatch &batch, int lane)
 {
   return {slow::lane_of(batch.force, lane), slow::lane_of(batch.moment, lane),
-          slow::lane_of(batch.displacement, lane), batch.sliding[lane]};
+          slow::lane_of(batch.history, lane), batch.history[3][lane]};
 }
 
 /// One contact in one lane of a batch whose other lanes hold whatever they held before.
-Result run_in_lane(ContactBatch &batch, int lane, ContactLaw law, const Contact &c,
-                   const ContactCoefficients &p, bool uniform, bool advance)
+Result run_in_lane(ContactBatch &batch, int lane, NamedLaw law, const Contact &c, const Numbers &p,
+                   bool uniform, bool advance)
 {
   slow::put(batch, lane, c, 0);
   const int begin = lane / lanes * lanes;
-  contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
+  const ContactCoefficients row = row_of(law, p);
+  contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &row, dt);
   return result_of(batch, lane);
 }
 
-class KernelBits : public testing::TestWithParam<ContactLaw> {
+class KernelBits : public testing::TestWithParam<NamedLaw> {
  protected:
   KernelBits() { batch.clear(); }
 
@@ -56,10 +58,10 @@ class KernelBits : public testing::TestWithParam<ContactLaw> {
     c = slow::random_contact(random, law, p);
   }
 
-  const ContactLaw law = GetParam();
+  const NamedLaw law = GetParam();
   RandomSource random{42};
   ContactBatch batch;
-  ContactCoefficients p;
+  Numbers p;
   Contact c;
 };
 
@@ -80,7 +82,8 @@ TEST_P(KernelBits, KernelsComputeOnlyTheRangeTheyAreGiven)
 {
   next();
   for (int lane = 0; lane < width; lane++) slow::put(batch, lane, c, 0);
-  contact_kernel(law, true, true)(batch, 16, 40, &p, dt);
+  const ContactCoefficients row = row_of(law, p);
+  contact_kernel(law, true, true)(batch, 16, 40, &row, dt);
   const Result computed = result_of(batch, 16);
   for (int lane = 0; lane < width; lane++) {
     const bool inside = lane >= 16 && lane < 40;
@@ -94,13 +97,13 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
   for (int n = 0; n < 20000; n++) {
     next();
     const Result kernel = run_in_lane(batch, n % width, law, c, p, true, false);
-    const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]},
-                                      c.sliding ? 1.0 : 0.0};
-    const ContactForce<double> query = single_contact(law, p, slow::state_of(c), dt, h);
+    const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
+    const ContactLanes<double> query =
+        single_contact(law, row_of(law, p), slow::state_of(c), dt, h);
     const Result other{{query.force.x, query.force.y, query.force.z},
                        {query.moment.x, query.moment.y, query.moment.z},
                        c.history,
-                       h.sliding};
+                       h.value[3]};
     ASSERT_TRUE(same_bits(kernel, other)) << n;
   }
 }

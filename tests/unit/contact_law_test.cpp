@@ -14,6 +14,7 @@
 #include <sstream>
 
 using namespace Talus;
+using namespace named;
 using slow::Contact;
 using slow::Outcome;
 using slow::Vector;
@@ -42,7 +43,7 @@ double error_of(const Vector &found, const Vector &expected, double scale)
 
 /// Largest relative error of one lane.
 double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, const Outcome &expected,
-                     ContactLaw law)
+                     NamedLaw law)
 {
   double worst = error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
   if (law.has_friction()) {
@@ -53,9 +54,10 @@ double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, cons
       worst = std::max(worst, error_of(torque, expected.torque[b], r * expected.force_scale));
     }
   }
-  const Vector history = slow::lane_of(batch.displacement, lane);
+  const Vector history = slow::lane_of(batch.history, lane);
   worst = std::max(worst, error_of(history, expected.history, expected.history_scale));
-  if (expected.clear_case && (batch.sliding[lane] > 0.0) != expected.sliding) return slow::infinity;
+  if (expected.clear_case && (batch.history[3][lane] > 0.0) != expected.sliding)
+    return slow::infinity;
   return worst;
 }
 
@@ -66,12 +68,12 @@ std::string describe(const Contact &c, const Outcome &expected, const ContactBat
        << c.mass[1] << " radii " << c.radius[0] << " " << c.radius[1] << "\n";
   for (int d = 0; d < 3; d++)
     text << "force " << batch.force[d][lane] << " expected " << expected.force[d] << " history "
-         << batch.displacement[d][lane] << " expected " << expected.history[d] << " was "
-         << c.history[d] << "\n";
+         << batch.history[d][lane] << " expected " << expected.history[d] << " was " << c.history[d]
+         << "\n";
   return text.str();
 }
 
-void count(Coverage &seen, const Contact &c, const Outcome &expected, const ContactCoefficients &p)
+void count(Coverage &seen, const Contact &c, const Outcome &expected, const Numbers &p)
 {
   const double f_n = expected.normal_force;
   const Vector f_t = slow::axpy(-f_n, c.normal, expected.force);
@@ -83,7 +85,7 @@ void count(Coverage &seen, const Contact &c, const Outcome &expected, const Cont
 }
 
 /// Runs one kernel over all random contacts and compares.
-Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool advance)
+Coverage compare_kernel(NamedLaw law, bool limit_damping, bool uniform, bool advance)
 {
   RandomSource random(20250204 + 8 * static_cast<int>(law.normal) +
                       static_cast<int>(law.tangential));
@@ -95,9 +97,12 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
   std::string worst_case;
 
   for (int n = 0; n < num_batches; n++) {
-    std::vector<ContactCoefficients> table;
-    for (int r = 0; r < num_rows; r++)
+    std::vector<Numbers> table;
+    std::vector<ContactCoefficients> rows;
+    for (int r = 0; r < num_rows; r++) {
       table.push_back(slow::random_coefficients(random, limit_damping));
+      rows.push_back(row_of(law, table.back()));
+    }
     const double dt = random.decade(-6.0, -2.0);
     std::vector<Contact> contacts;
     std::vector<int> row(ContactBatch::width);
@@ -106,11 +111,11 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
       contacts.push_back(slow::random_contact(random, law, table[uniform ? 0 : row[lane]]));
       slow::put(batch, lane, contacts[lane], row[lane]);
     }
-    kernel(batch, 0, ContactBatch::width, table.data(), dt);
+    kernel(batch, 0, ContactBatch::width, rows.data(), dt);
 
     for (int lane = 0; lane < ContactBatch::width; lane++) {
       const Contact &c = contacts[lane];
-      const ContactCoefficients &p = table[uniform ? 0 : row[lane]];
+      const Numbers &p = table[uniform ? 0 : row[lane]];
       const Outcome expected = slow::evaluate(c, law, p, dt, advance);
       count(seen, c, expected, p);
       const double error = error_of_lane(batch, lane, c, expected, law);
@@ -126,11 +131,11 @@ Coverage compare_kernel(ContactLaw law, bool limit_damping, bool uniform, bool a
   return seen;
 }
 
-class ContactLawTest : public testing::TestWithParam<ContactLaw> {};
+class ContactLawTest : public testing::TestWithParam<NamedLaw> {};
 
 TEST_P(ContactLawTest, AgreesWithSlowTwin)
 {
-  const ContactLaw law = GetParam();
+  const NamedLaw law = GetParam();
   for (bool limit_damping : {false, true})
     for (bool uniform : {false, true})
       for (bool advance : {false, true}) {
@@ -154,14 +159,15 @@ INSTANTIATE_TEST_SUITE_P(AllLaws, ContactLawTest, testing::ValuesIn(slow::all_la
 TEST(ContactLaw, ForceAtLimitHasTheLengthOfTheLimit)
 {
   RandomSource random(7);
-  for (ContactLaw law : slow::all_laws()) {
+  for (NamedLaw law : slow::all_laws()) {
     int sliding = 0;
     for (int n = 0; n < 20000 && law.has_friction(); n++) {
-      const ContactCoefficients p = slow::random_coefficients(random, false);
+      const Numbers p = slow::random_coefficients(random, false);
       const Contact c = slow::random_contact(random, law, p);
-      const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]}, 0.0};
-      const ContactForce<double> out = single_contact(law, p, slow::state_of(c), 1e-5, h);
-      const double limit = p.mu * std::fabs(out.normal);
+      const RememberedValues h{{c.history[0], c.history[1], c.history[2]}};
+      const ContactLanes<double> out =
+          single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
+      const double limit = p.mu * std::fabs(out.normal_force);
       const double size = std::sqrt(dot(out.tangential, out.tangential));
       ASSERT_LE(size, limit * (1.0 + 1e-14));
       if (limit > 0.0 && size > limit * (1.0 - 1e-14)) sliding++;
@@ -173,15 +179,15 @@ TEST(ContactLaw, ForceAtLimitHasTheLengthOfTheLimit)
 TEST(ContactLaw, CoincidentCentersExertNoForce)
 {
   RandomSource random(8);
-  for (ContactLaw law : slow::all_laws())
+  for (NamedLaw law : slow::all_laws())
     for (int n = 0; n < 1000; n++) {
-      const ContactCoefficients p = slow::random_coefficients(random, random.chance(0.5));
+      const Numbers p = slow::random_coefficients(random, random.chance(0.5));
       Contact c = slow::random_contact(random, law, p);
       c.normal = {};
       c.overlap = 0.0;
-      const TangentialHistory<double> h{{c.history[0], c.history[1], c.history[2]},
-                                        c.sliding ? 1.0 : 0.0};
-      const ContactForce<double> out = single_contact(law, p, slow::state_of(c), 1e-5, h);
+      const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
+      const ContactLanes<double> out =
+          single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       ASSERT_EQ(dot(out.force, out.force), 0.0) << slow::title(law);
       ASSERT_EQ(dot(out.moment, out.moment), 0.0) << slow::title(law);
     }
@@ -190,7 +196,7 @@ TEST(ContactLaw, CoincidentCentersExertNoForce)
 TEST(ContactLaw, NamesAreThoseOfInputScripts)
 {
   std::vector<std::string> names;
-  for (ContactLaw law : slow::all_laws()) names.push_back(slow::title(law));
+  for (NamedLaw law : slow::all_laws()) names.push_back(slow::title(law));
   const std::vector<std::string> expected{"hooke none",      "hooke dashpot",  "hooke onestep",
                                           "hooke multistep", "hertz none",     "hertz dashpot",
                                           "hertz onestep",   "hertz multistep"};

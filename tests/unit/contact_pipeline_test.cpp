@@ -27,7 +27,7 @@ struct Scene {
 std::vector<Scene> scenes()
 {
   std::vector<Scene> list{{"mixed", mixed_laws()}};
-  for (ContactLaw law : all_laws())
+  for (named::NamedLaw law : all_laws())
     for (bool spread : {false, true})
       list.push_back({title(law) + (spread ? " spread" : " uniform"), single_law(law, spread)});
   return list;
@@ -239,7 +239,7 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
 {
   const double x[] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0}, v[] = {1.0, 2.0, 0.0, 0.0, 0.0, 0.0};
   const double radius[] = {1.0, 1.0}, mass[] = {2.0, 2.0};
-  const LawTable laws = single_law({NormalLaw::HOOKE, TangentialLaw::NONE}, false);
+  const LawTable laws = single_law({named::Normal::HOOKE, named::Tangential::NONE}, false);
   ContactPipeline pipeline;
   pipeline.set_laws(laws);
   EXPECT_FALSE(pipeline.keeps_history());
@@ -275,7 +275,7 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
     if (i) lists.add(i, i - 1, 1.0);
   }
   ContactPipeline pipeline;
-  pipeline.set_laws(single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, false));
+  pipeline.set_laws(single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, false));
   HistoryStore store;
   store.resize(n);
   const auto start = [&] {

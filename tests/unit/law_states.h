@@ -6,6 +6,7 @@
 #define TALUS_TEST_LAW_STATES_H
 
 #include "law_twin.h"
+#include "laws/circle_of_intersection.h"
 #include "laws/contact_kernel.h"
 #include "random_source.h"
 
@@ -14,53 +15,51 @@
 
 namespace twin {
 
-using LAMMPS_NS::ContactSpec;
-using Talus::ContactLaw;
+using Talus::ContactSpec;
 
-inline bool is_material(NormalLaw law)
+inline bool is_material(Normal law)
 {
-  return law >= NormalLaw::HOOKE_MATERIAL;
+  return law >= Normal::HOOKE_MATERIAL;
 }
-inline bool is_plaincoulomb(NormalLaw law)
+inline bool is_plaincoulomb(Normal law)
 {
-  return law == NormalLaw::PLAINCOULOMB || law == NormalLaw::PLAINCOULOMB_MATERIAL;
+  return law == Normal::PLAINCOULOMB || law == Normal::PLAINCOULOMB_MATERIAL;
 }
 
 /// Normal and tangential laws that the grammar allows together.
-inline std::vector<ContactLaw> law_pairs()
+inline std::vector<NamedLaw> law_pairs()
 {
-  std::vector<ContactLaw> laws;
-  for (int n = 0; n < Talus::num_normal_laws; n++)
-    for (int t = 0; t < Talus::num_tangential_laws; t++) {
-      const ContactLaw law{static_cast<NormalLaw>(n), static_cast<TangentialLaw>(t)};
-      if (is_plaincoulomb(law.normal) == (law.tangential == TangentialLaw::TANH))
-        laws.push_back(law);
+  std::vector<NamedLaw> laws;
+  for (int n = 0; n < named::num_normal_laws; n++)
+    for (int t = 0; t < named::num_tangential_laws; t++) {
+      const NamedLaw law{static_cast<Normal>(n), static_cast<Tangential>(t)};
+      if (is_plaincoulomb(law.normal) == (law.tangential == Tangential::TANH)) laws.push_back(law);
     }
   return laws;
 }
 
-/// The same law with and without resistance, at once or delayed, and adhesion.
-inline std::vector<ContactLaw> variants(ContactLaw law)
+/// The same law with and without resistance, at once or delayed, and adhesion of every kind.
+inline std::vector<NamedLaw> variants(NamedLaw law)
 {
-  std::vector<ContactLaw> laws;
-  for (int v = 0; v < 6; v++) {
+  std::vector<NamedLaw> laws;
+  for (int v = 0; v < 3 * named::num_adhesions; v++) {
     law.resists = v % 3 > 0;
     law.delayed = v % 3 == 2;
-    law.adheres = v >= 3;
+    law.adhesion = static_cast<Adhesion>(v / 3);
     laws.push_back(law);
   }
   return laws;
 }
 
-inline std::string title(ContactLaw law)
+inline std::string title(NamedLaw law)
 {
   return std::string(name_of(law.normal)) + " " + name_of(law.tangential) +
          (law.resists ? law.delayed ? " delayed" : " resists" : "") +
-         (law.adheres ? " adheres" : "");
+         (law.adhesion == Adhesion::NONE ? "" : std::string(" ") + name_of(law.adhesion));
 }
 
 /// Name of a law as GoogleTest allows it.
-inline std::string identifier(ContactLaw law)
+inline std::string identifier(NamedLaw law)
 {
   std::string name = title(law);
   for (char &c : name)
@@ -68,40 +67,41 @@ inline std::string identifier(ContactLaw law)
   return name;
 }
 
-inline ContactSpec random_spec(RandomSource &random, NormalLaw normal, bool limited)
+inline ContactSpec random_spec(RandomSource &random, NamedLaw law, bool limited)
 {
   ContactSpec s;
-  s.law.normal = normal;
-  s.limit_damping = limited;
-  s.kt_given = random.chance(0.5);
-  s.gt_given = random.chance(0.5);
+  s.law = law;
+  auto &given = s.given;
+  if (limited) given["limit_damping"] = 1.0;
   const auto zero_or = [&](double value) { return random.chance(0.1) ? 0.0 : value; };
-  Talus::ContactCoefficients &c = s.given;
-  if (s.is_material()) {
-    s.young = random.decade(4.0, 8.0);
-    s.poisson = random.chance(0.1) ? 0.5 : random.uniform(-0.9, 0.5);
+  const bool with_kt = random.chance(0.5), with_gt = random.chance(0.5);
+  if (is_material(law.normal)) {
+    given["E"] = random.decade(4.0, 8.0);
+    given["nu"] = random.chance(0.1) ? 0.5 : random.uniform(-0.9, 0.5);
     const double special[] = {0.0, 1.0, 1e-3, 0.01, 0.999};
-    s.restitution = random.chance(0.3) ? special[random.below(5)] : random.uniform(0.0, 1.0);
-    c.speed = random.decade(-3.0, 1.0);
-    if (normal == NormalLaw::HOOKE_MATERIAL) s.kt_given = false;    // the grammar's rule
-    c.kt = s.young * random.uniform(0.5, 2.0);
-    c.gt = zero_or(random.uniform(0.1, 2.0));
+    given["e"] = random.chance(0.3) ? special[random.below(5)] : random.uniform(0.0, 1.0);
+    given["vchar"] = random.decade(-3.0, 1.0);
+    // the grammar's rule
+    if (with_kt && law.normal != Normal::HOOKE_MATERIAL)
+      given["kt"] = given["E"] * random.uniform(0.5, 2.0);
+    if (with_gt) given["gt"] = zero_or(random.uniform(0.1, 2.0));
   } else {
-    c.kn = random.decade(3.0, 7.0);
-    c.kt = c.kn * random.uniform(0.1, 1.0);
-    c.gn = zero_or(random.decade(0.0, 4.0));
-    c.gt = zero_or(random.decade(-0.5, 0.5) * std::max(c.gn, 1.0));
-    if (normal == NormalLaw::FLORES) c.gn *= 1e3;
+    given["kn"] = random.decade(3.0, 7.0);
+    given["gn"] = zero_or(random.decade(0.0, 4.0));
+    if (with_kt) given["kt"] = given["kn"] * random.uniform(0.1, 1.0);
+    if (with_gt) given["gt"] = zero_or(random.decade(-0.5, 0.5) * std::max(given["gn"], 1.0));
+    if (law.normal == Normal::FLORES) given["gn"] *= 1e3;
   }
-  c.mu = zero_or(random.uniform(0.05, 1.5));
-  c.mu_roll = zero_or(random.uniform(0.01, 0.5));
-  c.mu_twist = zero_or(random.uniform(0.01, 0.5));
-  c.adhesion = zero_or(random.decade(-3.0, 1.0));
-  c.adhesion_dmt = zero_or(random.decade(-3.0, 1.0));
-  c.adhesion_perko = zero_or(random.decade(-3.0, 1.0));
-  c.slip_min = zero_or(random.decade(-6.0, -1.0));
-  c.roll_min = zero_or(random.decade(-6.0, -1.0));
-  c.twist_min = zero_or(random.decade(-6.0, 0.0));
+  given["mu"] = zero_or(random.uniform(0.05, 1.5));
+  given["mu_r"] = zero_or(random.uniform(0.01, 0.5));
+  given["mu_s"] = zero_or(random.uniform(0.01, 0.5));
+  const double pull = zero_or(random.decade(-3.0, 1.0));
+  if (law.adhesion == Adhesion::CONSTANT) given["adhesive force"] = pull;
+  if (law.adhesion == Adhesion::DMT) given["adhesion W"] = pull;
+  if (law.adhesion == Adhesion::PERKO) given["adhesion S"] = pull;
+  given["slip_min"] = zero_or(random.decade(-6.0, -1.0));
+  given["roll_min"] = zero_or(random.decade(-6.0, -1.0));
+  given["twist_min"] = zero_or(random.decade(-6.0, 0.0));
   return s;
 }
 
@@ -113,7 +113,7 @@ inline Vector widen(const std::array<double, 3> &v)
 /// Velocities and history are in proportion to overlap, collision time and damping, so that contacts stick and
 /// slide, approach and separate, in comparable numbers; one in three is degenerate in some way. All numbers
 /// are doubles.
-inline Contact random_contact(RandomSource &random, ContactLaw law, const Composite &p, double dt)
+inline Contact random_contact(RandomSource &random, NamedLaw law, const Composite &p, double dt)
 {
   double radius[2], mass[2];
   for (int b = 0; b < 2; b++) {
@@ -234,15 +234,12 @@ inline Talus::ContactState<double> state_of(const Contact &c)
   return s;
 }
 
-inline Talus::TangentialHistory<double> history_of(const Contact &c)
+/// Displacement, sliding; impact speed, age and begun, which the laws keep if they need them.
+inline Talus::RememberedValues remembered(const Contact &c)
 {
-  const auto d = [&](int n) { return static_cast<double>(-c.history[n]); };
-  return {{d(0), d(1), d(2)}, c.sliding ? 1.0 : 0.0};
-}
-
-inline Talus::ContactImpact<double> impact_of(const Contact &c)
-{
-  return {static_cast<double>(c.impact_speed), static_cast<double>(c.age), c.begun ? 1.0 : 0.0};
+  const auto d = [](Number n) { return static_cast<double>(n); };
+  return {{d(-c.history[0]), d(-c.history[1]), d(-c.history[2]), c.sliding ? 1.0 : 0.0,
+           d(c.impact_speed), d(c.age), c.begun ? 1.0 : 0.0}};
 }
 
 using Lanes = double[3][Talus::ContactBatch::width];
@@ -257,14 +254,12 @@ inline void put(Lanes &lanes, int lane, const Talus::Vector3<double> &v)
 inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
 {
   const Talus::ContactState<double> s = state_of(c);
-  const Talus::TangentialHistory<double> h = history_of(c);
-  const Talus::ContactImpact<double> o = impact_of(c);
+  const Talus::RememberedValues h = remembered(c);
   put(batch.normal, lane, s.normal);
   put(batch.velocity, lane, s.velocity);
   put(batch.spin, lane, s.spin);
   put(batch.relative_omega, lane, s.relative_omega);
-  put(batch.displacement, lane, h.displacement);
-  put(batch.impact, lane, {o.speed, o.age, o.begun});
+  for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h.value[n];
   for (Lanes *result : {&batch.force, &batch.moment, &batch.couple})
     put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;
@@ -272,11 +267,11 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   batch.inverse_radius[lane] = s.inverse_radius;
   batch.circle[lane] = s.circle;
   batch.inverse_distance[lane] = s.inverse_distance;
-  batch.sliding[lane] = h.sliding;
   batch.coefficients[lane] = row;
 }
 
-inline Vector lane_of(const Lanes &v, int lane)
+/// Three numbers side by side.
+inline Vector lane_of(const double (*v)[Talus::ContactBatch::width], int lane)
 {
   return {v[0][lane], v[1][lane], v[2][lane]};
 }

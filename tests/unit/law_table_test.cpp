@@ -2,25 +2,28 @@
 
 #include "material/law_table.h"
 
+#include "named_law.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 
 using namespace Talus;
+using namespace named;
 
 namespace {
 
-constexpr ContactLaw hertz_none{NormalLaw::HERTZ, TangentialLaw::NONE};
-constexpr ContactLaw hooke_dashpot{NormalLaw::HOOKE, TangentialLaw::DASHPOT};
-constexpr ContactLaw hertz_multistep{NormalLaw::HERTZ, TangentialLaw::MULTISTEP};
-constexpr ContactCoefficients basic{1.0, 2.0, 3.0, 4.0, 5.0, 0.0};
+constexpr NamedLaw hertz_none{Normal::HERTZ, Tangential::NONE};
+constexpr NamedLaw hooke_dashpot{Normal::HOOKE, Tangential::DASHPOT};
+constexpr NamedLaw hertz_multistep{Normal::HERTZ, Tangential::MULTISTEP};
+constexpr Numbers basic{1.0, 2.0, 3.0, 4.0, 5.0, 0.0};
 
-LawTable filled(int ntypes, ContactLaw law)
+LawTable filled(int ntypes, NamedLaw law)
 {
   LawTable table;
   table.reset(ntypes);
   for (int i = 1; i <= ntypes; i++)
-    for (int j = i; j <= ntypes; j++) table.set(i, j, law, basic);
+    for (int j = i; j <= ntypes; j++) set(table, i, j, law, basic);
   return table;
 }
 
@@ -38,16 +41,16 @@ TEST(LawTable, GivesEveryPairOfTypesARowOfItsOwn)
 TEST(LawTable, IsSymmetric)
 {
   LawTable table = filled(3, hertz_none);
-  const ContactCoefficients other{9.0, 8.0, 7.0, 6.0, 5.0, 0.0};
-  table.set(3, 1, hooke_dashpot, other);
+  const Numbers other{9.0, 8.0, 7.0, 6.0, 5.0, 0.0};
+  set(table, 3, 1, hooke_dashpot, other);
   table.finish();
   for (int row : {table.row(1, 3), table.row(3, 1)}) {
-    EXPECT_EQ(table.law(row), hooke_dashpot);
-    EXPECT_EQ(table.coefficients(row).kn, 9.0);
+    EXPECT_EQ(table.law(row), hooke_dashpot.law());
+    EXPECT_EQ(table.coefficients(row).c[0], 9.0);    // kn
     EXPECT_EQ(table.coefficients() + row, &table.coefficients(row));
   }
-  EXPECT_EQ(table.law(table.row(1, 2)), hertz_none);
-  EXPECT_EQ(table.coefficients(table.row(3, 3)).kn, 1.0);
+  EXPECT_EQ(table.law(table.row(1, 2)), hertz_none.law());
+  EXPECT_EQ(table.coefficients(table.row(3, 3)).c[0], 1.0);
 }
 
 TEST(LawTable, IsUniformIfNothingDiffers)
@@ -65,12 +68,12 @@ TEST(LawTable, IsUniformIfNothingDiffers)
 TEST(LawTable, IsNotUniformIfOneNumberDiffers)
 {
   for (int member = 0; member < 6; member++) {
-    ContactCoefficients changed = basic;
+    Numbers changed = basic;
     double *const members[] = {&changed.kn, &changed.gn, &changed.kt,
                                &changed.gt, &changed.mu, &changed.force_floor};
     *members[member] += 1.0;
     LawTable table = filled(3, hertz_multistep);
-    table.set(2, 3, hertz_multistep, changed);
+    set(table, 2, 3, hertz_multistep, changed);
     table.finish();
     EXPECT_FALSE(table.uniform()) << member;
     EXPECT_EQ(table.num_laws(), 1);
@@ -80,7 +83,7 @@ TEST(LawTable, IsNotUniformIfOneNumberDiffers)
 TEST(LawTable, IsNotUniformIfOnlyTheLawDiffers)
 {
   LawTable table = filled(2, hertz_multistep);
-  table.set(2, 2, hertz_none, basic);
+  set(table, 2, 2, hertz_none, basic);
   table.finish();
   EXPECT_FALSE(table.uniform());
   EXPECT_EQ(table.num_laws(), 2);
@@ -89,8 +92,8 @@ TEST(LawTable, IsNotUniformIfOnlyTheLawDiffers)
 TEST(LawTable, NumbersTheLawsThatOccur)
 {
   LawTable table = filled(3, hertz_none);
-  table.set(1, 2, hooke_dashpot, basic);
-  table.set(3, 3, hertz_multistep, basic);
+  set(table, 1, 2, hooke_dashpot, basic);
+  set(table, 3, 3, hertz_multistep, basic);
   table.finish();
   EXPECT_EQ(table.num_laws(), 3);
   std::set<int> seen;
@@ -100,7 +103,7 @@ TEST(LawTable, NumbersTheLawsThatOccur)
       ASSERT_LT(index, table.num_laws());
       EXPECT_EQ(table.distinct_law(index), table.law(row));
       for (bool advance : {false, true})
-        EXPECT_EQ(table.kernel(index, advance), contact_kernel(table.law(row), false, advance));
+        EXPECT_TRUE(table.kernel(index, advance) == contact_kernel(table.law(row), false, advance));
       seen.insert(index);
     }
   EXPECT_EQ(seen.size(), 3U);
@@ -110,20 +113,20 @@ TEST(LawTable, PicksTheUniformKernelForAUniformScene)
 {
   LawTable table = filled(2, hooke_dashpot);
   table.finish();
-  EXPECT_EQ(table.kernel(0, true), contact_kernel(hooke_dashpot, true, true));
-  EXPECT_EQ(table.kernel(0, false), contact_kernel(hooke_dashpot, true, false));
+  EXPECT_TRUE(table.kernel(0, true) == contact_kernel(hooke_dashpot, true, true));
+  EXPECT_TRUE(table.kernel(0, false) == contact_kernel(hooke_dashpot, true, false));
 }
 
 TEST(LawTable, KnowsWhatTheSceneNeeds)
 {
   struct Need {
-    ContactLaw law;
+    NamedLaw law;
     bool friction, history;
   };
   for (const Need &need : {Need{hertz_none, false, false}, Need{hooke_dashpot, true, false},
                            Need{hertz_multistep, true, true}}) {
     LawTable table = filled(3, hertz_none);
-    table.set(1, 3, need.law, basic);    // one pair of types is enough
+    set(table, 1, 3, need.law, basic);    // one pair of types is enough
     table.finish();
     EXPECT_EQ(table.has_friction(), need.friction);
     EXPECT_EQ(table.has_history(), need.history);
@@ -133,11 +136,11 @@ TEST(LawTable, KnowsWhatTheSceneNeeds)
 TEST(LawTable, StartsAnewAfterReset)
 {
   LawTable table = filled(3, hertz_multistep);
-  table.set(1, 1, hooke_dashpot, basic);
+  set(table, 1, 1, hooke_dashpot, basic);
   table.finish();
   table.reset(2);
   for (int i = 1; i <= 2; i++)
-    for (int j = i; j <= 2; j++) table.set(i, j, hertz_none, basic);
+    for (int j = i; j <= 2; j++) set(table, i, j, hertz_none, basic);
   table.finish();
   EXPECT_EQ(table.num_laws(), 1);
   EXPECT_TRUE(table.uniform());

@@ -10,18 +10,22 @@
 #define TALUS_TEST_LAW_TWIN_H
 
 #include "material/contact_spec.h"
+#include "named_law.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace twin {
 
 using Number = long double;
 using Vector = std::array<Number, 3>;
-using Talus::NormalLaw;
-using Talus::TangentialLaw;
+using named::Adhesion;
+using named::NamedLaw;
+using named::Normal;
+using named::Tangential;
 
 inline const Number pi = std::acos(Number(-1));
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -90,46 +94,56 @@ inline Number damping_ratio(Number e, bool limited)
   return low;
 }
 
-inline Composite compose(const LAMMPS_NS::ContactSpec &a, const LAMMPS_NS::ContactSpec &b,
-                         LAMMPS_NS::FrictionMix rule)
+inline Composite compose(const Talus::ContactSpec &a, const Talus::ContactSpec &b,
+                         Talus::FrictionMix rule)
 {
   const auto mean = [](Number p, Number q) { return (p + q) / 2; };
   const auto friction = [=](Number p, Number q) {
-    if (rule == LAMMPS_NS::FrictionMix::ARITHMETIC) return mean(p, q);
-    return rule == LAMMPS_NS::FrictionMix::GEOMETRIC ? std::sqrt(p * q) : std::min(p, q);
+    if (rule == Talus::FrictionMix::ARITHMETIC) return mean(p, q);
+    return rule == Talus::FrictionMix::GEOMETRIC ? std::sqrt(p * q) : std::min(p, q);
   };
   const auto &p = a.given, &q = b.given;
+  const auto both = [&](const char *name) { return p.has(name) && q.has(name); };
+  const auto mean_of = [&](const char *name) { return mean(p.value(name), q.value(name)); };
+  const auto smaller = [&](const char *name) { return std::min(p.value(name), q.value(name)); };
+  const auto larger = [&](const char *name) { return std::max(p.value(name), q.value(name)); };
+  const auto rubbing = [&](const char *name) { return friction(p.value(name), q.value(name)); };
   Composite c;
-  if (a.is_material()) {
-    const Number ya = a.young, yb = b.young, na = a.poisson, nb = b.poisson;
+  c.limited = p.has("limit_damping") || q.has("limit_damping");
+  if (p.has("E")) {
+    const Number ya = p.value("E"), yb = q.value("E"), na = p.value("nu"), nb = q.value("nu");
     c.young = ya * yb / (yb * (1 - na * na) + ya * (1 - nb * nb));
     c.shear = ya * yb / (2 * yb * (2 - na) * (1 + na) + 2 * ya * (2 - nb) * (1 + nb));
-    const Number e = c.restitution = std::min(a.restitution, b.restitution);
-    const bool limited = a.limit_damping || b.limit_damping;
-    const bool clipped = a.law.normal == NormalLaw::HOOKE_MATERIAL && !limited;
-    c.damping = damping_ratio(clipped ? std::min(e, Number(1.0 - epsilon)) : e, limited);
+    const Number e = c.restitution = smaller("e");
+    const bool clipped = a.law.normal().name == std::string("hooke/material") && !c.limited;
+    c.damping = damping_ratio(clipped ? std::min(e, Number(1.0 - epsilon)) : e, c.limited);
     c.damping_flores = damping_ratio(std::clamp(e, Number(0.01), Number(1.0 - epsilon)), false);
-    c.kt_given = a.kt_given && b.kt_given;
-    c.gt_given = a.gt_given && b.gt_given;
-    c.kt = mean(p.kt, q.kt);
-    c.gt = mean(p.gt, q.gt);
+    c.kt_given = both("kt");
+    c.gt_given = both("gt");
+    c.kt = mean_of("kt");
+    c.gt = mean_of("gt");
   } else {
-    c.kn = mean(p.kn, q.kn);
-    c.gn = mean(p.gn, q.gn);
-    c.kt = mean(a.kt_given ? p.kt : Number(2) / 7 * p.kn, b.kt_given ? q.kt : Number(2) / 7 * q.kn);
-    c.gt = mean(a.gt_given ? p.gt : Number(p.gn) / 2, b.gt_given ? q.gt : Number(q.gn) / 2);
+    const auto kt = [](const auto &s) {
+      return s.has("kt") ? Number(s.value("kt")) : Number(2) / 7 * s.value("kn");
+    };
+    const auto gt = [](const auto &s) {
+      return s.has("gt") ? Number(s.value("gt")) : Number(s.value("gn")) / 2;
+    };
+    c.kn = mean_of("kn");
+    c.gn = mean_of("gn");
+    c.kt = mean(kt(p), kt(q));
+    c.gt = mean(gt(p), gt(q));
   }
-  c.limited = a.limit_damping || b.limit_damping;
-  c.mu = friction(p.mu, q.mu);
-  c.mu_roll = friction(p.mu_roll, q.mu_roll);
-  c.mu_twist = friction(p.mu_twist, q.mu_twist);
-  c.adhesion = std::min(p.adhesion, q.adhesion);
-  c.dmt = std::min(p.adhesion_dmt, q.adhesion_dmt);
-  c.perko = std::min(p.adhesion_perko, q.adhesion_perko);
-  c.speed = std::max(p.speed, q.speed);
-  c.slip_min = std::max(p.slip_min, q.slip_min);
-  c.roll_min = std::max(p.roll_min, q.roll_min);
-  c.twist_min = std::max(p.twist_min, q.twist_min);
+  c.mu = rubbing("mu");
+  c.mu_roll = rubbing("mu_r");
+  c.mu_twist = rubbing("mu_s");
+  c.adhesion = smaller("adhesive force");
+  c.dmt = smaller("adhesion W");
+  c.perko = smaller("adhesion S");
+  c.speed = larger("vchar");
+  c.slip_min = larger("slip_min");
+  c.roll_min = larger("roll_min");
+  c.twist_min = larger("twist_min");
   return c;
 }
 
@@ -137,31 +151,31 @@ struct Stiffness {
   Number kn, gn, kt, gt;
 };
 
-inline Stiffness stiffness(NormalLaw law, const Composite &c, Number overlap, Number mass,
+inline Stiffness stiffness(Normal law, const Composite &c, Number overlap, Number mass,
                            Number radius, Number speed)
 {
   const Number disc = std::sqrt(radius * overlap), root = std::sqrt(overlap);
   const Number sn = 2 * c.young * disc, st = c.kt_given ? c.kt * disc : 8 * c.shear * disc;
   const Number hertz = 2 * std::sqrt(Number(5) / 6) * c.damping;
   switch (law) {
-  case NormalLaw::HOOKE:
+  case Normal::HOOKE:
     return {c.kn, mass * c.gn, c.kt, mass * c.gt};
-  case NormalLaw::HERTZ:
+  case Normal::HERTZ:
     return {disc * c.kn, disc * mass * c.gn, disc * c.kt, disc * mass * c.gt};
-  case NormalLaw::FLORES:
+  case Normal::FLORES:
     return {disc * c.kn, disc * mass * c.gn * overlap, disc * c.kt, disc * mass * c.gt};
-  case NormalLaw::PLAINCOULOMB:
+  case Normal::PLAINCOULOMB:
     return {c.kn * root, c.gn * root, 0, 0};
-  case NormalLaw::HOOKE_MATERIAL: {
+  case Normal::HOOKE_MATERIAL: {
     const Number scale = Number(16) / 15 * std::sqrt(radius) * c.young;
     const Number kn = scale * std::pow(mass * speed * speed / scale, Number(1) / 5);
     const Number gn = 2 * c.damping * std::sqrt(mass * kn);
     return {kn, gn, kn, c.gt_given ? c.gt * std::sqrt(mass * kn) : gn};
   }
-  case NormalLaw::HERTZ_MATERIAL:
+  case Normal::HERTZ_MATERIAL:
     return {2 * sn / 3, hertz * std::sqrt(sn * mass), st,
             (c.gt_given ? c.gt : hertz) * std::sqrt(st * mass)};
-  case NormalLaw::FLORES_MATERIAL: {
+  case Normal::FLORES_MATERIAL: {
     const Number e = std::clamp(c.restitution, Number(0.01), Number(1.0 - epsilon));
     const Number shear =
         c.kt_given ? c.kt * disc * 3 / 2 : st;    // the number given is the stiffness
@@ -219,12 +233,12 @@ inline Number circle(Number a, Number b, Number overlap)
 }
 
 /// 0 before one collision time of an under-damped contact, else 1.
-inline Number delay(NormalLaw law, const Stiffness &s, Number overlap, Number mass, Number age,
+inline Number delay(Normal law, const Stiffness &s, Number overlap, Number mass, Number age,
                     bool &clear)
 {
   Number k = s.kn, g = s.gn;
-  if (law != NormalLaw::HOOKE && law != NormalLaw::HOOKE_MATERIAL) {
-    const bool flores = law == NormalLaw::FLORES || law == NormalLaw::FLORES_MATERIAL;
+  if (law != Normal::HOOKE && law != Normal::HOOKE_MATERIAL) {
+    const bool flores = law == Normal::FLORES || law == Normal::FLORES_MATERIAL;
     k /= std::sqrt(overlap);
     g /= std::pow(overlap, flores ? Number(1.5) : Number(0.25));
   }
@@ -271,8 +285,7 @@ inline Step step_half_way(const Contact &c, Number v_n, Number dt)
           lasted};
 }
 
-inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite &p, Number dt,
-                        bool advance)
+inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Number dt, bool advance)
 {
   Outcome out;
   const Number mass = reduced(c.mass[0], c.mass[1]), radius = reduced(c.radius[0], c.radius[1]);
@@ -314,13 +327,13 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     if (out.slides) f_t = (limit / size) * f_t;
     scale_t = scale + p.mu * normal_scale;
   };
-  if (law.tangential == TangentialLaw::DASHPOT) {
+  if (law.tangential == Tangential::DASHPOT) {
     f_t = k.gt * v_t;
     cap(k.gt * speeds);
-  } else if (law.tangential == TangentialLaw::ONESTEP) {
+  } else if (law.tangential == Tangential::ONESTEP) {
     f_t = (k.kt * dt) * v_t + k.gt * v_t;
     cap((k.kt * dt + k.gt) * speeds);
-  } else if (law.tangential == TangentialLaw::TANH) {
+  } else if (law.tangential == Tangential::TANH) {
     const Number slip = norm(v_t);
     if (slip > 0 && std::fabs(slip - p.slip_min) < 1e-13 * speeds) out.clear_case = false;
     out.slides = slip > 0 && slip >= p.slip_min;
@@ -333,9 +346,9 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
     Number reach = norm(c.history);
     bool moved = norm(s) > 0;
     const bool slider =
-        law.tangential == TangentialLaw::SLIDER || law.tangential == TangentialLaw::SLIDER_MIDPOINT;
-    const bool midpoint = law.tangential == TangentialLaw::MIDPOINT ||
-                          law.tangential == TangentialLaw::SLIDER_MIDPOINT;
+        law.tangential == Tangential::SLIDER || law.tangential == Tangential::SLIDER_MIDPOINT;
+    const bool midpoint =
+        law.tangential == Tangential::MIDPOINT || law.tangential == Tangential::SLIDER_MIDPOINT;
     Number lasted = dt;
     if (advance && !midpoint) {
       s = s + dt * v_t;
@@ -450,7 +463,8 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law, const Composite
   }
 
   Number pull = 0;
-  if (law.adheres) pull = p.adhesion + p.dmt * std::sqrt(radius) + p.perko * radius;
+  if (law.adhesion != Adhesion::NONE)
+    pull = p.adhesion + p.dmt * std::sqrt(radius) + p.perko * radius;
   out.force = Number(-1) * (on_two - pull * c.normal);
   out.force_scale = normal_scale + scale_t + pull;
   return out;

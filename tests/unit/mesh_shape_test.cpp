@@ -6,6 +6,7 @@
 #include "body/contact/body_contacts.h"
 #include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
+#include "named_law.h"
 #include "random_source.h"
 
 #include <gtest/gtest.h>
@@ -82,14 +83,14 @@ LawTable sliding_law()
 {
   LawTable table;
   table.reset(1);
-  ContactCoefficients c;
+  named::Numbers c;
   c.kn = 2.0e4;
   c.gn = 20.0;
   c.kt = 6.0e3;
   c.gt = 10.0;
   c.mu = 0.4;
   c.force_floor = -1.0e300;
-  table.set(1, 1, {NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, c);
+  named::set(table, 1, 1, {named::Normal::HERTZ, named::Tangential::MULTISTEP}, c);
   table.finish();
   return table;
 }

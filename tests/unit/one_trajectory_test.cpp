@@ -167,7 +167,7 @@ class OneTrajectory : public testing::TestWithParam<int> {
   {
     if (GetParam() == 0) return mixed_laws();
     const bool spread = GetParam() == 2;
-    return single_law({NormalLaw::HERTZ, TangentialLaw::MULTISTEP}, spread);
+    return single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, spread);
   }
 };
 

@@ -69,29 +69,29 @@ inline constexpr int num_types = 3;
 /// Six laws at once, one for each pair of types, frictionless ones among them.
 inline Talus::LawTable mixed_laws()
 {
-  using N = Talus::NormalLaw;
-  using T = Talus::TangentialLaw;
+  using N = named::Normal;
+  using T = named::Tangential;
   Talus::LawTable table;
   table.reset(num_types);
-  table.set(1, 1, {N::HOOKE, T::NONE}, {900.0, 5.0, 0.0, 0.0, 0.0, 0.0});
-  table.set(2, 2, {N::HERTZ, T::MULTISTEP}, {800.0, 3.0, 300.0, 2.0, 0.2, -infinity});
-  table.set(3, 3, {N::HOOKE, T::MULTISTEP}, {700.0, 4.0, 200.0, 1.0, 0.3, 0.0});
-  table.set(1, 2, {N::HERTZ, T::DASHPOT}, {850.0, 2.0, 0.0, 30.0, 0.4, -infinity});
-  table.set(1, 3, {N::HERTZ, T::NONE}, {750.0, 9.0, 0.0, 0.0, 0.0, -infinity});
-  table.set(2, 3, {N::HOOKE, T::ONESTEP}, {650.0, 1.0, 400.0, 20.0, 0.5, 0.0});
+  named::set(table, 1, 1, {N::HOOKE, T::NONE}, {900.0, 5.0, 0.0, 0.0, 0.0, 0.0});
+  named::set(table, 2, 2, {N::HERTZ, T::MULTISTEP}, {800.0, 3.0, 300.0, 2.0, 0.2, -infinity});
+  named::set(table, 3, 3, {N::HOOKE, T::MULTISTEP}, {700.0, 4.0, 200.0, 1.0, 0.3, 0.0});
+  named::set(table, 1, 2, {N::HERTZ, T::DASHPOT}, {850.0, 2.0, 0.0, 30.0, 0.4, -infinity});
+  named::set(table, 1, 3, {N::HERTZ, T::NONE}, {750.0, 9.0, 0.0, 0.0, 0.0, -infinity});
+  named::set(table, 2, 3, {N::HOOKE, T::ONESTEP}, {650.0, 1.0, 400.0, 20.0, 0.5, 0.0});
   table.finish();
   return table;
 }
 
 /// One law; with `spread` its coefficients differ between types, else one row serves all.
-inline Talus::LawTable single_law(Talus::ContactLaw law, bool spread)
+inline Talus::LawTable single_law(named::NamedLaw law, bool spread)
 {
   Talus::LawTable table;
   table.reset(num_types);
   for (int i = 1; i <= num_types; i++)
     for (int j = i; j <= num_types; j++) {
       const double s = spread ? i + j : 1.0;
-      table.set(i, j, law, {800.0 * s, 3.0 * s, 300.0 * s, 5.0 / s, 0.1 * s, -infinity});
+      named::set(table, i, j, law, {800.0 * s, 3.0 * s, 300.0 * s, 5.0 / s, 0.1 * s, -infinity});
     }
   table.finish();
   return table;
@@ -134,7 +134,9 @@ class BruteForce {
     for (const Neighbors &n : candidates(p, 0.0, weighted)) {
       const Contact c = contact_of(p, n.i, n.j);
       const int row = laws.row(p.type[n.i], p.type[n.j]);
-      const Outcome out = evaluate(c, laws.law(row), laws.coefficients(row), dt, advance);
+      const Outcome out =
+          evaluate(c, named::named_law(laws.law(row)),
+                   named::numbers_of(laws.law(row), laws.coefficients(row)), dt, advance);
       // the overlap is a small difference: what that costs
       const double condition =
           c.overlap > 0.0 ? 1.0 + (p.radius[n.i] + p.radius[n.j]) / c.overlap : 1.0;

@@ -5,7 +5,7 @@
 #ifndef TALUS_TEST_RANDOM_CONTACT_H
 #define TALUS_TEST_RANDOM_CONTACT_H
 
-#include "laws/contact_kernel.h"
+#include "named_law.h"
 #include "random_source.h"
 #include "slow_contact.h"
 
@@ -19,25 +19,25 @@ namespace slow {
 inline const double infinity = std::numeric_limits<double>::infinity();
 
 /// The laws of the twin in slow_contact.h: those that the stock styles have as well.
-inline std::vector<Talus::ContactLaw> all_laws()
+inline std::vector<named::NamedLaw> all_laws()
 {
-  using N = Talus::NormalLaw;
-  using T = Talus::TangentialLaw;
-  std::vector<Talus::ContactLaw> laws;
+  using N = named::Normal;
+  using T = named::Tangential;
+  std::vector<named::NamedLaw> laws;
   for (N normal : {N::HOOKE, N::HERTZ})
     for (T tangential : {T::NONE, T::DASHPOT, T::ONESTEP, T::MULTISTEP})
       laws.push_back({normal, tangential});
   return laws;
 }
 
-inline std::string title(Talus::ContactLaw law)
+inline std::string title(named::NamedLaw law)
 {
   return std::string(name_of(law.normal)) + " " + name_of(law.tangential);
 }
 
-inline Talus::ContactCoefficients random_coefficients(RandomSource &random, bool limit_damping)
+inline named::Numbers random_coefficients(RandomSource &random, bool limit_damping)
 {
-  Talus::ContactCoefficients c;
+  named::Numbers c;
   c.kn = random.decade(3.0, 7.0);
   c.kt = c.kn * random.uniform(0.1, 1.0);
   c.gn = random.chance(0.1) ? 0.0 : random.decade(0.0, 4.0);
@@ -50,8 +50,7 @@ inline Talus::ContactCoefficients random_coefficients(RandomSource &random, bool
 /// Velocities and history are in proportion to overlap, collision time and damping, so that
 /// contacts stick and slide, approach and separate, in comparable numbers; one in three is
 /// degenerate in some way.
-inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
-                              const Talus::ContactCoefficients &p)
+inline Contact random_contact(RandomSource &random, named::NamedLaw law, const named::Numbers &p)
 {
   Contact c;
   c.normal = random.unit_vector();
@@ -61,7 +60,7 @@ inline Contact random_contact(RandomSource &random, Talus::ContactLaw law,
   }
   c.overlap = c.radius[0] * random.decade(-6.0, -0.5);
   double k = p.kn;
-  if (law.normal == Talus::NormalLaw::HERTZ) k *= std::sqrt(c.overlap * c.radius[0]);
+  if (law.normal == named::Normal::HERTZ) k *= std::sqrt(c.overlap * c.radius[0]);
   double speed = c.overlap * std::sqrt(k / c.mass[0]);
   if (random.chance(0.5) && p.gn > 0.0)    // where damping balances the spring
     speed = p.kn * c.overlap / (p.gn * reduced(c.mass[0], c.mass[1]));
@@ -156,17 +155,18 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
     batch.normal[d][lane] = normal[d];
     batch.velocity[d][lane] = velocity[d];
     batch.spin[d][lane] = spin[d];
-    batch.displacement[d][lane] = c.history[d];
+    batch.history[d][lane] = c.history[d];
     batch.force[d][lane] = batch.moment[d][lane] = 0.0;
   }
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;
   batch.inverse_radius[lane] = s.inverse_radius;
-  batch.sliding[lane] = c.sliding ? 1.0 : 0.0;
+  batch.history[3][lane] = c.sliding ? 1.0 : 0.0;
   batch.coefficients[lane] = row;
 }
 
-inline Vector lane_of(const double (&v)[3][Talus::ContactBatch::width], int lane)
+/// Three numbers side by side.
+inline Vector lane_of(const double (*v)[Talus::ContactBatch::width], int lane)
 {
   return {v[0][lane], v[1][lane], v[2][lane]};
 }

@@ -8,7 +8,7 @@
 #ifndef TALUS_TEST_SLOW_CONTACT_H
 #define TALUS_TEST_SLOW_CONTACT_H
 
-#include "laws/contact_law.h"
+#include "named_law.h"
 
 #include <array>
 #include <cmath>
@@ -67,12 +67,12 @@ inline double reduced(double a, double b)
   return std::isinf(b) ? a : a * b / (a + b);
 }
 
-inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
-                        const Talus::ContactCoefficients &p, double dt, bool advance)
+inline Outcome evaluate(const Contact &c, named::NamedLaw law, const named::Numbers &p, double dt,
+                        bool advance)
 {
   const double m_eff = reduced(c.mass[0], c.mass[1]);
   double factor = 1.0;
-  if (law.normal == Talus::NormalLaw::HERTZ)
+  if (law.normal == named::Normal::HERTZ)
     factor = std::sqrt(c.overlap * reduced(c.radius[0], c.radius[1]));
   const double kn = factor * p.kn, kt = factor * p.kt;
   const double gn = factor * m_eff * p.gn, gt = factor * m_eff * p.gt;
@@ -103,9 +103,9 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
   Vector f_t{};
   double tangential_scale = 0.0;
 
-  if (law.tangential == Talus::TangentialLaw::DASHPOT ||
-      law.tangential == Talus::TangentialLaw::ONESTEP) {
-    const double k = law.tangential == Talus::TangentialLaw::ONESTEP ? kt : 0.0;
+  if (law.tangential == named::Tangential::DASHPOT ||
+      law.tangential == named::Tangential::ONESTEP) {
+    const double k = law.tangential == named::Tangential::ONESTEP ? kt : 0.0;
     const double size = (k * dt + gt) * norm(v_t);
     for (int d = 0; d < 3; d++) f_t[d] = -k * (dt * v_t[d]) - gt * v_t[d];
     if (size > limit)
@@ -113,7 +113,7 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
     tangential_scale = (k * dt + gt) * speeds;
   }
 
-  if (law.tangential == Talus::TangentialLaw::MULTISTEP) {
+  if (law.tangential == named::Tangential::MULTISTEP) {
     Vector s = c.history;
     if (advance) s = axpy(dt, v_t, s);
     const bool moved = norm(s) != 0.0;
@@ -144,11 +144,11 @@ inline Outcome evaluate(const Contact &c, Talus::ContactLaw law,
     if (slides && size > 0.0 && limit > size) tangential_scale *= limit / size;
   }
 
-  if (law.tangential != Talus::TangentialLaw::NONE) tangential_scale += p.mu * normal_scale;
+  if (law.tangential != named::Tangential::NONE) tangential_scale += p.mu * normal_scale;
   out.normal_force = f_n;
   out.force = axpy(f_n, c.normal, f_t);
   out.force_scale = normal_scale + tangential_scale;
-  if (law.tangential != Talus::TangentialLaw::NONE) {
+  if (law.tangential != named::Tangential::NONE) {
     const Vector opposite{-out.force[0], -out.force[1], -out.force[2]};
     out.torque[0] = outer(arm[0], out.force);
     out.torque[1] = outer(arm[1], opposite);

@@ -5,7 +5,8 @@
 #ifndef TALUS_TEST_TWO_SPHERES_H
 #define TALUS_TEST_TWO_SPHERES_H
 
-#include "laws/contact_kernel.h"
+#include "laws/circle_of_intersection.h"
+#include "named_law.h"
 
 #include <array>
 #include <cmath>
@@ -42,8 +43,8 @@ struct Sphere {
 
 class TwoSpheres {
  public:
-  Talus::ContactLaw law;
-  Talus::ContactCoefficients coefficients;
+  named::NamedLaw law;
+  named::Numbers coefficients;
   std::array<Sphere, 2> body;
   double dt = 0.0;
   Triple gravity{};
@@ -67,11 +68,12 @@ class TwoSpheres {
   {
     for (int d = 0; d < 3; d++) batch.force[d][0] = batch.moment[d][0] = batch.couple[d][0] = 0.0;
     if (overlap() <= 0.0) {
-      for (int d = 0; d < 3; d++) batch.displacement[d][0] = batch.impact[d][0] = 0.0;
-      batch.sliding[0] = 0.0;
+      for (int d = 0; d < 3; d++) batch.history[d][0] = batch.history[4 + d][0] = 0.0;
+      batch.history[3][0] = 0.0;
     } else {
       fill();
-      Talus::contact_kernel(law, true, true)(batch, 0, Talus::lanes, &coefficients, dt);
+      const Talus::ContactCoefficients row = row_of(law, coefficients);
+      Talus::contact_kernel(law, true, true)(batch, 0, Talus::lanes, &row, dt);
     }
   }
 

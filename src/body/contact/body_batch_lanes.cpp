@@ -70,10 +70,10 @@ void BodyBatch::gather()
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius);
     if (law.has_friction()) store_at(batch.spin, k, load8(&radius[k]) * m.omega);
-    if (law.resists) store_at(batch.relative_omega, k, m.omega);
+    if (law.resists()) store_at(batch.relative_omega, k, m.omega);
     if (task->with_history) gather_histories(k);
   }
-  if (law.resists) gather_resistance();
+  if (law.resists()) gather_resistance();
   if (!task->laws.uniform()) gather_coefficients();
 }
 
@@ -109,14 +109,12 @@ BodyBatch::Motion BodyBatch::motion_in_arrays(const int *index, int k) const
 void BodyBatch::gather_histories(int k)
 {
   const std::uint32_t *const slot = slots() + k;
-  const EightRows its =
-      to_lanes([&](int q) -> const Record & { return task->history.record(slot[q]); });
-  store_at(batch.displacement, k, vector_of(its));
-  store(&batch.sliding[k], its.number[3]);
+  const auto keep = [&](int first, const EightRows &values) {
+    for (int n = 0; n < 4; n++) store(&batch.history[first + n][k], values.number[n]);
+  };
+  keep(0, to_lanes([&](int q) -> const Record & { return task->history.record(slot[q]); }));
   if (task->with_impact)
-    store_at(batch.impact, k, vector_of(to_lanes([&](int q) -> const Record & {
-               return task->history.impact(slot[q]);
-             })));
+    keep(4, to_lanes([&](int q) -> const Record & { return task->history.impact(slot[q]); }));
 }
 
 /* The body is flat on the scale of the contact: the circle in which it cuts the sphere. */
@@ -141,8 +139,13 @@ void BodyBatch::keep_histories()
   const std::uint32_t *const slot = slots();
   for (int k = 0; k < filled; k += lanes) {
     Record its[lanes], impact[lanes];
-    to_rows(rows_of(vector_at(batch.displacement, k), load8(&batch.sliding[k])), its);
-    if (task->with_impact) to_rows(rows_of(vector_at(batch.impact, k), Vec8{}), impact);
+    const auto values = [&](int first) {
+      EightRows rows;
+      for (int n = 0; n < 4; n++) rows.number[n] = load8(&batch.history[first + n][k]);
+      return rows;
+    };
+    to_rows(values(0), its);
+    if (task->with_impact) to_rows(values(4), impact);
     for (int q = 0; q < std::min(lanes, filled - k); q++) {
       task->history.record(slot[k + q]) = its[q];
       if (task->with_impact) task->history.impact(slot[k + q]) = impact[q];
@@ -159,7 +162,7 @@ void BodyBatch::turn_to_space()
     turn(batch.normal);
     turn(batch.force);
     if (law.has_friction()) turn(batch.moment);
-    if (law.resists) turn(batch.couple);
+    if (law.resists()) turn(batch.couple);
   }
 }
 
@@ -168,7 +171,7 @@ void BodyBatch::turn_to_space()
 EightRows BodyBatch::torques(int k) const
 {
   Vector3<Vec8> torque = -load8(&radius[k]) * vector_at(batch.moment, k);
-  if (law.resists) torque = vector_at(batch.couple, k) + torque;
+  if (law.resists()) torque = vector_at(batch.couple, k) + torque;
   return rows_of(torque, Vec8{});
 }
 
@@ -222,7 +225,7 @@ void BodyBatch::add_load()
     const Vector3<Vec8> force = vector_at(batch.force, k), normal = vector_at(batch.normal, k);
     const Vector3<Vec8> arm = vector_at(place, k) - r * normal - about;
     Vector3<Vec8> torque = -cross(arm, force);
-    if (law.resists)
+    if (law.resists())
       torque = torque - (vector_at(batch.couple, k) -
                          r * (vector_at(batch.moment, k) - cross(normal, force)));
     load_of_lanes[0] = load_of_lanes[0] - force;

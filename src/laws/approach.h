@@ -1,0 +1,51 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What every contact begins with: normal velocity, effective mass and radius, and the impact of
+// laws that keep it.
+
+#ifndef TALUS_LAWS_APPROACH_H
+#define TALUS_LAWS_APPROACH_H
+
+#include "laws/contact_lanes.h"
+
+namespace Talus {
+
+/// How a contact began.
+template <class Real> struct ContactImpact {
+  Real speed{};    ///< normal speed in the first step
+  Real age{};      ///< time since the first step
+  Real begun{};    ///< 1 after the first step
+};
+
+/// Impact speed and age at this step; `advance` counts the step.
+template <bool advance, class Real>
+inline void follow_impact(ContactImpact<Real> &impact, Real normal_velocity, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const auto begun = impact.begun > zero;
+  impact.speed = select(begun, impact.speed, magnitude(normal_velocity));
+  if (!advance) return;
+  impact.age = select(begun, impact.age + dt, zero);
+  impact.begun = one;
+}
+
+/// Finds normal_velocity, mass and, if it is needed, radius. Between two infinitely heavy bodies
+/// the effective mass is 0.
+template <bool with_radius, class Real> TALUS_INLINE void approach(ContactLanes<Real> &s)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  s.normal_velocity = dot(s.velocity, s.normal);
+  s.impact_speed = s.age = s.radius = zero;
+  const auto finite = s.inverse_mass > zero;
+  if constexpr (with_radius) {    // two quotients for the price of one
+    const Real inverse_mass = select(finite, s.inverse_mass, one);
+    const Real inverse = one / (inverse_mass * s.inverse_radius);
+    s.mass = select(finite, s.inverse_radius * inverse, zero);
+    s.radius = inverse_mass * inverse;
+  } else
+    s.mass = select(finite, one / s.inverse_mass, zero);
+}
+
+}    // namespace Talus
+
+#endif

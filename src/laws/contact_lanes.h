@@ -1,0 +1,57 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// One contact on its way through the stages of its law, or several side by side: what is given,
+// what each stage finds for those behind it, and the forces. Real is one contact (double) or eight
+// (Vec8). Units are those of the caller, consistent: force = mass length/time^2.
+
+#ifndef TALUS_LAWS_CONTACT_LANES_H
+#define TALUS_LAWS_CONTACT_LANES_H
+
+#include "base/vector3.h"
+
+namespace Talus {
+
+/// State of one contact as the laws see it. The first body is the one that receives `force`.
+template <class Real> struct ContactState {
+  Vector3<Real> normal{};      ///< unit vector from body 2 to body 1; 0 if centers coincide
+  Real overlap{};              ///< > 0; 0 if centers coincide, which switches the contact off
+  Vector3<Real> velocity{};    ///< v_1 - v_2 of the centers (of the surface point for a large body)
+  Vector3<Real> spin{};        ///< r_1 omega_1 + r_2 omega_2; only for laws with torques
+  Real inverse_mass{};         ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
+  Real inverse_radius{};       ///< 1/r_1 + 1/r_2; only for laws that need it
+  Vector3<Real> relative_omega{};    ///< omega_1 - omega_2; only for laws with resistance
+  Real circle{};                     ///< radius of the circle of intersection; only for the same
+  Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a flat body; only for midpoint laws
+};
+
+/// The state, and what the stages make of it. Torques about the centers: -r_1 moment + couple on
+/// body 1, -r_2 moment - couple on body 2.
+template <class Real> struct ContactLanes : ContactState<Real> {
+  // approach, see approach.h
+  Real normal_velocity{};    ///< (v_1 - v_2) . n, negative when approaching
+  Real mass{}, radius{};     ///< effective ones; radius only for laws that need it
+  Real impact_speed{};       ///< normal speed in the first step; 0 if it is not kept
+  Real age{};                ///< time since the first step; 0 if it is not kept
+
+  // normal
+  Real kn{}, kt{};    ///< force/length: elastic force over overlap, tangential stiffness
+  Real tangent_n{}, tangent_t{};    ///< force/length: d elastic/d overlap, and the like for kt
+  Real contact_radius{};            ///< length; 0 of laws that have none
+  Real elastic{};                   ///< normal force without damping
+
+  // damping
+  Real gn{}, gt{};        ///< force/velocity
+  Real normal_force{};    ///< repulsive if positive; without cohesion
+
+  Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
+
+  // results
+  Vector3<Real> force{};         ///< on the first body; the second receives the opposite
+  Vector3<Real> tangential{};    ///< the tangential part of it
+  Vector3<Real> moment{};        ///< normal x tangential, and rolling resistance
+  Vector3<Real> couple{};        ///< spinning resistance
+};
+
+}    // namespace Talus
+
+#endif

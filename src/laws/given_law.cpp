@@ -1,0 +1,46 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "laws/given_law.h"
+
+#include "laws/damping/common.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Talus {
+
+double Mixing::mean(const std::string &name) const
+{
+  return 0.5 * (a.given.value(name) + b.given.value(name));
+}
+
+double Mixing::smallest(const std::string &name) const
+{
+  return std::min(a.given.value(name), b.given.value(name));
+}
+
+double Mixing::largest(const std::string &name, double otherwise) const
+{
+  return std::max(a.given.value(name, otherwise), b.given.value(name, otherwise));
+}
+
+double Mixing::friction(const std::string &name) const
+{
+  const double p = a.given.value(name), q = b.given.value(name);
+  if (rule == FrictionMix::ARITHMETIC) return 0.5 * (p + q);
+  if (rule == FrictionMix::GEOMETRIC) return std::sqrt(p * q);
+  return std::min(p, q);
+}
+
+bool Mixing::limits_damping() const
+{
+  return a.given.has("limit_damping") || b.given.has("limit_damping");
+}
+
+double least_force(const Mixing &m)
+{
+  return m.limits_damping() ? 0.0 : -std::numeric_limits<double>::infinity();
+}
+
+}    // namespace Talus

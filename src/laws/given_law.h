@@ -1,0 +1,72 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What a user asked for one pair of materials: a law for each stage, and numbers by name. The names
+// are those of the documentation (kn, gn, E, nu, mu, ...); restart files hold the same.
+
+#ifndef TALUS_LAWS_GIVEN_LAW_H
+#define TALUS_LAWS_GIVEN_LAW_H
+
+#include "base/words.h"
+#include "laws/contact_law.h"
+
+#include <map>
+#include <string>
+
+namespace Talus {
+
+/// Numbers by name, in units of the kernels.
+class GivenNumbers {
+ public:
+  double &operator[](const std::string &name) { return numbers[name]; }
+  bool has(const std::string &name) const { return numbers.count(name) > 0; }
+  /// 0, or what is given here, if the number was not given.
+  double value(const std::string &name, double otherwise = 0.0) const
+  {
+    const auto found = numbers.find(name);
+    return found == numbers.end() ? otherwise : found->second;
+  }
+  const std::map<std::string, double> &all() const { return numbers; }
+
+ private:
+  std::map<std::string, double> numbers;
+};
+
+struct ContactSpec {
+  ContactLaw law;
+  GivenNumbers given;
+
+  /// Stiffnesses follow from Young's modulus and Poisson's ratio.
+  bool is_material() const { return given.has("E"); }
+};
+
+/// Rule by which the coefficients of friction and of resistance of unlike materials are found.
+enum class FrictionMix : int { MINIMUM, ARITHMETIC, GEOMETRIC };
+
+/// Two materials with the same law, which may be one and the same, for laws that mix their numbers.
+struct Mixing {
+  const ContactSpec &a, &b;
+  FrictionMix rule;
+
+  double mean(const std::string &name) const;
+  double smallest(const std::string &name) const;
+  /// `otherwise` stands for a number that was not given.
+  double largest(const std::string &name, double otherwise = 0.0) const;
+  /// By the rule.
+  double friction(const std::string &name) const;
+  bool both_have(const std::string &name) const { return a.given.has(name) && b.given.has(name); }
+  /// Either asks for it.
+  bool limits_damping() const;
+};
+
+/// For laws that read their words: the words, and what has been read so far.
+struct LawReader {
+  Words &words;
+  ContactSpec &spec;
+  double pressure_unit;    ///< the caller's unit of pressure in terms of force and length
+
+  void set_not_negative(const char *name) { spec.given[name] = words.not_negative(name); }
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,104 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What everybody else knows of a law. A contact goes through stages,
+//
+//   normal -> damping -> tangential -> rolling -> twisting -> cohesion,
+//
+// and a pair of materials names one law for each. A law is one file in the folder of its stage: a
+// struct with its equation, its words, the mixing of two materials, and what it remembers, stores
+// and needs; see law_definition.h for what such a struct consists of. law_list.cpp names them all.
+
+#ifndef TALUS_LAWS_LAW_H
+#define TALUS_LAWS_LAW_H
+
+#include "laws/contact_batch.h"
+#include "laws/contact_lanes.h"
+
+#include <array>
+
+namespace Talus {
+
+enum class Stage : int { NORMAL, DAMPING, TANGENTIAL, ROLLING, TWISTING, COHESION };
+inline constexpr int num_stages = 6;
+
+struct LawReader;
+struct Mixing;
+
+/// One row of the table of coefficients: those of all stages of one pair of materials, one behind
+/// the other, see ContactLaw::first_coefficient().
+struct ContactCoefficients {
+  static constexpr int size = 32;
+  double c[size] = {};
+};
+
+/// Where in ContactBatch::history the values of one law stand.
+using HistoryPlaces = std::array<int, ContactBatch::history_size>;
+
+/// What a stage is given besides the batch.
+struct StageInput {
+  const ContactCoefficients *table;
+  bool uniform;             ///< row 0 for every contact, else batch.coefficients[k]
+  int first_coefficient;    ///< of this law in a row
+  HistoryPlaces places;
+  double dt;
+};
+
+/// Computes one stage of the contacts begin ... end-1 of a batch, multiples of `lanes`.
+using StageFunction = void (*)(ContactBatch &batch, int begin, int end, const StageInput &in);
+
+/// The same of one contact, history only read. `c`, `history`: the law's own numbers.
+using OneContact = void (*)(ContactLanes<double> &contact, const double *c, double *history,
+                            double dt);
+
+/// Where the log shows a coefficient.
+enum class Shown { ALWAYS, WITH_SPRING, NEVER };
+struct CoefficientName {
+  const char *name;
+  Shown shown = Shown::ALWAYS;    ///< WITH_SPRING: if the tangential law reads kt or gt
+};
+
+struct Law {
+  Stage stage;
+  const char *name;    ///< word of scripts, name in restart files and in the log; no two of a stage
+                       ///< have the same
+  const char *label;    ///< in descriptions of whole laws, nullptr to leave it out
+
+  const CoefficientName *coefficients;
+  int num_coefficients;
+
+  /// Values that the law remembers of a contact, zero when it begins: first those that change their
+  /// sign if the other body counts as the first (displacements, forces), then those that do not.
+  int odd_history, even_history;
+
+  bool acts;               ///< false of laws "none"
+  bool needs_radius;       ///< reads the effective radius, or what follows from it
+  bool reads_impact;       ///< impact speed or age; kept if the tangential law remembers
+  bool reads_stiffness;    ///< tangential: kt or gt
+  bool has_spring;         ///< tangential: remembers a displacement that stores energy
+  bool is_midpoint;        ///< tangential: second order in the time step
+  bool holds;              ///< rolling: a body at rest is held
+  bool delayed;            ///< rolling, twisting: reads delayed_force
+  double exponent;         ///< normal: elastic force ~ overlap^exponent
+  bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
+  const char *takes_no_kt,
+      *needs_gt;    ///< normal, damping: why kt or gt has to be, or not be, NULL
+
+  StageFunction reading, advancing;    ///< history only read; or advanced by this step
+  OneContact one;
+  StageFunction delay;    ///< normal: finds delayed_force, by Chrono's rule for this law
+  OneContact one_delay;
+
+  /// Reads words behind the name; nullptr: the law is not chosen by a word of its own but by
+  /// another law's.
+  void (*read)(LawReader &reader);
+  /// Coefficients of a contact of two materials to c[0 ... num_coefficients-1].
+  void (*mix)(const Mixing &materials, double *c);
+  /// Energy stored in a contact whose stages have all been computed.
+  double (*stored)(const ContactLanes<double> &contact, const double *c, const double *history);
+  /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
+  double (*modulus)(const double *c);
+};
+
+}    // namespace Talus
+
+#endif

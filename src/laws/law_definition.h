@@ -1,0 +1,330 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// How to write a law: a struct derived from the one of its stage below, which has
+//
+//   name          word of scripts and restart files
+//   label         in descriptions of whole laws; the name if it is not hidden by another one
+//   Row<Real>     its coefficients, all of type Real
+//   coefficients  their names
+//   compute<advance>(c, s, history, dt)
+//                 its equation: reads and writes s (see contact_lanes.h) and, if it remembers
+//                 something, history[0 ... odd_history + even_history - 1]; advances it only if
+//                 `advance`. Pure and free of branches. dt in units of the caller.
+//   read(reader)  its words; left out if it comes with another law's
+//   mix(m)        its row for a contact of two materials
+//   stored(s, c, history)   its energy, if it stores some
+//
+// and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
+// law_list.cpp makes it known to all.
+
+#ifndef TALUS_LAWS_LAW_DEFINITION_H
+#define TALUS_LAWS_LAW_DEFINITION_H
+
+#include "base/simd.h"
+#include "laws/given_law.h"
+#include "laws/law.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace Talus {
+
+struct LawBase {
+  template <class Real> struct Row {
+  };
+  static constexpr CoefficientName coefficients[] = {{nullptr}};    // none
+  static Row<double> mix(const Mixing & /*m*/) { return {}; }
+  static constexpr std::nullptr_t read = nullptr;
+  template <class AnyRow>
+  static double stored(const ContactLanes<double> & /*s*/, const AnyRow & /*c*/,
+                       const double * /*history*/)
+  {
+    return 0.0;
+  }
+
+  static constexpr bool acts = true, needs_radius = false, reads_impact = false;
+  static constexpr bool reads_stiffness = false, has_spring = false, is_midpoint = false;
+  static constexpr bool holds = false, delayed = false, like_stock = false;
+  static constexpr const char *takes_no_kt = nullptr, *needs_gt = nullptr;
+  static constexpr int odd_history = 0, even_history = 0;
+  static constexpr double exponent = 1.0;
+};
+
+/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic.
+struct NormalLaw : LawBase {
+  static constexpr Stage stage = Stage::NORMAL;
+
+  /// kn and gn without their dependence on the overlap, as Chrono's rule for the collision time of
+  /// delayed resistance takes them.
+  template <class Real> static void reduce(Real /*overlap*/, Real & /*k*/, Real & /*g*/) {}
+  template <class Row> static double modulus(const Row & /*c*/) { return 0.0; }
+};
+
+/// Finds gn, gt, normal_force and force; see finish_normal_force().
+struct DampingLaw : LawBase {
+  static constexpr Stage stage = Stage::DAMPING;
+  static constexpr const char *label = nullptr;    // the normal law says it
+};
+
+/// Finds tangential and moment, and adds to force.
+struct TangentialLaw : LawBase {
+  static constexpr Stage stage = Stage::TANGENTIAL;
+};
+
+/// Adds to moment.
+struct RollingLaw : LawBase {
+  static constexpr Stage stage = Stage::ROLLING;
+};
+
+/// Finds couple.
+struct TwistingLaw : LawBase {
+  static constexpr Stage stage = Stage::TWISTING;
+};
+
+/// Adds to force.
+struct CohesionLaw : LawBase {
+  static constexpr Stage stage = Stage::COHESION;
+  static constexpr const char *label = "adhesion";
+  static constexpr bool needs_radius = true;
+};
+
+// ---- from a struct to a Law
+// ----------------------------------------------------------------------
+
+template <class L> inline constexpr int num_coefficients_of()
+{
+  return L::coefficients[0].name ? static_cast<int>(std::size(L::coefficients)) : 0;
+}
+
+template <class L> using CoefficientPlaces = std::make_index_sequence<num_coefficients_of<L>()>;
+
+/// A row from numbers of its places: all(n) for n = 0, 1, ...
+template <class L, class Real, class All, std::size_t... n>
+TALUS_INLINE typename L::template Row<Real> row_from(const All &all, std::index_sequence<n...>)
+{
+  return {all(n)...};
+}
+
+/// The same coefficients in every lane.
+template <class L, class Real> TALUS_INLINE typename L::template Row<Real> spread(const double *c)
+{
+  return row_from<L, Real>([c](std::size_t n) { return splat<Real>(c[n]); },
+                           CoefficientPlaces<L>{});
+}
+
+template <class L>
+typename L::template Row<Vec8> collect(const StageInput &in, const int *row_of_lane)
+{
+  return row_from<L, Vec8>(
+      [&](std::size_t n) {
+        Vec8 c{};
+        for (int k = 0; k < lanes; k++) c[k] = in.table[row_of_lane[k]].c[in.first_coefficient + n];
+        return c;
+      },
+      CoefficientPlaces<L>{});
+}
+
+using LanesOfVector = double[3][ContactBatch::width];
+
+template <class Real> TALUS_INLINE Vector3<Real> load_vector(const LanesOfVector &v, int k)
+{
+  using In = Memory<Real>;
+  return {In::load(&v[0][k]), In::load(&v[1][k]), In::load(&v[2][k])};
+}
+
+template <class Real>
+TALUS_INLINE void store_vector(LanesOfVector &v, int k, const Vector3<Real> &value)
+{
+  Memory<Real>::store(&v[0][k], value.x);
+  Memory<Real>::store(&v[1][k], value.y);
+  Memory<Real>::store(&v[2][k], value.z);
+}
+
+/// The state of the contacts from lane k on, as many as a Real is wide. What is not used afterwards
+/// is not read: compilers see to that.
+template <class Real>
+TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s)
+{
+  using In = Memory<Real>;
+  s.normal = load_vector<Real>(b.normal, k);
+  s.overlap = In::load(&b.overlap[k]);
+  s.velocity = load_vector<Real>(b.velocity, k);
+  s.spin = load_vector<Real>(b.spin, k);
+  s.inverse_mass = In::load(&b.inverse_mass[k]);
+  s.inverse_radius = In::load(&b.inverse_radius[k]);
+  s.relative_omega = load_vector<Real>(b.relative_omega, k);
+  s.circle = In::load(&b.circle[k]);
+  s.inverse_distance = In::load(&b.inverse_distance[k]);
+}
+
+/// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
+/// for those that the stage writes.
+template <Stage stage, class Lanes, class Batch, class Visit>
+TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
+{
+  if constexpr (stage == Stage::NORMAL) {
+    visit(s.kn, b.between.kn);
+    visit(s.kt, b.between.kt);
+    visit(s.tangent_n, b.between.tangent_n);
+    visit(s.tangent_t, b.between.tangent_t);
+    visit(s.contact_radius, b.between.contact_radius);
+    visit(s.elastic, b.between.elastic);
+  } else if constexpr (stage == Stage::DAMPING) {
+    visit(s.gn, b.between.gn);
+    visit(s.gt, b.between.gt);
+    visit(s.normal_force, b.between.normal_force);
+  }
+}
+
+template <class Lanes, class Batch, class Visit>
+TALUS_INLINE void visit_approach(Lanes &s, Batch &b, Visit visit)
+{
+  visit(s.normal_velocity, b.between.normal_velocity);
+  visit(s.mass, b.between.mass);
+  visit(s.radius, b.between.radius);
+  visit(s.impact_speed, b.between.impact_speed);
+  visit(s.age, b.between.age);
+}
+
+/// What the stages before `stage` have found.
+template <Stage stage, class Real>
+TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s)
+{
+  const auto load = [k](Real &value, const double *from) { value = Memory<Real>::load(from + k); };
+  visit_approach(s, b, load);
+  if (stage == Stage::NORMAL) return;
+  visit_written<Stage::NORMAL>(s, b, load);
+  if (stage == Stage::DAMPING) return;
+  visit_written<Stage::DAMPING>(s, b, load);
+  load(s.delayed_force, b.between.delayed_force);
+  s.force = load_vector<Real>(b.force, k);
+  s.moment = load_vector<Real>(b.moment, k);
+}
+
+template <Stage stage, class Real>
+TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
+{
+  visit_written<stage>(s, b, [k](Real value, double *to) { Memory<Real>::store(to + k, value); });
+  if constexpr (stage == Stage::DAMPING || stage == Stage::TANGENTIAL || stage == Stage::COHESION)
+    store_vector(b.force, k, s.force);
+  if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)
+    store_vector(b.moment, k, s.moment);
+  if constexpr (stage == Stage::TWISTING) store_vector(b.couple, k, s.couple);
+}
+
+template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;
+
+template <class L, bool advance>
+void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  constexpr int remembered = history_size_of<L>;
+  auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
+  for (int k = begin; k < end; k += lanes) {
+    if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    load_found<L::stage>(b, k, s);
+    Vec8 history[remembered + 1];    // none has no length 0
+    for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
+    L::template compute<advance>(c, s, history, in.dt);
+    store_found<L::stage>(b, k, s);
+    if (!advance) continue;
+    for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
+  }
+}
+
+/// 1 if resistance acts, 0 before the contact has lasted one collision time
+/// pi sqrt(m/(k (1-d^2))), d = g/(2 m sqrt(k/m)); over-damped contacts (d >= 1) resist at once.
+template <class L, class Real> TALUS_INLINE void find_delayed_force(ContactLanes<Real> &s)
+{
+  const Real one = splat<Real>(1.0), zero = splat<Real>(0.0),
+             pi = splat<Real>(3.14159265358979323846);
+  Real k = s.kn, g = s.gn;
+  L::reduce(s.overlap, k, g);
+  const Real damping = g / (2.0 * s.mass * square_root(k / s.mass));
+  const Real duration = pi * square_root(s.mass / (k * (one - damping * damping)));
+  s.delayed_force = s.normal_force * select((damping < one) & (s.age <= duration), zero, one);
+}
+
+template <class L> void run_delay(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
+{
+  for (int k = begin; k < end; k += lanes) {
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    load_found<Stage::TANGENTIAL>(b, k, s);
+    find_delayed_force<L>(s);
+    store(&b.between.delayed_force[k], s.delayed_force);
+  }
+}
+
+template <class L> typename L::template Row<double> row_of(const double *c)
+{
+  return row_from<L, double>([c](std::size_t n) { return c[n]; }, CoefficientPlaces<L>{});
+}
+
+template <class L>
+void compute_one(ContactLanes<double> &s, const double *c, double *history, double dt)
+{
+  L::template compute<false>(row_of<L>(c), s, history, dt);
+}
+
+template <class L> void mix_row(const Mixing &materials, double *c)
+{
+  const typename L::template Row<double> row = L::mix(materials);
+  const auto *numbers = reinterpret_cast<const double *>(&row);
+  for (int n = 0; n < num_coefficients_of<L>(); n++) c[n] = numbers[n];
+}
+
+template <class L>
+double stored_energy(const ContactLanes<double> &s, const double *c, const double *history)
+{
+  return L::stored(s, row_of<L>(c), history);
+}
+
+template <class L> constexpr Law make_law()
+{
+  constexpr int n = num_coefficients_of<L>();
+  static_assert(n == 0 || sizeof(typename L::template Row<double>) == n * sizeof(double),
+                "as many names as coefficients");
+  constexpr bool remembers = history_size_of < L >> 0;
+  Law law{};
+  law.stage = L::stage;
+  law.name = L::name;
+  law.label = L::label;
+  law.coefficients = L::coefficients;
+  law.num_coefficients = n;
+  law.odd_history = L::odd_history;
+  law.even_history = L::even_history;
+  law.acts = L::acts;
+  law.needs_radius = L::needs_radius;
+  law.reads_impact = L::reads_impact;
+  law.reads_stiffness = L::reads_stiffness;
+  law.has_spring = L::has_spring;
+  law.is_midpoint = L::is_midpoint;
+  law.holds = L::holds;
+  law.delayed = L::delayed;
+  law.exponent = L::exponent;
+  law.like_stock = L::like_stock;
+  law.takes_no_kt = L::takes_no_kt;
+  law.needs_gt = L::needs_gt;
+  law.reading = run_stage<L, false>;
+  law.advancing = run_stage<L, remembers>;
+  law.one = compute_one<L>;
+  law.read = L::read;
+  law.mix = mix_row<L>;
+  law.stored = stored_energy<L>;
+  if constexpr (L::stage == Stage::NORMAL) {
+    law.delay = run_delay<L>;
+    law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {
+      find_delayed_force<L>(s);
+    };
+    law.modulus = [](const double *c) { return L::modulus(row_of<L>(c)); };
+  }
+  return law;
+}
+
+template <class L> inline constexpr Law law = make_law<L>();
+
+}    // namespace Talus
+
+#endif

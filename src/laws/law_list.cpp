@@ -1,0 +1,128 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "laws/law_list.h"
+
+#include "laws/cohesion/constant.h"
+#include "laws/cohesion/dmt.h"
+#include "laws/cohesion/none.h"
+#include "laws/cohesion/perko.h"
+#include "laws/damping/flores.h"
+#include "laws/damping/flores_material.h"
+#include "laws/damping/mass_velocity.h"
+#include "laws/damping/plaincoulomb.h"
+#include "laws/damping/restitution.h"
+#include "laws/damping/viscoelastic.h"
+#include "laws/normal/flores.h"
+#include "laws/normal/flores_material.h"
+#include "laws/normal/hertz.h"
+#include "laws/normal/hertz_material.h"
+#include "laws/normal/hooke.h"
+#include "laws/normal/hooke_material.h"
+#include "laws/normal/plaincoulomb.h"
+#include "laws/normal/plaincoulomb_material.h"
+#include "laws/rolling/delayed.h"
+#include "laws/rolling/holding.h"
+#include "laws/rolling/none.h"
+#include "laws/tangential/dashpot.h"
+#include "laws/tangential/multistep.h"
+#include "laws/tangential/none.h"
+#include "laws/tangential/onestep.h"
+#include "laws/tangential/tanh.h"
+#include "laws/twisting/delayed.h"
+#include "laws/twisting/none.h"
+#include "laws/twisting/stopping.h"
+
+#include <array>
+
+namespace Talus {
+namespace {
+
+/// The first of each stage is what a contact has if nothing else was asked for.
+const Law *const all_laws[] = {
+    &law<Hooke>,
+    &law<Hertz>,
+    &law<Flores>,
+    &law<PlainCoulomb>,
+    &law<HookeMaterial>,
+    &law<HertzMaterial>,
+    &law<FloresMaterial>,
+    &law<PlainCoulombMaterial>,
+
+    &law<MassVelocity>,
+    &law<Viscoelastic>,
+    &law<FloresDamping>,
+    &law<PlainCoulombDamping>,
+    &law<RestitutionDamping>,
+    &law<FloresMaterialDamping>,
+
+    &law<TangentialNone>,
+    &law<Dashpot>,
+    &law<Onestep>,
+    &law<MultistepStock>,
+    &law<Multistep<true, false>>,
+    &law<Multistep<false, true>>,
+    &law<Multistep<true, true>>,
+    &law<Tanh>,
+
+    &law<RollingNone>,
+    &law<HoldingRolling>,
+    &law<DelayedRolling>,
+
+    &law<TwistingNone>,
+    &law<StoppingTwist>,
+    &law<DelayedTwist>,
+
+    &law<CohesionNone>,
+    &law<ConstantAdhesion>,
+    &law<DmtAdhesion>,
+    &law<PerkoAdhesion>,
+};
+
+using LawsByStage = std::array<std::vector<const Law *>, num_stages>;
+
+/// Made at the first question: static objects of other files may ask, and add to it.
+LawsByStage &list()
+{
+  static LawsByStage laws = [] {
+    LawsByStage by_stage;
+    for (const Law *one : all_laws) by_stage[static_cast<int>(one->stage)].push_back(one);
+    return by_stage;
+  }();
+  return laws;
+}
+
+}    // namespace
+
+const std::vector<const Law *> &laws_of(Stage stage)
+{
+  return list()[static_cast<int>(stage)];
+}
+
+const Law *find_law(Stage stage, const std::string &name)
+{
+  for (const Law *one : laws_of(stage))
+    if (name == one->name) return one;
+  return nullptr;
+}
+
+const char *name_of(Stage stage)
+{
+  static const char *const names[num_stages] = {"normal",  "damping",  "tangential",
+                                                "rolling", "twisting", "cohesion"};
+  return names[static_cast<int>(stage)];
+}
+
+std::vector<std::string> words_of(Stage stage)
+{
+  std::vector<std::string> words;
+  for (const Law *one : laws_of(stage))
+    if (one->read) words.emplace_back(one->name);
+  return words;
+}
+
+AddedLaw::AddedLaw(const Law &law)
+{
+  list()[static_cast<int>(law.stage)].push_back(&law);
+}
+
+}    // namespace Talus

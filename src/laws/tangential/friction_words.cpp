@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The words of tangential laws with friction.
+
+#include "laws/law_list.h"
+#include "laws/tangential/common.h"
+#include "laws/tangential/multistep.h"
+
+#include <string>
+
+namespace Talus {
+
+void read_friction(LawReader &r, bool with_kt, bool needs_spring)
+{
+  Words &words = r.words;
+  GivenNumbers &given = r.spec.given;
+  const ContactLaw &law = r.spec.law;
+  const int at_kt = words.index();
+  double kt = 0.0, gt = 0.0;
+  const bool has_kt = with_kt && words.not_negative_or_null("kt", kt);
+  const int at_gt = words.index();
+  const bool has_gt = words.not_negative_or_null("gt", gt);
+  r.set_not_negative("mu");
+  const auto complain = [&words](int at, const std::string &what) {
+    words.fail(words.index() - at, what);
+  };
+  if (!has_gt && law.damping().needs_gt)
+    complain(at_gt,
+             std::string("expected a number for gt instead of NULL: ") + law.damping().needs_gt);
+  if (has_kt && law.normal().takes_no_kt)
+    complain(at_kt, std::string("expected NULL for kt: ") + law.normal().takes_no_kt);
+  // a spring of a linear law is not a pressure
+  if (has_kt) given["kt"] = law.normal().exponent == 1.0 ? kt : kt * r.pressure_unit;
+  if (has_gt) given["gt"] = gt;
+  const bool missing = has_kt ? kt == 0.0 : given.has("kn") && given.value("kn") == 0.0;
+  if (needs_spring && missing)
+    complain(at_kt, "tangential multistep needs kt > 0; without a tangential spring use "
+                    "'tangential dashpot'");
+}
+
+void MultistepStock::read(LawReader &r)
+{
+  read_friction(r, true, true);
+  bool midpoint = false;
+  std::string rule;
+  for (std::string word = r.words.peek(); word == "midpoint" || word == "stock" || word == "slider";
+       word = r.words.peek()) {
+    r.words.skip(1);
+    if (word == "midpoint" ? midpoint : !rule.empty())
+      r.words.fail(1, "surplus word '" + word + "' after tangential multistep");
+    if (word == "midpoint")
+      midpoint = true;
+    else
+      rule = word;
+  }
+  const bool stock = rule.empty() ? r.spec.law.normal().like_stock : rule == "stock";
+  const std::string name =
+      std::string("multistep") + (stock ? "" : " slider") + (midpoint ? " midpoint" : "");
+  r.spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, name));
+}
+
+}    // namespace Talus

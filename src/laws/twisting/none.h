@@ -1,0 +1,27 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// No spinning resistance.
+
+#ifndef TALUS_LAWS_TWISTING_NONE_H
+#define TALUS_LAWS_TWISTING_NONE_H
+
+#include "laws/law_definition.h"
+
+namespace Talus {
+
+struct TwistingNone : TwistingLaw {
+  static constexpr const char *name = "none", *label = nullptr;
+  static constexpr bool acts = false;
+
+  template <bool advance, class Real>
+  TALUS_INLINE static void compute(const Row<Real> & /*c*/, ContactLanes<Real> &s,
+                                   Real * /*history*/, double /*dt*/)
+  {
+    const Real zero = splat<Real>(0.0);
+    s.couple = {zero, zero, zero};
+  }
+};
+
+}    // namespace Talus
+
+#endif

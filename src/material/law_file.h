@@ -1,0 +1,31 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contact laws in restart files: the names of the laws, and the numbers that were given, by name.
+// Files of one version read alike by every build that has the laws, whatever else it has.
+
+#ifndef TALUS_MATERIAL_LAW_FILE_H
+#define TALUS_MATERIAL_LAW_FILE_H
+
+#include "laws/given_law.h"
+
+#include <cstdint>
+#include <string>
+
+namespace Talus {
+
+/// First number of what a pair style writes. `mark` tells it from files of before versions existed.
+inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 1;
+
+/// What is wrong with the first two numbers of a file and what to do about it; "" if nothing is.
+std::string complaint_about_law_file(std::int32_t mark, std::int32_t version);
+
+/// One pair of materials as a string of bytes.
+std::string to_bytes(const ContactSpec &spec);
+
+/// Its inverse. Throws std::runtime_error, with what is wrong and what to do about it, if the
+/// string names a law that does not exist here or ends early.
+ContactSpec from_bytes(const std::string &bytes);
+
+}    // namespace Talus
+
+#endif
