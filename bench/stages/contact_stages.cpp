@@ -31,6 +31,7 @@ struct Prepared {
     order.arrange(bed.owned, bed.key, bed.tag);
     work = WorkPartition(order);
     store.resize(order.size());
+    bring_ghosts();
     records.resize(order.size(), scene.with_friction, scene.with_resistance);
     collect();
     part.start_pairs(scene, store);
@@ -45,14 +46,19 @@ struct Prepared {
   {
     part.compute(scene, records, {dt, true}, [](int, int) {}, {});
   }
+  /// Ghosts are images of particles of this rank.
+  void bring_ghosts()
+  {
+    for (int a = bed.owned; a < bed.size(); a++)
+      store.set_ghost(bed.owned, a, store.origin(bed.original[a - bed.owned]), 0);
+  }
   /// All that a rebuild does with histories, but for the exchange with other ranks.
   void keep_history()
   {
     store.begin(work, {false, bed.owned < bed.size()});
     part.history.put_aside(part.pairs, store.chunk(0), false);
     store.finish(order, 1);
-    for (int a = bed.owned; a < bed.size(); a++)
-      store.set_ghost(bed.owned, a, store.origin(bed.original[a - bed.owned]), 0);
+    bring_ghosts();
     store.open(order, 1);
     part.history.fetch(part.pairs, store);
     store.number(order);

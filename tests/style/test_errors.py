@@ -107,7 +107,7 @@ SURPLUS = [    # words behind a complete law
 
 PLANE, RECTANGLE = "plane 0 0 0 0 0 1", "rectangle 0 0 0 0 0 1 1 0 0 2 3"
 LARGE_BODY = [    # words after fix f all large/body, message, marked word
-    ("", "fix large/body: missing shape: plane, rectangle, mesh, box, sphere", None),
+    ("", "fix large/body: missing shape: plane, rectangle, mesh, box, sphere", "large/body"),
     ("flat 0 0 0 0 0 1 " + LAW, "fix large/body: unknown shape 'flat', expected plane, rectangle, mesh, box",
      "flat"),
     ("plane", "fix large/body plane: missing point (px py pz)", "plane"),
