@@ -99,7 +99,7 @@ void CommProxy::poison_proxies()
 void CommProxy::check_states()
 {
   const int first = atom->nlocal, count = atom->nghost;
-  const bool spins = atom->omega_flag && ghost_velocity;
+  const bool rotation = atom->omega_flag && ghost_velocity;
   const auto snapshot = [first, count](double **of) {
     std::vector<double> kept(3 * static_cast<std::size_t>(count));
     if (count) std::memcpy(kept.data(), of[first], sizeof(double) * kept.size());
@@ -115,11 +115,11 @@ void CommProxy::check_states()
 
   const std::vector<double> x = snapshot(atom->x);
   const std::vector<double> v = ghost_velocity ? snapshot(atom->v) : std::vector<double>();
-  const std::vector<double> omega = spins ? snapshot(atom->omega) : std::vector<double>();
+  const std::vector<double> omega = rotation ? snapshot(atom->omega) : std::vector<double>();
   CommBrick::forward_comm();
   bool wrong = differs_then_restore(atom->x, x);
   if (ghost_velocity) wrong |= differs_then_restore(atom->v, v);
-  if (spins) wrong |= differs_then_restore(atom->omega, omega);
+  if (rotation) wrong |= differs_then_restore(atom->omega, omega);
   if (wrong)
     error->one(FLERR, "comm_proxy check: the state of a proxy is not that of its owner "
                       "(internal error)");

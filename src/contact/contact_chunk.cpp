@@ -123,7 +123,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
       add_up<friction, true>(step.particles, block, count);
     else
       add_up<friction, false>(step.particles, block, count);
-    if (scene.with_resistance) add_couples(step.particles, block, count);
+    if (scene.with_resistance) add_twisting_torques(step.particles, block, count);
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
@@ -186,7 +186,7 @@ void ContactChunk::run_kernels(const Step &step)
     if (step.scene.with_friction && !law.has_friction())
       clear_lanes(batch.moment, range.begin, range.end);
     if (step.scene.with_resistance && !law.resists())
-      clear_lanes(batch.couple, range.begin, range.end);
+      clear_lanes(batch.twisting_torque, range.begin, range.end);
   }
 }
 
@@ -197,7 +197,7 @@ void ContactChunk::apply_weights(int end)
     for (int d = 0; d < 3; d++) {
       force_of_lane[k].c[d] *= weight;
       moment_of_lane[k].c[d] *= weight;
-      couple_of_lane[k].c[d] *= weight;
+      twisting_of_lane[k].c[d] *= weight;
     }
   }
 }
@@ -237,13 +237,14 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
   }
 }
 
-void ContactChunk::add_couples(ParticleRecords &particles, const std::uint32_t *block, int count)
+void ContactChunk::add_twisting_torques(ParticleRecords &particles, const std::uint32_t *block,
+                                        int count)
 {
   for (int n = 0; n < count; n++) {
     const int first = pairs.first[block[n]];
-    Record &i = particles.couple[first];
-    Record &j = particles.couple[pairs.second[block[n]]];
-    const Vec4 c = load4(couple_of_lane[lane_of_contact[n]]);
+    Record &i = particles.twisting_torque[first];
+    Record &j = particles.twisting_torque[pairs.second[block[n]]];
+    const Vec4 c = load4(twisting_of_lane[lane_of_contact[n]]);
     if (!pairs.is_foreign(first)) store(i, load4(i) + c);
     store(j, load4(j) - c);
   }
@@ -263,7 +264,7 @@ void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count
     const int lane = lane_of_contact[n];
     forces.put(
         pairs.is_at_frontier(pair) ? place : nowhere, pairs.is_foreign(pairs.first[pair]),
-        {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(couple_of_lane[lane])});
+        {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(twisting_of_lane[lane])});
   }
 }
 

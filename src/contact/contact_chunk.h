@@ -135,7 +135,7 @@ class ContactChunk {
   void apply_weights(int end);
   template <bool friction, bool one_law>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
-  void add_couples(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  void add_twisting_torques(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
@@ -161,7 +161,7 @@ class ContactChunk {
   int lane_of_contact[ContactBatch::width];
   AlignedVector<LawRange> ranges;
   Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
-      couple_of_lane[ContactBatch::width];
+      twisting_of_lane[ContactBatch::width];
   alignas(64) double second_radius[ContactBatch::width];
 };
 

@@ -26,10 +26,10 @@ TALUS_INLINE void prefetch_two_lines(const Record *records)
   __builtin_prefetch(records + 2, 1);
 }
 
-/// r w and 1/r of a spin record, with the position record of the particle.
-inline Vec4 surface_velocity(Vec4 position, Vec4 spin)
+/// r w and 1/r of a omega record, with the position record of the particle.
+inline Vec4 surface_velocity(Vec4 position, Vec4 omega)
 {
-  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * spin;
+  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * omega;
 }
 
 }    // namespace
@@ -74,7 +74,7 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
     if constexpr (history_kept) prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
     to_lanes(a, batch.normal, batch.overlap, k);
     to_lanes(b, batch.velocity, batch.inverse_mass, k);
-    if constexpr (friction) to_lanes(c, batch.spin, batch.inverse_radius, k);
+    if constexpr (friction) to_lanes(c, batch.surface_rotation, batch.inverse_radius, k);
     if constexpr (history_kept) to_lanes(d, batch.history, batch.history[3], k);
   }
 }
@@ -89,7 +89,7 @@ void ContactChunk::gather_impacts(int end)
   }
 }
 
-/* From separation and sum of radii to normal and overlap. Without spin records the lanes of the
+/* From separation and sum of radii to normal and overlap. Without omega records the lanes of the
    inverse radius still hold the product of the radii. */
 
 void ContactChunk::finish_geometry(int end, bool radii_known)
@@ -125,7 +125,7 @@ void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
     const int i = first[pair], j = pairs.second[pair];
     batch.circle[lane] = x[i].c[3];
     second_radius[lane] = x[j].c[3];
-    return load4(particles.spin(i)) - load4(particles.spin(j));
+    return load4(particles.omega(i)) - load4(particles.omega(j));
   };
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
@@ -150,8 +150,8 @@ void ContactChunk::keep_impacts(int end)
   to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
 }
 
-void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width],
-                                const double *fourth, int end, Record *records)
+void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth,
+                                int end, Record *records)
 {
   const std::uint32_t *place = history.all_places();
   for (int k = 0; k < end; k += 4)
@@ -167,7 +167,7 @@ template <bool friction> void ContactChunk::transpose_results(int end, bool with
   for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, k, force_of_lane);
     if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
-    if (with_resistance) rows_of(batch.couple, k, couple_of_lane);
+    if (with_resistance) rows_of(batch.twisting_torque, k, twisting_of_lane);
   }
 }
 

@@ -110,13 +110,13 @@ class ContactPipeline {
   void advance(const RecordStep &step);
   /// How far they went, after compute().
   RecordTravel travel() const;
-  /// Ends holds_state(): completes an advance() and writes positions, velocities and spins of all
+  /// Ends holds_state(): completes an advance() and writes positions, velocities and angular velocities of all
   /// owned particles to the host's arrays, and sets its forces and torques to those in the records,
   /// if given.
   void return_state(double *x, double *v, double *omega, double *f, double *torque);
   /// After a compute() that has delivered: only the state.
   void write_state(double *x, double *v, double *omega) const;
-  /// Positions, velocities and spins of some owned particles, for those who only read them.
+  /// Positions, velocities and angular velocities of some owned particles, for those who only read them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.

@@ -57,14 +57,14 @@ void ContactPipeline::account_for_move(const double *v, const double *omega, dou
     const int a = order.atom_of_slot[s];
     if (!order.is_owned(a)) continue;
     const double *before = particles.velocity(s).c, *now = v + 3L * a;
-    Vector3<double> spin{0.0, 0.0, 0.0};
+    Vector3<double> mean_omega{0.0, 0.0, 0.0};
     if (scene.with_friction) {
-      const double *w = particles.spin(s).c, *w_now = omega + 3L * a;
-      spin = {0.5 * (w[0] + w_now[0]), 0.5 * (w[1] + w_now[1]), 0.5 * (w[2] + w_now[2])};
+      const double *w = particles.omega(s).c, *w_now = omega + 3L * a;
+      mean_omega = {0.5 * (w[0] + w_now[0]), 0.5 * (w[1] + w_now[1]), 0.5 * (w[2] + w_now[2])};
     }
     to.move(s, dt,
             {0.5 * (before[0] + now[0]), 0.5 * (before[1] + now[1]), 0.5 * (before[2] + now[2])},
-            spin);
+            mean_omega);
   }
   to.end_step();
 }

@@ -73,15 +73,15 @@ void DeferredForces::make_rows(const ParticleOrder &order, const WorkPartition &
 
 void DeferredForces::make_room(const ParticleRecords &particles)
 {
-  const std::size_t couples = particles.couple.empty() ? 0 : places;
+  const std::size_t twisting_torques = particles.twisting_torque.empty() ? 0 : places;
   stride = particles.stride;
   load.assign(stride * places, Record{});
-  couple.assign(couples, Record{});
+  twisting_torque.assign(twisting_torques, Record{});
 }
 
 void DeferredForces::release()
 {
-  for (AlignedVector<Record> *records : {&load, &couple}) Talus::release(*records);
+  for (AlignedVector<Record> *records : {&load, &twisting_torque}) Talus::release(*records);
 }
 
 void DeferredForces::add(int thread, ParticleRecords &particles) const
@@ -101,33 +101,33 @@ void DeferredForces::add(int thread, ParticleRecords &particles) const
 /* Signs are factors, and pairs that do not touch add zero: nobody could foresee which are which.
    Neither changes a bit. */
 
-template <bool spins>
+template <bool rotation>
 void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *end,
                              ParticleRecords &particles) const
 {
   constexpr Vec4 sign_of[2] = {{1.0, 1.0, 1.0, 0.0}, {-1.0, -1.0, -1.0, 0.0}};
-  constexpr std::size_t its_stride = spins ? 2 : 1;
+  constexpr std::size_t its_stride = rotation ? 2 : 1;
   const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
   Record *sums = &particles.load[its_stride * row.slot];
   Vec4 force = kept_if(!row.has_all, load4(sums[0])), moment{};
-  if constexpr (spins) moment = kept_if(!row.has_all, load4(sums[1]));
+  if constexpr (rotation) moment = kept_if(!row.has_all, load4(sums[1]));
   for (const Entry *e = begin; e < end; e++) {
     const Record *its = &load[its_stride * e->place];
     force = force + sign_of[e->of_second] * kept_if(touches(*e), load4(its[0]));
-    if constexpr (spins) moment = moment + kept_if(touches(*e), load4(its[1]));
+    if constexpr (rotation) moment = moment + kept_if(touches(*e), load4(its[1]));
   }
   store(sums[0], force);
-  if constexpr (spins) store(sums[1], moment);
-  if (couple.empty()) return;
-  Vec4 sum = kept_if(!row.has_all, load4(particles.couple[row.slot]));
+  if constexpr (rotation) store(sums[1], moment);
+  if (twisting_torque.empty()) return;
+  Vec4 sum = kept_if(!row.has_all, load4(particles.twisting_torque[row.slot]));
   for (const Entry *e = begin; e < end; e++)
-    sum = sum + sign_of[e->of_second] * kept_if(touches(*e), load4(couple[e->place]));
-  store(particles.couple[row.slot], sum);
+    sum = sum + sign_of[e->of_second] * kept_if(touches(*e), load4(twisting_torque[e->place]));
+  store(particles.twisting_torque[row.slot], sum);
 }
 
 double DeferredForces::memory_usage() const
 {
-  std::size_t bytes = sizeof(Record) * (load.capacity() + couple.capacity());
+  std::size_t bytes = sizeof(Record) * (load.capacity() + twisting_torque.capacity());
   for (const Rows &its : of_thread)
     bytes += sizeof(Row) * its.rows.capacity() + sizeof(Entry) * its.entries.capacity();
   return static_cast<double>(bytes);

@@ -26,9 +26,9 @@
 namespace Talus {
 
 /// What a contact adds to its first particle, see record.h; the second one gets the opposite force
-/// and couple and the same moment. Moment and couple count only in scenes that have them.
+/// and twisting torque and the same moment. Moment and twisting torque count only in scenes that have them.
 struct ContactLoad {
-  Vec4 force, moment, couple;
+  Vec4 force, moment, twisting_torque;
 };
 
 class DeferredForces {
@@ -69,7 +69,7 @@ class DeferredForces {
     force[3] = step;
     write(load[stride * place], force);
     if (stride == 2) write(load[stride * place + 1], its.moment);
-    if (!couple.empty()) write(couple[place], its.couple);
+    if (!twisting_torque.empty()) write(twisting_torque[place], its.twisting_torque);
   }
 
   /// Adds the rows of the particles of a thread, when all that is done by all chunks.
@@ -97,7 +97,7 @@ class DeferredForces {
                     const std::vector<const PairList *> &lists);
   void make_rows(const ParticleOrder &order, const WorkPartition &work, SlotRange range,
                  const std::vector<const PairList *> &lists, Rows &to) const;
-  template <bool spins>
+  template <bool rotation>
   void add_row(const Row &row, const Entry *begin, const Entry *end,
                ParticleRecords &particles) const;
 
@@ -106,7 +106,7 @@ class DeferredForces {
   std::vector<Rows> of_thread;
   double step = 0.0;
   // by place; the fourth number of a force is the step in which it was stored
-  AlignedVector<Record> load, couple;
+  AlignedVector<Record> load, twisting_torque;
 };
 
 }    // namespace Talus

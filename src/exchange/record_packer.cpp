@@ -94,17 +94,18 @@ void RecordPacker::pack(const ExchangeNeighbor &to, double *out)
 /* Each record is stored whole. Its fourth number lands on the first one of the next record, which
    is stored later: only the last particle of a message must not write behind it. */
 
-template <bool spins> void RecordPacker::pack_all(const std::vector<int> &sent, double *out) const
+template <bool rotation>
+void RecordPacker::pack_all(const std::vector<int> &sent, double *out) const
 {
   const ParticleRecords &from = *records;
-  constexpr int width = spins ? 9 : 6;
+  constexpr int width = rotation ? 9 : 6;
   const int count = static_cast<int>(sent.size());
   for (int k = 0; k < count; k++, out += width) {
     from.call(sent[std::min(k + ahead, count - 1)]);
-    const Record *moves = &from.motion[(spins ? 2L : 1L) * sent[k]];
+    const Record *moves = &from.motion[(rotation ? 2L : 1L) * sent[k]];
     store_anywhere(out, load4(from.position[sent[k]]));
-    if (spins) store_anywhere(out + 3, load4(moves[0]));
-    const Record &last = spins ? moves[1] : moves[0];
+    if (rotation) store_anywhere(out + 3, load4(moves[0]));
+    const Record &last = rotation ? moves[1] : moves[0];
     if (k + 1 < count)
       store_anywhere(out + width - 3, load4(last));
     else
@@ -120,9 +121,9 @@ void RecordPacker::unpack(const ExchangeNeighbor &from, const double *message)
     records->stride == 2 ? unpack_run<true>(run, message) : unpack_run<false>(run, message);
 }
 
-template <bool spins> void RecordPacker::unpack_run(const Run &run, const double *message)
+template <bool rotation> void RecordPacker::unpack_run(const Run &run, const double *message)
 {
-  constexpr std::ptrdiff_t width = spins ? 9 : 6;
+  constexpr std::ptrdiff_t width = rotation ? 9 : 6;
   std::vector<Vec4, AlignedAllocator<Vec4>> steps;
   for (const auto &step : box.steps_of(run.shift))
     steps.push_back(Vec4{step[0], step[1], step[2], 0.0});
@@ -132,12 +133,13 @@ template <bool spins> void RecordPacker::unpack_run(const Run &run, const double
     const std::size_t s = run.targets[k].slot;
     const double *in = message + width * run.targets[k].place;
     Record &position = records->position[s];
-    Record *moves = &records->motion[(spins ? 2 : 1) * s];
+    Record *moves = &records->motion[(rotation ? 2 : 1) * s];
     Vec4 x = with_fourth_of(load_anywhere(in), load4(position));
     for (const Vec4 &step : steps) x = x + step;
     store(position, x);
-    if (spins) store(moves[0], with_fourth_of(load_anywhere(in + 3), load4(moves[0])));
-    Record &last = spins ? moves[1] : moves[0];    // one number earlier: it ends with the message
+    if (rotation) store(moves[0], with_fourth_of(load_anywhere(in + 3), load4(moves[0])));
+    Record &last =
+        rotation ? moves[1] : moves[0];    // one number earlier: it ends with the message
     store(last, last_three_with_fourth_of(load_anywhere(in + width - 4), load4(last)));
   }
 }

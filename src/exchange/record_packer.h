@@ -49,8 +49,8 @@ class RecordPacker : public ProxyPacker {
   };
   static Slots slots_of(const ExchangeNeighbor &neighbor, const int *slot_of_atom);
   const Slots &slots_with(int rank) const;
-  template <bool spins> void pack_all(const std::vector<int> &slots, double *out) const;
-  template <bool spins> void unpack_run(const Run &run, const double *message);
+  template <bool rotation> void pack_all(const std::vector<int> &slots, double *out) const;
+  template <bool rotation> void unpack_run(const Run &run, const double *message);
 
   std::vector<Slots> slots;    ///< by neighbor
   ParticleRecords *records = nullptr;

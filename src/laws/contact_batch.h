@@ -19,7 +19,7 @@ struct ContactBatch {
   alignas(64) double normal[3][width];
   alignas(64) double overlap[width];
   alignas(64) double velocity[3][width];
-  alignas(64) double spin[3][width];
+  alignas(64) double surface_rotation[3][width];
   alignas(64) double inverse_mass[width];
   alignas(64) double inverse_radius[width];
   alignas(64) double relative_omega[3][width];
@@ -34,7 +34,7 @@ struct ContactBatch {
   // output, see ContactLanes; only laws with torques write the last two
   alignas(64) double force[3][width];
   alignas(64) double moment[3][width];
-  alignas(64) double couple[3][width];
+  alignas(64) double twisting_torque[3][width];
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {

@@ -53,7 +53,7 @@ ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &r
   e.elastic_tangential = stored(Stage::TANGENTIAL);
   e.elastic_resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
   e.rolling_moment = s.moment - e.friction_moment;
-  e.twisting_torque = s.couple;
+  e.twisting_torque = s.twisting_torque;
   return e;
 }
 
@@ -64,7 +64,7 @@ ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coef
   s.normal = lane_of(b.normal, k);
   s.overlap = b.overlap[k];
   s.velocity = lane_of(b.velocity, k);
-  s.spin = lane_of(b.spin, k);
+  s.surface_rotation = lane_of(b.surface_rotation, k);
   s.inverse_mass = b.inverse_mass[k];
   s.inverse_radius = b.inverse_radius[k];
   s.relative_omega = lane_of(b.relative_omega, k);
@@ -114,12 +114,12 @@ void EnergyAccount::add(const ContactEnergy &e, double share, int first, double 
 }
 
 void EnergyAccount::move(int particle, double dt, const Vector3<double> &mean_velocity,
-                         const Vector3<double> &mean_spin)
+                         const Vector3<double> &mean_omega)
 {
   const Forces &f = forces[particle];
   work_normal -= dt * dot(f.damping, mean_velocity);
-  work_tangential -= dt * (dot(f.friction, mean_velocity) + dot(f.friction_torque, mean_spin));
-  work_resistance -= dt * dot(f.resistance_torque, mean_spin);
+  work_tangential -= dt * (dot(f.friction, mean_velocity) + dot(f.friction_torque, mean_omega));
+  work_resistance -= dt * dot(f.resistance_torque, mean_omega);
 }
 
 }    // namespace Talus

@@ -15,7 +15,7 @@ namespace Talus {
 
 /// Energy stored in one contact, and the parts of its forces that take energy from the bodies.
 /// Forces act on the first body, torques on body i are -r_i times a moment, plus or minus the
-/// couple.
+/// twisting torque.
 struct ContactEnergy {
   double elastic_normal = 0.0;                ///< of normal law and cohesion
   double elastic_tangential = 0.0;            ///< of the tangential law
@@ -63,7 +63,7 @@ class EnergyAccount {
   /// After the integrator has moved the velocities of an owned particle. Lengths of time and
   /// velocities in the units of the caller.
   void move(int particle, double dt, const Vector3<double> &mean_velocity,
-            const Vector3<double> &mean_spin);
+            const Vector3<double> &mean_omega);
   /// After the last move() of a step: the forces have been used.
   void end_step() { forces.clear(); }
   bool waits_for_move() const { return !forces.empty(); }

@@ -46,8 +46,8 @@ template <class Visit> void for_each_stage(const ContactLaw &law, Visit visit)
   for (Stage stage : {Stage::NORMAL, Stage::DAMPING, Stage::TANGENTIAL, Stage::ROLLING,
                       Stage::TWISTING, Stage::COHESION}) {
     const bool turns = stage == Stage::TANGENTIAL && law.has_friction();
-    const bool spins = stage == Stage::TWISTING && law.resists();
-    if (law[stage].acts || turns || spins) visit(stage, law[stage]);
+    const bool twists = stage == Stage::TWISTING && law.resists();
+    if (law[stage].acts || turns || twists) visit(stage, law[stage]);
   }
 }
 

@@ -16,16 +16,16 @@ template <class Real> struct ContactState {
   Vector3<Real> normal{};      ///< unit vector from body 2 to body 1; 0 if centers coincide
   Real overlap{};              ///< > 0; 0 if centers coincide, which switches the contact off
   Vector3<Real> velocity{};    ///< v_1 - v_2 of the centers (of the surface point for a large body)
-  Vector3<Real> spin{};        ///< r_1 omega_1 + r_2 omega_2; only for laws with torques
-  Real inverse_mass{};         ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
-  Real inverse_radius{};       ///< 1/r_1 + 1/r_2; only for laws that need it
+  Vector3<Real> surface_rotation{};    ///< r_1 omega_1 + r_2 omega_2; only for laws with torques
+  Real inverse_mass{};      ///< 1/m_1 + 1/m_2; 0 between two infinitely heavy bodies: no damping
+  Real inverse_radius{};    ///< 1/r_1 + 1/r_2; only for laws that need it
   Vector3<Real> relative_omega{};    ///< omega_1 - omega_2; only for laws with resistance
   Real circle{};                     ///< radius of the circle of intersection; only for the same
   Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a flat body; only for midpoint laws
 };
 
-/// The state, and what the stages make of it. Torques about the centers: -r_1 moment + couple on
-/// body 1, -r_2 moment - couple on body 2.
+/// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting torque on
+/// body 1, -r_2 moment - twisting torque on body 2.
 template <class Real> struct ContactLanes : ContactState<Real> {
   // approach, see approach.h
   Real normal_velocity{};    ///< (v_1 - v_2) . n, negative when approaching
@@ -46,10 +46,10 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
 
   // results
-  Vector3<Real> force{};         ///< on the first body; the second receives the opposite
-  Vector3<Real> tangential{};    ///< the tangential part of it
-  Vector3<Real> moment{};        ///< normal x tangential, and rolling resistance
-  Vector3<Real> couple{};        ///< spinning resistance
+  Vector3<Real> force{};              ///< on the first body; the second receives the opposite
+  Vector3<Real> tangential{};         ///< the tangential part of it
+  Vector3<Real> moment{};             ///< normal x tangential, and rolling resistance
+  Vector3<Real> twisting_torque{};    ///< spinning resistance
 };
 
 }    // namespace Talus

@@ -76,7 +76,7 @@ struct RollingLaw : LawBase {
   static constexpr Stage stage = Stage::ROLLING;
 };
 
-/// Finds couple.
+/// Finds twisting torque.
 struct TwistingLaw : LawBase {
   static constexpr Stage stage = Stage::TWISTING;
 };
@@ -149,7 +149,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.normal = load_vector<Real>(b.normal, k);
   s.overlap = In::load(&b.overlap[k]);
   s.velocity = load_vector<Real>(b.velocity, k);
-  s.spin = load_vector<Real>(b.spin, k);
+  s.surface_rotation = load_vector<Real>(b.surface_rotation, k);
   s.inverse_mass = In::load(&b.inverse_mass[k]);
   s.inverse_radius = In::load(&b.inverse_radius[k]);
   s.relative_omega = load_vector<Real>(b.relative_omega, k);
@@ -209,7 +209,7 @@ TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
     store_vector(b.force, k, s.force);
   if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)
     store_vector(b.moment, k, s.moment);
-  if constexpr (stage == Stage::TWISTING) store_vector(b.couple, k, s.couple);
+  if constexpr (stage == Stage::TWISTING) store_vector(b.twisting_torque, k, s.twisting_torque);
 }
 
 template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;

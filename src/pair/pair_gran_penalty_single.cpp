@@ -39,7 +39,7 @@ double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, d
   s.normal = (1.0 / r) * (row(atom->x[i]) - row(atom->x[j]));
   s.overlap = ri + rj - r;
   s.velocity = row(atom->v[i]) - row(atom->v[j]);
-  s.spin = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
+  s.surface_rotation = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
   s.inverse_mass = 1.0 / system->mass_in_contacts(i) + 1.0 / system->mass_in_contacts(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);

@@ -21,18 +21,19 @@ inline void add_to_row(double *row, Vec4 value)
 
 }    // namespace
 
-void ParticleRecords::resize(std::size_t n, bool spins, bool couples, std::size_t copies)
+void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques,
+                             std::size_t copies)
 {
-  stride = spins ? 2 : 1;
+  stride = rotation ? 2 : 1;
   renew(position, n + copies);
   renew(motion, stride * (n + copies));
   renew(load, stride * n);
-  renew(couple, couples ? n : 0);
+  renew(twisting_torque, twisting_torques ? n : 0);
 }
 
 void ParticleRecords::release_sums()
 {
-  for (AlignedVector<Record> *records : {&load, &couple}) release(*records);
+  for (AlignedVector<Record> *records : {&load, &twisting_torque}) release(*records);
 }
 
 /* Eight particles at a time, for the sake of the divisions. */
@@ -69,19 +70,19 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
 void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,
                              int end) const
 {
-  const bool spins = stride == 2;
+  const bool rotation = stride == 2;
   for (int s = begin; s < end; s++) {
     const int a = order.atom_of_slot[s];
     if (!order.is_owned(a)) continue;
     add_to_row(host.f + 3L * a, load4(load[stride * s]));
-    if (spins) add_to_row(host.torque + 3L * a, torque(s));
+    if (rotation) add_to_row(host.torque + 3L * a, torque(s));
   }
 }
 
 double ParticleRecords::memory_usage() const
 {
   return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
-                                               load.capacity() + couple.capacity()));
+                                               load.capacity() + twisting_torque.capacity()));
 }
 
 }    // namespace Talus

@@ -5,7 +5,7 @@
 // no code outside reads the particles, not at all: advance() then moves them here.
 //
 // What a contact needs of its partner apart from the position stands in one cache line, and so does
-// what it adds to it: (velocity, spin) and (force, moment). Scenes without friction have no second
+// what it adds to it: (velocity, omega) and (force, moment). Scenes without friction have no second
 // halves.
 
 #ifndef TALUS_PARTICLES_PARTICLE_RECORDS_H
@@ -93,10 +93,10 @@ struct alignas(64) RecordTravel {
 
 class ParticleRecords {
  public:
-  /// Makes room for `n` particles and their sums, whatever stood there before. `spins` is false in
-  /// scenes without friction: spin records and moments are then neither read nor kept. `couples`:
+  /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false in
+  /// scenes without friction: omega records and moments are then neither read nor kept. `twisting_torques`:
   /// laws with resistance occur. `copies`: of the states of some particles, behind those of all.
-  void resize(std::size_t n, bool spins, bool couples, std::size_t copies = 0);
+  void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0);
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
   /// of what they need without sums, and allocating memory anew takes time.
@@ -110,16 +110,16 @@ class ParticleRecords {
   void clear_sums(int slot)
   {
     for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
-    if (!couple.empty()) store(couple[slot], Vec4{});
+    if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
   }
 
-  /// Adds the summed forces, and torques if spins are kept, of slots begin ... end-1 to the host's
+  /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
   void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
 
-  /// Writes x, v and, if spins are kept, omega of a slot to the host's row.
+  /// Writes x, v and, if angular velocities are kept, omega of a slot to the host's row.
   void write_state(int slot, double *x, double *v, double *omega) const;
-  /// Sets the host's row of forces, and that of torques if spins are kept.
+  /// Sets the host's row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
   /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
@@ -188,10 +188,10 @@ class ParticleRecords {
   }
 
   const Record &velocity(int slot) const { return motion[stride * slot]; }
-  const Record &spin(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
+  const Record &omega(int slot) const { return motion[2 * static_cast<std::size_t>(slot) + 1]; }
 
-  std::size_t stride = 1;    ///< records per particle in motion and load: 2 with spins
-  AlignedVector<Record> position, motion, load, couple;    ///< see record.h
+  std::size_t stride = 1;    ///< records per particle in motion and load: 2 with angular velocities
+  AlignedVector<Record> position, motion, load, twisting_torque;    ///< see record.h
 
  private:
   void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
@@ -200,8 +200,8 @@ class ParticleRecords {
   struct Moved {
     Vec4 x, v;    // position and velocity records
   };
-  template <bool spins> Moved kick(const Kick &with, std::size_t slot);
-  template <bool spins>
+  template <bool rotation> Moved kick(const Kick &with, std::size_t slot);
+  template <bool rotation>
   RecordTravel advance_all(const RecordStep &step, const std::vector<Role> &role,
                            const Record *held, const SlotChoice &slots);
   Vec4 torque_of(std::size_t slot, Vec4 its_position, Vec4 its_force) const
@@ -209,7 +209,7 @@ class ParticleRecords {
     const Vec4 its_load = load4(load[2 * slot + 1]);
     if (its_force[3] != 0.0) return its_load;
     const Vec4 of_forces = Vec4{} - its_position[3] * its_load;
-    return couple.empty() ? of_forces : of_forces + load4(couple[slot]);
+    return twisting_torque.empty() ? of_forces : of_forces + load4(twisting_torque[slot]);
   }
 };
 

@@ -5,11 +5,11 @@
 //
 //   position record  { x, y, z, r }                      length
 //   velocity record  { vx, vy, vz, 1/m }                 velocity, 1/mass
-//   spin record      { wx, wy, wz, 1/r }                 1/time, 1/length
+//   omega record      { wx, wy, wz, 1/r }                 1/time, 1/length
 //   history record   { dx, dy, dz, at limit }            length, 0 or 1; see TangentialHistory
 //   impact record     { speed, age, begun, unused }       see ContactImpact
 //   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::add_torque()
-//   moment, couple   { x, y, z, unused }
+//   moment, twisting torque   { x, y, z, unused }
 //
 // The fourth entries of the first three are chosen such that the sum of two records gives what a
 // pair needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.

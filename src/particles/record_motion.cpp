@@ -70,15 +70,15 @@ struct ParticleRecords::Kick {
   double per_inertia;
 };
 
-template <bool spins>
+template <bool rotation>
 inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_t s)
 {
-  constexpr std::size_t stride = spins ? 2 : 1;
+  constexpr std::size_t stride = rotation ? 2 : 1;
   Record *moves = &motion[stride * s];
   const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
   const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
   const Vec4 v_new = v + (per_mass * force + with.fall);
-  if constexpr (spins) {
+  if constexpr (rotation) {
     const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
     const Vec4 per_inertia = per_mass * (inverse_radius * inverse_radius) * with.per_inertia;
     store(moves[1], w + per_inertia * torque_of(s, x, force));
@@ -89,11 +89,11 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
   return {x_new, v_new};
 }
 
-template <bool spins>
+template <bool rotation>
 RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vector<Role> &role,
                                           const Record *held, const SlotChoice &slots)
 {
-  constexpr std::size_t its_stride = spins ? 2 : 1;
+  constexpr std::size_t its_stride = rotation ? 2 : 1;
   const Kick with(step);
   const Role *const roles = role.empty() ? nullptr : role.data();
   Vec4 moved2{}, fastest2{};
@@ -103,10 +103,10 @@ RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vec
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    const Moved now = its == MOVES ? kick<spins>(with, s)
+    const Moved now = its == MOVES ? kick<rotation>(with, s)
                                    : Moved{load4(position[s]), load4(motion[its_stride * s])};
     for (std::size_t n = 0; n < its_stride; n++) store(load[its_stride * s + n], Vec4{});
-    if (!couple.empty()) store(couple[s], Vec4{});
+    if (!twisting_torque.empty()) store(twisting_torque[s], Vec4{});
     if (!held || its == GHOST) return;
     moved2 = larger(square(now.x - load4(held[s])), moved2);
     fastest2 = larger(square(clear_fourth(now.v)), fastest2);

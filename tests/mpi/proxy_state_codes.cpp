@@ -51,7 +51,7 @@ class CodedGhosts {
  public:
   CodedGhosts(LAMMPS *lmp, const std::string &name) :
       atom(lmp->atom), comm(lmp->comm), domain(lmp->domain), scene(name),
-      spins(atom->omega_flag && comm->ghost_velocity)
+      rotation(atom->omega_flag && comm->ghost_velocity)
   {
   }
 
@@ -81,7 +81,7 @@ class CodedGhosts {
       for (int d = 0; d < 3; d++) {
         atom->x[i][d] += 1e-4 * std::sin(static_cast<double>(atom->tag[i]) + d + round);
         atom->v[i][d] = code(atom->tag[i], round, d);
-        if (spins) atom->omega[i][d] = code(atom->tag[i], round, 3 + d);
+        if (rotation) atom->omega[i][d] = code(atom->tag[i], round, 3 + d);
       }
   }
 
@@ -90,7 +90,7 @@ class CodedGhosts {
     std::vector<double> mine, all;
     for (int i = 0; i < atom->nlocal; i++) {
       mine.push_back(static_cast<double>(atom->tag[i]));
-      for (double **array : {atom->x, atom->v, spins ? atom->omega : atom->v})
+      for (double **array : {atom->x, atom->v, rotation ? atom->omega : atom->v})
         mine.insert(mine.end(), array[i], array[i] + 3);
     }
     int ranks = 1, count = static_cast<int>(mine.size());
@@ -117,7 +117,7 @@ class CodedGhosts {
       for (int d = 0; d < 3; d++) {
         atom->x[i][d] = nan;
         if (comm->ghost_velocity) atom->v[i][d] = nan;
-        if (spins) atom->omega[i][d] = nan;
+        if (rotation) atom->omega[i][d] = nan;
       }
   }
 
@@ -127,7 +127,7 @@ class CodedGhosts {
     for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
       states.insert(states.end(), atom->x[i], atom->x[i] + 3);
       if (comm->ghost_velocity) states.insert(states.end(), atom->v[i], atom->v[i] + 3);
-      if (spins) states.insert(states.end(), atom->omega[i], atom->omega[i] + 3);
+      if (rotation) states.insert(states.end(), atom->omega[i], atom->omega[i] + 3);
     }
     return states;
   }
@@ -137,7 +137,7 @@ class CodedGhosts {
     const std::string who = scene + ": ghost of " + std::to_string(atom->tag[i]);
     if (comm->ghost_velocity)
       expect(std::memcmp(atom->v[i], owner.v, sizeof owner.v) == 0, who + ": v");
-    if (spins)
+    if (rotation)
       expect(std::memcmp(atom->omega[i], owner.omega, sizeof owner.omega) == 0, who + ": w");
 
     // whole periods away, across periodic boundaries only
@@ -160,7 +160,7 @@ class CodedGhosts {
   Comm *comm;
   Domain *domain;
   std::string scene;
-  bool spins;
+  bool rotation;
 };
 
 int check_scene(const char *file)

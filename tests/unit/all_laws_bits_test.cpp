@@ -34,7 +34,7 @@ Triple negated(const Triple &v)
 }
 
 struct Result {
-  Triple force, moment, couple, history, impact;
+  Triple force, moment, twisting_torque, history, impact;
   double sliding;
 };
 
@@ -64,9 +64,9 @@ class LawBits : public testing::TestWithParam<NamedLaw> {
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
-    return {triple_of(batch.force, lane),       triple_of(batch.moment, lane),
-            triple_of(batch.couple, lane),      triple_of(batch.history, lane),
-            triple_of(batch.history + 4, lane), batch.history[3][lane]};
+    return {triple_of(batch.force, lane),           triple_of(batch.moment, lane),
+            triple_of(batch.twisting_torque, lane), triple_of(batch.history, lane),
+            triple_of(batch.history + 4, lane),     batch.history[3][lane]};
   }
 
   RandomSource random{4711};
@@ -97,7 +97,7 @@ TEST_P(LawBits, QueriesAgreeWithKernels)
     const ContactLanes<double> query = single_contact(law, p, state_of(c), dt, remembered(c));
     ASSERT_EQ(kernel.force, triple_of(query.force)) << title(law);
     ASSERT_EQ(kernel.moment, triple_of(query.moment)) << title(law);
-    ASSERT_EQ(kernel.couple, triple_of(query.couple)) << title(law);
+    ASSERT_EQ(kernel.twisting_torque, triple_of(query.twisting_torque)) << title(law);
     // and leave what is remembered
     const RememberedValues before = remembered(c);
     for (int n = 0; n < ContactBatch::history_size; n++)
@@ -130,7 +130,7 @@ TEST_P(LawBits, ForceIsReproducedFromTheStoredHistory)
   EXPECT_GT(below, 1000);
 }
 
-// Either body may come first: force, couple and displacement change sign, moment and impact stay. (Zeros may differ
+// Either body may come first: force, twisting torque and displacement change sign, moment and impact stay. (Zeros may differ
 // in sign: no sum notices.)
 TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
 {
@@ -150,7 +150,7 @@ TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
     const Result b = run((n + 11) % width, swapped, true, advance);
     ASSERT_EQ(a.force, negated(b.force)) << title(law);
     ASSERT_EQ(a.moment, b.moment) << title(law);
-    ASSERT_EQ(a.couple, negated(b.couple)) << title(law);
+    ASSERT_EQ(a.twisting_torque, negated(b.twisting_torque)) << title(law);
     ASSERT_EQ(a.history, negated(b.history)) << title(law);
     ASSERT_EQ(a.impact, b.impact) << title(law);
     ASSERT_EQ(a.sliding, b.sliding) << title(law);

@@ -46,7 +46,7 @@ struct Table {
 /// What the states of a test covered, to be sure that no case is missing.
 struct Coverage {
   int contacts = 0, unclear = 0, slides = 0, sticks = 0, attracts = 0, floored = 0, rolls = 0,
-      spins = 0, delayed = 0, resists_late = 0, begun = 0;
+      rotation = 0, delayed = 0, resists_late = 0, begun = 0;
   std::set<int> kernels;
 
   void count(const Contact &c, const Outcome &o, const Composite &p, NamedLaw law)
@@ -58,7 +58,7 @@ struct Coverage {
     attracts += o.normal_force < 0;
     floored += p.limited && o.normal_force == 0 && c.overlap > 0;
     rolls += o.rolls;
-    spins += o.spins;
+    rotation += o.rotation;
     delayed += o.delayed;
     resists_late += law.delayed && !o.delayed;
     begun += c.begun;
@@ -90,9 +90,9 @@ void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outco
   keep(worst.force, error_of(lane_of(b.force, lane), expected.force, expected.force_scale));
   if (law.has_friction())
     for (int body = 0; body < 2; body++) {
-      const Vector couple = law.resists ? lane_of(b.couple, lane) : Vector{};
+      const Vector twisting_torque = law.resists ? lane_of(b.twisting_torque, lane) : Vector{};
       const Vector torque = Number(-1) * c.radius[body] * lane_of(b.moment, lane) +
-                            Number(body == 0 ? 1 : -1) * couple;
+                            Number(body == 0 ? 1 : -1) * twisting_torque;
       keep(worst.torque, error_of(torque, expected.torque[body], expected.torque_scale[body]));
     }
   const Vector history = Number(-1) * lane_of(b.history, lane);
@@ -111,8 +111,8 @@ void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outco
        << expected.normal_force << "\n";
   for (int d = 0; d < 3; d++)
     text << "force " << b.force[d][lane] << " expected " << expected.force[d] << " moment "
-         << b.moment[d][lane] << " couple " << b.couple[d][lane] << " torques expected "
-         << expected.torque[0][d] << " " << expected.torque[1][d] << "\n";
+         << b.moment[d][lane] << " twisting_torque " << b.twisting_torque[d][lane]
+         << " torques expected " << expected.torque[0][d] << " " << expected.torque[1][d] << "\n";
   worst.where = text.str();
 }
 
@@ -164,7 +164,7 @@ TEST_P(AllLaws, AgreeWithTheSlowTwin)
   EXPECT_LT(seen.unclear, seen.contacts / 100);
   const int many = seen.contacts / 100;
   for (int count :
-       {seen.attracts, seen.floored, seen.rolls, seen.spins, seen.delayed, seen.resists_late})
+       {seen.attracts, seen.floored, seen.rolls, seen.rotation, seen.delayed, seen.resists_late})
     EXPECT_GT(count, many);
   EXPECT_GT(seen.contacts - seen.begun, many);
   if (GetParam().tangential == Tangential::NONE) return;
@@ -196,9 +196,10 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
           kernel(batch, 0, ContactBatch::width, table.row.data(), 1e-5);
           for (int lane = 0; lane < ContactBatch::width; lane++)
             for (int d = 0; d < 3; d++)
-              ASSERT_TRUE(
-                  std::isfinite(batch.force[d][lane]) && std::isfinite(batch.moment[d][lane]) &&
-                  std::isfinite(batch.couple[d][lane]) && std::isfinite(batch.history[d][lane]))
+              ASSERT_TRUE(std::isfinite(batch.force[d][lane]) &&
+                          std::isfinite(batch.moment[d][lane]) &&
+                          std::isfinite(batch.twisting_torque[d][lane]) &&
+                          std::isfinite(batch.history[d][lane]))
                   << title(law);
         }
     }

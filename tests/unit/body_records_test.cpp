@@ -132,7 +132,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
       if (records.stride == 1) continue;
       for (int d = 0; d < 3; d++) {
         load[1].c[d] = random.uniform(-5.0, 5.0);
-        if (laws.has_resistance()) records.couple[slot].c[d] = random.uniform(-5.0, 5.0);
+        if (laws.has_resistance()) records.twisting_torque[slot].c[d] = random.uniform(-5.0, 5.0);
       }
       for (int d = 0; d < 3; d++) torque[i][d] = records.torque(slot)[d];
     }

@@ -159,8 +159,8 @@ class Scene : public TwoSpheres {
       compute();
       coefficients.mu = mu;
     }
-    resisted =
-        resisted || norm(Triple{batch.couple[0][0], batch.couple[1][0], batch.couple[2][0]}) > 0.0;
+    resisted = resisted || norm(Triple{batch.twisting_torque[0][0], batch.twisting_torque[1][0],
+                                       batch.twisting_torque[2][0]}) > 0.0;
     move();
   }
 
@@ -192,7 +192,7 @@ class Scene : public TwoSpheres {
     const auto vector = [](const Triple &t) { return Vector3<double>{t[0], t[1], t[2]}; };
     ContactLanes<double> s;
     s.normal = vector(contact_normal());
-    s.spin = vector(body[0].radius * body[0].omega + body[1].radius * body[1].omega);
+    s.surface_rotation = vector(body[0].radius * body[0].omega + body[1].radius * body[1].omega);
     s.relative_omega = vector(body[0].omega - body[1].omega);
     s.circle = batch.circle[0];
     s.delayed_force = normal_force();
@@ -201,10 +201,11 @@ class Scene : public TwoSpheres {
     for (Stage stage : {Stage::ROLLING, Stage::TWISTING})
       its[stage].one(s, its.coefficients(stage, row), nullptr, dt);
     const double moment[3] = {s.moment.x, s.moment.y, s.moment.z},
-                 couple[3] = {s.couple.x, s.couple.y, s.couple.z};
+                 twisting_torque[3] = {s.twisting_torque.x, s.twisting_torque.y,
+                                       s.twisting_torque.z};
     for (int d = 0; d < 3; d++) {
       batch.moment[d][0] += moment[d];
-      batch.couple[d][0] += couple[d];
+      batch.twisting_torque[d][0] += twisting_torque[d];
     }
   }
 

@@ -234,7 +234,7 @@ TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
   }
 }
 
-// Masses may be replaced or not, and spins are not looked at where nothing needs them.
+// Masses may be replaced or not, and angular velocities are not looked at where nothing needs them.
 TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
 {
   const double x[] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0}, v[] = {1.0, 2.0, 0.0, 0.0, 0.0, 0.0};

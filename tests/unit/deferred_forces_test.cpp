@@ -30,7 +30,7 @@ bool same(const Record &a, const Record &b)
 }
 
 struct OneContact {
-  Record force, moment, couple;
+  Record force, moment, twisting_torque;
 };
 
 /// Of each pair that touches, by slots.
@@ -56,13 +56,13 @@ void add_contact(ParticleRecords &sums, const OneContact &its, int slot, bool is
   Record *load = &sums.load[sums.stride * slot];
   add(load[0], its.force, sign);
   if (sums.stride == 2) add(load[1], its.moment, 1.0);
-  if (!sums.couple.empty()) add(sums.couple[slot], its.couple, sign);
+  if (!sums.twisting_torque.empty()) add(sums.twisting_torque[slot], its.twisting_torque, sign);
 }
 
-ParticleRecords cleared(int particles, bool spins, bool couples)
+ParticleRecords cleared(int particles, bool rotation, bool twisting_torques)
 {
   ParticleRecords sums;
-  sums.resize(particles, spins, couples);
+  sums.resize(particles, rotation, twisting_torques);
   sums.clear(0, particles);
   return sums;
 }
@@ -78,7 +78,7 @@ ParticleRecords slow_sums(const Contacts &contacts, ParticleRecords sums)
 
 struct Kind {
   int threads;
-  bool two_phases, spins, couples;
+  bool two_phases, rotation, twisting_torques;
 };
 
 class DeferredForcesOf : public testing::TestWithParam<Kind> {
@@ -97,7 +97,7 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
       const bool at_frontier = list.defers(first) || list.defers(second);
       if (touches && !list.frontier().empty())
         deferred.put(at_frontier ? place : nowhere, list.is_foreign(first),
-                     {load4(one.force), load4(one.moment), load4(one.couple)});
+                     {load4(one.force), load4(one.moment), load4(one.twisting_torque)});
       place += at_frontier;
       if (!touches) continue;
       if (!list.is_late() && !list.is_foreign(first)) add_contact(sums, one, first, true);
@@ -116,10 +116,10 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
   const Kind kind = GetParam();
   for (int rebuild = 0; rebuild < 2; rebuild++) {
     deferred.collect(its.order, its.work, kind.threads, [this](int c) { return &its.lists[c]; });
-    deferred.make_room(cleared(1, kind.spins, kind.couples));
+    deferred.make_room(cleared(1, kind.rotation, kind.twisting_torques));
     for (const double touching : {0.6, 0.1, 1.0, 0.5, 0.0}) {    // contacts begin and end
       const Contacts contacts = random_contacts(its.pairs, touching, random);
-      ParticleRecords sums = cleared(its.order.size(), kind.spins, kind.couples);
+      ParticleRecords sums = cleared(its.order.size(), kind.rotation, kind.twisting_torques);
       const ParticleRecords expected = slow_sums(contacts, sums);
       deferred.begin_step();
       for (int c = its.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
@@ -129,8 +129,8 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
         if (!its.order.owns_slot(s)) continue;
         for (std::size_t k = sums.stride * s; k < sums.stride * (s + 1); k++)
           ASSERT_TRUE(same(sums.load[k], expected.load[k])) << s;
-        if (kind.couples) {
-          ASSERT_TRUE(same(sums.couple[s], expected.couple[s])) << s;
+        if (kind.twisting_torques) {
+          ASSERT_TRUE(same(sums.twisting_torque[s], expected.twisting_torque[s])) << s;
         }
       }
     }

@@ -224,7 +224,7 @@ inline Talus::ContactState<double> state_of(const Contact &c)
   s.normal = {n[0], n[1], n[2]};
   s.overlap = static_cast<double>(c.overlap);
   s.velocity = {v[0], v[1], v[2]};
-  s.spin = {w[0], w[1], w[2]};
+  s.surface_rotation = {w[0], w[1], w[2]};
   s.inverse_mass = 1.0 / static_cast<double>(c.mass[0]) + 1.0 / static_cast<double>(c.mass[1]);
   s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
   s.relative_omega = {relative[0], relative[1], relative[2]};
@@ -257,10 +257,10 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   const Talus::RememberedValues h = remembered(c);
   put(batch.normal, lane, s.normal);
   put(batch.velocity, lane, s.velocity);
-  put(batch.spin, lane, s.spin);
+  put(batch.surface_rotation, lane, s.surface_rotation);
   put(batch.relative_omega, lane, s.relative_omega);
   for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h.value[n];
-  for (Lanes *result : {&batch.force, &batch.moment, &batch.couple})
+  for (Lanes *result : {&batch.force, &batch.moment, &batch.twisting_torque})
     put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;

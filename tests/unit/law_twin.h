@@ -214,7 +214,7 @@ struct Outcome {
       true;    ///< false if rounding decides on which side of a threshold the contact is
   // what happened
   Number normal_force = 0;
-  bool slides = false, sticks = false, rolls = false, spins = false, delayed = false;
+  bool slides = false, sticks = false, rolls = false, rotation = false, delayed = false;
 };
 
 inline Number reduced(Number a, Number b)
@@ -449,14 +449,14 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
       out.clear_case = false;
     const bool above = law.delayed ? spinning > p.twist_min : spinning >= p.twist_min && turns > 0;
     if (above && spinning > 0 && acts > 0) {
-      out.spins = true;
+      out.rotation = true;
       const Number strength = p.mu_twist * circle(c.radius[0], c.radius[1], c.overlap);
       Number factor = strength * presses / spinning;
       const Number bend = 1 / c.radius[0] + 1 / c.radius[1];
       if (!law.delayed) factor = std::min(factor, quarter / (turns * bend * bend));
-      const Vector couple = (factor * inner(w, c.normal)) * c.normal;
-      out.torque[0] = out.torque[0] + couple;
-      out.torque[1] = out.torque[1] - couple;
+      const Vector twisting_torque = (factor * inner(w, c.normal)) * c.normal;
+      out.torque[0] = out.torque[0] + twisting_torque;
+      out.torque[1] = out.torque[1] - twisting_torque;
       for (Number &scale : out.torque_scale)
         scale += strength * normal_scale + std::fabs(factor) * w_scale;
     }

@@ -139,7 +139,7 @@ inline Talus::ContactState<double> state_of(const Contact &c)
     w[d] = c.radius[0] * c.omega[0][d] + c.radius[1] * c.omega[1][d];
   }
   s.velocity = {v[0], v[1], v[2]};
-  s.spin = {w[0], w[1], w[2]};
+  s.surface_rotation = {w[0], w[1], w[2]};
   s.inverse_mass = 1.0 / c.mass[0] + 1.0 / c.mass[1];
   s.inverse_radius = 1.0 / c.radius[0] + 1.0 / c.radius[1];
   return s;
@@ -150,11 +150,11 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   const Talus::ContactState<double> s = state_of(c);
   const double normal[3] = {s.normal.x, s.normal.y, s.normal.z};
   const double velocity[3] = {s.velocity.x, s.velocity.y, s.velocity.z};
-  const double spin[3] = {s.spin.x, s.spin.y, s.spin.z};
+  const double spin[3] = {s.surface_rotation.x, s.surface_rotation.y, s.surface_rotation.z};
   for (int d = 0; d < 3; d++) {
     batch.normal[d][lane] = normal[d];
     batch.velocity[d][lane] = velocity[d];
-    batch.spin[d][lane] = spin[d];
+    batch.surface_rotation[d][lane] = spin[d];
     batch.history[d][lane] = c.history[d];
     batch.force[d][lane] = batch.moment[d][lane] = 0.0;
   }

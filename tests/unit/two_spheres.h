@@ -66,7 +66,8 @@ class TwoSpheres {
   /// Forces of the current state; history advances.
   void compute()
   {
-    for (int d = 0; d < 3; d++) batch.force[d][0] = batch.moment[d][0] = batch.couple[d][0] = 0.0;
+    for (int d = 0; d < 3; d++)
+      batch.force[d][0] = batch.moment[d][0] = batch.twisting_torque[d][0] = 0.0;
     if (overlap() <= 0.0) {
       for (int d = 0; d < 3; d++) batch.history[d][0] = batch.history[4 + d][0] = 0.0;
       batch.history[3][0] = 0.0;
@@ -87,7 +88,7 @@ class TwoSpheres {
       Sphere &s = body[b];
       const double sign = b == 0 ? 1.0 : -1.0;
       s.force = sign * lane(batch.force);
-      const Triple torque = -s.radius * lane(batch.moment) + sign * lane(batch.couple);
+      const Triple torque = -s.radius * lane(batch.moment) + sign * lane(batch.twisting_torque);
       s.v = s.v + dt * (gravity + (1.0 / s.mass) * s.force);
       s.omega = s.omega + (dt / (0.4 * s.mass * s.radius * s.radius)) * torque;
       s.x = s.x + dt * s.v;
@@ -104,7 +105,7 @@ class TwoSpheres {
     for (int d = 0; d < 3; d++) {
       batch.normal[d][0] = n[d];
       batch.velocity[d][0] = v[d];
-      batch.spin[d][0] = spin[d];
+      batch.surface_rotation[d][0] = spin[d];
       batch.relative_omega[d][0] = w[d];
     }
     batch.overlap[0] = overlap();

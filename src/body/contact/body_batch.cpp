@@ -230,7 +230,8 @@ void BodyBatch::record_parts()
     const Vector3<double> n = lane_of(batch.normal, lane), f = lane_of(batch.force, lane);
     const Vector3<double> v = lane_of(batch.velocity, lane);
     const double pressed = dot(f, n);
-    const Vector3<double> slip = v - dot(v, n) * n - cross(lane_of(batch.spin, lane), n);
+    const Vector3<double> slip =
+        v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
     const Vector3<double> shear =
         law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
     touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});

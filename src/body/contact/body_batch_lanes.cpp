@@ -69,7 +69,7 @@ void BodyBatch::gather()
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius);
-    if (law.has_friction()) store_at(batch.spin, k, load8(&radius[k]) * m.omega);
+    if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) store_at(batch.relative_omega, k, m.omega);
     if (task->with_history) gather_histories(k);
   }
@@ -85,7 +85,8 @@ BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const
   if (!law.has_friction())
     return {vector_of(velocity), Vector3<Vec8>{}, velocity.number[3],
             splat<Vec8>(1.0) / load8(&radius[k])};
-  const EightRows omega = to_lanes([&](int q) -> const Record & { return records.spin(index[q]); });
+  const EightRows omega =
+      to_lanes([&](int q) -> const Record & { return records.omega(index[q]); });
   return {vector_of(velocity), vector_of(omega), velocity.number[3], omega.number[3]};
 }
 
@@ -153,7 +154,7 @@ void BodyBatch::keep_histories()
   }
 }
 
-/* From here on normals, forces, moments and couples are in the axes of space. */
+/* From here on normals, forces, moments and twisting torques are in the axes of space. */
 
 void BodyBatch::turn_to_space()
 {
@@ -162,16 +163,16 @@ void BodyBatch::turn_to_space()
     turn(batch.normal);
     turn(batch.force);
     if (law.has_friction()) turn(batch.moment);
-    if (law.resists()) turn(batch.couple);
+    if (law.resists()) turn(batch.twisting_torque);
   }
 }
 
-/* couple - r moment */
+/* twisting torque - r moment */
 
 EightRows BodyBatch::torques(int k) const
 {
   Vector3<Vec8> torque = -load8(&radius[k]) * vector_at(batch.moment, k);
-  if (law.resists()) torque = vector_at(batch.couple, k) + torque;
+  if (law.resists()) torque = vector_at(batch.twisting_torque, k) + torque;
   return rows_of(torque, Vec8{});
 }
 
@@ -211,12 +212,12 @@ void BodyBatch::add_to_arrays()
 }
 
 /* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
-   twisting resistance act as couples of opposite sign: so forces and torques of particle and body
+   twisting resistance act as twisting torques of opposite sign: so forces and torques of particle and body
    balance exactly. */
 
 void BodyBatch::add_load()
 {
-  for (auto *vector : {batch.force, batch.moment, batch.couple})
+  for (auto *vector : {batch.force, batch.moment, batch.twisting_torque})
     for (int d = 0; d < 3; d++) std::fill(vector[d] + filled, vector[d] + end, 0.0);
   const BodyFrame &frame = task->frame;
   const Vector3<Vec8> about = in_all_lanes<Vec8>(frame.moves ? frame.state.position : frame.origin);
@@ -226,7 +227,7 @@ void BodyBatch::add_load()
     const Vector3<Vec8> arm = vector_at(place, k) - r * normal - about;
     Vector3<Vec8> torque = -cross(arm, force);
     if (law.resists())
-      torque = torque - (vector_at(batch.couple, k) -
+      torque = torque - (vector_at(batch.twisting_torque, k) -
                          r * (vector_at(batch.moment, k) - cross(normal, force)));
     load_of_lanes[0] = load_of_lanes[0] - force;
     load_of_lanes[1] = load_of_lanes[1] + torque;

@@ -13,7 +13,7 @@
 namespace Talus {
 
 /// The host's arrays, rows of three doubles. Forces, torques and virials are added to. With
-/// `records`, which keep spins or else are of a scene without torques, only owned, type and virial
+/// `records`, which keep angular velocities or else are of a scene without torques, only owned, type and virial
 /// are those of the host.
 struct BodyParticleView {
   int owned;
@@ -39,7 +39,7 @@ struct BodyParticleView {
   {
     if (!records) return vector(omega + 3L * atom);
     if (records->stride == 1) return {0.0, 0.0, 0.0};
-    return vector(records->spin(slot_of_atom[atom]).c);
+    return vector(records->omega(slot_of_atom[atom]).c);
   }
 
   // by the index in the view

@@ -28,7 +28,7 @@ struct DelayedRolling : RollingLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    const Vector3<Real> rotation = cross(s.spin, s.normal);
+    const Vector3<Real> rotation = cross(s.surface_rotation, s.normal);
     const Real speed = square_root(dot(rotation, rotation));
     const auto rolls = (speed > c.roll_min) & (speed > splat<Real>(0.0));
     const Real strength = c.mu * s.delayed_force;

@@ -29,7 +29,7 @@ struct HoldingRolling : RollingLaw {
   {
     const Real zero = splat<Real>(0.0), turns = response(s.inverse_mass, dt);
     const Real presses = select(s.normal_force > zero, s.normal_force, zero);
-    const Vector3<Real> rotation = cross(s.spin, s.normal);
+    const Vector3<Real> rotation = cross(s.surface_rotation, s.normal);
     const auto acts = square_root(dot(rotation, rotation)) >= c.roll_min;
     const Real stop = select(turns > zero, stopping_share / turns, zero);
     const Vector3<Real> needed = stop * cross(s.normal, rotation) - s.moment;

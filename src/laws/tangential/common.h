@@ -13,7 +13,7 @@ namespace Talus {
 /// v_t = v - (v.n) n - (r_1 omega_1 + r_2 omega_2) x n  (lever arms are the full radii).
 template <class Real> TALUS_INLINE Vector3<Real> surface_velocity(const ContactLanes<Real> &s)
 {
-  return s.velocity - s.normal_velocity * s.normal - cross(s.spin, s.normal);
+  return s.velocity - s.normal_velocity * s.normal - cross(s.surface_rotation, s.normal);
 }
 
 /// Shortens a trial force to the limit; forces within it pass unchanged.

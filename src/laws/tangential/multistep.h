@@ -35,7 +35,7 @@ inline Vector3<Real> step_displacement(const ContactLanes<Real> &s, double dt, R
   const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
   const Real length = square_root(dot(half_way, half_way));
   const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
-  const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.spin, n);
+  const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.surface_rotation, n);
   return time * slip;
 }
 

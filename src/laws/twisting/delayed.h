@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spinning after one collision time, as Chrono: couple -mu_twist r_c F_n (w.n) n/|w| on body 1, its
+// Spinning after one collision time, as Chrono: twisting torque -mu_twist r_c F_n (w.n) n/|w| on body 1, its
 // opposite on body 2, with w = omega_1 - omega_2 and r_c the radius of the circle in which the
 // surfaces intersect; an attractive F_n with its sign.
 
@@ -30,10 +30,10 @@ struct DelayedTwist : TwistingLaw {
   {
     const Vector3<Real> &w = s.relative_omega;
     const Real speed = square_root(dot(w, w));
-    const auto spins = (speed > c.twist_min) & (speed > splat<Real>(0.0));
+    const auto twists = (speed > c.twist_min) & (speed > splat<Real>(0.0));
     const Real strength = c.mu * s.circle * s.delayed_force;
-    const Real couple = -strength * dot(w, s.normal) / speed;
-    s.couple = select(spins, couple, splat<Real>(0.0)) * s.normal;
+    const Real twisting_torque = -strength * dot(w, s.normal) / speed;
+    s.twisting_torque = select(twists, twisting_torque, splat<Real>(0.0)) * s.normal;
   }
 };
 

@@ -18,7 +18,7 @@ struct TwistingNone : TwistingLaw {
                                    Real * /*history*/, double /*dt*/)
   {
     const Real zero = splat<Real>(0.0);
-    s.couple = {zero, zero, zero};
+    s.twisting_torque = {zero, zero, zero};
   }
 };
 

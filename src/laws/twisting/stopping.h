@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spinning that stops: couple -mu_twist r_c F_n (w.n) n/|w| on body 1, its opposite on body 2, with
+// Spinning that stops: twisting torque -mu_twist r_c F_n (w.n) n/|w| on body 1, its opposite on body 2, with
 // w = omega_1 - omega_2 and r_c the radius of the circle in which the surfaces intersect; but not
-// more than what leaves 1 - stopping_share of the spin after the step; of unlike spheres it leaves
+// more than what leaves 1 - stopping_share of the twisting after the step; of unlike spheres it leaves
 // more (1/r_1^2 + 1/r_2^2 is less than inverse_radius squared). F_n >= 0.
 
 #ifndef TALUS_LAWS_TWISTING_STOPPING_H
@@ -31,11 +31,11 @@ struct StoppingTwist : TwistingLaw {
     const Real presses = select(s.normal_force > zero, s.normal_force, zero);
     const Vector3<Real> &w = s.relative_omega;
     const Real speed = square_root(dot(w, w));
-    const auto spins = (speed >= c.twist_min) & (speed > zero);
+    const auto twists = (speed >= c.twist_min) & (speed > zero);
     const Real wanted = c.mu * s.circle * presses / speed;
     const Real most = stopping_share / (turns * s.inverse_radius * s.inverse_radius);
-    const Real couple = -select(wanted < most, wanted, most) * dot(w, s.normal);
-    s.couple = select(spins & (turns > zero), couple, zero) * s.normal;
+    const Real twisting_torque = -select(wanted < most, wanted, most) * dot(w, s.normal);
+    s.twisting_torque = select(twists & (turns > zero), twisting_torque, zero) * s.normal;
   }
 };
 
