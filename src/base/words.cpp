@@ -86,6 +86,11 @@ bool Words::take(const std::string &word)
   return true;
 }
 
+void Words::end() const
+{
+  if (!at_end()) fail(0, "surplus word '" + peek() + "'");
+}
+
 std::string Words::text(const std::string &expected)
 {
   if (at_end()) fail(0, "missing " + expected);

@@ -42,6 +42,9 @@ class Words {
   std::string peek() const { return at_end() ? "" : arg[next]; }
   void skip(int words) { next += words; }
 
+  /// An error if a word is left.
+  void end() const;
+
   /// The next word, whatever it is; `expected` is named if there is none.
   std::string text(const std::string &expected);
   /// One of some words. `subject`: what they are, e.g. "normal law". Returns which one.

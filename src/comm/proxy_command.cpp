@@ -3,6 +3,7 @@
 #include "comm/proxy_command.h"
 
 #include "comm/comm_proxy.h"
+#include "system/command_words.h"
 #include "system/exchange_report.h"
 
 #include "comm.h"
@@ -33,23 +34,20 @@ void ProxyCommand::command(int narg, char **arg)
   if (!domain->box_exist)
     error->all(FLERR, "comm_proxy before the simulation box is defined: put it after create_box, "
                       "read_data or read_restart");
-  const std::string word = narg ? arg[0] : "";
-  const bool takes_value = word == "check";
-  if (narg > (takes_value ? 2 : 1))
-    error->all(FLERR, takes_value ? 2 : 1, "comm_proxy: surplus word '{}'",
-               arg[takes_value ? 2 : 1]);
-
-  if (word == "yes")
-    switch_on();
-  else if (word == "no")
-    switch_off();
-  else if (word == "info")
-    info();
-  else if (takes_value && narg == 2)
-    check(arg[1]);
-  else
-    error->all(FLERR, narg ? 0 : Error::NOPOINTER,
-               "comm_proxy: expected 'yes', 'no', 'info' or 'check yes|no' instead of '{}'", word);
+  Words words = command_words(lmp, "comm_proxy", narg, arg);
+  enum { YES, NO, INFO, CHECK };
+  const int task = words.choice("word", {"yes", "no", "info", "check"});
+  bool value = false;
+  if (task == CHECK) {
+    words.about("check");
+    value = words.choice("value", {"yes", "no"}) == 0;
+    words.about("");
+  }
+  words.end();
+  if (task == YES) switch_on();
+  if (task == NO) switch_off();
+  if (task == INFO) info();
+  if (task == CHECK) check(value);
 }
 
 CommProxy *ProxyCommand::current() const
@@ -88,14 +86,11 @@ void ProxyCommand::replace_comm(Comm *with)
   update->first_update = 0;
 }
 
-void ProxyCommand::check(const char *word)
+void ProxyCommand::check(bool value)
 {
-  const std::string value = word;
-  if (value != "yes" && value != "no")
-    error->all(FLERR, 1, "comm_proxy check: expected 'yes' or 'no' instead of '{}'", value);
   if (CommProxy *proxy = current())
-    proxy->check(value == "yes");
-  else if (value == "yes")
+    proxy->check(value);
+  else if (value)
     error->all(FLERR, "comm_proxy check yes: the direct exchange is off: say 'comm_proxy yes' "
                       "first");
 }

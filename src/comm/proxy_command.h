@@ -21,7 +21,7 @@ class ProxyCommand : public Command {
   void switch_on();
   void switch_off();
   void replace_comm(class Comm *with);
-  void check(const char *word);
+  void check(bool value);
   void info();
 };
 

@@ -10,6 +10,7 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
+#include "particles/symplectic_euler.h"
 #include "system/command_words.h"
 #include "update.h"
 
@@ -218,7 +219,7 @@ int FixNVESphereSymplectic::nmoving() const
 /* ----------------------------------------------------------------------
    v, x, omega of all members; the arrays of the host are contiguous
    a particle's result does not depend on its index or its thread;
-   every operation is that of ParticleRecords::advance()
+   formulas: particles/symplectic_euler.h
 ------------------------------------------------------------------------- */
 
 void FixNVESphereSymplectic::advance(double kick, double dt)
@@ -243,13 +244,13 @@ void FixNVESphereSymplectic::advance(double kick, double dt)
   for (bigint i = 0; i < n; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double per_mass = kick_f * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
-    const double per_inertia = per_mass * (inverse_radius * inverse_radius) * (1.0 / inertia);
+    const double per_inertia = Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / inertia);
     const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
     for (int d = 0; d < 3; d++) {
       const bigint k = 3 * i + d;
-      v[k] += per_mass * f[k] + falls * kick_g[d];
-      x[k] += dt * v[k];
-      omega[k] += per_inertia * torque[k];
+      v[k] = Talus::kicked(v[k], per_mass, f[k], falls * kick_g[d]);
+      x[k] = Talus::drifted(x[k], dt, v[k]);
+      omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
     }
   }
 }

@@ -12,34 +12,21 @@
 #include "force.h"
 
 #include <algorithm>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
 void PairGranPenalty::settings(int narg, char **arg)
 {
+  constexpr FrictionMix rules[] = {FrictionMix::MINIMUM, FrictionMix::ARITHMETIC,
+                                   FrictionMix::GEOMETRIC};
   FrictionMix &mix = system->laws().mix;
   mix = FrictionMix::MINIMUM;
-  if (narg == 0) return;
-  if (strcmp(arg[0], "mix") != 0)
-    error->all(FLERR, 1, "pair_style gran/penalty: unknown word '{}', expected mix", arg[0]);
-  if (narg < 2)
-    error->all(FLERR, 1,
-               "pair_style gran/penalty: missing rule after mix: "
-               "min, arithmetic or geometric");
-  if (strcmp(arg[1], "min") == 0)
-    mix = FrictionMix::MINIMUM;
-  else if (strcmp(arg[1], "arithmetic") == 0)
-    mix = FrictionMix::ARITHMETIC;
-  else if (strcmp(arg[1], "geometric") == 0)
-    mix = FrictionMix::GEOMETRIC;
-  else
-    error->all(FLERR, 2,
-               "pair_style gran/penalty: unknown rule '{}' after mix, "
-               "expected min, arithmetic or geometric",
-               arg[1]);
-  if (narg > 2) error->all(FLERR, 3, "pair_style gran/penalty: surplus word '{}'", arg[2]);
+  Words words = command_words(lmp, "pair_style gran/penalty", narg, arg, 0, 1);
+  if (words.at_end()) return;
+  if (!words.take("mix")) words.fail(0, "unknown word '" + words.peek() + "', expected mix");
+  mix = rules[words.choice("rule", {"min", "arithmetic", "geometric"})];
+  words.end();
 }
 
 void PairGranPenalty::coeff(int narg, char **arg)

@@ -5,6 +5,7 @@
 // in a result where a step was made.
 
 #include "particles/particle_records.h"
+#include "particles/symplectic_euler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,11 +64,11 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
 struct ParticleRecords::Kick {
   explicit Kick(const RecordStep &step) :
       kick{step.kick, step.kick, step.kick, 0.0}, dt{step.dt, step.dt, step.dt, 0.0},
-      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, per_inertia(1.0 / step.inertia)
+      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, inverse_c(1.0 / step.inertia)
   {
   }
   Vec4 kick, dt, fall;
-  double per_inertia;
+  double inverse_c;
 };
 
 template <bool rotation>
@@ -77,13 +78,13 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
   Record *moves = &motion[stride * s];
   const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
   const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
-  const Vec4 v_new = v + (per_mass * force + with.fall);
+  const Vec4 v_new = kicked(v, per_mass, force, with.fall);
   if constexpr (rotation) {
     const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
-    const Vec4 per_inertia = per_mass * (inverse_radius * inverse_radius) * with.per_inertia;
-    store(moves[1], w + per_inertia * torque_of(s, x, force));
+    const Vec4 per_inertia = kick_per_inertia(per_mass, inverse_radius, with.inverse_c);
+    store(moves[1], turned(w, per_inertia, torque_of(s, x, force)));
   }
-  const Vec4 x_new = x + with.dt * v_new;
+  const Vec4 x_new = drifted(x, with.dt, v_new);
   store(moves[0], v_new);
   store(position[s], x_new);
   return {x_new, v_new};

@@ -3,6 +3,7 @@
 #include "run/verlet_proxy.h"
 
 #include "run/overlap_hazards.h"
+#include "system/command_words.h"
 #include "system/exchange_report.h"
 
 #include "angle.h"
@@ -22,23 +23,19 @@
 #include "timer.h"
 #include "update.h"
 
-#include <cstring>
-
 using namespace LAMMPS_NS;
 using namespace Talus;
 
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
     Verlet(lmp, 0, nullptr), lists(lmp), system(GranularSystem::of(lmp))
 {
-  if (narg == 0) return;
-  if (std::strcmp(arg[0], "overlap") != 0)
-    error->all(FLERR, 1, "run_style verlet/proxy: expected 'overlap' instead of '{}'", arg[0]);
-  const std::string value = narg > 1 ? arg[1] : "";
-  if (value != "yes" && value != "no")
-    error->all(FLERR, narg > 1 ? 2 : 1,
-               "run_style verlet/proxy overlap: expected 'yes' or 'no' instead of '{}'", value);
-  if (narg > 2) error->all(FLERR, 3, "run_style verlet/proxy: surplus word '{}'", arg[2]);
-  wanted = value == "yes";
+  Words words = command_words(lmp, "run_style verlet/proxy", narg, arg, 0, 1);
+  if (words.at_end()) return;
+  if (!words.take("overlap")) words.fail(0, "expected overlap instead of '" + words.peek() + "'");
+  words.about("overlap");
+  wanted = words.choice("value", {"yes", "no"}) == 0;
+  words.about("");
+  words.end();
 }
 
 void VerletProxy::init()

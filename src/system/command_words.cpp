@@ -11,7 +11,9 @@ Words command_words(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int narg
                     const char *const *arg, int first, int shift)
 {
   return {command, narg, arg, first, [lmp, shift](int index, const std::string &text) {
-            lmp->error->all(FLERR, index + shift, "{}", text);
+            // of a command without words there is none to point at
+            const int at = index + shift < 0 ? LAMMPS_NS::Error::NOPOINTER : index + shift;
+            lmp->error->all(FLERR, at, "{}", text);
           }};
 }
 

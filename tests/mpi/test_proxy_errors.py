@@ -47,19 +47,19 @@ class Messages(SceneCase):
     def test_words(self):
         box = BOX.format(before="")
         for command, message, word in (
-                ("comm_proxy", "comm_proxy: expected 'yes', 'no', 'info'", None),
-                ("comm_proxy maybe", "instead of 'maybe'", "maybe"),
+                ("comm_proxy", "comm_proxy: missing word: yes, no, info or check", None),
+                ("comm_proxy maybe", "unknown word 'maybe', expected yes, no, info or check", "maybe"),
                 ("comm_proxy yes please", "surplus word 'please'", "please"),
-                ("comm_proxy check", "'check yes|no' instead of 'check'", "check"),
-                ("comm_proxy check perhaps", "expected 'yes' or 'no' instead of 'perhaps'", "perhaps"),
+                ("comm_proxy check", "comm_proxy check: missing value: yes or no", "check"),
+                ("comm_proxy check perhaps", "comm_proxy check: unknown value 'perhaps', expected yes or no", "perhaps"),
                 ("comm_proxy check yes now", "surplus word 'now'", "now"),
                 ("comm_proxy check yes", "say 'comm_proxy yes' first", None),
-                ("run_style verlet/proxy lap", "expected 'overlap' instead of 'lap'", "lap"),
-                ("run_style verlet/proxy overlap", "expected 'yes' or 'no' instead of ''", None),
-                ("run_style verlet/proxy overlap so", "instead of 'so'", "so"),
+                ("run_style verlet/proxy lap", "expected overlap instead of 'lap'", "lap"),
+                ("run_style verlet/proxy overlap", "overlap: missing value: yes or no", "overlap"),
+                ("run_style verlet/proxy overlap so", "unknown value 'so', expected yes or no", "so"),
                 ("run_style verlet/proxy overlap yes no", "surplus word 'no'", "no")):
             self.refused(box + command + "\n", message, word, ranks=(1,))
-        self.refused(box + "comm_proxy maybe\n", "instead of 'maybe'", "maybe", ranks=(2,))
+        self.refused(box + "comm_proxy maybe\n", "unknown word 'maybe'", "maybe", ranks=(2,))
 
     def test_before_the_box(self):
         self.refused("comm_proxy yes\n", "before the simulation box is defined")

@@ -47,8 +47,8 @@ neighbor 8.0 bin
 
 PAIR_STYLE = [    # words after pair_style gran/penalty, message, marked word
     ("foo", "unknown word 'foo', expected mix", "foo"),
-    ("mix", "missing rule after mix: min, arithmetic or geometric", "mix"),
-    ("mix mean", "unknown rule 'mean' after mix, expected min, arithmetic or geometric", "mean"),
+    ("mix", "missing rule: min, arithmetic or geometric", "mix"),
+    ("mix mean", "unknown rule 'mean', expected min, arithmetic or geometric", "mean"),
     ("mix min 1.5", "surplus word '1.5'", "1.5"),
     ("1.0e5 NULL", "unknown word '1.0e5', expected mix", "1.0e5"),
 ]

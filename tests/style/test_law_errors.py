@@ -129,8 +129,8 @@ PAIR = f"pair_coeff * * {GOOD}\n"
 # lines after the box, what the message says, the word it points at
 OTHERS = [
     ("pair_style gran/penalty foo", "pair_style gran/penalty: unknown word 'foo', expected mix", "foo"),
-    ("pair_style gran/penalty mix", "missing rule after mix: min, arithmetic or geometric", "mix"),
-    ("pair_style gran/penalty mix max", "unknown rule 'max' after mix, expected min", "max"),
+    ("pair_style gran/penalty mix", "missing rule: min, arithmetic or geometric", "mix"),
+    ("pair_style gran/penalty mix max", "unknown rule 'max', expected min", "max"),
     ("pair_style gran/penalty mix min 1", "surplus word '1'", "1"),
     ("pair_coeff * *", "expected two types and a contact law", None),
     ("pair_coeff 1 1 hooke 1e3 2.0\nrun 0", "All pair coeffs are not set", None),

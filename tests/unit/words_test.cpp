@@ -109,6 +109,19 @@ TEST(Words, AreReadOneAfterAnother)
   EXPECT_FALSE(words.take("four"));
 }
 
+TEST(Words, ThatAreLeft)
+{
+  Line line("one", 1);
+  line.words.end();    // nothing is left
+  expect_fault(
+      "one two",
+      [](Words &w) {
+        w.skip(1);
+        w.end();
+      },
+      1, "command: surplus word 'two'");
+}
+
 TEST(Words, ThatAreMissing)
 {
   // the last word is the one at fault where there is none
