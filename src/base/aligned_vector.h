@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // std::vector whose storage begins at a cache line, and at a huge page if it is large: contacts
-// touch their partners in no order that the hardware could foresee, and with pages of 4 kB the
+// touch their partners in an order that the hardware cannot predict, and with pages of 4 kB the
 // search for the page costs as much as the load itself. Nothing else stands in its cache lines:
 // what a thread writes in every step, however small it is, must not share one with what others
 // read, or all of them wait for each other. New elements of plain types are not set.

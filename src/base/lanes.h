@@ -87,7 +87,7 @@ TALUS_INLINE unsigned bits_of_less(Vec8 a, Vec8 b)
 }
 
 /// The lanes of `from` whose bits are set, in a row that begins at `to`; eight places are written
-/// in any case, since nobody could foresee a branch. `from` is aligned, `to` need not be.
+/// in any case, since a branch would be mispredicted. `from` is aligned, `to` need not be.
 TALUS_INLINE void pack_lanes(double *to, const double *from, unsigned bits)
 {
 #if defined(__AVX512F__)

@@ -62,7 +62,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   /// ranks.
   bool has_plan() const override { return have_plan; }
 
-  /// Starts the update of all proxies; the caller sees to it that nobody reads them before
+  /// Starts the update of all proxies; the caller ensures that they are not read before
   /// finish(). Collective among neighbors, like forward_comm(). `packer`: if states are not in the
   /// host's arrays, on all ranks.
   void begin(Talus::ProxyPacker *packer) override;

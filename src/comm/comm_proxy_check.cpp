@@ -80,7 +80,7 @@ void CommProxy::check_owners()
                atom->nghost, packer.num_not_once(), packer.num_wrong());
 }
 
-/* Whoever reads a proxy too early gets NaN. */
+/* A proxy that is read too early is NaN. */
 
 void CommProxy::poison_proxies()
 {

@@ -250,8 +250,8 @@ void ContactChunk::add_twisting_torques(ParticleRecords &particles, const std::u
   }
 }
 
-/* Few blocks have pairs at the frontier. Which of their contacts are there nobody can foresee: what
-   the others do is written as well, to a place that nobody reads. */
+/* Few blocks have pairs at the frontier. Which of their contacts are there is unpredictable: what
+   the others do is written as well, to a place that is not read. */
 
 void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
 {

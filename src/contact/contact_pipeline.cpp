@@ -172,7 +172,7 @@ void ContactPipeline::load_shared(const ParticleView &host, const ContactStep &s
   else if (move_pending)
     travels[thread].join(
         particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
-  else    // nobody has moved them: only the sums are those of the last step
+  else    // they have not been moved: only the sums are those of the last step
     particles.clear(its.begin, its.end);
 }
 

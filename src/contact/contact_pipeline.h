@@ -101,7 +101,7 @@ class ContactPipeline {
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
   /// by host's index: who moves (asked by all threads); whose states are sent away before forces
   /// are computed; and where they were when lists were made, rows of three doubles, nullptr if
-  /// nobody asks for the travel.
+  /// the travel is not needed.
   void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }

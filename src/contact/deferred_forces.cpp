@@ -98,7 +98,7 @@ void DeferredForces::add(int thread, ParticleRecords &particles) const
   }
 }
 
-/* Signs are factors, and pairs that do not touch add zero: nobody could foresee which are which.
+/* Signs are factors, and pairs that do not touch add zero: which are which is unpredictable.
    Neither changes a bit. */
 
 template <bool rotation>

@@ -20,7 +20,7 @@ struct PeriodicBox {
   double xy = 0.0, xz = 0.0, yz = 0.0;
 
   /// The single steps of a shift: one period after the other, x first, in the order of the staged
-  /// exchange of LAMMPS. Whoever adds all of them, zeros included, makes the same additions and
+  /// exchange of LAMMPS. Code that adds all of them, zeros included, makes the same additions and
   /// gets the same bits.
   std::vector<std::array<double, 3>> steps_of(const PeriodicShift &shift) const;
 };

@@ -17,7 +17,7 @@
 // message never waits for its receiver, nor is it stored elsewhere first. A receive does not know
 // how long its message will be: all are as long as the largest stride that make_plan() was told.
 // Where another plan comes instead of another exchange, the open receives are canceled. No message
-// can have reached one of them: all ranks make plans together, and nobody sends states between the
+// can have reached one of them: all ranks make plans together, and no rank sends states between the
 // last finish() and the new plan. Messages with states are told apart by their order alone, so an
 // exchange that has begun is always received, even if it is then abandoned.
 

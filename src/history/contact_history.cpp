@@ -7,7 +7,7 @@
 
 namespace Talus {
 
-/* Whether the store knows a pair nobody can foresee: so a record is written in any case, and
+/* Whether the store knows a pair is unpredictable: so a record is written in any case, and
    overwritten by the next one if it does not count. */
 
 void ContactHistory::fetch(const PairList &pairs, const HistoryStore &store)

@@ -58,7 +58,7 @@ inline std::uint32_t SlotContacts::row_end(int second) const
   return row + 1 < rows.size() ? rows[row + 1] : 0;
 }
 
-/* Hardly a row is longer than eight; whether it has the pair nobody can foresee. */
+/* Hardly a row is longer than eight; whether it has the pair is unpredictable. */
 
 inline std::int64_t SlotContacts::find(int wanted, int second) const
 {
@@ -86,7 +86,7 @@ inline double SlotContacts::memory_usage() const
 }
 
 /// What is known of a pair of particles a and b. If nothing is, there are records to read all the
-/// same: no branch, since nobody could foresee it.
+/// same: no branch, since it would be mispredicted.
 inline constexpr Record no_history{};
 struct FoundHistory {
   bool known = false;

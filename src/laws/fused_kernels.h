@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // All stages of a law in one function: what they leave for each other stays in registers, and a
-// step of a bed takes 2 to 4 % less time. Compiled for the laws that nearly everybody uses, from
+// step of a bed takes 2 to 4 % less time. Compiled for the most common laws, from
 // the same stage functions.
 
 #ifndef TALUS_LAWS_FUSED_KERNELS_H

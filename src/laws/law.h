@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What everybody else knows of a law. A contact goes through stages,
+// What other code knows of a law. A contact goes through stages,
 //
 //   normal -> damping -> tangential -> rolling -> twisting -> cohesion,
 //

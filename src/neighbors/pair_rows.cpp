@@ -17,7 +17,7 @@ constexpr int usual = 16;
 typedef std::int32_t Ints __attribute__((vector_size(4 * usual)));
 
 /* Every number goes where it belongs: as far as there are smaller ones, or equal ones before it.
-   No branch, since nobody could foresee it. */
+   No branch, since it would be mispredicted. */
 
 inline void sort_usual(const std::int32_t *numbers, int count, int *sorted)
 {
@@ -35,7 +35,7 @@ inline void sort_usual(const std::int32_t *numbers, int count, int *sorted)
 PairRows::PairRows(const ParticleOrder &particles, const NeighborView &neighbors, int threads) :
     order(particles), view(neighbors), ranges(threads), scaled(neighbors.scales())
 {
-  if (view.particle || view.rows == 0) {    // a list of nobody may have no arrays at all
+  if (view.particle || view.rows == 0) {    // a list without rows may have no arrays at all
     listed.resize(order.size(), 0);
     for (int row = 0; row < view.rows; row++) listed[view.particle[row]] = 1;
   }

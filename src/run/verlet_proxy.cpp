@@ -119,7 +119,7 @@ void VerletProxy::step()
 
   const bool anew = lists.decide();    // the host's decide() waits for all ranks
   if (anew) rebuild();
-  // nobody reads the host's forces in a step after which particles stay in the records
+  // the host's forces are not read in a step after which particles stay in the records
   const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;
   if (!anew) {
     system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
@@ -150,7 +150,7 @@ void VerletProxy::step()
   }
 }
 
-/* Before the end of a run that nobody saw coming, ghosts included. */
+/* Before the end of a run by the time limit, ghosts included. */
 
 void VerletProxy::bring_back()
 {

@@ -30,7 +30,7 @@ class EffectiveMasses : protected Pointers {
   int frozen_groups() const { return freeze_groups; }
 
   /// Per particle, nullptr if no mass is replaced: 0 keeps the particle's own mass. update() fills
-  /// the owned part; whoever needs ghosts communicates the rest.
+  /// the owned part; the caller communicates the rest for ghosts.
   double *override_or_null() { return masses.empty() ? nullptr : masses.data(); }
   const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
 

@@ -152,7 +152,7 @@ void FixContactStore::pairs_are_current()
   current = true;
 }
 
-/* From here on each particle carries its slot along, whoever moves or deletes it before histories
+/* From here on each particle carries its slot along, also if it is moved or deleted before histories
    are stored. */
 
 void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
@@ -237,7 +237,7 @@ void FixContactStore::keep_positions()
   for (int i = 0; i < atom->nlocal; i++) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
 }
 
-/* Undoes rounding, never a move that somebody meant. */
+/* Undoes rounding, never an intended move. */
 
 void FixContactStore::put_positions_back()
 {

@@ -142,7 +142,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Something is still to be asked about the pairs of the last step.
   bool account_waits_for_move() const { return account.waits_for_move(); }
 
-  /// What a run warns about; for everybody who has something to watch.
+  /// What a run warns about; registered by all who check something.
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
 
   // ---- questions

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The warnings of a run: one place that looks and speaks for everybody who has something to watch.
+// The warnings of a run: one place that evaluates all checks and prints.
 //
 // A check is a number that each rank finds on its own, and a limit. Whenever contacts are looked at
 // (at the start of a run, whenever the neighbor lists are about to be rebuilt, and at its end, not
@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 
 class RunMonitor : protected Pointers {
  public:
-  /// What a rank has found. Whoever has the largest value hands its details on, atom IDs for one.
+  /// What a rank has found. The rank with the largest value sends its details, such as atom IDs.
   /// A value that is not a number counts as zero: it is another trouble.
   struct Finding {
     double value = 0.0;
