@@ -16,16 +16,18 @@
 
 namespace Talus {
 
-/// Throws std::bad_alloc. Memory of release_aligned() must come from allocate_aligned().
+/// Throws std::bad_alloc. Memory of release_aligned() must come from allocate_aligned() with the same
+/// number of bytes. Large blocks come from the system and go back to it at once: those of the C
+/// library may stay resident, below others that are still in use.
 void *allocate_aligned(std::size_t bytes);
-void release_aligned(void *memory) noexcept;
+void release_aligned(void *memory, std::size_t bytes) noexcept;
 
 template <class T> struct AlignedAllocator {
   using value_type = T;
   AlignedAllocator() = default;
   template <class Other> AlignedAllocator(const AlignedAllocator<Other> &) noexcept {}
   T *allocate(std::size_t n) { return static_cast<T *>(allocate_aligned(n * sizeof(T))); }
-  void deallocate(T *memory, std::size_t) noexcept { release_aligned(memory); }
+  void deallocate(T *memory, std::size_t n) noexcept { release_aligned(memory, n * sizeof(T)); }
   /// Elements that a vector makes by itself, as resize() does, are left as the memory is: most
   /// arrays are filled right after, by several threads.
   template <class Element, class... Arguments>
@@ -44,7 +46,7 @@ template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
 /// Memory that is needed again and again is given back in between only if it is more than this
 /// (bytes): the system zeroes what it hands out anew, which is felt where lists are made often.
-constexpr double worth_giving_back = 64 << 20;
+constexpr double worth_giving_back = 16 << 20;
 
 /// Gives the memory of a vector back.
 template <class Vector> void release(Vector &v)

@@ -82,7 +82,7 @@ TEST(IndexArithmetic, BigMemoryAbove2GBytesIsReachable)
   const std::size_t places[] = {0, std::size_t{1} << 31, std::size_t{1} << 32, bytes - 1};
   for (std::size_t k = 0; k < 4; k++) memory[places[k]] = static_cast<unsigned char>(k + 1);
   for (std::size_t k = 0; k < 4; k++) EXPECT_EQ(memory[places[k]], k + 1);
-  release_aligned(memory);
+  release_aligned(memory, bytes);
 }
 
 /// Every pair of n particles is a candidate. All touch, and then the last few particles only.
