@@ -250,20 +250,22 @@ void ContactChunk::add_twisting_torques(ParticleRecords &particles, const std::u
   }
 }
 
-/* Few blocks have pairs at the frontier. Which of their contacts are there is unpredictable: what
-   the others do is written as well, to a place that is not read. */
+/* Few blocks have pairs at the frontier. Which of their contacts are there is unpredictable: found
+   for all of them first, without branches. */
 
 void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count)
 {
+  static_assert(ContactBatch::width <= 64, "one bit for each contact");
   if (!pairs.reaches_frontier(block[0], block[count - 1])) return;
   DeferredForces &forces = *step.frontier.forces;
-  const std::size_t begin = step.frontier.first_place, nowhere = begin + pairs.frontier().size();
-  for (int n = 0; n < count; n++) {
+  std::uint64_t at_frontier = 0;
+  for (int n = 0; n < count; n++) at_frontier |= std::uint64_t{pairs.is_at_frontier(block[n])} << n;
+  for (; at_frontier; at_frontier &= at_frontier - 1) {
+    const int n = __builtin_ctzll(at_frontier), lane = lane_of_contact[n];
     const std::uint32_t pair = block[n];
-    const std::size_t place = begin + pairs.frontier_before(pair);
-    const int lane = lane_of_contact[n];
     forces.put(
-        pairs.is_at_frontier(pair) ? place : nowhere, pairs.is_foreign(pairs.first[pair]),
+        step.frontier.first_place + pairs.frontier_before(pair),
+        pairs.is_foreign(pairs.first[pair]),
         {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(twisting_of_lane[lane])});
   }
 }

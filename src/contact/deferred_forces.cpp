@@ -33,7 +33,7 @@ void DeferredForces::collect_from(const ParticleOrder &order, const WorkPartitio
   places = 0;
   for (const PairList *list : lists) {
     first_of_chunk.push_back(places);
-    if (!list->frontier().empty()) places += (list->frontier().size() + 1) / 2 * 2 + 2;
+    places += (list->frontier().size() + 1) / 2 * 2;
   }
   PairList::require_countable(static_cast<std::int64_t>(places));
   of_thread.resize(threads);

@@ -51,8 +51,7 @@ class DeferredForces {
   /// Forgets what has been stored.
   void begin_step() { step += 1.0; }
 
-  /// Place of the first pair at the frontier of a chunk; the others follow, and one that nobody
-  /// reads.
+  /// Place of the first pair at the frontier of a chunk; the others follow.
   std::size_t first_place(int chunk) const { return first_of_chunk[chunk]; }
 
   /// Stores what a pair that touches does in this step. `far`: another thread will read it; it may

@@ -88,15 +88,14 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
   {
     const PairList &list = its.lists[c];
     std::size_t place = deferred.first_place(c);
-    const std::size_t nowhere = place + list.frontier().size();
     for (std::uint32_t n = 0; n < list.num_pairs(); n++) {
       const int first = list.first[n], second = list.second[n];
       const auto found = contacts.find({first, second});
       const bool touches = found != contacts.end();
       const OneContact one = touches ? found->second : OneContact{};
       const bool at_frontier = list.defers(first) || list.defers(second);
-      if (touches && !list.frontier().empty())
-        deferred.put(at_frontier ? place : nowhere, list.is_foreign(first),
+      if (touches && at_frontier)
+        deferred.put(place, list.is_foreign(first),
                      {load4(one.force), load4(one.moment), load4(one.twisting_torque)});
       place += at_frontier;
       if (!touches) continue;
