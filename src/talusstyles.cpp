@@ -6,7 +6,9 @@
 #include "comm/proxy_command.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
+#include "fix/fix_gravity_talus.h"
 #include "fix/fix_large_body.h"
+#include "fix/fix_nve_sphere_talus.h"
 #include "fix/fix_nve_sphere_symplectic.h"
 #include "pair/pair_gran_penalty.h"
 #include "run/verlet_proxy.h"
@@ -22,6 +24,10 @@
 #include "pair.h"
 #include "update.h"
 #include "version.h"
+
+#if TALUS_HOST_HAS_GRANULAR
+#include "fix/fix_freeze_talus.h"
+#endif
 
 using namespace LAMMPS_NS;
 
@@ -111,6 +117,11 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
+  registry.fix<FixNVESphereTalus>("nve/sphere/talus", "Talus fix style nve/sphere/talus");
+  registry.fix<FixGravityTalus>("gravity/talus", "Talus fix style gravity/talus");
+#if TALUS_HOST_HAS_GRANULAR
+  registry.fix<FixFreezeTalus>("freeze/talus", "Talus fix style freeze/talus");
+#endif
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");

@@ -132,7 +132,7 @@ void advance_records(benchmark::State &state)
 {
   Prepared p = prepared(state);
   AlignedVector<Record> held(p.records.position.begin(), p.records.position.end());
-  const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
+  const std::vector<RecordStep> at_rest{{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4}};
   repeat(state, p,
          [&] { benchmark::DoNotOptimize(p.records.advance(at_rest, {}, held.data(), p.all())); });
 }

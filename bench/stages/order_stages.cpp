@@ -19,7 +19,7 @@ using namespace Talus;
 namespace Bench {
 namespace {
 
-const RecordStep at_rest{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4};
+const std::vector<RecordStep> at_rest{{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4}};
 
 /// Forces stay in the records; particles are there already, but for the first step.
 ContactStep in_records(bool first = false)
@@ -78,7 +78,7 @@ struct Canonical {
   }
   void start()
   {
-    pipeline.prepare_to_move([](int) { return true; }, {}, bed.x.data());
+    pipeline.prepare_to_move([](int) { return 0; }, {}, bed.x.data());
   }
   void step()
   {

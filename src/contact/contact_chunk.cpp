@@ -203,13 +203,15 @@ void ContactChunk::apply_weights(int end)
 }
 
 /* The contacts of one second particle follow each other, and nothing has been added to it before
-   the first of them: its sums stay in registers and are stored again and again, but not loaded.
+   the first of them but its weight: its sums stay in registers and are stored again and again, but
+   not loaded. What is loaded for a contact that is not the first, and not used, was stored long ago.
    Sums of particles with late contacts are wrong here, and replaced when all have been computed. */
 
 template <bool friction, bool one_law>
 void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
+  static constexpr Record not_used{};
   const int *first = pairs.first.data(), *second = pairs.second.data();
   Record *load = particles.load.data();
   int last = second[block[0]];    // may have begun in the last block
@@ -226,7 +228,8 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
     last = b;
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
-    force = kept_if(same, force) - f;
+    const Record *begins = same ? &not_used : j;
+    force = chosen(same, force, load4(begins[0])) - f;
     store(j[0], force);
     if constexpr (friction) {
       const Vec4 m = load4(moment_of_lane[lane]);

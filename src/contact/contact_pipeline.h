@@ -80,6 +80,11 @@ class ContactPipeline {
   /// then until set_pairs(), unless they `stay`.
   void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay);
 
+  /// From the next advance() or compute() on, see ParticleRecords::set_gravity(); and by host's
+  /// index who has no weight, asked by all threads after set_pairs(), empty: all have.
+  void set_gravity(const double *acceleration) { particles.set_gravity(acceleration); }
+  void set_weightless(const std::function<bool(int)> &is_weightless);
+
   /// Computes all contacts and adds their forces to the host's arrays.
   ///
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
@@ -99,15 +104,17 @@ class ContactPipeline {
   const ParticleOrder &particle_order() const { return order; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by host's index: who moves (asked by all threads); whose states are sent away before forces
+  /// by host's index: the number of the step that moves a particle, -1 if none does (asked by all threads); whose states are sent away before forces
   /// are computed; and where they were when lists were made, rows of three doubles, nullptr if
   /// the travel is not needed.
-  void prepare_to_move(const std::function<bool(int)> &moves, const std::vector<int> &sent,
+  void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }
   /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the
   /// way through the next compute().
-  void advance(const RecordStep &step);
+  void advance(const std::vector<RecordStep> &steps);
+  /// It has not been completed.
+  bool is_moving() const { return move_pending; }
   /// How far they went, after compute().
   RecordTravel travel() const;
   /// Ends holds_state(): completes an advance() and writes positions, velocities and angular velocities of all
@@ -216,7 +223,7 @@ class ContactPipeline {
 
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
-  RecordStep move{};
+  std::vector<RecordStep> move;
   std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
   std::vector<int> moved_at_once;                ///< slots that are sent
   std::vector<int> moved_first;                  ///< others that several ranges read

@@ -10,7 +10,7 @@
 
 namespace Talus {
 
-void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
+void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
                                       const std::vector<int> &sent, const double *x_then)
 {
   std::atomic<bool> all{true};
@@ -18,9 +18,10 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   in_ranges(order.size(), [&](int begin, int end) {
     for (int s = begin; s < end; s++) {
       const int a = order.atom_of_slot[s];
+      const int its = order.is_owned(a) ? mover(a) : -1;
       role[s] = !order.is_owned(a) ? ParticleRecords::GHOST
-                : moves(a)         ? ParticleRecords::MOVES
-                                   : ParticleRecords::RESTS;
+                : its < 0          ? ParticleRecords::RESTS
+                                   : ParticleRecords::Role(ParticleRecords::MOVES + its);
       if (role[s] != ParticleRecords::MOVES) all.store(false, std::memory_order_relaxed);
     }
   });
@@ -49,15 +50,24 @@ void ContactPipeline::prepare_to_move(const std::function<bool(int)> &moves,
   prepared = true;
 }
 
-void ContactPipeline::advance(const RecordStep &step)
+void ContactPipeline::advance(const std::vector<RecordStep> &steps)
 {
-  move = step;
+  move = steps;
   move_pending = true;
   travels.assign(travels.size(), RecordTravel{});
   if (moved_at_once.empty()) return;
   in_parallel(threads, threads, [&](int t) {
     travels[t] = particles.advance(move, role, held_or_null(), of_thread(moved_at_once, t));
   });
+}
+
+void ContactPipeline::set_weightless(const std::function<bool(int)> &is_weightless)
+{
+  std::vector<unsigned char> marks(is_weightless ? order.size() : 0);
+  in_ranges(static_cast<std::int64_t>(marks.size()), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) marks[s] = is_weightless(order.atom_of_slot[s]);
+  });
+  particles.set_weightless(std::move(marks));
 }
 
 RecordTravel ContactPipeline::travel() const

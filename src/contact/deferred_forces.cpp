@@ -109,7 +109,7 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
   constexpr std::size_t its_stride = rotation ? 2 : 1;
   const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
   Record *sums = &particles.load[its_stride * row.slot];
-  Vec4 force = kept_if(!row.has_all, load4(sums[0])), moment{};
+  Vec4 force = row.has_all ? particles.weight(row.slot) : load4(sums[0]), moment{};
   if constexpr (rotation) moment = kept_if(!row.has_all, load4(sums[1]));
   for (const Entry *e = begin; e < end; e++) {
     const Record *its = &load[its_stride * e->place];

@@ -2,6 +2,8 @@
 
 #include "fix_nve_sphere_symplectic.h"
 
+#include "sphere_kicks.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -10,7 +12,6 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
-#include "particles/symplectic_euler.h"
 #include "system/command_words.h"
 #include "update.h"
 
@@ -167,34 +168,25 @@ bigint FixNVESphereSymplectic::count_members(const std::function<bool(int)> &con
 void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
-  const double kick = next_kick();
+  const Talus::RecordStep step = step_of(next_kick(), dt);
   if (system->residence() == Talus::Residence::RECORDS)
-    advance_records(kick, dt);
+    system->advance(step);
   else
-    advance(kick, dt);
+    kick_spheres(lmp, igroup, step, frozenbits, true);
   if (rotates) rotate(dt);
 }
 
-/* ----------------------------------------------------------------------
-   particles in the records: the same step there
-------------------------------------------------------------------------- */
-
-void FixNVESphereSymplectic::advance_records(double kick, double dt)
+Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
 {
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
-  system->advance({dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia}, groupbit);
+  return {dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
 }
 
 std::string FixNVESphereSymplectic::needs_host_arrays()
 {
   if (rotates) return "it turns orientations";
-  if (group->dynamic[igroup]) return "its group is dynamic";
-  int frozen = 0;
-  for (auto &fix : modify->get_fix_by_style("^freeze")) frozen |= fix->groupbit;
-  if (count_members([&](int i) { return (atom->mask[i] & frozen) != 0; }))
-    return "some of its particles belong to a fix freeze";
-  return "";
+  return group->dynamic[igroup] ? "its group is dynamic" : "";
 }
 
 /* ----------------------------------------------------------------------
@@ -214,45 +206,6 @@ double FixNVESphereSymplectic::next_kick()
 int FixNVESphereSymplectic::nmoving() const
 {
   return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
-}
-
-/* ----------------------------------------------------------------------
-   v, x, omega of all members; the arrays of the host are contiguous
-   a particle's result does not depend on its index or its thread;
-   formulas: particles/symplectic_euler.h
-------------------------------------------------------------------------- */
-
-void FixNVESphereSymplectic::advance(double kick, double dt)
-{
-  const int n = nmoving();
-  if (n == 0) return;
-
-  double *const x = atom->x[0];
-  double *const v = atom->v[0];
-  double *const omega = atom->omega[0];
-  const double *const f = atom->f[0];
-  const double *const torque = atom->torque[0];
-  const double *const radius = atom->radius;
-  const double *const rmass = atom->rmass;
-  const int *const mask = atom->mask;
-
-  const double kick_f = kick * force->ftm2v;
-  const double *const g = gravity.acceleration();
-  const double kick_g[3] = {kick_f * g[0], kick_f * g[1], kick_f * g[2]};
-
-#pragma omp parallel for schedule(static) num_threads(comm->nthreads) if (comm->nthreads > 1)
-  for (bigint i = 0; i < n; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double per_mass = kick_f * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
-    const double per_inertia = Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / inertia);
-    const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
-    for (int d = 0; d < 3; d++) {
-      const bigint k = 3 * i + d;
-      v[k] = Talus::kicked(v[k], per_mass, f[k], falls * kick_g[d]);
-      x[k] = Talus::drifted(x[k], dt, v[k]);
-      omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
-    }
-  }
 }
 
 /* ----------------------------------------------------------------------

@@ -81,8 +81,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
 
   int nmoving() const;
   double next_kick();
-  void advance(double, double);
-  void advance_records(double, double);
+  Talus::RecordStep step_of(double, double) const;
   void rotate(double);
 };
 

@@ -63,8 +63,15 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
     store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
     store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
     if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
-    clear_sums(slots[k]);
+    begin_sums(s, load4(motion[stride * s]));
   }
+}
+
+void ParticleRecords::set_gravity(const double *acceleration)
+{
+  gravity = Record{};
+  if (acceleration) std::copy(acceleration, acceleration + 3, gravity.c);
+  has_gravity = gravity.c[0] != 0.0 || gravity.c[1] != 0.0 || gravity.c[2] != 0.0;
 }
 
 void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,

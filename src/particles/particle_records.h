@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -30,12 +31,15 @@ struct ParticleView {
   double *f, *torque;    ///< added to; torque may be nullptr like omega
 };
 
-/// One step of semi-implicit Euler for spheres: v += kick (F/m) + fall, x += dt v,
-/// omega += kick T/(inertia m r^2).
+/// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),
+/// both once or twice, then x += dt v. A particle of infinite mass only drifts.
 struct RecordStep {
   double dt, kick;    ///< time; kick times the host's force/(mass acceleration)
-  double fall[3];     ///< change of velocity by gravity
+  double fall[3];     ///< change of velocity by gravity, in each kick
   double inertia;     ///< 2/5 for spheres, 1/2 for discs
+  /// Two for velocity Verlet: with the forces of the last step the kick that ends it, and the one
+  /// that begins this step.
+  bool two_kicks = false;
 };
 
 /// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
@@ -106,12 +110,22 @@ class ParticleRecords {
   /// Reads the state of some slots and clears their sums.
   void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
 
-  /// Clears the sums of one particle.
-  void clear_sums(int slot)
+  /// From the next read(), advance() or clear() on: the sums of forces begin with the weight of the
+  /// particle in a field of gravity (acceleration, nullptr: none). Without weight are those of
+  /// infinite mass and the slots marked in set_weightless().
+  void set_gravity(const double *acceleration);
+  /// By slot of the present order; empty: none.
+  void set_weightless(std::vector<unsigned char> marks) { weightless = std::move(marks); }
+  /// Where the sum of forces of a slot begins, if its velocity record is that.
+  Vec4 weight(std::size_t slot, Vec4 its_velocity) const
   {
-    for (std::size_t n = 0; n < stride; n++) store(load[stride * slot + n], Vec4{});
-    if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
+    if (!has_gravity) return Vec4{};
+    const Vec4 inverse_mass = __builtin_shufflevector(its_velocity, its_velocity, 3, 3, 3, 3);
+    const bool has_weight =
+        inverse_mass[0] > 0.0 && (weightless.empty() || !weightless[slot]);
+    return kept_if(has_weight, load4(gravity) / inverse_mass);
   }
+  Vec4 weight(int slot) const { return weight(slot, load4(velocity(slot))); }
 
   /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1 to the host's
   /// rows of owned particles: f += F, torque += C - r M.
@@ -122,12 +136,13 @@ class ParticleRecords {
   /// Sets the host's row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
-  /// Moves the particles of some slots and clears their sums. `role` of each slot, empty: all move.
+  /// Moves the particles of some slots and begins their sums anew. `role` of each slot: a ghost, at
+  /// rest, or MOVES + n for the ones that the step n moves; empty: all are moved by the first step.
   /// `held`: position records when lists were made, or nullptr if the travel is not needed.
-  enum Role : unsigned char { GHOST, MOVES, RESTS };
-  RecordTravel advance(const RecordStep &step, const std::vector<Role> &role, const Record *held,
-                       const SlotChoice &slots);
-  /// Only clears sums.
+  enum Role : unsigned char { GHOST, RESTS, MOVES };
+  RecordTravel advance(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
+                       const Record *held, const SlotChoice &slots);
+  /// Only begins sums anew.
   void clear(int begin, int end);
 
   /// Copies the state of a slot to where other cores read it; then streams_are_done().
@@ -202,8 +217,15 @@ class ParticleRecords {
   };
   template <bool rotation> Moved kick(const Kick &with, std::size_t slot);
   template <bool rotation>
-  RecordTravel advance_all(const RecordStep &step, const std::vector<Role> &role,
+  RecordTravel advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                            const Record *held, const SlotChoice &slots);
+  /// The sums of a slot with this velocity record, before anything is added.
+  void begin_sums(std::size_t slot, Vec4 its_velocity)
+  {
+    store(load[stride * slot], weight(slot, its_velocity));
+    if (stride == 2) store(load[2 * slot + 1], Vec4{});
+    if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
+  }
   Vec4 torque_of(std::size_t slot, Vec4 its_position, Vec4 its_force) const
   {
     const Vec4 its_load = load4(load[2 * slot + 1]);
@@ -211,6 +233,10 @@ class ParticleRecords {
     const Vec4 of_forces = Vec4{} - its_position[3] * its_load;
     return twisting_torque.empty() ? of_forces : of_forces + load4(twisting_torque[slot]);
   }
+
+  bool has_gravity = false;
+  Record gravity{};    // fourth place 0
+  std::vector<unsigned char> weightless;
 };
 
 }    // namespace Talus

@@ -1,11 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Particles that are moved in their records, without the host's arrays. Every operation and its
-// order are those of fix nve/sphere/symplectic and of forecast_motion(), so that it does not show
-// in a result where a step was made.
+// order are those of the integrators in the arrays of the host and of forecast_motion(), so that it
+// does not show in a result where a step was made.
 
+#include "particles/kick_and_drift.h"
 #include "particles/particle_records.h"
-#include "particles/symplectic_euler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,11 +64,13 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
 struct ParticleRecords::Kick {
   explicit Kick(const RecordStep &step) :
       kick{step.kick, step.kick, step.kick, 0.0}, dt{step.dt, step.dt, step.dt, 0.0},
-      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, inverse_c(1.0 / step.inertia)
+      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, inverse_c(1.0 / step.inertia),
+      twice(step.two_kicks)
   {
   }
   Vec4 kick, dt, fall;
   double inverse_c;
+  bool twice;
 };
 
 template <bool rotation>
@@ -78,11 +80,16 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
   Record *moves = &motion[stride * s];
   const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
   const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
-  const Vec4 v_new = kicked(v, per_mass, force, with.fall);
+  const Vec4 fall = kept_if(v[3] != 0.0, with.fall);
+  Vec4 v_new = kicked(v, per_mass, force, fall);
+  if (with.twice) v_new = kicked(v_new, per_mass, force, fall);
   if constexpr (rotation) {
     const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
     const Vec4 per_inertia = kick_per_inertia(per_mass, inverse_radius, with.inverse_c);
-    store(moves[1], turned(w, per_inertia, torque_of(s, x, force)));
+    const Vec4 torque = torque_of(s, x, force);
+    Vec4 w_new = turned(w, per_inertia, torque);
+    if (with.twice) w_new = turned(w_new, per_inertia, torque);
+    store(moves[1], w_new);
   }
   const Vec4 x_new = drifted(x, with.dt, v_new);
   store(moves[0], v_new);
@@ -91,11 +98,13 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
 }
 
 template <bool rotation>
-RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vector<Role> &role,
-                                          const Record *held, const SlotChoice &slots)
+RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
+                                          const std::vector<Role> &role, const Record *held,
+                                          const SlotChoice &slots)
 {
   constexpr std::size_t its_stride = rotation ? 2 : 1;
-  const Kick with(step);
+  const Kick first(steps[0]);
+  const std::vector<Kick> others(steps.begin() + 1, steps.end());
   const Role *const roles = role.empty() ? nullptr : role.data();
   Vec4 moved2{}, fastest2{};
   slots.for_each(64, [&](std::size_t s, std::size_t soon) {
@@ -104,10 +113,10 @@ RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vec
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    const Moved now = its == MOVES ? kick<rotation>(with, s)
-                                   : Moved{load4(position[s]), load4(motion[its_stride * s])};
-    for (std::size_t n = 0; n < its_stride; n++) store(load[its_stride * s + n], Vec4{});
-    if (!twisting_torque.empty()) store(twisting_torque[s], Vec4{});
+    const Moved now = its == MOVES ? kick<rotation>(first, s)
+                      : its > MOVES ? kick<rotation>(others[its - MOVES - 1], s)
+                                    : Moved{load4(position[s]), load4(motion[its_stride * s])};
+    begin_sums(s, now.v);
     if (!held || its == GHOST) return;
     moved2 = larger(square(now.x - load4(held[s])), moved2);
     fastest2 = larger(square(clear_fourth(now.v)), fastest2);
@@ -115,16 +124,17 @@ RecordTravel ParticleRecords::advance_all(const RecordStep &step, const std::vec
   return {std::sqrt(moved2[0]), std::sqrt(fastest2[0])};
 }
 
-RecordTravel ParticleRecords::advance(const RecordStep &step, const std::vector<Role> &role,
-                                      const Record *held, const SlotChoice &slots)
+RecordTravel ParticleRecords::advance(const std::vector<RecordStep> &steps,
+                                      const std::vector<Role> &role, const Record *held,
+                                      const SlotChoice &slots)
 {
-  return stride == 2 ? advance_all<true>(step, role, held, slots)
-                     : advance_all<false>(step, role, held, slots);
+  return stride == 2 ? advance_all<true>(steps, role, held, slots)
+                     : advance_all<false>(steps, role, held, slots);
 }
 
 void ParticleRecords::clear(int begin, int end)
 {
-  for (int s = begin; s < end; s++) clear_sums(s);
+  for (int s = begin; s < end; s++) begin_sums(s, load4(velocity(s)));
 }
 
 }    // namespace Talus

@@ -28,6 +28,7 @@ class EffectiveMasses : protected Pointers {
 
   bool needed() const { return freeze_groups || !rigid_fixes.empty() || unit() != 1.0; }
   int frozen_groups() const { return freeze_groups; }
+  bool bodies_are_rigid() const { return !rigid_fixes.empty(); }
 
   /// Per particle, nullptr if no mass is replaced: 0 keeps the particle's own mass. update() fills
   /// the owned part; the caller communicates the rest for ghosts.

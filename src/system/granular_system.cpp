@@ -10,6 +10,7 @@
 #include "error.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "pair.h"
 #include "update.h"
 
@@ -88,6 +89,7 @@ bool GranularSystem::pair_style_is_alone() const
 void GranularSystem::init_pair_style()
 {
   neighbors.init(pair);
+  gravity = nullptr;    // its init() comes later
   masses.find_fixes();
   radii.find(masses.frozen_groups());
   create_store();
@@ -159,6 +161,26 @@ void GranularSystem::refuse_small_periods()
           "{:.4g} wide, or use 'boundary f'",
           "xyz"[d], period, 2.0 * cut);
   }
+}
+
+/* Weights are those of the masses in contacts, so these have to be the particles' own. */
+
+std::string GranularSystem::take_gravity(SystemGravity *field)
+{
+  if (!pair_style_is_alone()) return "there is no pair style of Talus on its own";
+  if (!pair->compute_flag) return "'pair_modify compute no' is set";
+  if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
+  if (masses.bodies_are_rigid()) return "a fix moves rigid bodies";
+  if (neighbor->includegroup || atom->firstgroupname)
+    return "neighbor lists or particles are restricted to a group";
+  if (gravity && gravity != field) return "another fix gravity comes before it";
+  gravity = field;
+  return "";
+}
+
+void GranularSystem::drop_gravity(const SystemGravity *field)
+{
+  if (gravity == field) gravity = nullptr;
 }
 
 /* ---------------------------------------------------------------------- */

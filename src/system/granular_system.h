@@ -82,15 +82,26 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- one step
 
-  /// Moves the owned particles of a group in the records, at the latest while the next
-  /// compute_contacts() goes on. Only if residence() is RECORDS.
-  void advance(const RecordStep &step, int group_bits);
+  /// Moves the owned particles of an integrator's group in the records, at the latest while the next
+  /// compute_contacts() goes on. Called by all integrators of the run in their order, only if
+  /// residence() is RECORDS.
+  void advance(const RecordStep &step);
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// How far the particles went in the last step, if it was made in the records.
   RecordTravel travel() const { return pipeline->travel(); }
   /// Waits for proxies that are under way.
   void finish_proxies();
+
+  // ---- gravity
+
+  /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with the
+  /// weights. Returns "", or why the fix has to add them itself.
+  std::string take_gravity(SystemGravity *field);
+  /// The fix is going.
+  void drop_gravity(const SystemGravity *field);
+  /// Bits of groups with a fix freeze: their particles have no weight in the sums.
+  int frozen_groups() const { return masses.frozen_groups(); }
 
   // ---- residence
 
@@ -182,6 +193,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void refuse_small_periods();
 
   ParticleView view() const;
+  void update_gravity();
+  void find_weightless();
+  int mover_of(int i) const;
+  std::string reason_of_integrators() const;
+  void complete_step();
   std::size_t bodies_that_join();
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();
@@ -216,6 +232,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
   std::vector<LargeBody *> bodies_of_run;
+  std::vector<LAMMPS_NS::Fix *> integrators;    // of Talus, in this run
+  std::vector<RecordStep> steps;                // of the first of these, in this step
+  SystemGravity *gravity = nullptr;
   std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
   bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
   RecordPacker packer;

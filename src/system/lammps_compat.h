@@ -27,6 +27,12 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
 #endif
 
+// TALUS_HOST_TELLS_FORMULAS, set by the build: Variable::get_info() tells the text of a variable.
+// Before, it is a private member.
+#if !defined(TALUS_HOST_TELLS_FORMULAS)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_TELLS_FORMULAS"
+#endif
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

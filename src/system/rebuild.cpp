@@ -62,10 +62,20 @@ void GranularSystem::renumber_pairs()
                "ghosts of a rank: use more machines",
                atom->nlocal, atom->nghost);
   }
+  find_weightless();
   store->pairs_are_numbered(pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
   masses.update();
   if (masses.needed()) comm->forward_comm(pair);
+}
+
+void GranularSystem::find_weightless()
+{
+  const int *mask = atom->mask, bits = gravity ? gravity->group_bits() : 1;
+  if (bits & 1)    // the group all
+    pipeline->set_weightless(nullptr);
+  else
+    pipeline->set_weightless([=](int i) { return !(mask[i] & bits); });
 }
 
 }    // namespace Talus

@@ -28,10 +28,24 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 namespace Talus {
+namespace {
+
+constexpr std::size_t most_integrators = 32;
+
+bool any_rank(bool here, MPI_Comm world)
+{
+  int mine = here, all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_LOR, world);
+  return all != 0;
+}
+
+}    // namespace
 
 void GranularSystem::start_run(bool pairs_computed)
 {
   at_end_of_step.clear();
+  integrators.clear();
+  steps.clear();    // an error may have left some
   forget_plan();
   host_reason = find_reason_for_host(pairs_computed);
   bodies_of_run = bodies();
@@ -53,16 +67,35 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   if ((comm->nprocs > 1 || periodic) && !proxy_updates())
     return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
 
-  int integrators = 0;
   for (int n = 0; n < modify->nfix; n++) {
     Fix *fix = modify->fix[n];
     const auto *ours = dynamic_cast<SystemFix *>(fix);
-    if (ours && ours->integrates()) integrators++;
+    if (ours && ours->integrates()) integrators.push_back(fix);
     const std::string its = reason_of_fix(fix, modify->fmask[n]);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
     if (modify->fmask[n] & END_OF_STEP) at_end_of_step.push_back(fix);
   }
-  return integrators == 1 ? "" : "it takes one fix nve/sphere/symplectic";
+  return reason_of_integrators();
+}
+
+/* Particles that come later, from fix pour, belong to the group all and to one other. */
+
+std::string GranularSystem::reason_of_integrators() const
+{
+  if (integrators.empty()) return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
+  if (integrators.size() > most_integrators) return "many fixes move particles";
+  constexpr int all = 1;
+  for (std::size_t n = 1; n < integrators.size(); n++)
+    for (std::size_t m = 0; m < n; m++) {
+      const int one = integrators[m]->groupbit, other = integrators[n]->groupbit;
+      bool both = one == other || one == all || other == all;
+      for (int i = 0; i < atom->nlocal && !both; i++)
+        both = (atom->mask[i] & one) && (atom->mask[i] & other);
+      if (any_rank(both, world))
+        return std::string("fixes ") + integrators[m]->id + " and " + integrators[n]->id +
+               " may move the same particles";
+    }
+  return "";
 }
 
 /* A fix of the host that is called in every step may read or change anything. Fix freeze and OMP
@@ -144,10 +177,24 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
 void GranularSystem::return_to_host(bool with_forces)
 {
   if (residence() == Residence::HOST) return;
+  const bool between_steps = with_forces && !pipeline->is_moving();
   const bool any = atom->nlocal > 0;
   pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
                          any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,
                          any && with_forces ? atom->torque[0] : nullptr);
+  if (between_steps) complete_step();
+}
+
+/* Fix freeze of LAMMPS does not know of the records. */
+
+void GranularSystem::complete_step()
+{
+  for (const bool integrating : {false, true})
+    for (Fix *fix : modify->get_fix_list()) {
+      auto *ours = dynamic_cast<SystemFix *>(fix);
+      if (ours && ours->integrates() == integrating) ours->complete_step();
+      if (!ours && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
+    }
 }
 
 void GranularSystem::end_run()

@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "fix.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
@@ -23,15 +24,32 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::advance(const RecordStep &step, int group_bits)
+void GranularSystem::advance(const RecordStep &step)
 {
+  steps.push_back(step);
+  if (steps.size() < integrators.size()) return;
   if (!pipeline->can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
-    const int *mask = atom->mask;
-    pipeline->prepare_to_move([=](int i) { return (mask[i] & group_bits) != 0; }, sent,
+    pipeline->prepare_to_move([this](int i) { return mover_of(i); }, sent,
                               then && atom->nlocal ? then[0] : nullptr);
   }
-  pipeline->advance(step);
+  update_gravity();
+  pipeline->advance(steps);
+  steps.clear();
+}
+
+/* Of the integrators of the run, -1 if none does: their groups have no common members. */
+
+int GranularSystem::mover_of(int i) const
+{
+  for (std::size_t n = 0; n < integrators.size(); n++)
+    if (atom->mask[i] & integrators[n]->groupbit) return static_cast<int>(n);
+  return -1;
+}
+
+void GranularSystem::update_gravity()
+{
+  pipeline->set_gravity(gravity ? gravity->acceleration() : nullptr);
 }
 
 void GranularSystem::compute_contacts(const std::function<void(const ReportedContact &)> *report)
@@ -48,6 +66,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
 
+  update_gravity();
   const std::size_t joined = bodies_that_join();
   const std::function<void(int, int, int)> add_bodies = [&](int thread, int begin, int end) {
     for (std::size_t n = 0; n < joined; n++) bodies_of_run[n]->add_to_slots(thread, begin, end);

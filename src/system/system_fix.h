@@ -16,11 +16,33 @@ class SystemFix {
   /// At the start of a run, collective: "", or why it needs the arrays of LAMMPS in this run.
   virtual std::string needs_host_arrays() = 0;
 
+  /// "" if it is accelerated in this run, else why the methods of the stock class are used, and the
+  /// cure, for people. Valid after init(); the same on all ranks.
+  virtual std::string reason_for_stock() const { return ""; }
+
   /// It moves particles.
   virtual bool integrates() const { return false; }
 
+  /// Particles have come back to the arrays of LAMMPS after a step in the records, with the forces
+  /// of contacts, bodies and weights: does what is missing of its part of that step. Those that
+  /// integrate are called last.
+  virtual void complete_step() {}
+
  protected:
   ~SystemFix() = default;    // never deleted through this interface
+};
+
+/// A field of gravity: the sums of forces begin with the weights of particles in it.
+class SystemGravity : public SystemFix {
+ public:
+  /// Acceleration in the present step, nullptr if there is none. Asked on all ranks, before the
+  /// sums of a step begin.
+  virtual const double *acceleration() = 0;
+  /// Bits of the group that has weight.
+  virtual int group_bits() const = 0;
+
+ protected:
+  ~SystemGravity() = default;
 };
 
 }    // namespace Talus

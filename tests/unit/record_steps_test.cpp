@@ -120,8 +120,8 @@ class RecordSteps : public testing::TestWithParam<Division> {
   void advance()
   {
     if (!fast.can_move())
-      fast.prepare_to_move([this](int i) { return moves(i); }, sent, twin_then.data());
-    fast.advance(euler);
+      fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent, twin_then.data());
+    fast.advance({euler});
   }
 
   /// A step after which particles stay in the records, and their move; how such steps are made.

@@ -1,0 +1,138 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "fix_gravity_talus.h"
+
+#include "plain_style.h"
+#include "system/time_formula.h"
+
+#include "atom.h"
+#include "group.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+using namespace LAMMPS_NS;
+using Talus::Residence;
+
+FixGravityTalus::FixGravityTalus(LAMMPS *lmp, int narg, char **arg) :
+    FixGravity(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
+{
+}
+
+FixGravityTalus::~FixGravityTalus()
+{
+  system->drop_gravity(this);
+}
+
+void FixGravityTalus::post_constructor()
+{
+  restore_style(this, "gravity");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixGravityTalus::init()
+{
+  FixGravity::init();
+  evaluated_at = -1;
+  reason = find_reason();
+}
+
+std::string FixGravityTalus::find_reason()
+{
+  if (update->whichflag == 2) return "there is no gravity in a minimization";
+  if (utils::strmatch(update->integrate_style, "^respa")) return "run_style respa has levels";
+  if (group->dynamic[igroup]) return "its group is dynamic";
+  for (const std::string &its : {reason_of_variables(), reason_of_fixes_before()})
+    if (!its.empty()) return its;
+  return system->take_gravity(this);
+}
+
+std::string FixGravityTalus::reason_of_variables() const
+{
+  for (const char *name : {mstr, vstr, pstr, tstr, xstr, ystr, zstr})
+    if (name && !Talus::reads_only_time(lmp, name))
+      return std::string("its variable '") + name + "' may read more than the time";
+  return "";
+}
+
+/* Weights come first in the sums: what acts on forces before this fix would act on them. */
+
+std::string FixGravityTalus::reason_of_fixes_before() const
+{
+  for (int n = 0; modify->fix[n] != this; n++) {
+    const Fix *fix = modify->fix[n];
+    if (utils::strmatch(fix->style, "^freeze")) {
+      if (some_frozen_move(fix->groupbit))
+        return std::string("fix ") + fix->id +
+               " (freeze) comes before it, so that frozen particles fall: put it behind";
+    } else if ((modify->fmask[n] & FixConst::POST_FORCE) &&
+               !dynamic_cast<const Talus::SystemFix *>(fix)) {
+      return std::string("fix ") + fix->id + " (" + fix->style + ") acts on forces before it";
+    }
+  }
+  return "";
+}
+
+bool FixGravityTalus::some_frozen_move(int frozenbits) const
+{
+  int movers = 0;
+  for (const Fix *fix : modify->get_fix_list())
+    if (fix->time_integrate) movers |= fix->groupbit;
+  int mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int mask = atom->mask[i];
+    if ((mask & frozenbits) && (mask & groupbit) && (mask & movers)) mine = 1;
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all != 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *FixGravityTalus::acceleration()
+{
+  if (varflag != CONSTANT && evaluated_at != update->ntimestep) evaluate();
+  evaluated_at = update->ntimestep;
+  return disable ? nullptr : gvec;
+}
+
+void FixGravityTalus::evaluate()
+{
+  const auto value_of = [this](int style_of, int variable, double &value) {
+    if (style_of == EQUAL) value = input->variable->compute_equal(variable);
+  };
+  value_of(mstyle, mvar, magnitude);
+  value_of(vstyle, vvar, vert);
+  value_of(pstyle, pvar, phi);
+  value_of(tstyle, tvar, theta);
+  value_of(xstyle, xvar, xdir);
+  value_of(ystyle, yvar, ydir);
+  value_of(zstyle, zvar, zdir);
+  set_acceleration();
+}
+
+void FixGravityTalus::post_force(int vflag)
+{
+  if (!reason.empty()) return FixGravity::post_force(vflag);
+  if (system->residence() == Residence::RECORDS) return;
+  const double *g = acceleration();
+  if (!g) return;
+
+  eflag = 0;
+  egrav = 0.0;
+  const int frozenbits = system->frozen_groups();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double m = atom->rmass[i], *x = atom->x[i];
+    egrav -= m * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
+    if (!(atom->mask[i] & frozenbits)) continue;
+    for (int d = 0; d < 3; d++) atom->f[i][d] += m * g[d];
+  }
+}
+
+void FixGravityTalus::complete_step()
+{
+  post_force(0);
+}

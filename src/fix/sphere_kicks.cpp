@@ -1,0 +1,45 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "sphere_kicks.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "group.h"
+#include "lammps.h"
+#include "particles/kick_and_drift.h"
+
+using namespace LAMMPS_NS;
+
+void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step,
+                             int frozenbits, bool drifts)
+{
+  const Atom *const atom = lmp->atom;
+  const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
+  if (n == 0) return;
+
+  // the arrays of the host are contiguous
+  double *const x = atom->x[0];
+  double *const v = atom->v[0];
+  double *const omega = atom->omega[0];
+  const double *const f = atom->f[0];
+  const double *const torque = atom->torque[0];
+  const double *const radius = atom->radius;
+  const double *const rmass = atom->rmass;
+  const int *const mask = atom->mask, groupbit = lmp->group->bitmask[igroup];
+  const int threads = lmp->comm->nthreads;
+
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (bigint i = 0; i < n; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double per_mass = step.kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
+    const double per_inertia =
+        Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / step.inertia);
+    const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
+    for (int d = 0; d < 3; d++) {
+      const bigint k = 3 * i + d;
+      v[k] = Talus::kicked(v[k], per_mass, f[k], falls * step.fall[d]);
+      omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
+      if (drifts) x[k] = Talus::drifted(x[k], step.dt, v[k]);
+    }
+  }
+}

@@ -1,0 +1,28 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#ifndef LMP_SPHERE_KICKS_H
+#define LMP_SPHERE_KICKS_H
+
+#include "particles/particle_records.h"
+
+namespace LAMMPS_NS {
+
+class LAMMPS;
+
+/* ----------------------------------------------------------------------
+   Kick and drift of spheres in the arrays of LAMMPS, with the arithmetic of
+   particles/kick_and_drift.h: a particle gets the bits that it would get in the records,
+   on any number of threads.
+
+     v += kick F/m + fall, omega += kick T/(inertia m r^2), then with `drifts` x += dt v
+
+   Called by integrators, at the start or the end of a step. `groupbit`: who moves;
+   `frozenbits`: groups whose members do not fall. One kick, whatever step.two_kicks says.
+------------------------------------------------------------------------- */
+
+void kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
+                  bool drifts);
+
+}    // namespace LAMMPS_NS
+
+#endif
