@@ -30,8 +30,10 @@ void NeighborSource::init(Pair *pair)
 {
   const std::string reason = reason_for_host();
   own = reason.empty();
+  // of ours the host makes no list, but knows that pairs are those of spheres; of its own it has
   // pairs across ranks on both sides, whatever `newton` says
-  if (!own) neighbor->add_request(pair, NeighConst::REQ_SIZE | NeighConst::REQ_NEWTON_OFF);
+  neighbor->add_request(pair, NeighConst::REQ_SIZE | (own ? NeighConst::REQ_OCCASIONAL
+                                                          : NeighConst::REQ_NEWTON_OFF));
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
       (own ? ": finds neighbors itself, as often as neigh_modify says\n"
