@@ -171,14 +171,17 @@ set(TALUS_HOST_HAS_RUN_PLUGINS 0)
 if(talus_run_plugins)
   set(TALUS_HOST_HAS_RUN_PLUGINS 1)
 endif()
-set(TALUS_HOST_HAS_GRANULAR 0)
-if(HOST_PKG_GRANULAR)
-  set(TALUS_HOST_HAS_GRANULAR 1)
-endif()
 file(STRINGS "${LAMMPS_SOURCE_DIR}/src/variable.h" talus_variable_info REGEX "std::string get_info\\(int")
 set(TALUS_HOST_TELLS_FORMULAS 0)
 if(talus_variable_info)
   set(TALUS_HOST_TELLS_FORMULAS 1)
+endif()
+
+set(TALUS_HOST_HAS_GRANULAR 0)
+set(talus_granular_headers "")
+if(HOST_PKG_GRANULAR)
+  set(TALUS_HOST_HAS_GRANULAR 1)  # styles with the suffix talus derive from those of the package
+  set(talus_granular_headers "${LAMMPS_SOURCE_DIR}/src/GRANULAR")
 endif()
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
@@ -186,7 +189,7 @@ endif()
 string(TOUPPER "${TALUS_HOST_SIZES}" talus_sizes_upper)
 add_library(lammps_host INTERFACE)
 target_include_directories(lammps_host SYSTEM INTERFACE
-  "${LAMMPS_SOURCE_DIR}/src" "${LAMMPS_SOURCE_DIR}/src/GRANULAR" ${MPI_CXX_INCLUDE_DIRS})
+  "${LAMMPS_SOURCE_DIR}/src" ${talus_granular_headers} ${MPI_CXX_INCLUDE_DIRS})
 target_compile_definitions(lammps_host INTERFACE
   TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
   TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}

@@ -11,8 +11,12 @@
 #include "fix/fix_nve_sphere_talus.h"
 #include "fix/fix_nve_sphere_symplectic.h"
 #include "pair/pair_gran_penalty.h"
+#if TALUS_HOST_HAS_GRANULAR
+#include "pair/pair_gran_talus.h"
+#endif
 #include "run/verlet_proxy.h"
 #include "system/fix_contact_store.h"
+#include "system/fix_pair_history.h"
 #include "system/lammps_compat.h"
 #include "talus_abi.h"
 
@@ -113,6 +117,13 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 {
   Registry registry(lmp, handle, registerfunc);
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
+#if TALUS_HOST_HAS_GRANULAR
+  registry.pair<PairGranHookeTalus>("gran/hooke/talus", "Talus pair style gran/hooke/talus");
+  registry.pair<PairGranHookeHistoryTalus>("gran/hooke/history/talus",
+                                           "Talus pair style gran/hooke/history/talus");
+  registry.pair<PairGranHertzHistoryTalus>("gran/hertz/history/talus",
+                                           "Talus pair style gran/hertz/history/talus");
+#endif
   registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
@@ -126,4 +137,5 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
+  registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", "Talus contact history (internal)");
 }

@@ -2,27 +2,20 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "pair/pair_of_system_impl.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
 
-#include <algorithm>
-#include <functional>
-
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-namespace {
-
-constexpr int num_extra = 11;    // svector, see single()
-
-}    // namespace
-
 /* ---------------------------------------------------------------------- */
 
-PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), system(GranularSystem::of(lmp))
+PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : PairOfSystem(lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -38,7 +31,10 @@ PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : Pair(lmp), system(GranularSystem
   nextra = 2;
   pvector = new double[nextra]();
 
-  system->attach(this);
+  if (!system->attach(this, {plain_style()}))
+    error->all(FLERR,
+               "Pair style gran/penalty can be used only once, also in pair_style hybrid: give each "
+               "pair of types a law of its own with pair_coeff");
 }
 
 PairGranPenalty::~PairGranPenalty()
@@ -80,9 +76,6 @@ void PairGranPenalty::check_host()
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "Pair style gran/penalty requires ghost atoms to store velocity: "
                       "add 'comm_modify vel yes'");
-  if (force->newton_pair)
-    error->all(FLERR, "Pair style gran/penalty requires 'newton off': put it before the simulation "
-                      "box is defined");
   if (!atom->tag_enable)
     error->all(FLERR, "Pair style gran/penalty requires atom IDs: remove 'atom_modify id no'");
   if (lmp->kokkos)
@@ -114,35 +107,28 @@ double PairGranPenalty::init_one(int i, int j)
 
 void PairGranPenalty::compute(int eflag, int vflag)
 {
-  ev_init(eflag, vflag);
-  const std::function<void(const ReportedContact &)> to_host = [this](const ReportedContact &c) {
-    tally(c);
-  };
-  system->compute_contacts(vflag_either ? &to_host : nullptr);
+  compute_contacts(eflag, vflag);
   if (!eflag_global) return;
   // for compute pair; what two ranks compute counts half on each
   pvector[0] = system->contacts().count_contacts();
   pvector[1] = system->contacts().count_candidates();
 }
 
-/* To the host, with newton off, an index of a ghost means that nothing is tallied for it. */
-
-void PairGranPenalty::tally(const ReportedContact &c)
+double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
+                               double &fforce)
 {
-  const int nobody = atom->nlocal;
-  ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, nobody, 0, 0.0, 0.0, c.force[0],
-               c.force[1], c.force[2], c.separation[0], c.separation[1], c.separation[2]);
+  fforce = force_of_pair(i, j, itype, jtype, rsq, svector);
+  return 0.0;
 }
 
 int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *)
 {
-  for (int k = 0; k < n; k++) buf[k] = system->mass_override()[send[k]];
-  return n;
+  return pack_masses(n, send, buf);
 }
 
 void PairGranPenalty::unpack_forward_comm(int n, int first, double *buf)
 {
-  std::copy(buf, buf + n, system->mass_override() + first);
+  unpack_masses(n, first, buf);
 }
 
 /* ---------------------------------------------------------------------- */

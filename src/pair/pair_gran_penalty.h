@@ -7,16 +7,14 @@
 #ifndef LMP_PAIR_GRAN_PENALTY_H
 #define LMP_PAIR_GRAN_PENALTY_H
 
-#include "pair.h"
-#include "system/granular_system.h"
+#include "pair/pair_of_system.h"
 #include "system/lammps_compat.h"
 
 #include <cstdint>
-#include <memory>
 
 namespace LAMMPS_NS {
 
-class PairGranPenalty : public Pair {
+class PairGranPenalty : public PairOfSystem<Pair> {
  public:
   PairGranPenalty(class LAMMPS *);
   ~PairGranPenalty() override;
@@ -40,14 +38,13 @@ class PairGranPenalty : public Pair {
   double atom2cut(int) TALUS_OVERRIDE_ATOM2CUT;
   double radii2cut(double, double) TALUS_OVERRIDE_ATOM2CUT;
 
+  std::string plain_style() const override { return "gran/penalty"; }
+  std::string reason_for_stock() const override { return ""; }
 
  private:
   void allocate();
   void check_host();
   std::int32_t read_number(FILE *fp);
-  void tally(const Talus::ReportedContact &contact);
-
-  std::shared_ptr<Talus::GranularSystem> system;
 };
 
 }    // namespace LAMMPS_NS

@@ -37,7 +37,7 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
   if (!lmp->force->pair) return "there is no pair style";
   if (!system->pair_style_is_alone())
     return std::string("pair style ") + lmp->force->pair_style +
-           " does not wait for proxies: only gran/penalty on its own does";
+           " does not wait for proxies: only one of Talus on its own does";
   if (!pairs_computed) return "'pair_modify compute no' is set";
   for (int n = 0; n < lmp->modify->nfix; n++) {
     const Fix *fix = lmp->modify->fix[n];

@@ -2,6 +2,8 @@
 
 #include "system/contact_monitor.h"
 
+#include "system/granular_system.h"
+
 #include "atom.h"
 #include "base/in_parallel.h"
 #include "comm.h"
@@ -40,9 +42,10 @@ RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) co
 void ContactMonitor::say_overlap(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
-                 "Pair style gran/penalty: particles {:.0f} and {:.0f} overlap by {:.3g} of the "
-                 "smaller radius at step {}; contact laws are made for small overlaps: use a "
-                 "higher stiffness, or look for particles that overlap from the beginning",
+                 "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
+                 "radius at step {}; contact laws are made for small overlaps: use a higher "
+                 "stiffness, or look for particles that overlap from the beginning",
+                 GranularSystem::of(lmp)->style_name(),
                  worst.details[0], worst.details[1], worst.value, update->ntimestep);
 }
 
@@ -71,7 +74,8 @@ RunMonitor::Finding ContactMonitor::largest_own_move() const
 void ContactMonitor::say_move(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
-                 "Pair style gran/penalty: particle {:.0f} moves by {:.3g} of its radius in a "
-                 "time step at step {}; an impact is not resolved: reduce the time step",
+                 "Pair style {}: particle {:.0f} moves by {:.3g} of its radius in a time step at "
+                 "step {}; an impact is not resolved: reduce the time step",
+                 GranularSystem::of(lmp)->style_name(),
                  worst.details[0], worst.value, update->ntimestep);
 }

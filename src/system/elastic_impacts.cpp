@@ -2,6 +2,8 @@
 
 #include "system/elastic_impacts.h"
 
+#include "system/granular_system.h"
+
 #include "laws/contact_energy.h"
 
 #include "error.h"
@@ -42,8 +44,8 @@ void ElasticImpacts::warn(double fraction) const
 {
   if (loses_energy || !(advised > 0.0) || fraction <= advised) return;
   error->warning(FLERR,
-                 "Pair style gran/penalty: no contact has damping or friction: at this time step, "
+                 "Pair style {}: no contact has damping or friction: at this time step, "
                  "{:.3g} of the critical one, impacts of {} gain or lose some energy by chance, "
                  "which adds up over many: use at most {} of it, or add damping",
-                 fraction, strictest, advised);
+                 GranularSystem::of(lmp)->style_name(), fraction, strictest, advised);
 }

@@ -28,7 +28,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), store(comm->me), exchange(world)
 {
   if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
-    error->all(FLERR, "Fix CONTACT_STORE is internal to pair style gran/penalty");
+    error->all(FLERR, "Fix CONTACT_STORE is internal to the pair styles of Talus");
   inverse_cell = 1.0 / utils::numeric(FLERR, arg[3], false, lmp);
 
   restart_global = 1;
@@ -70,9 +70,9 @@ void FixContactStore::init()
     if (ifix == this) break;
     if (ifix->pre_exchange_migrate)
       error->all(FLERR,
-                 "Pair style gran/penalty must be defined before fix {} {}, "
-                 "which migrates atoms: move the pair_style command up",
-                 ifix->id, ifix->style);
+                 "Pair style {} must be defined before fix {} {}, which migrates atoms: move the "
+                 "pair_style command up",
+                 Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Internal fix of pair style gran/penalty: what has to travel with a particle.
+// Internal fix of the pair styles of Talus: what has to travel with a particle.
 //
 //   * its canonical key (see particles/canonical_key.h), to other ranks, to ghosts and into restart
 //     files;

@@ -131,15 +131,16 @@ void FixContactStore::restart(char *buf)
   std::memcpy(state, buf, sizeof state);
   if (state[VERSION] != -restart_version)
     error->all(FLERR,
-               "Pair style gran/penalty: the restart file holds contact history in the format {}, "
-               "and this version of Talus reads format {}: continue with the version that wrote it",
-               state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
+               "Pair style {}: the restart file holds contact history in the format {}, and this "
+               "version of Talus reads format {}: continue with the version that wrote it",
+               Talus::GranularSystem::of(lmp)->style_name(), state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
     error->all(
         FLERR,
-        "Pair style gran/penalty: particles were added or deleted between read_restart and the "
-        "first run, so that contact history cannot be assigned: put 'run 0' in between");
+        "Pair style {}: particles were added or deleted between read_restart and the first run, "
+        "so that contact history cannot be assigned: put 'run 0' in between",
+        Talus::GranularSystem::of(lmp)->style_name());
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -164,8 +165,9 @@ void FixContactStore::unpack_restart(int i, int nth)
   if (from_double<std::int64_t>(extra[m + 3]) != atom->tag[i])
     error->one(
         FLERR,
-        "Pair style gran/penalty: particles were deleted or renumbered between read_restart and "
-        "the first run, so that contact history cannot be assigned: put 'run 0' in between");
+        "Pair style {}: particles were deleted or renumbered between read_restart and the first "
+        "run, so that contact history cannot be assigned: put 'run 0' in between",
+        Talus::GranularSystem::of(lmp)->style_name());
   store.set_name(i, from_double<std::int64_t>(extra[m + 2]));
   store.unpack_list(i, extra + m + restart_header);
 }

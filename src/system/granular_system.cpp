@@ -53,22 +53,22 @@ GranularSystem::~GranularSystem() = default;
 
 /* ---------------------------------------------------------------------- */
 
-void GranularSystem::attach(Pair *style)
+bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
 {
-  if (pair)
-    error->all(FLERR, "Pair style gran/penalty can be used only once, also in pair_style hybrid: "
-                      "give each pair of types a law of its own with pair_coeff");
-  pair = style;
+  if (pair) return false;
+  pair = one;
+  style = traits;
   monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  return true;
 }
 
 /* A second pair style has never been attached. */
 
-void GranularSystem::detach(const Pair *style)
+void GranularSystem::detach(const Pair *one)
 {
-  if (style != pair) return;
+  if (!pair || one != pair) return;
   monitors.remove(pair);
   pair = nullptr;
   store = nullptr;
@@ -103,15 +103,14 @@ void GranularSystem::create_store()
   const char *expected = store ? store_id : placeholder_id;
   if (!modify->get_fix_by_id(expected))
     error->all(FLERR,
-               "Pair style gran/penalty: its internal fix {} has been deleted: remove the unfix "
-               "command",
-               expected);
+               "Pair style {}: its internal fix {} has been deleted: remove the unfix command",
+               style.name, expected);
   if (store) return;
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
   const double cell = radii.largest() > 0.0 ? 0.125 * radii.largest() : 1.0;
   const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
   store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
-  if (!store) error->all(FLERR, "Pair style gran/penalty: cannot create fix {}", store_id);
+  if (!store) error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
   store->serve(this);
 }
 
@@ -131,10 +130,11 @@ void GranularSystem::prepare_laws()
   pipeline->set_laws(table);
   laws_current = true;
 
-  const std::string description = "Talus gran/penalty: " + book.describe(table);
+  const std::string description = "Talus " + style.name + ": " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
-  refuse_small_periods();
+  const std::string problem = pipeline->keeps_history() ? small_period() : "";
+  if (!problem.empty()) error->all(FLERR, "Pair style {}: {}", style.name, problem);
 }
 
 const LawTable &GranularSystem::law_table()
@@ -145,22 +145,26 @@ const LawTable &GranularSystem::law_table()
 
 /* Histories are known by the IDs of the two particles, which two images of one of them share. */
 
-void GranularSystem::refuse_small_periods()
+std::string GranularSystem::small_period() const
 {
-  if (!pipeline->keeps_history()) return;
-  const double cut = 2.0 * radii.largest();
+  const double needed = 4.0 * radii.largest();
   for (int d = 0; d < 3; d++) {
-    const double period = domain->prd[d];
     const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
-    if (matters && period < 2.0 * cut)
-      error->all(
-          FLERR,
-          "Pair style gran/penalty: the box is periodic in {} with a period of {:.4g}, below "
-          "two diameters of the largest particle: two particles could touch on both sides, "
-          "and laws with history cannot tell these contacts apart: make the box at least "
-          "{:.4g} wide, or use 'boundary f'",
-          "xyz"[d], period, 2.0 * cut);
+    if (matters && domain->prd[d] < needed)
+      return fmt::format(
+          "the box is periodic in {} with a period of {:.4g}, below two diameters of the largest "
+          "particle: two particles could touch on both sides, and laws with history cannot tell "
+          "these contacts apart: make the box at least {:.4g} wide, or use 'boundary f'",
+          "xyz"[d], domain->prd[d], needed);
   }
+  return "";
+}
+
+std::string GranularSystem::reason_against_history()
+{
+  masses.find_fixes();
+  radii.find(masses.frozen_groups());
+  return small_period();
 }
 
 /* Weights are those of the masses in contacts, so these have to be the particles' own. */

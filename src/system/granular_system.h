@@ -62,14 +62,25 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- the pair style and its laws
 
-  /// In the constructor of the pair style, and in its destructor. An error if there is one already.
-  void attach(LAMMPS_NS::Pair *pair);
+  /// What the system does as a pair style wants it.
+  struct StyleTraits {
+    std::string name;    ///< as scripts have it, for messages
+    /// The Coulomb limit acts on stored displacements also while a run is set up, as in the stock
+    /// styles; else histories are only read then.
+    bool limits_at_setup = false;
+  };
+  /// In the constructor of a pair style, and in its destructor. false: there is one already.
+  bool attach(LAMMPS_NS::Pair *pair, const StyleTraits &traits);
   void detach(const LAMMPS_NS::Pair *pair);
   bool has_pair_style() const { return pair != nullptr; }
+  /// Of the pair style that is attached, or the last one.
+  const std::string &style_name() const { return style.name; }
   /// The pair style is not part of hybrid: nothing else computes pairs.
   bool pair_style_is_alone() const;
   /// In its init_style().
   void init_pair_style();
+  /// The same, before it, collective: "", or why contacts cannot have a history here.
+  std::string reason_against_history();
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 
@@ -160,6 +171,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   // ---- questions
 
   const ContactPipeline &contacts() const { return *pipeline; }
+  /// What particles carry along of their contacts, after init_pair_style().
+  HistoryStore &histories();
+  /// It has been read from a restart file.
+  bool histories_were_read() const;
   /// History and impact of a pair of host's indices as i sees it, in a run or between two.
   TangentialHistory<double> history_of(int i, int j, ContactImpact<double> &impact);
   /// Laws and coefficients as the kernels have them.
@@ -190,7 +205,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();
-  void refuse_small_periods();
+  std::string small_period() const;
 
   ParticleView view() const;
   void update_gravity();
@@ -210,6 +225,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // the pair style
   LAMMPS_NS::Pair *pair = nullptr;
+  StyleTraits style{"gran/penalty"};
   LAMMPS_NS::FixContactStore *store = nullptr;
   Talus::LawBook book;
   bool laws_current = false;

@@ -2,6 +2,8 @@
 
 #include "system/neighbor_source.h"
 
+#include "system/granular_system.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -28,10 +30,14 @@ void NeighborSource::init(Pair *pair)
 {
   const std::string reason = reason_for_host();
   own = reason.empty();
-  if (!own) neighbor->add_request(pair, NeighConst::REQ_SIZE);
+  // of ours the host makes no list, but knows that pairs are those of spheres; of its own it has
+  // pairs across ranks on both sides, whatever `newton` says
+  neighbor->add_request(pair, NeighConst::REQ_SIZE | (own ? NeighConst::REQ_OCCASIONAL
+                                                          : NeighConst::REQ_NEWTON_OFF));
   const std::string line =
-      own ? "Talus gran/penalty: finds neighbors itself, as often as neigh_modify says\n"
-          : fmt::format("Talus gran/penalty: neighbor lists are those of LAMMPS: {}\n", reason);
+      "Talus " + GranularSystem::of(lmp)->style_name() +
+      (own ? ": finds neighbors itself, as often as neigh_modify says\n"
+           : fmt::format(": neighbor lists are those of LAMMPS: {}\n", reason));
   if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
   said = line;
 }
@@ -57,8 +63,8 @@ NeighborView NeighborSource::find(const NeighList *list)
                     : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR,
-               "Pair style gran/penalty: {}: the simulation is unstable: reduce the time step",
-               problem.what());
+               "Pair style {}: {}: the simulation is unstable: reduce the time step",
+               GranularSystem::of(lmp)->style_name(), problem.what());
   }
   return search.view();
 }

@@ -13,6 +13,16 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
+HistoryStore &GranularSystem::histories()
+{
+  return store->histories();
+}
+
+bool GranularSystem::histories_were_read() const
+{
+  return store->restart_reset != 0;
+}
+
 /* Between two runs histories are with the store. */
 
 TangentialHistory<double> GranularSystem::history_of(int i, int j, ContactImpact<double> &impact)

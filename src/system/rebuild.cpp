@@ -55,12 +55,12 @@ void GranularSystem::renumber_pairs()
     neighbors.release();
     pipeline->start_pairs(store->histories());
   } catch (const std::length_error &problem) {
-    error->one(FLERR, "Pair style gran/penalty: {}: use more ranks", problem.what());
+    error->one(FLERR, "Pair style {}: {}: use more ranks", style.name, problem.what());
   } catch (const std::bad_alloc &) {
     error->one(FLERR,
-               "Pair style gran/penalty: not enough memory for the pairs of {} particles and {} "
-               "ghosts of a rank: use more machines",
-               atom->nlocal, atom->nghost);
+               "Pair style {}: not enough memory for the pairs of {} particles and {} ghosts of a "
+               "rank: use more machines",
+               style.name, atom->nlocal, atom->nghost);
   }
   find_weightless();
   store->pairs_are_numbered(pipeline->particle_order());

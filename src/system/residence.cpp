@@ -54,7 +54,7 @@ void GranularSystem::start_run(bool pairs_computed)
 std::string GranularSystem::find_reason_for_host(bool pairs_computed)
 {
   if (!pair_style_is_alone() || !pairs_computed)
-    return "the pair style is not gran/penalty on its own";
+    return fmt::format("pair style {} is not on its own, or not used", style.name);
   if (keeps_account) return "energies of contacts are accounted for";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
   if (atom->molecular != Atom::ATOMIC || force->kspace)

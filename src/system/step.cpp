@@ -59,8 +59,10 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
     renumber_pairs();    // as after `run pre no`
   }
 
-  const bool advancing = update->setupflag == 0;
-  ContactStep step{update->dt, advancing, report, keeps_account ? &account : nullptr};
+  // a set-up is a step of no duration, or none
+  const bool setting_up = update->setupflag != 0;
+  ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
+                   !setting_up || style.limits_at_setup, report, keeps_account ? &account : nullptr};
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
@@ -77,7 +79,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   if (step.deliver && !step.read && atom->nlocal)
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
   store->pairs_are_current();
-  if (!update->setupflag) return;
+  if (!setting_up) return;
   time_step.judge_start(book, *pipeline);
   monitors.look(RunMonitor::Moment::SETUP);
 }

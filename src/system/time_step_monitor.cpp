@@ -2,6 +2,8 @@
 
 #include "system/time_step_monitor.h"
 
+#include "system/granular_system.h"
+
 #include "comm.h"
 #include "error.h"
 #include "update.h"
@@ -81,8 +83,8 @@ void TimeStepMonitor::judge()
   said = true;
   if (comm->me == 0)
     error->warning(FLERR,
-                   "Pair style gran/penalty: the time step is {:.3g} of the critical one ({:.4g}; "
+                   "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; "
                    "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
-                   update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
+                   GranularSystem::of(lmp)->style_name(), update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
                    advised);
 }

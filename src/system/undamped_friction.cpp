@@ -2,6 +2,8 @@
 
 #include "system/undamped_friction.h"
 
+#include "system/granular_system.h"
+
 #include "laws/contact_energy.h"
 
 #include "error.h"
@@ -60,18 +62,18 @@ void UndampedFriction::warn(double fraction) const
 {
   if (worst_step.mu > 0.0 && fraction > harmless_fraction(worst_step.mu))
     error->warning(FLERR,
-                   "Pair style gran/penalty: contacts of {} have a coefficient of friction of "
+                   "Pair style {}: contacts of {} have a coefficient of friction of "
                    "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
                    "impacts gain energy: add the word midpoint, or damping, or use at most {:.2g} "
                    "of it",
-                   worst_step.who, worst_step.mu, fraction, harmless_fraction(worst_step.mu));
+                   GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction, harmless_fraction(worst_step.mu));
   if (worst_spring.mu > 0.0)
     error->warning(FLERR,
-                   "Pair style gran/penalty: contacts of {} have a coefficient of friction of "
+                   "Pair style {}: contacts of {} have a coefficient of friction of "
                    "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
                    "their tangential spring stiffens while it is stretched: add damping, or use a "
                    "coefficient of friction of at most {} and rolling resistance of at most {}",
-                   worst_spring.who, worst_spring.mu,
+                   GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
                    worst_spring.mu_roll > 0.0
                        ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
                        : "",

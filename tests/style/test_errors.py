@@ -164,8 +164,9 @@ INPUT = [    # commands after the box, message
      "Pair style does not support rRESPA inner/middle/outer"),
     (f"fix f all large/body {PLANE} {LAW}\n{PAIR}{MOVE}run_style respa 2 2\nrun 0",
      "Fix large/body does not run with run_style respa: use run_style verlet"),
-    ("fix f all CONTACT_STORE", "Fix CONTACT_STORE is internal to pair style gran/penalty"),
-    ("fix f all CONTACT_STORE 1.0", "Fix CONTACT_STORE is internal to pair style gran/penalty"),
+    ("fix f all CONTACT_STORE", "Fix CONTACT_STORE is internal to the pair styles of Talus"),
+    ("fix f all CONTACT_STORE 1.0", "Fix CONTACT_STORE is internal to the pair styles of Talus"),
+    ("fix f all TALUS_PAIR_HISTORY", "Fix TALUS_PAIR_HISTORY is internal to the pair styles of Talus"),
     (RUN + "unfix TALUS_CONTACTS\nrun 2", "Pair style gran/penalty: its internal fix TALUS_CONTACTS has "
      "been deleted: remove the unfix command"),
     (PAIR + "unfix TALUS_CONTACTS_LATER\n" + MOVE + "run 2", "Pair style gran/penalty: its internal fix "
@@ -177,8 +178,6 @@ INPUT = [    # commands after the box, message
 ]
 
 HOST = [    # settings that differ from BOX, message
-    ({"newton": "newton on"}, RUN, "Pair style gran/penalty requires 'newton off': put it before the "
-     "simulation box is defined"),
     ({"velocity": ""}, RUN, "Pair style gran/penalty requires ghost atoms to store velocity: add "
      "'comm_modify vel yes'"),
     ({"atom_style": "atom_style atomic", "sizes": "mass * 1"}, RUN.replace("/sphere", ""),

@@ -2,7 +2,8 @@
 //
 // The displacement of the surfaces is kept for the life of a contact: F_t = -(kt d_t + gt v_t), not
 // longer than mu |F_n|; see sliding.h for what happens to d_t at this limit. Every step adds dt v_t
-// and takes away the part of d_t along the normal.
+// and takes away the part of d_t along the normal. A step with dt = 0 is how the stock styles set a
+// run up: only the limit acts, and beyond it there is no force without a displacement.
 //
 // With `midpoint` the update of the displacement is consistent to second order in the time step:
 //   * the displacement of a step is taken along the surface half way through it, not at its end;
@@ -75,8 +76,10 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
       d = turned(d, s.normal) + turned(step_displacement(s, dt, in.dt), s.normal);
     } else if constexpr (advance)
       d = d + in.dt * in.velocity;
-    const auto moved = dot(d, d) > zero;
-    if constexpr (advance && !midpoint) d = d - dot(d, s.normal) * s.normal;
+    auto moved = splat<Real>(dt) > zero;    // where time passes, a force beyond the limit has one
+    if (!advance || slider || !(dt > 0.0)) moved = dot(d, d) > zero;
+    if constexpr (advance && !midpoint)
+      if (dt > 0.0) d = d - dot(d, s.normal) * s.normal;
     add_tangential(s, limited_force<advance, slider>(in, d, moved, history));
     h[0] = history.displacement.x;
     h[1] = history.displacement.y;

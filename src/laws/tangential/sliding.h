@@ -80,10 +80,14 @@ TALUS_INLINE Vector3<Real> stock_limit(const SlidingInput<Real> &in, const Trial
   const auto by_spring = with_spring & (in.limit > zero);
   if constexpr (advance) {
     const Vector3<Real> set_back = -(size * inverse) * (capped + trial.drag);
-    const Vector3<Real> d = select(trial.exceeds & with_spring, set_back, trial.displacement);
-    history = {d, select(trial.exceeds, one, zero)};
+    // only where no time passes a displacement can be zero while a velocity is not
+    const auto slides = trial.exceeds & trial.moved;
+    const Vector3<Real> d = select(slides & with_spring, set_back, trial.displacement);
+    history = {d, select(slides, one, zero)};
     const Vector3<Real> sliding = select(by_spring, -(in.kt * d + trial.drag), capped);
-    return unsigned_zeros(select(trial.exceeds, sliding, trial.force));
+    const Vector3<Real> none{zero, zero, zero};
+    return unsigned_zeros(
+        select(trial.exceeds, select(slides, sliding, none), trial.force));
   }
   // the flag counts as long as spring and dashpot do not exceed the limit but for rounding: not
   // with other velocities or coefficients

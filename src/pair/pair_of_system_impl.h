@@ -1,0 +1,96 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Members of PairOfSystem: included by the sources of the styles.
+
+#ifndef LMP_PAIR_OF_SYSTEM_IMPL_H
+#define LMP_PAIR_OF_SYSTEM_IMPL_H
+
+#include "pair/pair_of_system.h"
+
+#include "laws/circle_of_intersection.h"
+
+#include "atom.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace LAMMPS_NS {
+
+template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int vflag)
+{
+  this->ev_init(eflag, vflag);
+  const std::function<void(const Talus::ReportedContact &)> to_host =
+      [this](const Talus::ReportedContact &c) { tally(c); };
+  system->compute_contacts(this->vflag_either ? &to_host : nullptr);
+}
+
+/* To the host, as if newton were off, an index of a ghost means that nothing is tallied for it. */
+
+template <class Base> void PairOfSystem<Base>::tally(const Talus::ReportedContact &c)
+{
+  const int nobody = this->atom->nlocal;
+  this->ev_tally_xyz(c.for_i ? c.i : nobody, c.for_j ? c.j : nobody, nobody, 0, 0.0, 0.0,
+                     c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
+                     c.separation[2]);
+}
+
+template <class Base>
+double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, double rsq,
+                                         double *extra)
+{
+  using Vector = Talus::Vector3<double>;
+  const auto row = [](const double *p) { return Vector{p[0], p[1], p[2]}; };
+  const Atom *atom = this->atom;
+
+  const Talus::LawTable &laws = system->law_table();
+  std::fill(extra, extra + num_extra, 0.0);
+  const double ri = atom->radius[i], rj = atom->radius[j];
+  if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
+
+  const double r = std::sqrt(rsq);
+  Talus::ContactState<double> s;
+  s.normal = (1.0 / r) * (row(atom->x[i]) - row(atom->x[j]));
+  s.overlap = ri + rj - r;
+  s.velocity = row(atom->v[i]) - row(atom->v[j]);
+  s.surface_rotation = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
+  s.inverse_mass = 1.0 / system->mass_in_contacts(i) + 1.0 / system->mass_in_contacts(j);
+  s.inverse_radius = 1.0 / ri + 1.0 / rj;
+  s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
+  s.circle = Talus::circle_of_intersection(ri, rj, s.overlap);
+  s.inverse_distance = 1.0 / r;
+
+  Talus::ContactImpact<double> impact;
+  const Talus::TangentialHistory<double> history = system->history_of(i, j, impact);
+  const int row_of_types = laws.row(itype, jtype);
+  const Vector &d = history.displacement;
+  const Talus::ContactLanes<double> out = Talus::single_contact(
+      laws.law(row_of_types), laws.coefficients(row_of_types), s, this->update->dt,
+      {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age, impact.begun}});
+
+  const Vector vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
+  const Vector ft = out.tangential;
+  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)),      vn.x, vn.y, vn.z,
+                          vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
+  static_assert(std::size(found) == num_extra);
+  std::copy(std::begin(found), std::end(found), extra);
+  return dot(out.force - out.tangential, s.normal) / r;    // with adhesion
+}
+
+template <class Base>
+int PairOfSystem<Base>::pack_masses(int n, const int *send, double *buf) const
+{
+  for (int k = 0; k < n; k++) buf[k] = system->mass_override()[send[k]];
+  return n;
+}
+
+template <class Base> void PairOfSystem<Base>::unpack_masses(int n, int first, const double *buf)
+{
+  std::copy(buf, buf + n, system->mass_override() + first);
+}
+
+}    // namespace LAMMPS_NS
+
+#endif
