@@ -171,17 +171,34 @@ set(TALUS_HOST_HAS_RUN_PLUGINS 0)
 if(talus_run_plugins)
   set(TALUS_HOST_HAS_RUN_PLUGINS 1)
 endif()
+set(TALUS_HOST_HAS_GRANULAR 0)
+if(HOST_PKG_GRANULAR)
+  set(TALUS_HOST_HAS_GRANULAR 1)
+endif()
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/GRANULAR/fix_wall_gran.h" talus_wall_cylinder REGEX "cylradius")
+set(TALUS_HOST_HAS_WALL_CYLINDER 0)
+if(talus_wall_cylinder)
+  set(TALUS_HOST_HAS_WALL_CYLINDER 1)
+endif()
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/GRANULAR/fix_wall_gran.h" talus_wall_image REGEX "imgparms")
+set(TALUS_HOST_DRAWS_GRAN_WALLS 0)
+if(talus_wall_image)
+  set(TALUS_HOST_DRAWS_GRAN_WALLS 1)
+endif()
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.
 string(TOUPPER "${TALUS_HOST_SIZES}" talus_sizes_upper)
 add_library(lammps_host INTERFACE)
 target_include_directories(lammps_host SYSTEM INTERFACE
-  "${LAMMPS_SOURCE_DIR}/src" ${MPI_CXX_INCLUDE_DIRS})
+  "${LAMMPS_SOURCE_DIR}/src" "${LAMMPS_SOURCE_DIR}/src/GRANULAR" ${MPI_CXX_INCLUDE_DIRS})
 target_compile_definitions(lammps_host INTERFACE
   TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
   TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}
   TALUS_HOST_HAS_RUN_PLUGINS=${TALUS_HOST_HAS_RUN_PLUGINS}
+  TALUS_HOST_HAS_GRANULAR=${TALUS_HOST_HAS_GRANULAR}
+  TALUS_HOST_HAS_WALL_CYLINDER=${TALUS_HOST_HAS_WALL_CYLINDER}
+  TALUS_HOST_DRAWS_GRAN_WALLS=${TALUS_HOST_DRAWS_GRAN_WALLS}
   LAMMPS_${talus_sizes_upper}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
   ${MPI_CXX_COMPILE_DEFINITIONS})
