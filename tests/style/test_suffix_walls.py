@@ -4,7 +4,10 @@
 
 The contacts are computed by the model of LAMMPS, and the sums have one order: so each scene runs with the stock wall,
 through the arrays of LAMMPS, and with the accelerated one, in the records, and all dumps must be equal.  Particles that
-are no candidates are what could go wrong: walls and grains are fast, and lists old."""
+are no candidates are what could go wrong: walls and grains are fast, and lists old.
+
+Where a wall is, is computed in two places, of which that of LAMMPS may fuse multiplications with additions: amplitudes
+are powers of two, and cylinders are compared up to rounding."""
 
 import os
 import re
@@ -12,7 +15,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, read_dump, write_sphere_data
+from talus_testing import SceneCase, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
 RECORDS = "steps without output are made in Talus' own records|steps without output +in the records"
@@ -61,7 +64,7 @@ FLOOR = "fix zw all {wall} {law} zplane 0 NULL\n"
 PLANES = {
     "box": BOX + FLOOR,
     "lid": BOX + "fix zw all {wall} {law} zplane 0 3.6\n",
-    "wiggled floor": BOX + "fix zw all {wall} {law} zplane 0 NULL wiggle z 0.4 0.3\n",
+    "wiggled floor": BOX + "fix zw all {wall} {law} zplane 0 NULL wiggle z 0.5 0.4\n",
     "floor wiggled along itself": BOX + "fix zw all {wall} {law} zplane 0 NULL wiggle x 0.4 0.3\n",
     "sheared floor": BOX + "fix zw all {wall} {law} zplane 0 NULL shear y 3.0\n",
     "fast piston": BOX + FLOOR + "fix px all {wall} {law} xplane -2.5 NULL wiggle x 4.0 0.5\n",
@@ -145,7 +148,11 @@ class Walls(SceneCase):
                         columns="", read="read_data grains"), expect_error=True)
                     self.assertIn("zcylinder", result.log)
                 else:
-                    self.assert_same(walls)
+                    stock, _ = self.run_scene(walls, False, run="run 400")
+                    ours, log = self.run_scene(walls, True, run="run 400")
+                    self.assertRegex(log, RECORDS)
+                    for frame, other in zip(stock, ours):
+                        self.assertLess(max_difference(frame, other, ("x", "y", "z", "omegax")), 1e-9)
 
     def test_regions(self):
         for name, region in REGIONS.items():
@@ -163,16 +170,16 @@ class Walls(SceneCase):
 
     def test_through_the_arrays(self):
         """The same candidates serve where each step goes through the arrays of LAMMPS."""
-        more = "fix none all setforce NULL NULL NULL"
+        more = "fix none all viscous 0.0"
         self.assert_same(PLANES["fast piston"], more=more, in_records=False)
         self.assert_same(REGIONS["moved and turned"] + "fix w all {wall} {law} region w\n", region=True, more=more,
                          in_records=False)
 
     def test_contacts_by_particle(self):
         columns = "".join(f" f_zw[{n}]" for n in range(1, 9))
-        walls = BOX + "fix zw all {wall} {law} zplane 0 NULL wiggle z 0.1 0.5 contacts\n"
+        walls = BOX + "fix zw all {wall} {law} zplane 0 NULL wiggle z 0.125 0.5 contacts\n"
         ours, _ = self.assert_same(walls, columns=columns)
-        self.assertGreater(sum(ours[-1].column("f_zw[1]").values()), 5)
+        self.assertGreater(sum(sum(frame.column("f_zw[1]").values()) for frame in ours), 20)
         region = REGIONS["box"] + "fix zw all {wall} {law} region w contacts\n"
         self.assert_same(region, region=True, columns=columns)
 
