@@ -183,6 +183,16 @@ if(HOST_PKG_GRANULAR)
   set(TALUS_HOST_HAS_GRANULAR 1)  # styles with the suffix talus derive from those of the package
   set(talus_granular_headers "${LAMMPS_SOURCE_DIR}/src/GRANULAR")
 endif()
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/GRANULAR/fix_wall_gran.h" talus_wall_cylinder REGEX "cylradius")
+set(TALUS_HOST_HAS_WALL_CYLINDER 0)
+if(talus_wall_cylinder)
+  set(TALUS_HOST_HAS_WALL_CYLINDER 1)
+endif()
+file(STRINGS "${LAMMPS_SOURCE_DIR}/src/GRANULAR/fix_wall_gran.h" talus_wall_image REGEX "imgparms")
+set(TALUS_HOST_DRAWS_GRAN_WALLS 0)
+if(talus_wall_image)
+  set(TALUS_HOST_DRAWS_GRAN_WALLS 1)
+endif()
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.
@@ -196,6 +206,8 @@ target_compile_definitions(lammps_host INTERFACE
   TALUS_HOST_HAS_RUN_PLUGINS=${TALUS_HOST_HAS_RUN_PLUGINS}
   TALUS_HOST_HAS_GRANULAR=${TALUS_HOST_HAS_GRANULAR}
   TALUS_HOST_TELLS_FORMULAS=${TALUS_HOST_TELLS_FORMULAS}
+  TALUS_HOST_HAS_WALL_CYLINDER=${TALUS_HOST_HAS_WALL_CYLINDER}
+  TALUS_HOST_DRAWS_GRAN_WALLS=${TALUS_HOST_DRAWS_GRAN_WALLS}
   LAMMPS_${talus_sizes_upper}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
   ${MPI_CXX_COMPILE_DEFINITIONS})

@@ -18,6 +18,9 @@ endfunction()
 talus_glob(talus_core_sources ${talus_core_folders})
 talus_glob(talus_exchange_sources exchange)
 talus_glob(talus_style_sources ${talus_style_folders})
+if(NOT TALUS_HOST_HAS_GRANULAR)  # these derive from styles that the host does not have
+  list(FILTER talus_style_sources EXCLUDE REGEX "/(fix_wall_gran_|wall_models)[^/]*$")
+endif()
 
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)

@@ -20,6 +20,11 @@
 #include "system/lammps_compat.h"
 #include "talus_abi.h"
 
+#if TALUS_HOST_HAS_GRANULAR
+#include "fix/fix_wall_gran_region_talus.h"
+#include "fix/fix_wall_gran_talus.h"
+#endif
+
 #include "command.h"
 #include "fix.h"
 #include "integrate.h"
@@ -134,6 +139,11 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.fix<FixFreezeTalus>("freeze/talus", "Talus fix style freeze/talus");
 #endif
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
+#if TALUS_HOST_HAS_GRANULAR
+  registry.fix<FixWallGranTalus>("wall/gran/talus", "Talus fix style wall/gran/talus");
+  registry.fix<FixWallGranRegionTalus>("wall/gran/region/talus",
+                                       "Talus fix style wall/gran/region/talus");
+#endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");

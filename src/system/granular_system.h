@@ -101,6 +101,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// How far the particles went in the last step, if it was made in the records.
   RecordTravel travel() const { return pipeline->travel(); }
+  /// For fixes after the forces of a step: largest distance of an owned particle from where it was
+  /// when neighbor lists were made; infinity if nobody knows.
+  double moved_since_rebuild();
   /// Waits for proxies that are under way.
   void finish_proxies();
 
@@ -214,6 +217,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string reason_of_integrators() const;
   void complete_step();
   std::size_t bodies_that_join();
+  std::vector<LargeBody *> bodies_that_may_join() const;
+  double moved_in_arrays() const;
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();
 
@@ -247,10 +252,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  std::vector<LargeBody *> bodies_of_run;
+  std::vector<LargeBody *> bodies_of_run;    // that may join
   std::vector<LAMMPS_NS::Fix *> integrators;    // of Talus, in this run
   std::vector<RecordStep> steps;                // of the first of these, in this step
   SystemGravity *gravity = nullptr;
+  LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there
+  struct {
+    LAMMPS_NS::bigint step = -1;
+    double moved = 0.0;
+  } farthest;    // answer of moved_since_rebuild()
   std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
   bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
   RecordPacker packer;

@@ -33,6 +33,14 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_TELLS_FORMULAS"
 #endif
 
+// Set by the build: TALUS_HOST_HAS_GRANULAR, the host has package GRANULAR; of its fix wall/gran,
+// TALUS_HOST_HAS_WALL_CYLINDER, it has the keyword zcylinder, and TALUS_HOST_DRAWS_GRAN_WALLS, its
+// planes can be seen in pictures. All three changed within updates of a release.
+#if !defined(TALUS_HOST_HAS_GRANULAR) || !defined(TALUS_HOST_HAS_WALL_CYLINDER) || \
+    !defined(TALUS_HOST_DRAWS_GRAN_WALLS)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_GRANULAR"
+#endif
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

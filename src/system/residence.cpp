@@ -48,7 +48,7 @@ void GranularSystem::start_run(bool pairs_computed)
   steps.clear();    // an error may have left some
   forget_plan();
   host_reason = find_reason_for_host(pairs_computed);
-  bodies_of_run = bodies();
+  bodies_of_run = bodies_that_may_join();
 }
 
 std::string GranularSystem::find_reason_for_host(bool pairs_computed)

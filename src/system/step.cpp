@@ -13,12 +13,17 @@
 
 #include "system/fix_contact_store.h"
 
+#include "base/in_parallel.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "fix.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
+
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -35,6 +40,7 @@ void GranularSystem::advance(const RecordStep &step)
   }
   update_gravity();
   pipeline->advance(steps);
+  moved_in_records = update->ntimestep;
   steps.clear();
 }
 
@@ -50,6 +56,40 @@ int GranularSystem::mover_of(int i) const
 void GranularSystem::update_gravity()
 {
   pipeline->set_gravity(gravity ? gravity->acceleration() : nullptr);
+}
+
+/* On the way through the records, or from the arrays: these are up to date after all other moves,
+   also if the particles have gone to the records since. */
+
+double GranularSystem::moved_since_rebuild()
+{
+  if (!neighbor->dist_check || neighbor->includegroup) return HUGE_VAL;
+  const bigint now = update->ntimestep;
+  if (moved_in_records == now && neighbor->ago > 0) return pipeline->travel().moved;
+  if (farthest.step == now && neighbor->ago > 0 && !update->setupflag) return farthest.moved;
+  farthest = {now, moved_in_arrays()};
+  return farthest.moved;
+}
+
+double GranularSystem::moved_in_arrays() const
+{
+  double **then = neighbor->get_xhold();
+  if (!then) return HUGE_VAL;
+  std::vector<double> largest(comm->nthreads, 0.0);
+  in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
+    double most = 0.0;
+    for (int i = begin; i < end; i++) {
+      const double *x = atom->x[i], *x0 = then[i];
+      const double d[3] = {x[0] - x0[0], x[1] - x0[1], x[2] - x0[2]};
+      const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      if (!(squared <= most)) most = squared;    // not a number: nobody knows
+    }
+    largest[t] = most;
+  });
+  double most = 0.0;
+  for (const double its : largest)
+    if (!(its <= most)) most = its;
+  return std::sqrt(most);
 }
 
 void GranularSystem::compute_contacts(const std::function<void(const ReportedContact &)> *report)
@@ -117,6 +157,18 @@ void GranularSystem::finish_proxies()
 /* Bodies add their forces in the records if the particles are there before and after the step; those
    behind one that does not join act on their own, so that the order of sums stays that of the
    fixes. */
+
+std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
+{
+  std::vector<LargeBody *> found;
+  for (const auto &fix : modify->get_fix_list()) {
+    const auto *ours = dynamic_cast<SystemFix *>(fix);
+    if (ours && ours->adds_forces()) break;
+    for (const auto &body : large_bodies)
+      if (body->command() == fix) found.push_back(body.get());
+  }
+  return found;
+}
 
 std::size_t GranularSystem::bodies_that_join()
 {

@@ -20,6 +20,10 @@ class SystemFix {
   /// cure, for people. Valid after init(); the same on all ranks.
   virtual std::string reason_for_stock() const { return ""; }
 
+  /// It adds forces to particles in its own post_force(), also in the records. Bodies behind it in
+  /// the script do not join then, see LargeBody::join_step().
+  virtual bool adds_forces() const { return false; }
+
   /// It moves particles.
   virtual bool integrates() const { return false; }
 

@@ -1,0 +1,145 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What the accelerated variants of fix wall/gran and fix wall/gran/region share. They are the stock
+// classes (command line, histories, restart data, output), but look only at the particles near the
+// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The contact
+// model of LAMMPS computes each contact, so that the numbers are those of the stock class.
+//
+// Where the stock class needs the arrays in every step (heat, rigid bodies) its own methods are
+// used.
+
+#ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
+#define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
+
+#include "fix/wall_candidates.h"
+#include "system/granular_system.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "fix.h"
+#include "gran_sub_mod.h"
+#include "granular_model.h"
+#include "group.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include <memory>
+#include <string>
+
+namespace Talus {
+
+/// Stock: FixWallGran or a class derived from it.
+template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
+ public:
+  /// `plain`: name of the style without suffix.
+  AcceleratedWall(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg, const char *plain) :
+      Stock(lmp, narg, arg), system(GranularSystem::of(lmp)), plain_style(plain)
+  {
+  }
+
+  /// Restart files know a fix by its style: both classes write and read the same.
+  void post_constructor() override
+  {
+    Stock::post_constructor();
+    delete[] this->style;
+    this->style = LAMMPS_NS::utils::strdup(plain_style);
+  }
+
+  int setmask() override { return Stock::setmask() | LAMMPS_NS::FixConst::POST_NEIGHBOR; }
+
+  void init() override
+  {
+    Stock::init();
+    candidates.forget();
+    stock_reason = find_reason_for_stock();
+    if (stock_reason.empty()) begin_run();
+  }
+
+  void setup_post_neighbor() override { candidates.forget(); }
+  void post_neighbor() override { candidates.forget(); }
+
+  void post_force(int vflag) override
+  {
+    if (stock_reason.empty())
+      add_contacts();
+    else
+      Stock::post_force(vflag);
+  }
+
+  double memory_usage() override { return Stock::memory_usage() + candidates.memory_usage(); }
+
+  // SystemFix
+  std::string reason_for_stock() const override { return stock_reason; }
+  bool adds_forces() const override { return true; }
+  std::string needs_host_arrays() override
+  {
+    if (!stock_reason.empty()) return stock_reason;
+    if (!system->turns_particles())
+      return "it exerts torques and the contacts between particles do not";
+    return what_reads_arrays();
+  }
+
+ protected:
+  std::shared_ptr<GranularSystem> system;
+  WallCandidates candidates;
+
+  /// In init(), if the run is accelerated.
+  virtual void begin_run() = 0;
+  /// The forces of a step, on particles of which each is where it is.
+  virtual void add_contacts() = 0;
+  /// "", or why the methods of the stock class are needed by this kind of wall.
+  virtual std::string what_only_stock_does() const = 0;
+  /// "", or what in this wall may read the arrays of LAMMPS in every step.
+  virtual std::string what_reads_arrays() = 0;
+
+  /// Radii may grow between two rebuilds.
+  bool radii_vary() const
+  {
+    return this->atom->avec->size_forward > 3 || !this->modify->get_fix_by_style("^adapt").empty();
+  }
+  bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
+  /// As in LAMMPS: histories stand still while a run is set up.
+  bool histories_advance() const { return !this->update->setupflag; }
+  /// Forces by particle are kept for output; in the records nobody looks at them.
+  bool keeps_contacts() const
+  {
+    return this->peratom_flag && system->residence() == Residence::HOST;
+  }
+  bool touches_beyond_contact() const { return this->model->beyond_contact; }
+
+  /// Row of a particle in the output by particle: force, contact point, and details of the model.
+  void keep_contact(int i, const LAMMPS_NS::Granular_NS::GranularModel &its)
+  {
+    double *row = this->array_atom[i];
+    row[0] = 1.0;
+    for (int d = 0; d < 3; d++) {
+      row[1 + d] = its.forces[d];
+      row[4 + d] = this->atom->x[i][d] - its.dx[d];
+    }
+    row[7] = this->atom->radius[i];
+    for (int n = 0; n < its.nsvector; n++) row[8 + n] = its.svector[n];
+  }
+
+ private:
+  const char *plain_style;
+  std::string stock_reason;
+
+  std::string find_reason_for_stock() const
+  {
+    if (!system->has_pair_style()) return "the pair style is not accelerated";
+    if (!LAMMPS_NS::utils::strmatch(this->update->integrate_style, "^verlet"))
+      return "run_style is not verlet";
+    if (this->heat_flag) return "it conducts heat";
+    if (this->fix_rigid) return std::string("fix ") + this->fix_rigid->id + " joins particles";
+    if (this->group->dynamic[this->igroup]) return "its group is dynamic";
+    if (this->model->sub_models[LAMMPS_NS::Granular_NS::NORMAL]->name == "mdr")
+      return "normal model mdr";
+    return what_only_stock_does();
+  }
+};
+
+}    // namespace Talus
+
+#endif

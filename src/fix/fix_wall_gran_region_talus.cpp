@@ -1,0 +1,170 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/fix_wall_gran_region_talus.h"
+
+#include "error.h"
+#include "region.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+void FixWallGranRegionTalus::begin_run()
+{
+  dynamic = region->dynamic_check();
+  bounded = has_distance(*region) && !radii_vary();
+}
+
+std::string FixWallGranRegionTalus::what_reads_arrays()
+{
+  if (!region->dynamic_check()) return "";
+  const std::string its = what_else_moves(lmp, *region);
+  return its.empty() ? "" : "its region moves with particles: " + its;
+}
+
+double FixWallGranRegionTalus::displacement() const
+{
+  return dynamic && bounded ? pose.largest_displacement(listed_pose, listed_box) : 0.0;
+}
+
+/* A particle that is not asked for keeps its histories, as in LAMMPS, if it is not in the region,
+   and has none if it is. */
+
+void FixWallGranRegionTalus::clear_history(int i)
+{
+  const double *x = WallParticles(*system, *atom).position(i);
+  if (use_history && ncontact[i] && region->match(x[0], x[1], x[2])) ncontact[i] = 0;
+}
+
+/* One thread: a region keeps the contacts that it finds. */
+
+void FixWallGranRegionTalus::find_candidates(double moved)
+{
+  if (!bounded) {
+    candidates.list_all(atom->nlocal, [this](int i) { return is_member(i); });
+    return;
+  }
+  const WallParticles particles(*system, *atom);
+  listed_pose = pose;
+  listed_box = AxisBox();
+  std::vector<int> others;
+  double largest = 0.0;
+  {
+    const ClosedSurface surface(*region);
+    candidates.list(
+        atom->nlocal, neighbor->skin, moved, 1,
+        [&](int i, double margin) {
+          if (!is_member(i)) return false;
+          const double *x = particles.position(i);
+          const double radius = particles.radius(i);
+          const double reach = radius + model->pulloff_distance(radius, 0.0) + margin;
+          listed_box.add(x);
+          largest = std::max(largest, reach);
+          return surface.is_near(x, reach);
+        },
+        [&](int i) {
+          if (is_member(i)) others.push_back(i);
+        });
+  }
+  listed_box.widen(2.0 * largest);
+  for (const int i : others) clear_history(i);
+}
+
+void FixWallGranRegionTalus::begin_step()
+{
+  if (dynamic) {
+    region->prematch();
+    region->set_velocity();
+    if (bounded) pose = RegionPose(*region);
+  }
+  std::fill(velocity, velocity + 3, 0.0);
+  model->history_update = histories_advance() ? 1 : 0;
+  model->calculate_svector = keeps_contacts() ? 1 : 0;
+  model->radj = 0.0;
+  model->omegaj = no_omega;
+  model->vj = velocity;
+}
+
+void FixWallGranRegionTalus::add_contacts()
+{
+  begin_step();
+  const double moved = bounded ? system->moved_since_rebuild() : 0.0;
+  if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved);
+  if (keeps_contacts()) clear_stored_contacts();
+  const WallParticles particles(*system, *atom);
+  constexpr int ahead = 8;
+  for (int c = 0; c < candidates.size(); c++) {
+    if (c + ahead < candidates.size()) particles.prefetch(candidates.atoms[c + ahead]);
+    add_contacts_of(candidates.atoms[c], particles);
+  }
+}
+
+void FixWallGranRegionTalus::add_contacts_of(int i, const WallParticles &particles)
+{
+  const double *x = particles.position(i);
+  const double radius = particles.radius(i);
+  if (!region->match(x[0], x[1], x[2])) return;
+  const double reach = radius + model->pulloff_distance(radius, 0.0);
+  const int nc = region->surface(x[0], x[1], x[2], reach);
+  if (nc > tmax) error->one(FLERR, "Too many wallgran/region contacts for one particle");
+  if (use_history && !match_history(i, nc)) return;
+  for (int ic = 0; ic < nc; ic++) add_contact(i, ic, particles);
+}
+
+/* Gives the contacts of a particle the histories that they had with the same walls. Returns whether
+   there are any. */
+
+bool FixWallGranRegionTalus::match_history(int i, int nc)
+{
+  if (nc == 0) {
+    ncontact[i] = 0;
+    return false;
+  }
+  if (nc > 1) {
+    update_contacts(i, nc);
+    return true;
+  }
+  c2r[0] = 0;
+  const int iwall = region->contact[0].iwall;
+  if (ncontact[i] == 0) {
+    ncontact[i] = 1;
+    walls[i][0] = iwall;
+    std::fill(history_many[i][0], history_many[i][0] + size_history, 0.0);
+  } else if (ncontact[i] > 1 || iwall != walls[i][0]) {
+    update_contacts(i, nc);
+  }
+  return true;
+}
+
+void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &particles)
+{
+  const Region::Contact &contact = region->contact[ic];
+  double *history = use_history ? history_many[i][c2r[ic]] : nullptr;
+  const bool beyond = touches_beyond_contact();
+  model->dx[0] = contact.delx;
+  model->dx[1] = contact.dely;
+  model->dx[2] = contact.delz;
+  model->radi = particles.radius(i);
+  model->radj = contact.radius;
+  model->r = contact.r;
+  model->i = i;
+  model->j = ic;
+  if (beyond) model->touch = history[0] != 0.0;
+  if (!model->check_contact()) {
+    if (history) std::fill(history, history + size_history, 0.0);
+    return;
+  }
+  if (beyond) history[0] = 1;
+
+  double x[3];
+  std::copy_n(particles.position(i), 3, x);
+  if (dynamic) region->velocity_contact(velocity, x, ic);
+  model->meff = atom->rmass[i];
+  model->vi = particles.velocity(i);
+  model->omegai = particles.omega(i);
+  if (history) model->history = history;
+  model->calculate_forces();
+  particles.add(i, model->forces, model->torquesi);
+  if (keeps_contacts()) keep_contact(i, *model);
+}

@@ -1,0 +1,47 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// fix wall/gran/region/talus: the accelerated variant of fix wall/gran/region. Words, output and
+// restart data: fix wall/gran/region of LAMMPS. Errors: those of LAMMPS.
+
+#ifndef LMP_FIX_WALL_GRAN_REGION_TALUS_H
+#define LMP_FIX_WALL_GRAN_REGION_TALUS_H
+
+#include "fix/fix_wall_gran_accelerated.h"
+#include "fix/region_surface.h"
+
+#include "fix_wall_gran_region.h"
+
+namespace LAMMPS_NS {
+
+class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> {
+ public:
+  FixWallGranRegionTalus(LAMMPS *lmp, int narg, char **arg) :
+      AcceleratedWall(lmp, narg, arg, "wall/gran/region")
+  {
+  }
+
+ protected:
+  void begin_run() override;
+  void add_contacts() override;
+  std::string what_only_stock_does() const override { return ""; }
+  std::string what_reads_arrays() override;
+
+ private:
+  double displacement() const;
+  void find_candidates(double moved);
+  void begin_step();
+  void add_contacts_of(int i, const Talus::WallParticles &particles);
+  void add_contact(int i, int ic, const Talus::WallParticles &particles);
+  void clear_history(int i);
+  bool match_history(int i, int nc);
+
+  bool dynamic = false;    // the region moves or changes its shape
+  bool bounded = false;    // distances from it are known
+  Talus::RegionPose pose, listed_pose;
+  Talus::AxisBox listed_box;    // around all that particles of the group can touch
+  double velocity[3] = {0.0, 0.0, 0.0}, no_omega[3] = {0.0, 0.0, 0.0};
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

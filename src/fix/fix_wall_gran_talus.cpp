@@ -1,0 +1,194 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/fix_wall_gran_talus.h"
+
+#include "comm.h"
+#include "domain.h"
+#if TALUS_HOST_DRAWS_GRAN_WALLS
+#include "fix_wall.h"
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+constexpr double far_away = 1.0e20;    // what LAMMPS sets for a plane that is not there
+constexpr int worth_a_thread = 100;    // candidates
+}    // namespace
+
+/* LAMMPS adds the velocity of a cylinder that turns to that of the particle before. */
+
+std::string FixWallGranTalus::what_only_stock_does() const
+{
+  if (is_cylinder() && wshear && axis != 2) return "it turns a cylinder: use fix wall/gran/region";
+  return "";
+}
+
+void FixWallGranTalus::begin_run()
+{
+  models.init(lmp, *model, comm->nthreads);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixWallGranTalus::radius_of_cylinder() const
+{
+#if TALUS_HOST_HAS_WALL_CYLINDER
+  return cylradius;
+#else
+  return 0.0;
+#endif
+}
+
+/* The sums are in the order of LAMMPS: so they have its bits. */
+
+void FixWallGranTalus::place()
+{
+  now[0] = lo;
+  now[1] = hi;
+  std::fill(velocity, velocity + 3, 0.0);
+  if (wiggle) {
+    const double arg = omega * (update->ntimestep - time_origin) * dt;
+    if (wallstyle == axis) {
+      now[0] = lo + amplitude - amplitude * cos(arg);
+      now[1] = hi + amplitude - amplitude * cos(arg);
+    }
+    velocity[axis] = amplitude * omega * sin(arg);
+  } else if (wshear) {
+    velocity[axis] = vshear;
+  }
+}
+
+double FixWallGranTalus::displacement() const
+{
+  if (!wiggle || wallstyle != axis) return 0.0;
+  return amplitude - amplitude * cos(omega * (update->ntimestep - time_origin) * dt);
+}
+
+FixWallGranTalus::Gap FixWallGranTalus::gap(const double *x, double radius) const
+{
+  Gap its;
+  if (!is_cylinder()) {
+    const double above = x[wallstyle] - now[0], below = now[1] - x[wallstyle];
+    its.d[wallstyle] = above < below ? above : -below;
+    return its;
+  }
+  const double cylinder = radius_of_cylinder();
+  const double r = sqrt(x[0] * x[0] + x[1] * x[1]), inwards = cylinder - r;
+  if (inwards > radius) {
+    its.d[2] = cylinder;
+  } else {
+    its.d[0] = -inwards / r * x[0];
+    its.d[1] = -inwards / r * x[1];
+    its.radius = r < cylinder ? -2 * cylinder : 2 * cylinder;
+  }
+  return its;
+}
+
+double FixWallGranTalus::distance(const double *x) const
+{
+  if (is_cylinder()) return std::abs(radius_of_cylinder() - std::hypot(x[0], x[1]));
+  return std::min(std::abs(x[wallstyle] - now[0]), std::abs(now[1] - x[wallstyle]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallGranTalus::clear_history(int i)
+{
+  if (use_history) std::fill(history_one[i], history_one[i] + size_history, 0.0);
+}
+
+/* A contact that goes on beyond zero overlap has begun before. */
+
+void FixWallGranTalus::find_candidates(double moved)
+{
+  if (radii_vary()) {
+    candidates.list_all(atom->nlocal, [this](int i) { return is_member(i); });
+    return;
+  }
+  const WallParticles particles(*system, *atom);
+  const bool beyond = touches_beyond_contact();
+  candidates.list(
+      atom->nlocal, neighbor->skin, moved, comm->nthreads,
+      [&](int i, double margin) {
+        if (!is_member(i)) return false;
+        if (beyond && history_one[i][0] != 0.0) return true;
+        return !(distance(particles.position(i)) >= particles.radius(i) + margin);
+      },
+      [&](int i) {
+        if (is_member(i)) clear_history(i);
+      });
+  listed_at = displacement();
+}
+
+void FixWallGranTalus::add_contacts()
+{
+  place();
+  const double moved = system->moved_since_rebuild();
+  if (candidates.are_stale(moved, std::abs(displacement() - listed_at), atom->nlocal))
+    find_candidates(moved);
+  if (keeps_contacts()) clear_stored_contacts();
+  models.begin_step(dt, histories_advance(), keeps_contacts(), velocity);
+
+  const WallParticles particles(*system, *atom);
+  const int threads = std::clamp(candidates.size() / worth_a_thread, 1, models.threads());
+  in_ranges(candidates.size(), threads, [&](int thread, int begin, int end) {
+    add_contacts_of(thread, particles, begin, end);
+  });
+}
+
+void FixWallGranTalus::add_contacts_of(int thread, const WallParticles &particles, int begin,
+                                       int end)
+{
+  Model &its = models.of(thread);
+  const bool beyond = touches_beyond_contact(), keeps = keeps_contacts();
+  constexpr int ahead = 8;
+  for (int c = begin; c < end; c++) {
+    if (c + ahead < end) particles.prefetch(candidates.atoms[c + ahead]);
+    const int i = candidates.atoms[c];
+    const double radius = particles.radius(i);
+    const Gap g = gap(particles.position(i), radius);
+    const double squared = g.d[0] * g.d[0] + g.d[1] * g.d[1] + g.d[2] * g.d[2];
+    bool touches = beyond || squared < radius * radius;    // the rest is seen without the model
+    if (touches) {
+      std::copy(g.d, g.d + 3, its.dx);
+      its.radi = radius;
+      its.radj = g.radius;
+      if (beyond) its.touch = history_one[i][0] != 0.0;
+      touches = its.check_contact();
+    }
+    if (!touches) {
+      if (candidates.touched[c]) clear_history(i);
+      candidates.touched[c] = 0;
+      continue;
+    }
+    candidates.touched[c] = 1;
+    if (beyond) history_one[i][0] = 1;
+    its.meff = atom->rmass[i];
+    its.vi = particles.velocity(i);
+    its.omegai = particles.omega(i);
+    if (use_history) its.history = history_one[i];
+    its.calculate_forces();
+    particles.add(i, its.forces, its.torquesi);
+    if (keeps) keep_contact(i, its);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+#if TALUS_HOST_DRAWS_GRAN_WALLS
+int FixWallGranTalus::image(int *&objects, double **&parameters)
+{
+  if (reason_for_stock().empty()) {
+    int row = 0;
+    place();
+    for (const int side : {0, 1})
+      if (std::abs(side ? hi : lo) != far_away)
+        FixWall::update_image_plane(row++, 2 * wallstyle + side, now[side], imgparms, domain);
+  }
+  return FixWallGran::image(objects, parameters);
+}
+#endif

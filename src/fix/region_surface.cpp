@@ -1,0 +1,203 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/region_surface.h"
+
+#include "system/private_member.h"
+#include "system/time_variables.h"
+
+#include "region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+struct RegionMoveX {
+  using Type = char *Region::*;
+  friend Type pointer_to(RegionMoveX);
+};
+struct RegionMoveY {
+  using Type = char *Region::*;
+  friend Type pointer_to(RegionMoveY);
+};
+struct RegionMoveZ {
+  using Type = char *Region::*;
+  friend Type pointer_to(RegionMoveZ);
+};
+struct RegionAngle {
+  using Type = char *Region::*;
+  friend Type pointer_to(RegionAngle);
+};
+struct RegionTransform {
+  using Type = void (Region::*)(double &, double &, double &);
+  friend Type pointer_to(RegionTransform);
+};
+template struct PrivateMember<RegionMoveX, &Region::xstr>;
+template struct PrivateMember<RegionMoveY, &Region::ystr>;
+template struct PrivateMember<RegionMoveZ, &Region::zstr>;
+template struct PrivateMember<RegionAngle, &Region::tstr>;
+template struct PrivateMember<RegionTransform, &Region::forward_transform>;
+
+namespace {
+
+bool is_composite(const Region &region)
+{
+  return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
+}
+
+/* Contacts of these lie on the surface, and there is one if it is nearer than the cutoff. Region
+   ellipsoid is none of them: near its inner surface it finds only some. */
+
+bool is_convex(const Region &region)
+{
+  static const char *const styles[] = {"block", "cone", "cylinder", "plane", "prism", "sphere"};
+  return std::any_of(std::begin(styles), std::end(styles),
+                     [&](const char *style) { return std::strcmp(region.style, style) == 0; });
+}
+
+}    // namespace
+
+void AxisBox::add(const double *x)
+{
+  for (int d = 0; d < 3; d++) {
+    lo[d] = std::min(lo[d], x[d]);
+    hi[d] = std::max(hi[d], x[d]);
+  }
+}
+
+void AxisBox::widen(double by)
+{
+  for (int d = 0; d < 3; d++) {
+    lo[d] -= by;
+    hi[d] += by;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+RegionPose::RegionPose(Region &region)
+{
+  if (!region.dynamic) return;
+  const auto transform = pointer_to(RegionTransform{});
+  (region.*transform)(shift[0], shift[1], shift[2]);
+  for (int axis = 0; axis < 3; axis++) {
+    double x[3] = {0.0, 0.0, 0.0};
+    x[axis] = 1.0;
+    (region.*transform)(x[0], x[1], x[2]);
+    for (int d = 0; d < 3; d++) rotation[d][axis] = x[d] - shift[d];
+  }
+}
+
+void RegionPose::place_of(const double *x0, double *x) const
+{
+  for (int d = 0; d < 3; d++)
+    x[d] = rotation[d][0] * x0[0] + rotation[d][1] * x0[1] + rotation[d][2] * x0[2] + shift[d];
+}
+
+void RegionPose::origin_of(const double *x, double *x0) const
+{
+  const double r[3] = {x[0] - shift[0], x[1] - shift[1], x[2] - shift[2]};
+  for (int d = 0; d < 3; d++)
+    x0[d] = rotation[0][d] * r[0] + rotation[1][d] * r[1] + rotation[2][d] * r[2];
+}
+
+/* The displacement is an affine function of the point, so its length is largest in a corner. */
+
+double RegionPose::largest_displacement(const RegionPose &then, const AxisBox &box) const
+{
+  if (box.is_empty()) return 0.0;
+  double largest = 0.0;
+  for (int corner = 0; corner < 8; corner++) {
+    double now[3], origin[3], before[3];
+    for (int d = 0; d < 3; d++) now[d] = corner & (1 << d) ? box.hi[d] : box.lo[d];
+    origin_of(now, origin);
+    then.place_of(origin, before);
+    largest =
+        std::max(largest, std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]));
+  }
+  return largest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool has_distance(const Region &region)
+{
+  if (region.varshape) return false;
+  if (!is_composite(region)) return is_convex(region);
+  return !region.dynamic && std::all_of(region.reglist, region.reglist + region.nregion,
+                                        [](const Region *part) { return has_distance(*part); });
+}
+
+/* The variables of a shape are known to each style alone: all must do. */
+
+std::string what_else_moves(LAMMPS *lmp, Region &region)
+{
+  if (region.varshape) return what_else_variables_read(lmp);
+  if (is_composite(region)) {
+    for (int n = 0; n < region.nregion; n++) {
+      const std::string its = what_else_moves(lmp, *region.reglist[n]);
+      if (!its.empty()) return its;
+    }
+    return "";
+  }
+  if (!region.dynamic) return "";
+  for (const char *name : {region.*pointer_to(RegionMoveX{}), region.*pointer_to(RegionMoveY{}),
+                           region.*pointer_to(RegionMoveZ{}), region.*pointer_to(RegionAngle{})}) {
+    if (!name) continue;
+    const std::string its = what_else_variable_reads(lmp, name);
+    if (!its.empty()) return "v_" + std::string(name) + " reads " + its;
+  }
+  return "";
+}
+
+/* ---------------------------------------------------------------------- */
+
+ClosedSurface::ClosedSurface(Region &region)
+{
+  collect(region);
+  for (const Part &part : parts) {
+    part.region->openflag = 0;
+    std::fill(part.region->open_faces, part.region->open_faces + 6, 0);
+  }
+}
+
+ClosedSurface::~ClosedSurface()
+{
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {    // one may be there twice
+    part->region->interior = part->interior;
+    part->region->openflag = part->openflag;
+    std::copy(part->open_faces, part->open_faces + 6, part->region->open_faces);
+  }
+}
+
+void ClosedSurface::collect(Region &region)
+{
+  if (is_composite(region)) {
+    for (int n = 0; n < region.nregion; n++) collect(*region.reglist[n]);
+    return;
+  }
+  Part part{&region, region.interior, region.openflag, {}};
+  std::copy(region.open_faces, region.open_faces + 6, part.open_faces);
+  parts.push_back(part);
+}
+
+/* A surface point of a union or intersection is one of its parts. Asked beside x: on an axis or in
+   a center regions find no nearest point. */
+
+bool ClosedSurface::is_near(const double *x, double reach) const
+{
+  const double aside[3] = {7.1e-4 * reach, -4.3e-4 * reach, 5.9e-4 * reach};
+  const double y[3] = {x[0] + aside[0], x[1] + aside[1], x[2] + aside[2]};
+  const double wide = 1.002 * reach;
+  for (const Part &part : parts)
+    for (const int interior : {1, 0}) {
+      part.region->interior = interior;
+      if (part.region->surface(y[0], y[1], y[2], wide)) return true;
+    }
+  return false;
+}
+
+}    // namespace Talus

@@ -1,0 +1,80 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What a wall needs to know of a region of LAMMPS beyond what its contacts are: which particles
+// cannot touch its surface for a while, and how far that surface moves.
+//
+// All lengths and positions are those of the simulation box.
+
+#ifndef TALUS_FIX_REGION_SURFACE_H
+#define TALUS_FIX_REGION_SURFACE_H
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+class Region;
+}    // namespace LAMMPS_NS
+
+namespace Talus {
+
+/// A box with sides along the axes; empty while lo > hi.
+struct AxisBox {
+  double lo[3] = {1.0e300, 1.0e300, 1.0e300}, hi[3] = {-1.0e300, -1.0e300, -1.0e300};
+
+  bool is_empty() const { return lo[0] > hi[0]; }
+  void add(const double *x);
+  void widen(double by);
+};
+
+/// Where a region is that is moved and turned as a whole: x = rotation x_0 + shift.
+class RegionPose {
+ public:
+  RegionPose() = default;
+  /// Now, after Region::prematch().
+  explicit RegionPose(LAMMPS_NS::Region &region);
+
+  /// Largest distance of a point that is inside the box from where the same point of the region was
+  /// in the pose `then`.
+  double largest_displacement(const RegionPose &then, const AxisBox &box) const;
+
+ private:
+  void place_of(const double *x0, double *x) const;
+  void origin_of(const double *x, double *x0) const;
+
+  double rotation[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  double shift[3] = {0.0, 0.0, 0.0};
+};
+
+/// The surface has a distance that can be bounded: a convex simple region of constant shape, or a
+/// union or intersection, to any depth, of those that neither move nor turn. Of all others every
+/// particle may touch the surface in every step.
+bool has_distance(const LAMMPS_NS::Region &region);
+
+/// "" if what moves a region depends on the time alone; else what else, for people.
+std::string what_else_moves(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
+
+/// While it exists, a region that has_distance() is asked for its closed surface in place of its
+/// contacts: open faces count as closed, and both sides are seen.
+class ClosedSurface {
+ public:
+  explicit ClosedSurface(LAMMPS_NS::Region &region);
+  ~ClosedSurface();
+  ClosedSurface(const ClosedSurface &) = delete;
+  ClosedSurface &operator=(const ClosedSurface &) = delete;
+
+  /// Whether the surface may be closer to x than `reach`; true for all that are. After prematch().
+  bool is_near(const double *x, double reach) const;
+
+ private:
+  struct Part {
+    LAMMPS_NS::Region *region;
+    int interior, openflag, open_faces[6];
+  };
+  void collect(LAMMPS_NS::Region &region);
+  std::vector<Part> parts;    // all simple regions
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,143 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The owned particles that may touch a wall of LAMMPS in the next steps, and their state where it
+// lives in a step: in the arrays of LAMMPS or in the records.
+
+#ifndef TALUS_FIX_WALL_CANDIDATES_H
+#define TALUS_FIX_WALL_CANDIDATES_H
+
+#include "base/in_parallel.h"
+#include "system/granular_system.h"
+
+#include "atom.h"
+
+#include <vector>
+
+namespace Talus {
+
+/// State of owned particles by host's index, and what forces are added to. Made anew in each step,
+/// after the forces between particles.
+class WallParticles {
+ public:
+  WallParticles(GranularSystem &system, LAMMPS_NS::Atom &atom) :
+      atom(atom), records(system.residence() == Residence::RECORDS ? &system.records() : nullptr),
+      slot_of_atom(system.slot_of_atom())
+  {
+  }
+
+  const double *position(int i) const { return records ? records->position[slot(i)].c : atom.x[i]; }
+  double radius(int i) const { return records ? records->position[slot(i)].c[3] : atom.radius[i]; }
+  double *velocity(int i) const { return records ? motion(i)[0].c : atom.v[i]; }
+  double *omega(int i) const { return records ? motion(i)[1].c : atom.omega[i]; }
+  /// Adds to the sums of one particle; by one thread for each.
+  void add(int i, const double *force, const double *torque) const
+  {
+    double *f, *t;
+    if (records) {
+      records->settle_torque(static_cast<int>(slot(i)));
+      f = records->load[2 * slot(i)].c;
+      t = records->load[2 * slot(i) + 1].c;
+    } else {
+      f = atom.f[i];
+      t = atom.torque[i];
+    }
+    for (int d = 0; d < 3; d++) {
+      f[d] += force[d];
+      t[d] += torque[d];
+    }
+  }
+  /// Calls what is needed of one particle into the cache; a hint.
+  void prefetch(int i) const
+  {
+    if (records) {
+      __builtin_prefetch(&records->position[slot(i)]);
+    } else {
+      __builtin_prefetch(atom.x[i]);
+      __builtin_prefetch(atom.radius + i);
+    }
+  }
+
+ private:
+  LAMMPS_NS::Atom &atom;
+  ParticleRecords *records;
+  const int *slot_of_atom;
+
+  std::size_t slot(int i) const { return static_cast<std::size_t>(slot_of_atom[i]); }
+  Record *motion(int i) const { return &records->motion[2 * slot(i)]; }
+};
+
+/// A list of particles that holds all that may touch until particles and wall together have gone
+/// further than the margin it was made with.
+class WallCandidates {
+ public:
+  /// Particles have got other indices, or a run begins.
+  void forget() { known = false; }
+
+  /// `moved`: how far a particle has gone at most since neighbor lists were made; `shifted`: the
+  /// wall since list().
+  bool are_stale(double moved, double shifted, int owned) const
+  {
+    return !known || owned != owned_then ||
+           (!everything && !(moved + moved_then + shifted <= margin));
+  }
+
+  /// Those of the owned particles for which near(i, margin) is true; others are handed to far(i).
+  /// `margin`: a little more than the way that particles and wall may go. Both are called by
+  /// `threads` at the same time, each particle once.
+  template <class Near, class Far>
+  void list(int owned, double skin, double moved, int threads, Near near, Far far)
+  {
+    begin(owned, skin, moved);
+    std::vector<std::vector<int>> found(threads);
+    in_ranges(owned, threads, [&](int t, int begin, int end) {
+      for (int i = begin; i < end; i++)
+        if (near(i, widened()))
+          found[t].push_back(i);
+        else
+          far(i);
+    });
+    for (const std::vector<int> &some : found) atoms.insert(atoms.end(), some.begin(), some.end());
+    touched.assign(atoms.size(), 1);
+  }
+
+  /// All that are members: for a wall of which no distance is known. Stale only if indices change.
+  template <class Member> void list_all(int owned, Member member)
+  {
+    begin(owned, 0.0, 0.0);
+    everything = true;
+    for (int i = 0; i < owned; i++)
+      if (member(i)) atoms.push_back(i);
+    touched.assign(atoms.size(), 1);
+  }
+
+  int size() const { return static_cast<int>(atoms.size()); }
+  /// Host's indices, ascending.
+  std::vector<int> atoms;
+  /// Whether each may have a history that is not zero; for the owner.
+  std::vector<unsigned char> touched;
+
+  double memory_usage() const
+  {
+    return static_cast<double>(atoms.capacity() * sizeof(int) + touched.capacity());
+  }
+
+ private:
+  bool known = false, everything = false;
+  int owned_then = 0;
+  double margin = 0.0, moved_then = 0.0;
+
+  void begin(int owned, double skin, double moved)
+  {
+    atoms.clear();
+    known = true;
+    everything = false;
+    owned_then = owned;
+    margin = skin;
+    moved_then = moved;
+  }
+  double widened() const { return 1.000001 * margin; }    // rounding must not hide a particle
+};
+
+}    // namespace Talus
+
+#endif
