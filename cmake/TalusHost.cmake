@@ -99,8 +99,8 @@ function(talus_check_host_options)
       "-D LAMMPS_SIZES=${LAMMPS_SIZES}, or drop --sizes.")
   endif()
   if(NOT HOST_PKG_GRANULAR)
-    message(WARNING "The host lacks package GRANULAR: Talus works, but cannot be compared with "
-      "the stock styles, and most tests will fail.")
+    message(WARNING "The host lacks package GRANULAR: Talus works, but without the accelerated "
+      "variants of its styles, and most tests will fail.")
   endif()
 endfunction()
 
@@ -172,6 +172,11 @@ if(talus_run_plugins)
   set(TALUS_HOST_HAS_RUN_PLUGINS 1)
 endif()
 
+set(TALUS_HOST_HAS_GRANULAR 0)
+if(HOST_PKG_GRANULAR)
+  set(TALUS_HOST_HAS_GRANULAR 1)
+endif()
+
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.
 string(TOUPPER "${TALUS_HOST_SIZES}" talus_sizes_upper)
@@ -182,6 +187,7 @@ target_compile_definitions(lammps_host INTERFACE
   TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
   TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}
   TALUS_HOST_HAS_RUN_PLUGINS=${TALUS_HOST_HAS_RUN_PLUGINS}
+  TALUS_HOST_HAS_GRANULAR=${TALUS_HOST_HAS_GRANULAR}
   LAMMPS_${talus_sizes_upper}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
   ${MPI_CXX_COMPILE_DEFINITIONS})

@@ -3,6 +3,7 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
@@ -10,8 +11,10 @@
 #include "fix/fix_nve_sphere_symplectic.h"
 #include "pair/pair_gran_penalty.h"
 #include "run/verlet_proxy.h"
+#include "system/exchange_switch.h"
 #include "system/fix_contact_store.h"
 #include "system/lammps_compat.h"
+#include "system/system_run_style.h"
 #include "talus_abi.h"
 
 #include "command.h"
@@ -21,6 +24,7 @@
 #include "lammpsplugin.h"
 #include "pair.h"
 #include "update.h"
+#include "verlet.h"
 #include "version.h"
 
 using namespace LAMMPS_NS;
@@ -109,10 +113,15 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
   registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
+  registry.run_style<Verlet>("verlet/stock", "run style verlet of LAMMPS, under a name of Talus");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
+
+  Talus::ExchangeSwitch::set_maker(
+      [](LAMMPS *host, Comm *old) -> Comm * { return new CommProxy(host, old); });
+  Talus::make_run_style_the_default(static_cast<LAMMPS *>(lmp));
 }

@@ -3,6 +3,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_run_style.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -42,7 +43,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    monitors(lmp)
+    monitors(lmp), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
 }
@@ -60,6 +61,7 @@ void GranularSystem::attach(Pair *style)
   monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  make_run_style_the_default(lmp);
 }
 
 /* A second pair style has never been attached. */
@@ -73,6 +75,7 @@ void GranularSystem::detach(const Pair *style)
   book = LawBook{};
   laws_current = keeps_account = false;
   announced.clear();
+  stock_reason.clear();
   account = EnergyAccount{};
   pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})
@@ -166,11 +169,6 @@ std::vector<SystemBody *> GranularSystem::bodies() const
   for (const auto &fix : modify->get_fix_list())
     if (auto *body = dynamic_cast<SystemBody *>(fix)) found.push_back(body);
   return found;
-}
-
-ProxyUpdates *GranularSystem::proxy_updates() const
-{
-  return dynamic_cast<ProxyUpdates *>(comm);
 }
 
 }    // namespace Talus

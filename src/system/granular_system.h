@@ -23,10 +23,12 @@
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
 #include "system/effective_masses.h"
+#include "system/exchange_switch.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
 #include "system/run_monitor.h"
+#include "system/style_report.h"
 #include "system/system_fix.h"
 #include "system/time_step_monitor.h"
 
@@ -69,6 +71,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool pair_style_is_alone() const;
   /// In its init_style().
   void init_pair_style();
+  /// In its init_style(): why it computes in this run as the stock class does, and the cure, for
+  /// people; "": it does not.
+  void set_reason_for_stock(const std::string &reason) { stock_reason = reason; }
+  const std::string &reason_for_stock() const { return stock_reason; }
+  /// In this run all pairs are computed here. Valid after init() of the host.
+  bool accelerates_pairs() const { return pair_style_is_alone() && stock_reason.empty(); }
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 
@@ -100,6 +108,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// At the start of a run, after setup: finds out whether it may have steps in the records.
   /// Collective; `pairs_computed`: the run style calls the pair style.
   void start_run(bool pairs_computed);
+  /// At the start of a run, before setup or after it: prints which styles are accelerated, if that has
+  /// changed. Collective; `pairs_computed` as in start_run().
+  void report_styles(bool pairs_computed);
+  /// A fix of the host reads or changes particles in every step.
+  bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask) const;
   /// "" if this run has such steps, else the first reason why not, for people.
   const std::string &reason_for_host() const { return host_reason; }
   /// Before the forces of a step are computed: where the particles will be after it. `tallied`:
@@ -156,7 +169,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double mass_in_contacts(int i) const { return masses.mass(i); }
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
-  ProxyUpdates *proxy_updates() const;
+  ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }
+  ExchangeSwitch &exchange() { return exchange_switch; }
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline->keeps_spins(); }
   /// Share of the owned particles of this rank whose forces are computed before a pending update of
@@ -189,6 +203,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Talus::LawBook book;
   bool laws_current = false;
   std::string announced;    // last description of the laws in the log
+  std::string stock_reason;
 
   // particles, pairs, contacts
   std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
@@ -200,6 +215,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor monitors;
   bool keeps_account = false;
   EnergyAccount account;
+
+  ExchangeSwitch exchange_switch;
+  StyleReport report;
 
   // residence
   std::string host_reason = "no run yet";

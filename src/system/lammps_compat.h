@@ -27,6 +27,12 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
 #endif
 
+// TALUS_HOST_HAS_GRANULAR, set by the build: the host has package GRANULAR. Files that use its classes
+// are left out of the build if not.
+#if !defined(TALUS_HOST_HAS_GRANULAR)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_GRANULAR"
+#endif
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

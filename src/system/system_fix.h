@@ -19,6 +19,10 @@ class SystemFix {
   /// At the start of a run, collective: "", or why it needs the arrays of LAMMPS in this run.
   virtual std::string needs_host_arrays() = 0;
 
+  /// "" if it is accelerated in this run, else why the methods of the stock class are used, and the
+  /// cure, for people. Valid after init(); the same on all ranks.
+  virtual std::string reason_for_stock() const { return ""; }
+
   /// It moves particles.
   virtual bool integrates() const { return false; }
 
