@@ -58,7 +58,7 @@ void ProxyCommand::check(bool value)
 void ProxyCommand::info()
 {
   CommProxy *proxy = current();
-  if (!proxy) {
+  if (!proxy || proxy->stands_aside()) {
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }

@@ -49,12 +49,15 @@ std::string VerletProxy::reason_for_stock() const
   return makes_own_steps() ? "" : "as the pair style";
 }
 
+void VerletProxy::init()
+{
+  Verlet::init();
+  if (system->pair_style_is_alone()) system->exchange().start_run();
+}
+
 void VerletProxy::setup(int flag)
 {
-  if (makes_own_steps()) {
-    if (!lists) lists.emplace(lmp);
-    system->exchange().start_run();
-  }
+  if (makes_own_steps() && !lists) lists.emplace(lmp);
   decide_on_overlap();
   system->report_styles(pair_compute_flag);
   Verlet::setup(flag);
@@ -71,19 +74,17 @@ void VerletProxy::setup_minimal(int flag)
 
 void VerletProxy::decide_on_overlap()
 {
-  overlaps = false;
   bool sought = wanted == Overlap::YES;
   if (wanted == Overlap::AUTOMATIC && makes_own_steps()) {
     if (!on_machines) on_machines = spans_machines(world);
     sought = *on_machines;
   }
-  if (!sought) return;
-  const std::string hazard = hazard_of_overlap(lmp, pair_compute_flag);
-  overlaps = hazard.empty();
+  const std::string hazard = sought ? hazard_of_overlap(lmp, pair_compute_flag) : "";
+  overlaps = sought && hazard.empty();
   // on one rank without periodic images there is nothing to overlap, and so nothing to warn about
   const bool has_proxies =
       comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
-  if (comm->me == 0 && !overlaps && has_proxies && hazard != announced)
+  if (comm->me == 0 && !hazard.empty() && has_proxies && hazard != announced)
     error->warning(FLERR, "Run style {}: overlap is off: {}", update->integrate_style, hazard);
   announced = hazard;
   if (ProxyUpdates *proxies = system->proxy_updates()) proxies->set_overlap(overlaps);

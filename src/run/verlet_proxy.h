@@ -26,6 +26,7 @@ namespace LAMMPS_NS {
 class VerletProxy : public Verlet, public Talus::SystemRunStyle {
  public:
   VerletProxy(class LAMMPS *, int, char **);
+  void init() override;
   void setup(int) override;
   void setup_minimal(int) override;
   void run(int) override;

@@ -60,9 +60,7 @@ void ExchangeSwitch::start_run()
   const bool has_proxies =
       comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
   if (!has_proxies || chosen == Choice::NO || dynamic_cast<ProxyUpdates *>(comm)) return;
-  if (!unsupported(true).empty()) return;
-  replace_comm(make_direct(lmp, comm));
-  comm->init();    // the old one has been initialized for this run
+  if (unsupported(false).empty()) replace_comm(make_direct(lmp, comm));
 }
 
 ProxyUpdates *ExchangeSwitch::direct() const

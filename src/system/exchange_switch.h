@@ -35,8 +35,8 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   void choose(Choice choice);
   Choice choice() const { return chosen; }
 
-  /// Of a run that can use it, after init() of LAMMPS and before setup(): switches the direct
-  /// exchange on unless the user or the host is against it.
+  /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user or
+  /// the host is against it. What shows later lets it stand aside.
   void start_run();
 
   /// The direct exchange if it is in force, else nullptr.
