@@ -158,7 +158,7 @@ def table_of_costs(section, results):
     section.table(columns, rows)
     section.text("""dt (s): largest time step with which the motion has this error at the end, and with every smaller one
 as well; s: run time in seconds for one simulated second of one particle, with the fastest of our methods that gets
-there. `-`: has no such law, or does not get there in the range of time steps. Talus is run with run_style verlet/proxy, which
+there. `-`: has no such law, or does not get there in the range of time steps. Talus is run with its run style, which
 changes no bit of these scenes. A sphere of the impacts has half a pair in the neighbor list and touches during half of the time, so that
 most of the time is that of moving spheres through memory, which differs less between codes than that of contacts does. In a
 settled bed, with 3.5 pairs and 2.2 contacts for each sphere, it differs by more (section on one core).""")

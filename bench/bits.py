@@ -16,22 +16,23 @@ number of ranks and threads, with another skin, without sorting, with load balan
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz"
 
-OWN, DIRECT = "run_style verlet/proxy\n", "comm_proxy yes\nrun_style verlet/proxy\n"
+ARRAYS = "comm_proxy no\nrun_style verlet/stock\n"
+OWN, DIRECT = "run_style verlet\n", "comm_proxy yes\nrun_style verlet/proxy overlap yes\n"
 
 # name: ranks, threads, commands before the particles are read, skin in diameters, commands before the run
 WAYS = {
-    "1 rank": (1, 1, "", 0.1, ""),
-    "2 ranks": (2, 1, "processors 2 1 1\n", 0.1, ""),
-    "4 ranks, 1 x 2 x 2": (4, 1, "processors 1 2 2\n", 0.1, ""),
+    "1 rank": (1, 1, "", 0.1, ARRAYS),
+    "2 ranks": (2, 1, "processors 2 1 1\n", 0.1, ARRAYS),
+    "4 ranks, 1 x 2 x 2": (4, 1, "processors 1 2 2\n", 0.1, ARRAYS),
     "8 ranks, 2 x 2 x 2": (8, 1, "processors 2 2 2\n", 0.1, DIRECT),
-    "2 threads": (1, 2, "", 0.1, ""),
+    "2 threads": (1, 2, "", 0.1, ARRAYS),
     "3 threads": (1, 3, "", 0.1, OWN),
-    "2 ranks x 2 threads": (2, 2, "processors 1 2 1\n", 0.1, ""),
-    "run_style verlet/proxy": (1, 1, "", 0.1, OWN),
+    "2 ranks x 2 threads": (2, 2, "processors 1 2 1\n", 0.1, ARRAYS),
+    "run_style verlet of Talus": (1, 1, "", 0.1, OWN),
     "2 ranks, direct exchange, overlap": (2, 1, "processors 2 1 1\n", 0.1, DIRECT),
     "3 ranks x 2 threads, direct exchange, overlap": (3, 2, "processors 3 1 1\n", 0.1, DIRECT),
     "skin .02 d": (1, 1, "", 0.02, OWN),
-    "skin .3 d, 2 ranks": (2, 1, "processors 2 1 1\n", 0.3, ""),
+    "skin .3 d, 2 ranks": (2, 1, "processors 2 1 1\n", 0.3, ARRAYS),
     "no sorting": (1, 1, "atom_modify sort 0 0\n", 0.1, OWN),
     "balance, 2 ranks": (2, 1, "balance", 0.1, DIRECT),
     "restart on 2 ranks": (1, 1, "restart", 0.1, DIRECT),

@@ -20,7 +20,7 @@ from exchange_runs import Bed, LAWS, METHODS, MODEL, Runner, VERLET, counted, ra
 
 TITLE = "Exchange of proxies"
 QUESTION = """How many messages and bytes does a rank send in a step, by the exchange of LAMMPS and by the direct one of
-comm_proxy? How much of the time of a network does run_style verlet/proxy hide behind the forces between owned particles,
+comm_proxy? How much of the time of a network does the run style of Talus hide behind the forces between owned particles,
 and from which latency and bandwidth on does that pay? And what does the direct exchange cost on this machine?"""
 
 STATED = 20000, 25.0, 1.0      # particles per rank, us, GB/s
@@ -53,7 +53,7 @@ def counts(bench, runner):
     tabulate(bench, columns, rows)
     bench.section.text("Per rank and step, means of all ranks; 216 particles per rank at rest, periodic in all directions, "
                        "counted outside of Talus by a preloaded library over steps without a rebuild. direct: "
-                       "run_style verlet/proxy, which also has no blocking check for a rebuild. LAMMPS sends a rank with one "
+                       "the run style of Talus, which also has no blocking check for a rebuild. LAMMPS sends a rank with one "
                        "neighbor in a periodic direction two messages; and images travel apart. The direct exchange sends a "
                        "particle once to every rank with a proxy of it, and nothing to the own rank.")
 

@@ -24,7 +24,7 @@ STOCK_PLAIN = "gran/hooke 500.0 NULL 50.0 NULL 0.5 1"    # as stiff as the Hertz
 
 
 def talus(law, bodies):
-    text = beds.talus(law) + "run_style verlet/proxy\n"
+    text = beds.talus(law)
     return text if bodies else "\n".join(line for line in text.splitlines() if "large/body" not in line) + "\n"
 
 

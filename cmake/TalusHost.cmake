@@ -99,8 +99,8 @@ function(talus_check_host_options)
       "-D LAMMPS_SIZES=${LAMMPS_SIZES}, or drop --sizes.")
   endif()
   if(NOT HOST_PKG_GRANULAR)
-    message(WARNING "The host lacks package GRANULAR: Talus works, but cannot be compared with "
-      "the stock styles, and most tests will fail.")
+    message(WARNING "The host lacks package GRANULAR: Talus works, but without the accelerated "
+      "variants of its styles, and most tests will fail.")
   endif()
 endfunction()
 

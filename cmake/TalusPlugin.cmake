@@ -22,6 +22,25 @@ if(NOT TALUS_HOST_HAS_GRANULAR)  # these derive from styles that the host does n
   list(FILTER talus_style_sources EXCLUDE REGEX "/(fix_wall_gran_|wall_models)[^/]*$")
 endif()
 
+# What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
+# talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
+if(NOT TALUS_HOST_HAS_GRANULAR)
+  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model)")
+  foreach(source IN LISTS talus_style_sources)
+    string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
+    set(found "")
+    foreach(file "${source}" "${header}")
+      if(EXISTS "${file}")
+        file(STRINGS "${file}" lines REGEX "${talus_granular}")
+        list(APPEND found ${lines})
+      endif()
+    endforeach()
+    if(found)
+      list(REMOVE_ITEM talus_style_sources "${source}")
+    endif()
+  endforeach()
+endif()
+
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
 

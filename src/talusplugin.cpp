@@ -44,8 +44,9 @@ struct HostLibrary {
   int (*version)(void *);
   int (*extract_setting)(void *, const char *);
   int (*has_mpi)();
+  int (*has_package)(const char *);
 
-  bool complete() const { return version && extract_setting && has_mpi; }
+  bool complete() const { return version && extract_setting && has_mpi && has_package; }
 };
 
 template <typename Function> void look_up(void *library, const char *name, Function &function)
@@ -59,6 +60,7 @@ HostLibrary find_host_library()
   look_up(RTLD_DEFAULT, "lammps_version", host.version);
   look_up(RTLD_DEFAULT, "lammps_extract_setting", host.extract_setting);
   look_up(RTLD_DEFAULT, "lammps_config_has_mpi_support", host.has_mpi);
+  look_up(RTLD_DEFAULT, "lammps_config_has_package", host.has_package);
   return host;
 }
 
@@ -118,6 +120,13 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
     return complain(first_rank, "this plugin was built for " + describe(OURS) +
                                     ", but the host is " + describe(theirs) +
                                     "; build it for this host with scripts/build --host");
+
+  // accelerated styles derive from those of the package: their symbols would be missing
+  if (TALUS_HOST_HAS_GRANULAR && !host.has_package("GRANULAR"))
+    return complain(first_rank,
+                    "this plugin was built for a LAMMPS with package GRANULAR, which the "
+                    "host lacks; build LAMMPS with PKG_GRANULAR on, or this plugin for "
+                    "this host with scripts/build --host");
 
   const std::string path = styles_path();
   void *styles = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -3,6 +3,7 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
@@ -15,9 +16,11 @@
 #include "pair/pair_gran_talus.h"
 #endif
 #include "run/verlet_proxy.h"
+#include "system/exchange_switch.h"
 #include "system/fix_contact_store.h"
 #include "system/fix_pair_history.h"
 #include "system/lammps_compat.h"
+#include "system/system_run_style.h"
 #include "talus_abi.h"
 
 #if TALUS_HOST_HAS_GRANULAR
@@ -32,6 +35,7 @@
 #include "lammpsplugin.h"
 #include "pair.h"
 #include "update.h"
+#include "verlet.h"
 #include "version.h"
 
 #if TALUS_HOST_HAS_GRANULAR
@@ -131,6 +135,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 #endif
   registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
+  registry.run_style<Verlet>("verlet/stock", "run style verlet of LAMMPS, under a name of Talus");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
                                        "Talus fix style nve/sphere/symplectic");
   registry.fix<FixNVESphereTalus>("nve/sphere/talus", "Talus fix style nve/sphere/talus");
@@ -148,4 +153,8 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
   registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", "Talus contact history (internal)");
+
+  Talus::ExchangeSwitch::set_maker(
+      [](LAMMPS *host, Comm *old) -> Comm * { return new CommProxy(host, old); });
+  Talus::make_run_style_the_default(static_cast<LAMMPS *>(lmp));
 }

@@ -40,7 +40,7 @@ TALUS = [
     Array("records: sum of forces", 32, "particle", "steps", True, (STEPS,)),
     Array("records: sum of moments", 32, "particle", "steps, friction", True, (STEPS,)),
     Array("records: torques of resistance", 32, "particle", "steps, rolling or spinning resistance", False),
-    Array("records: place when lists were made", 32, "particle", "run_style verlet/proxy, neigh_modify check yes", False),
+    Array("records: place when lists were made", 32, "particle", "run_style verlet of Talus, neigh_modify check yes", False),
     Array("order: key, tag, both numberings", 24, "particle"),
     Array("tag, rank and slot in the last lists, list of displacements that came along", 20, "particle"),
     Array("order: part, and marks of particles that others read, that are sent, that rest", 5, "particle",

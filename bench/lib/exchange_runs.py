@@ -14,12 +14,12 @@ import paired
 
 LAWS = {"friction": beds.HISTORY, "frictionless": beds.FRICTIONLESS}
 METHODS = {
-    "stock": "comm_proxy no\nrun_style verlet",
+    "stock": "comm_proxy no\nrun_style verlet/stock",
     "direct": "comm_proxy yes\nrun_style verlet/proxy overlap no",
-    "overlapped": "comm_proxy yes\nrun_style verlet/proxy",
+    "overlapped": "comm_proxy yes\nrun_style verlet/proxy overlap yes",
 }
 # under the run style of LAMMPS
-VERLET = {"stock": "comm_proxy no\nrun_style verlet", "direct": "comm_proxy yes\nrun_style verlet"}
+VERLET = {"stock": "comm_proxy no\nrun_style verlet/stock", "direct": "comm_proxy yes\nrun_style verlet/stock"}
 
 COUNTER = os.path.join(machine.BUILD, "tests", "libcount_mpi.so")
 MODEL = os.path.join(machine.BUILD, "bench", "libnetwork_model.so")

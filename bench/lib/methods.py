@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Input scripts of a Scene for every method, and the state that a run leaves.
 
-    plain, half                    Talus with run_style verlet/proxy, the two starts of its integrator
+    plain, half                    Talus with its run style, the two starts of its integrator
     plain midpoint, half midpoint  the same with the second-order update of tangential displacements
     stock                          gran/hooke/history or gran/hertz/history, fix nve/sphere
     granular                       pair granular with the same coefficients, fix nve/sphere
@@ -75,8 +75,7 @@ def _physics(scene, method):
                f"fix move all nve/sphere/symplectic start {family(method)}{pull}\n"
         if scene.floor:
             text += f"fix floor all large/body plane 0 0 0 0 0 1 contact {words}\n"
-        # steps in our own records; the same bits, and what a user would take. Periodic boxes are not timed
-        return text + ("run_style verlet/proxy\n" if scene.periodic == "f f f" else "")
+        return text
     text = f"fix gravity all gravity {scene.gravity!r} vector 0 0 -1\n" if scene.gravity else ""
     text += "fix move all nve/sphere\n"
     if method == "stock":

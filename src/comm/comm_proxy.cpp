@@ -33,23 +33,19 @@ void CommProxy::init()
 {
   transfer.abandon();    // left by an error; particles may have changed since
   CommBrick::init();
-  refuse_unsupported();
+  look_for_unsupported();
   own_packing = sphere_packer.applies(ghost_velocity);
   host_packer.set(size_forward, ghost_velocity);
 }
 
 /* Not in the command alone: comm_modify and fix deform may come later. */
 
-void CommProxy::refuse_unsupported()
+void CommProxy::look_for_unsupported()
 {
-  if (mode != Comm::SINGLE)
-    error->all(FLERR, "comm_proxy: 'comm_modify mode multi' is not supported: use 'comm_modify "
-                      "mode single' or 'comm_proxy no'");
-  if (domain->deform_vremap && ghost_velocity)
-    error->all(FLERR,
-               "comm_proxy: fix deform with 'remap v' is not supported: what LAMMPS adds to the "
-               "velocities of ghosts depends on their order in its messages: use 'remap x', "
-               "'comm_modify vel no' or 'comm_proxy no'");
+  const std::string problem = system->exchange().unsupported(true);
+  aside = !problem.empty();
+  if (aside && system->exchange().choice() == ExchangeSwitch::Choice::YES)
+    error->all(FLERR, "comm_proxy: {} or 'comm_proxy no'", problem);
 }
 
 void CommProxy::setup()
@@ -77,6 +73,7 @@ void CommProxy::borders()
   transfer.abandon();
   have_plan = false;
   CommBrick::borders();
+  if (aside) return;
   derive_plan();
   have_plan = true;
   if (checks) check_owners();

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The host's communication object with a direct exchange: `comm_proxy yes` puts it in the place of
+// The host's communication object with a direct exchange: ExchangeSwitch puts it in the place of
 // the stock CommBrick. doc/comm_proxy.md is the user's page.
 //
 // Migration, borders and all exchanges of single styles stay the host's staged ones, so that the
@@ -8,7 +8,7 @@
 // borders() a plan is derived that goes from owner to proxy without stages; forward_comm(), which
 // runs in every other step, uses it.
 //
-// forward_comm() is blocking, for every caller. Only the run style verlet/proxy calls begin().
+// forward_comm() is blocking, for every caller. Only the run style of Talus calls begin().
 // Every method finishes a pending exchange first.
 
 #ifndef LMP_COMM_PROXY_H
@@ -58,6 +58,8 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
 
   // ---- ours
 
+  bool stands_aside() const override { return aside; }
+
   /// Whether begin() can be called: after borders() until the next exchange(). The same on all
   /// ranks.
   bool has_plan() const override { return have_plan; }
@@ -95,7 +97,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
 
  private:
   Talus::ProxyPacker &choose_packer();
-  void refuse_unsupported();
+  void look_for_unsupported();
   void derive_plan();
   int largest_stride() const;
   std::vector<Talus::ProxyOrigin> trace_origins();
@@ -109,6 +111,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   Talus::HostPacker host_packer;
   Talus::SpherePacker sphere_packer;
   bool have_plan = false;      ///< the same on all ranks
+  bool aside = false;          ///< in this run, see stands_aside()
   bool own_packing = false;    ///< atom style sphere
   bool checks = false;
   bool overlapped_run = false;

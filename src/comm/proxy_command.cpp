@@ -7,27 +7,13 @@
 #include "system/exchange_report.h"
 
 #include "comm.h"
-#include "comm_brick.h"
 #include "domain.h"
 #include "error.h"
-#include "update.h"
 
 #include <string>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
-
-namespace {
-
-/* The stock object, apart from a pointer that its constructor leaves as it is and its destructor
-   frees. */
-
-class StockComm : public CommBrick {
- public:
-  StockComm(LAMMPS *lmp, Comm *old) : CommBrick(lmp, old) { localsendlist = nullptr; }
-};
-
-}    // namespace
 
 void ProxyCommand::command(int narg, char **arg)
 {
@@ -35,8 +21,8 @@ void ProxyCommand::command(int narg, char **arg)
     error->all(FLERR, "comm_proxy before the simulation box is defined: put it after create_box, "
                       "read_data or read_restart");
   Words words = command_words(lmp, "comm_proxy", narg, arg);
-  enum { YES, NO, INFO, CHECK };
-  const int task = words.choice("word", {"yes", "no", "info", "check"});
+  enum { AUTO, YES, NO, INFO, CHECK };
+  const int task = words.choice("word", {"auto", "yes", "no", "info", "check"});
   bool value = false;
   if (task == CHECK) {
     words.about("check");
@@ -44,8 +30,11 @@ void ProxyCommand::command(int narg, char **arg)
     words.about("");
   }
   words.end();
-  if (task == YES) switch_on();
-  if (task == NO) switch_off();
+  const auto system = GranularSystem::of(lmp);
+  using Choice = ExchangeSwitch::Choice;
+  if (task == AUTO) system->exchange().choose(Choice::AUTOMATIC);
+  if (task == YES) system->exchange().choose(Choice::YES);
+  if (task == NO) system->exchange().choose(Choice::NO);
   if (task == INFO) info();
   if (task == CHECK) check(value);
 }
@@ -56,35 +45,6 @@ CommProxy *ProxyCommand::current() const
 }
 
 /* ---------------------------------------------------------------------- */
-
-void ProxyCommand::switch_on()
-{
-  if (current()) return;
-  if (lmp->kokkos)
-    error->all(FLERR, "comm_proxy does not run with the KOKKOS package: start LAMMPS without "
-                      "'-k on'");
-  if (comm->style != Comm::BRICK || comm->layout == Comm::LAYOUT_TILED)
-    error->all(FLERR, "comm_proxy: 'comm_style tiled' is not supported: use 'comm_style brick' "
-                      "and balance without rcb");
-  if (comm->mode != Comm::SINGLE)
-    error->all(FLERR, "comm_proxy: 'comm_modify mode multi' is not supported: use 'comm_modify "
-                      "mode single' or 'comm_proxy no'");
-  replace_comm(new CommProxy(lmp, comm));
-}
-
-void ProxyCommand::switch_off()
-{
-  if (current()) replace_comm(new StockComm(lmp, comm));
-}
-
-void ProxyCommand::replace_comm(Comm *with)
-{
-  Comm *old = comm;
-  comm = with;
-  delete old;
-  // The new object knows of no ghosts yet: even 'run N pre no' has to set up everything.
-  update->first_update = 0;
-}
 
 void ProxyCommand::check(bool value)
 {
@@ -98,7 +58,7 @@ void ProxyCommand::check(bool value)
 void ProxyCommand::info()
 {
   CommProxy *proxy = current();
-  if (!proxy) {
+  if (!proxy || proxy->stands_aside()) {
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }

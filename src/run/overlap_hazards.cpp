@@ -10,7 +10,6 @@
 #include "modify.h"
 #include "pair.h"
 #include "timer.h"
-#include "update.h"
 
 #include <cstring>
 
@@ -31,14 +30,13 @@ bool may_read_proxies(const Fix *fix)
 std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
 {
   const auto system = GranularSystem::of(lmp);
-  if (!system->proxy_updates()) return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
-  if (std::strcmp(lmp->update->integrate_style, "verlet/proxy") != 0)
-    return std::string("the run style is ") + lmp->update->integrate_style;
   if (!lmp->force->pair) return "there is no pair style";
   if (!system->pair_style_is_alone())
     return std::string("pair style ") + lmp->force->pair_style +
            " does not wait for proxies: only one of Talus on its own does";
   if (!pairs_computed) return "'pair_modify compute no' is set";
+  if (!system->proxy_updates())
+    return "the exchange is the one of LAMMPS: " + system->exchange().reason_for_stock();
   for (int n = 0; n < lmp->modify->nfix; n++) {
     const Fix *fix = lmp->modify->fix[n];
     if ((lmp->modify->fmask[n] & FixConst::PRE_FORCE) && may_read_proxies(fix))

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What would read proxies while they are under way. Asked at the start of every run of
-// verlet/proxy.
+// What would read proxies while they are under way. Asked at the start of every run that
+// would overlap.
 
 #ifndef TALUS_RUN_OVERLAP_HAZARDS_H
 #define TALUS_RUN_OVERLAP_HAZARDS_H

@@ -2,6 +2,7 @@
 
 #include "run/verlet_proxy.h"
 
+#include "run/machines.h"
 #include "run/overlap_hazards.h"
 #include "system/command_words.h"
 #include "system/exchange_report.h"
@@ -23,47 +24,70 @@
 #include "timer.h"
 #include "update.h"
 
+#include <cstring>
+
 using namespace LAMMPS_NS;
 using namespace Talus;
 
+/* As `verlet` it takes the place of the host's, which ignores words. */
+
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
-    Verlet(lmp, 0, nullptr), lists(lmp), system(GranularSystem::of(lmp))
+    Verlet(lmp, 0, nullptr), system(GranularSystem::of(lmp))
 {
+  if (std::strcmp(update->integrate_style, "verlet") == 0) return;
   Words words = command_words(lmp, "run_style verlet/proxy", narg, arg, 0, 1);
   if (words.at_end()) return;
   if (!words.take("overlap")) words.fail(0, "expected overlap instead of '" + words.peek() + "'");
   words.about("overlap");
-  wanted = words.choice("value", {"yes", "no"}) == 0;
+  wanted = words.choice("value", {"yes", "no"}) == 0 ? Overlap::YES : Overlap::NO;
   words.about("");
   words.end();
+}
+
+std::string VerletProxy::reason_for_stock() const
+{
+  return makes_own_steps() ? "" : "as the pair style";
 }
 
 void VerletProxy::init()
 {
   Verlet::init();
-  overlaps = false;
-  if (!wanted) return;
-  const std::string hazard = hazard_of_overlap(lmp, pair_compute_flag);
-  overlaps = hazard.empty();
-  // on one rank without periodic images there is nothing to overlap, and so nothing to warn about
-  const bool has_proxies =
-      comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
-  if (comm->me == 0 && !overlaps && has_proxies && hazard != announced)
-    error->warning(FLERR, "Run style verlet/proxy: overlap is off: {}", hazard);
-  announced = hazard;
-  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->set_overlap(overlaps);
+  if (system->pair_style_is_alone()) system->exchange().start_run();
 }
 
 void VerletProxy::setup(int flag)
 {
+  if (makes_own_steps() && !lists) lists.emplace(lmp);
+  decide_on_overlap();
+  system->report_styles(pair_compute_flag);
   Verlet::setup(flag);
-  lists.list_is_new();
+  if (lists) lists->list_is_new();
 }
 
 void VerletProxy::setup_minimal(int flag)
 {
   Verlet::setup_minimal(flag);
-  if (flag) lists.list_is_new();
+  if (flag && lists) lists->list_is_new();
+}
+
+/* Within one machine it costs more than messages do. */
+
+void VerletProxy::decide_on_overlap()
+{
+  bool sought = wanted == Overlap::YES;
+  if (wanted == Overlap::AUTOMATIC && makes_own_steps()) {
+    if (!on_machines) on_machines = spans_machines(world);
+    sought = *on_machines;
+  }
+  const std::string hazard = sought ? hazard_of_overlap(lmp, pair_compute_flag) : "";
+  overlaps = sought && hazard.empty();
+  // on one rank without periodic images there is nothing to overlap, and so nothing to warn about
+  const bool has_proxies =
+      comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if (comm->me == 0 && !hazard.empty() && has_proxies && hazard != announced)
+    error->warning(FLERR, "Run style {}: overlap is off: {}", update->integrate_style, hazard);
+  announced = hazard;
+  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->set_overlap(overlaps);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -74,10 +98,12 @@ void VerletProxy::run(int n)
     at_start = proxies->counters();
     proxies->set_overlap(overlaps);
   }
-  lists.start_count();
-  lists.ask(nullptr);
+  if (!makes_own_steps() || !lists) return Verlet::run(n);
+  lists->start_count();
+  lists->ask(nullptr);
   system->start_run(pair_compute_flag);
-  say_where_steps_are_made();
+  system->report_styles(pair_compute_flag);    // what setup has found out may have changed it
+  reverses = force->newton && others_act_on_ghosts();
   // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
   struct End {
     GranularSystem &system;
@@ -91,18 +117,15 @@ void VerletProxy::run(int n)
     }
     step();
   }
-  lists.drop();
+  lists->drop();
 }
 
-void VerletProxy::say_where_steps_are_made()
+/* The pair style does not: every rank computes all contacts of its particles. */
+
+bool VerletProxy::others_act_on_ghosts() const
 {
-  const std::string line =
-      system->reason_for_host().empty()
-          ? "Talus verlet/proxy: steps without output are made in Talus' own records\n"
-          : fmt::format("Talus verlet/proxy: every step goes through the arrays of LAMMPS: {}\n",
-                        system->reason_for_host());
-  if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
-  said = line;
+  return atom->molecular != Atom::ATOMIC || force->kspace || modify->n_pre_force ||
+         modify->n_pre_reverse;
 }
 
 /* One step of the host's Verlet loop, in its order; only the marked places differ. */
@@ -117,7 +140,7 @@ void VerletProxy::step()
   if (modify->n_post_integrate) modify->post_integrate();
   timer->stamp(Timer::MODIFY);
 
-  const bool anew = lists.decide();    // the host's decide() waits for all ranks
+  const bool anew = lists->decide();    // the host's decide() waits for all ranks
   if (anew) rebuild();
   // the host's forces are not read in a step after which particles stay in the records
   const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;
@@ -127,7 +150,7 @@ void VerletProxy::step()
   }
   // asked later where particles move on the way through the computation of forces
   const bool in_records = system->residence() == Residence::RECORDS;
-  if (!in_records) lists.ask(nullptr);
+  if (!in_records) lists->ask(nullptr);
   timer->stamp(Timer::COMM);
 
   if (to_host) force_clear();
@@ -135,7 +158,7 @@ void VerletProxy::step()
   compute_forces();
   if (in_records) {
     const RecordTravel travel = system->travel();
-    lists.ask(&travel);
+    lists->ask(&travel);
   }
 
   if (modify->n_post_force_any) modify->post_force(vflag);
@@ -186,7 +209,7 @@ void VerletProxy::rebuild()
     timer->stamp(Timer::MODIFY);
   }
   neighbor->build(1);
-  lists.list_is_new();
+  lists->list_is_new();
   timer->stamp(Timer::NEIGH);
   if (modify->n_post_neighbor) {
     modify->post_neighbor();
@@ -224,7 +247,7 @@ void VerletProxy::compute_forces()
     modify->pre_reverse(eflag, vflag);
     timer->stamp(Timer::MODIFY);
   }
-  if (force->newton) {
+  if (reverses) {
     comm->reverse_comm();
     timer->stamp(Timer::COMM);
   }
@@ -233,21 +256,24 @@ void VerletProxy::compute_forces()
 void VerletProxy::cleanup()
 {
   Verlet::cleanup();
-  if (lists.num_delayed() && comm->me == 0)
-    error->warning(FLERR,
-                   "Run style verlet/proxy: neighbor lists were {} times made too late: particles "
-                   "moved by more than half of the skin before the first check that 'neigh_modify "
-                   "every {} delay {}' allows: reduce these, or increase the skin",
-                   lists.num_delayed(), neighbor->every, neighbor->delay);
-  if (lists.num_unforeseen() && comm->me == 0)
-    error->warning(FLERR,
-                   "Run style verlet/proxy: neighbor lists were {} times made too late: between "
-                   "two checks a particle was accelerated by more than the largest speed, or moved "
-                   "by something else than its velocity: increase the skin",
-                   lists.num_unforeseen());
-  if (ProxyUpdates *proxies = system->proxy_updates()) {
-    proxies->set_overlap(false);
-    const std::string text = summarize_exchange(proxies->counters().since(at_start), world);
-    if (comm->me == 0) utils::logmesg(lmp, text);
+  if (comm->me == 0 && lists) {
+    if (lists->num_delayed())
+      error->warning(FLERR,
+                     "Run style {}: neighbor lists were {} times made too late: particles "
+                     "moved by more than half of the skin before the first check that "
+                     "'neigh_modify every {} delay {}' allows: reduce these, or increase the skin",
+                     update->integrate_style, lists->num_delayed(), neighbor->every,
+                     neighbor->delay);
+    if (lists->num_unforeseen())
+      error->warning(FLERR,
+                     "Run style {}: neighbor lists were {} times made too late: between "
+                     "two checks a particle was accelerated by more than the largest speed, or "
+                     "moved by something else than its velocity: increase the skin",
+                     update->integrate_style, lists->num_unforeseen());
   }
+  ProxyUpdates *proxies = system->proxy_updates();
+  if (!proxies) return;
+  proxies->set_overlap(false);
+  const std::string text = summarize_exchange(proxies->counters().since(at_start), world);
+  if (comm->me == 0) utils::logmesg(lmp, text);
 }

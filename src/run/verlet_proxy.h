@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// run_style verlet/proxy [overlap yes|no]: the Verlet loop with the exchange of proxies under way
-// while pairs inside the sub-domain are computed, and without a step in which every rank waits for
-// every other. doc/run_style_verlet_proxy.md is the user's page.
+// run_style verlet, and run_style verlet/proxy [overlap yes|no]: the Verlet loop with the exchange of
+// proxies under way while pairs inside the sub-domain are computed, and without a step in which every
+// rank waits for every other. Where the pair style is not one of Talus the steps are those of
+// LAMMPS. doc/run_style_verlet_proxy.md is the user's page.
 //
 // The only place that lets an exchange be under way while forces are computed: GranularSystem finishes
 // it.
@@ -12,15 +13,17 @@
 
 #include "run/rebuild_check.h"
 #include "system/granular_system.h"
+#include "system/system_run_style.h"
 
 #include "verlet.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace LAMMPS_NS {
 
-class VerletProxy : public Verlet {
+class VerletProxy : public Verlet, public Talus::SystemRunStyle {
  public:
   VerletProxy(class LAMMPS *, int, char **);
   void init() override;
@@ -28,22 +31,27 @@ class VerletProxy : public Verlet {
   void setup_minimal(int) override;
   void run(int) override;
   void cleanup() override;
+  std::string reason_for_stock() const override;
 
  private:
+  enum class Overlap { AUTOMATIC, YES, NO };
+
+  bool makes_own_steps() const { return system->accelerates_pairs() && pair_compute_flag; }
+  void decide_on_overlap();
+  bool others_act_on_ghosts() const;
   void step();
   void bring_back();
   void rebuild();
   void compute_forces();
 
-  void say_where_steps_are_made();
-
-  Talus::RebuildCheck lists;
+  std::optional<Talus::RebuildCheck> lists;    ///< of the first run with steps of its own
   std::shared_ptr<Talus::GranularSystem> system;
-  bool wanted = true;                  ///< overlap yes
+  Overlap wanted = Overlap::AUTOMATIC;
+  std::optional<bool> on_machines;     ///< more than one
   bool overlaps = false;               ///< in this run
+  bool reverses = false;               ///< in this run forces on ghosts go to their owners
   Talus::ExchangeCounters at_start;    ///< of the run
   std::string announced;               ///< last reason given for not overlapping
-  std::string said;                    ///< last line about records
 };
 
 }    // namespace LAMMPS_NS

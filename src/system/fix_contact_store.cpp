@@ -3,6 +3,7 @@
 #include "system/fix_contact_store.h"
 
 #include "system/granular_system.h"
+#include "system/system_run_style.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -11,6 +12,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "integrate.h"
 #include "modify.h"
 #include "update.h"
 
@@ -115,6 +117,9 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
+  // a run style of the host cannot do so
+  const bool its_own = dynamic_cast<Talus::SystemRunStyle *>(update->integrate) != nullptr;
+  if (system && update->whichflag == 1 && !its_own) system->report_styles(true);
   take_over_sorting();
   sort_particles();
   keep_positions();

@@ -3,6 +3,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_run_style.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -44,7 +45,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    monitors(lmp)
+    monitors(lmp), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
 }
@@ -61,6 +62,7 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
   monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  make_run_style_the_default(lmp);
   return true;
 }
 
@@ -214,11 +216,6 @@ std::vector<LargeBody *> GranularSystem::bodies() const
     for (const auto &body : large_bodies)
       if (body->command() == fix) found.push_back(body.get());
   return found;
-}
-
-ProxyUpdates *GranularSystem::proxy_updates() const
-{
-  return dynamic_cast<ProxyUpdates *>(comm);
 }
 
 }    // namespace Talus

@@ -23,11 +23,13 @@
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
 #include "system/effective_masses.h"
+#include "system/exchange_switch.h"
 #include "system/large_body.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
 #include "system/run_monitor.h"
+#include "system/style_report.h"
 #include "system/system_fix.h"
 #include "system/time_step_monitor.h"
 
@@ -81,6 +83,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void init_pair_style();
   /// The same, before it, collective: "", or why contacts cannot have a history here.
   std::string reason_against_history();
+  /// In this run all pairs are computed here. Valid after init() of the host.
+  bool accelerates_pairs() const { return pair_style_is_alone(); }
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 
@@ -126,6 +130,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// At the start of a run, after setup: finds out whether it may have steps in the records.
   /// Collective; `pairs_computed`: the run style calls the pair style.
   void start_run(bool pairs_computed);
+  /// At the start of a run, before setup or after it: prints which styles are accelerated, if that has
+  /// changed. Collective; `pairs_computed` as in start_run().
+  void report_styles(bool pairs_computed);
+  /// A fix of the host reads or changes particles in every step.
+  bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask) const;
   /// "" if this run has such steps, else the first reason why not, for people.
   const std::string &reason_for_host() const { return host_reason; }
   /// Before the forces of a step are computed: where the particles will be after it. `tallied`:
@@ -186,7 +195,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double mass_in_contacts(int i) const { return masses.mass(i); }
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
-  ProxyUpdates *proxy_updates() const;
+  ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }
+  ExchangeSwitch &exchange() { return exchange_switch; }
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline->keeps_spins(); }
   /// Share of the owned particles of this rank whose forces are computed before a pending update of
@@ -247,6 +257,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor monitors;
   bool keeps_account = false;
   EnergyAccount account;
+
+  ExchangeSwitch exchange_switch;
+  StyleReport report;
 
   // residence
   std::string host_reason = "no run yet";

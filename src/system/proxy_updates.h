@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The direct exchange as the system and the run style see it: states of proxies are valid only once
-// nothing is pending. The communication object of the host implements it while `comm_proxy yes` is
-// in force; scripts may replace that object at any time, so GranularSystem::proxy_updates() looks
+// nothing is pending. The communication object of the host implements it while it is
+// in force (see exchange_switch.h); scripts may replace that object at any time, so GranularSystem::proxy_updates() looks
 // for it anew in every step.
 
 #ifndef TALUS_SYSTEM_PROXY_UPDATES_H
@@ -18,6 +18,10 @@ namespace Talus {
 
 class ProxyUpdates {
  public:
+  /// In this run the present settings are not supported, and the user has not insisted: all is left
+  /// to the exchange of the host. The same on all ranks; valid after init() of the host.
+  virtual bool stands_aside() const = 0;
+
   /// Whether begin() can be called: after borders() until the next exchange(). The same on all
   /// ranks.
   virtual bool has_plan() const = 0;

@@ -9,6 +9,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/present_box.h"
+#include "system/system_run_style.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -16,6 +17,7 @@
 #include "domain.h"
 #include "fix.h"
 #include "force.h"
+#include "integrate.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
@@ -43,18 +45,24 @@ bool any_rank(bool here, MPI_Comm world)
 
 void GranularSystem::start_run(bool pairs_computed)
 {
-  at_end_of_step.clear();
-  integrators.clear();
-  steps.clear();    // an error may have left some
   forget_plan();
   host_reason = find_reason_for_host(pairs_computed);
   bodies_of_run = bodies_that_may_join();
 }
 
+void GranularSystem::report_styles(bool pairs_computed)
+{
+  // laws tell what the fixes are asked; they are known since init(), if there are particles to be
+  if (accelerates_pairs()) static_cast<void>(law_table());
+  report.print(*this, find_reason_for_host(pairs_computed));
+}
+
 std::string GranularSystem::find_reason_for_host(bool pairs_computed)
 {
-  if (!pair_style_is_alone() || !pairs_computed)
-    return fmt::format("pair style {} is not on its own, or not used", style.name);
+  const auto *run_style = dynamic_cast<const SystemRunStyle *>(update->integrate);
+  if (!accelerates_pairs()) return "the pair style is not accelerated on its own";
+  if (!pairs_computed) return "'pair_modify compute no' is set";
+  if (!run_style) return std::string("run style ") + update->integrate_style;
   if (keeps_account) return "energies of contacts are accounted for";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
   if (atom->molecular != Atom::ATOMIC || force->kspace)
@@ -65,15 +73,22 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
     return "neighbor lists or particles are restricted to a group";
   const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
   if ((comm->nprocs > 1 || periodic) && !proxy_updates())
-    return "the exchange is the one of LAMMPS: add 'comm_proxy yes'";
+    return "the exchange is the one of LAMMPS: " + exchange_switch.reason_for_stock();
 
+  at_end_of_step.clear();
+  integrators.clear();
+  steps.clear();    // an error may have left some
   for (int n = 0; n < modify->nfix; n++) {
     Fix *fix = modify->fix[n];
     const auto *ours = dynamic_cast<SystemFix *>(fix);
     if (ours && ours->integrates()) integrators.push_back(fix);
     const std::string its = reason_of_fix(fix, modify->fmask[n]);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
-    if (modify->fmask[n] & END_OF_STEP) at_end_of_step.push_back(fix);
+    if ((modify->fmask[n] & END_OF_STEP) == 0) continue;
+    if (fix->nevery <= 1)
+      return std::string("fix ") + fix->id + " (" + fix->style +
+             "): looks at particles at the end of every step: a larger Nevery";
+    at_end_of_step.push_back(fix);
   }
   return reason_of_integrators();
 }
@@ -104,11 +119,16 @@ std::string GranularSystem::reason_of_integrators() const
 std::string GranularSystem::reason_of_fix(Fix *fix, int mask)
 {
   if (auto *ours = dynamic_cast<SystemFix *>(fix)) return ours->needs_host_arrays();
+  return acts_within_steps(fix, mask) ? "may look at particles in every step" : "";
+}
+
+bool GranularSystem::acts_within_steps(const Fix *fix, int mask) const
+{
   if (fix == store || std::strcmp(fix->style, "OMP") == 0 || utils::strmatch(fix->style, "^freeze"))
-    return "";
+    return false;
   constexpr int in_every_step =
       INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
-  return mask & in_every_step ? "may look at particles in every step" : "";
+  return (mask & in_every_step) != 0;
 }
 
 Residence GranularSystem::choose_residence(bigint step, bool tallied)
@@ -122,9 +142,8 @@ Residence GranularSystem::choose_residence(bigint step, bool tallied)
 bool GranularSystem::is_looked_at(bigint step) const
 {
   if (step >= update->laststep || step >= output->next) return true;
-  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(), [step](const Fix *fix) {
-    return fix->nevery <= 0 || step % fix->nevery == 0;
-  });
+  return std::any_of(at_end_of_step.begin(), at_end_of_step.end(),
+                     [step](const Fix *fix) { return step % fix->nevery == 0; });
 }
 
 void GranularSystem::find_sent_particles(const ProxyUpdates *proxies)

@@ -135,6 +135,15 @@ class Gate(PluginCase):
         env = self.shim("lammps_config_has_mpi_support", "", "return 0;")
         self.assert_refused("MPI handle 0 bytes", env=env)
 
+    def test_host_without_granular_styles(self):
+        env = self.shim("lammps_config_has_package", "const char *name", """
+            if (strcmp(name, "GRANULAR") == 0) return 0;
+            using Real = int (*)(const char *);
+            return ((Real) dlsym(RTLD_NEXT, "lammps_config_has_package"))(name);
+            """)
+        self.assert_refused("a LAMMPS with package GRANULAR, which the host lacks",
+                            "build LAMMPS with PKG_GRANULAR on", env=env)
+
     def test_override_for_developers(self):
         env = self.shim("lammps_version", "void *", "return 20990101;")
         self.run_lammps(USE, env={"LAMMPS_PLUGIN_PATH": BUILD, "TALUS_SKIP_ABI_CHECK": "1", **env})

@@ -94,7 +94,7 @@ timestep 0.01
 fix step all nve/sphere
 comm_proxy yes
 comm_proxy check yes
-run_style verlet/proxy
+run_style verlet/proxy overlap yes
 )";
 
 void set_up(LAMMPS *lmp)

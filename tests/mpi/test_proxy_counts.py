@@ -48,7 +48,7 @@ comm_proxy info
 STATS = dict(before_run="compute cost all penalty/stats",    # every step then goes through the arrays of LAMMPS
              after_run="thermo_style custom step c_cost[8] c_cost[9] c_cost[10] c_cost[11]\nrun 0")
 NO_STATS = dict(before_run="", after_run="")
-IN_RECORDS = "steps without output are made in Talus' own records"
+IN_RECORDS = "steps without output              in the records"
 
 
 def grains():
@@ -128,7 +128,7 @@ class Counts(SceneCase):
             result.append(difference)
         return result, log
 
-    def check(self, grid, boundary="p p p", size=72, style="verlet/proxy", law=None, more="", stats=True):
+    def check(self, grid, boundary="p p p", size=72, style="verlet/proxy overlap yes", law=None, more="", stats=True):
         particles = grains()
         write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), particles)
         ranks = grid[0] * grid[1] * grid[2]
@@ -198,7 +198,7 @@ class Counts(SceneCase):
                 counts = []
                 for steps in SHORT, LONG:
                     found, _ = self.counted(steps, 2, builds=steps, boundary=boundary, law=law, grid="2 1 1",
-                                            style="verlet/proxy", proxies="yes", **NO_STATS,
+                                            style="verlet/proxy overlap yes", proxies="yes", **NO_STATS,
                                             more="neigh_modify every 1 delay 0 check no\n" + more)
                     counts.append([rank["collectives"] for rank in found])
                 for before, after in zip(*counts):
@@ -211,14 +211,14 @@ class Counts(SceneCase):
         single, funneled = "0", "1"    # the order of MPI_THREAD_SINGLE, MPI_THREAD_FUNNELED in every MPI
         for threads, level, expected in (2, single, False), (2, funneled, True), (1, single, False):
             with self.subTest(threads=threads, level=level):
-                found, _ = self.counted(SHORT, 2, boundary="p p p", law=LAWS[72], grid="2 1 1", style="verlet/proxy",
+                found, _ = self.counted(SHORT, 2, boundary="p p p", law=LAWS[72], grid="2 1 1", style="verlet/proxy overlap yes",
                                         proxies="yes", more="", **NO_STATS, arguments=("-pk", "omp", threads),
                                         env={"TALUS_THREAD_LEVEL": level, "OMP_WAIT_POLICY": "passive"})
                 for rank in found:
                     self.assertEqual(rank["beside"] > 0, expected)
 
     def test_blocking(self):
-        self.check((2, 2, 1), style="verlet")
+        self.check((2, 2, 1), style="verlet/stock")
         self.check((2, 2, 1), style="verlet/proxy overlap no")
 
 

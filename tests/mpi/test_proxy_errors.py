@@ -28,7 +28,7 @@ neighbor 0.3 bin
 timestep 0.0001
 fix step all nve/sphere/symplectic
 comm_proxy yes
-run_style verlet/proxy
+run_style verlet/proxy overlap yes
 {middle}
 run 3
 """
@@ -47,8 +47,8 @@ class Messages(SceneCase):
     def test_words(self):
         box = BOX.format(before="")
         for command, message, word in (
-                ("comm_proxy", "comm_proxy: missing word: yes, no, info or check", None),
-                ("comm_proxy maybe", "unknown word 'maybe', expected yes, no, info or check", "maybe"),
+                ("comm_proxy", "comm_proxy: missing word: auto, yes, no, info or check", None),
+                ("comm_proxy maybe", "unknown word 'maybe', expected auto, yes, no, info or check", "maybe"),
                 ("comm_proxy yes please", "surplus word 'please'", "please"),
                 ("comm_proxy check", "comm_proxy check: missing value: yes or no", "check"),
                 ("comm_proxy check perhaps", "comm_proxy check: unknown value 'perhaps', expected yes or no", "perhaps"),
@@ -84,7 +84,7 @@ class Messages(SceneCase):
         hybrid = ("pair_style hybrid/overlay soft 1.0 gran/penalty\npair_coeff * * soft 1.0\n"
                   "pair_coeff * * gran/penalty hertz 4000.0 40.0")
         for middle, reason in (
-                ("comm_proxy no", "the exchange is the one of LAMMPS: add 'comm_proxy yes'"),
+                ("comm_proxy no", "the exchange is the one of LAMMPS: 'comm_proxy no' is set: remove it"),
                 ("pair_style zero 1.0\npair_coeff * *", "pair style zero does not wait for proxies"),
                 (hybrid, "pair style hybrid/overlay does not wait for proxies"),
                 ("pair_modify compute no", "'pair_modify compute no' is set"),
@@ -100,7 +100,7 @@ class Messages(SceneCase):
                     self.assertRegex(log, r"Talus exchange: \d+ updates of proxies, 0 overlapped")
 
     def test_no_warning_without_need(self):
-        for style in "verlet/proxy", "verlet/proxy overlap no", "verlet":
+        for style in "verlet/proxy", "verlet/proxy overlap yes", "verlet/proxy overlap no", "verlet":
             log = self.run_scene(f"run_style {style}")
             self.assertNotIn("WARNING: Run style", log)
 

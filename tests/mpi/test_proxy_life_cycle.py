@@ -18,8 +18,9 @@ thermo 20
 thermo_style custom step atoms ke pxx pxy f_floor[3]
 thermo_modify norm no format float %.17g
 """
-SWAP = {"stock": "", "direct": "comm_proxy yes\ncomm_proxy check yes\n",
-        "overlapped": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/proxy\n"}
+DIRECT = "comm_proxy yes\ncomm_proxy check yes\n"
+SWAP = {"stock": "comm_proxy no\nrun_style verlet/stock\n", "direct": DIRECT + "run_style verlet/stock\n",
+        "overlapped": DIRECT + "run_style verlet/proxy overlap yes\n", "automatic": ""}
 DUMP = "write_dump all custom {} id type x y z vx vy vz omegax omegay omegaz modify format float %a\n"
 
 # everything after 'run 60' of a session; {swap} again where the host forgets it
@@ -60,7 +61,7 @@ run 20
     "rerun": "dump d all custom 10 frames id type x y z vx vy vz omegax omegay omegaz\n"
              "dump_modify d format float %.17g\nrun 20\nundump d\n"
              "rerun frames dump x y z vx vy vz\nrun 5\n",
-    "styles and timers": "timer sync\nrun 10\ntimer nosync full\nrun 10\nrun_style verlet\nrun 10\n"
+    "styles and timers": "timer sync\nrun 10\ntimer nosync full\nrun 10\nrun_style verlet/stock\nrun 10\n"
                          "timer timeout 1000 every 2\nrun 10\n",
 }
 
@@ -93,7 +94,7 @@ class Session(SceneCase):
                 if swap != "stock":
                     self.compare(name, names[piece, "stock"])
 
-        self.assertEqual(self.changed, 2 * 5)    # that particles came, went and were lost
+        self.assertEqual(self.changed, 3 * 5)    # that particles came, went and were lost
 
     def compare(self, name, reference):
         frame, expected = (read_dump(self.path("dump." + n))[0] for n in (name, reference))

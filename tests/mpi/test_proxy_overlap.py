@@ -2,7 +2,7 @@
 # ctest: timeout=300 procs=2
 """gran/penalty: the same bits with the stock exchange, the direct one, and the direct one overlapped.
 
-With walls, run style verlet is compared as well; in periodic boxes only runs with the same rebuild
+With walls, run style verlet of LAMMPS is compared as well; in periodic boxes only runs with the same rebuild
 schedule are the same (wrapping rounds), so there verlet/proxy is compared with itself.  All runs of
 the direct exchange are checked: proxies hold NaN while they are under way."""
 
@@ -55,11 +55,12 @@ fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
 fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
 """
 EXCHANGES = {
-    "stock": "",
-    "direct": "comm_proxy yes\ncomm_proxy check yes",
+    "stock": "comm_proxy no\nrun_style verlet/stock",
+    "direct": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/stock",
     "blocking": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/proxy overlap no",
-    "overlapped": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/proxy",
-    "no proxies": "run_style verlet/proxy",
+    "overlapped": "comm_proxy yes\ncomm_proxy check yes\nrun_style verlet/proxy overlap yes",
+    "no proxies": "comm_proxy no",
+    "automatic": "",
 }
 STEPS = 300
 
@@ -132,7 +133,7 @@ class Overlap(SceneCase):
             with self.subTest(ranks=ranks):
                 found = self.run_all(list(EXCHANGES), ranks, boundary="p p f")
                 self.assert_same(found, ["stock", "direct"])
-                self.assert_same(found, ["overlapped", "blocking", "no proxies"])
+                self.assert_same(found, ["overlapped", "blocking", "no proxies", "automatic"])
                 self.assert_overlapped(found["overlapped"][3], ranks)
 
     def test_any_number_of_ranks(self):

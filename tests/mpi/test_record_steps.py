@@ -1,8 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=300 procs=2
-"""run style verlet/proxy: steps that nobody looks at are made in Talus' own records, and it does not show.
+"""run style verlet of Talus: steps that nobody looks at are made in its own records, and it does not show.
 
-Every scene runs with run style verlet and with verlet/proxy, and must have the same bits wherever
+Every scene runs with the run style of LAMMPS and with that of Talus, and must have the same bits wherever
 anybody can look: dumps, thermo output, averages of host fixes, restarts, runs that go on without a
 setup or end before their time.  What may look at particles in every step switches records off, and
 the log says so."""
@@ -17,8 +17,9 @@ from talus_testing import SceneCase, write_sphere_data
 from tossed_grains import tossed_grains
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-RECORDS = "steps without output are made in Talus' own records"
-HOST = "every step goes through the arrays of LAMMPS: "
+RECORDS = "steps without output              in the records"
+HOST = "steps without output              through the arrays of LAMMPS: "
+STOCK = "run_style verlet/stock"    # of LAMMPS
 
 SCENE = """
 units lj
@@ -55,7 +56,7 @@ fix top all large/body box 4.5 3.5 4.5 5 3 1.5 outside move rotate 4.5 3.5 4.5  
 fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
 fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
 """
-PROXY = "comm_proxy yes\nrun_style verlet/proxy"
+PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes"
 
 
 def scene(style, law=LAW, boundary="f f f", movers=None, start="plain", more="", every=20,
@@ -83,8 +84,8 @@ class RecordSteps(SceneCase):
         return frames, log
 
     def assert_same(self, style=PROXY, np=1, threads=1, **options):
-        expected, _ = self.run_scene("comm_proxy yes" if "comm_proxy" in style else "", np=np,
-                                     **options)
+        stock = ("comm_proxy yes\n" if "comm_proxy" in style else "") + STOCK
+        expected, _ = self.run_scene(stock, np=np, **options)
         frames, log = self.run_scene(style, np=np, threads=threads, **options)
         self.assertIn(RECORDS, log)
         self.assertGreater(expected.count("TIMESTEP"), 2)
@@ -92,11 +93,12 @@ class RecordSteps(SceneCase):
         return log
 
     def test_with_walls_on_ranks_and_threads(self):
-        self.assert_same("run_style verlet/proxy")
+        for style in "", "run_style verlet", "run_style verlet/proxy":
+            self.assert_same(style)
         for np, threads in (1, 1), (1, 3), (2, 1), (2, 2), (4, 1):
             for overlap in "yes", "no":
                 with self.subTest(ranks=np, threads=threads, overlap=overlap):
-                    self.assert_same(PROXY + " overlap " + overlap, np=np, threads=threads)
+                    self.assert_same(PROXY.replace("overlap yes", f"overlap {overlap}"), np=np, threads=threads)
 
     def test_half_kick_at_the_start(self):
         self.assert_same(start="half")
@@ -115,7 +117,7 @@ class RecordSteps(SceneCase):
         more = ("compute ke all ke\ncompute top all reduce max z vx fz\n"
                 "fix mean all ave/time 3 2 9 c_ke c_top[*] file means format ' %a'\n")
         results = []
-        for style in "", "run_style verlet/proxy":
+        for style in STOCK, "":
             frames, log = self.run_scene(style, more=more)
             with open(self.path("means")) as f:
                 results.append((frames, f.read()))
@@ -147,7 +149,7 @@ class RecordSteps(SceneCase):
         return frames
 
     def test_run_that_ends_before_its_time(self):
-        self.assert_same_end(("", "run_style verlet/proxy"), "vx omegax fx tqx")
+        self.assert_same_end((STOCK, ""), "vx omegax fx tqx")
 
     def test_periodic_boxes(self):
         """Wrapping rounds, so that only the same rebuild schedule gives the same bits: here a fixed one."""
@@ -162,7 +164,7 @@ class RecordSteps(SceneCase):
                 "compute touching all contact/atom\ncompute sum all reduce sum c_touching\n"
                 "thermo_style custom step c_sum ke\n")
         tables = []
-        for style in "comm_proxy yes", PROXY, PROXY + " overlap no":
+        for style in f"comm_proxy yes\n{STOCK}", PROXY, PROXY.replace("overlap yes", "overlap no"):
             _, log = self.run_scene(style, np=2, threads=2, boundary="p p f", more=more)
             tables.append(re.findall(r"^ +\d+ +[1-9]\d* +\S+ *$", log, re.M))
         self.assertIn(RECORDS, log)
@@ -171,7 +173,7 @@ class RecordSteps(SceneCase):
         self.assertGreater(len(tables[0]), 15)
 
     def test_proxies_of_a_run_that_ends_before_its_time(self):
-        frames = self.assert_same_end(("comm_proxy yes", PROXY), "c_touching", np=2, boundary="p p f",
+        frames = self.assert_same_end((f"comm_proxy yes\n{STOCK}", PROXY), "c_touching", np=2, boundary="p p f",
                                       more="neigh_modify every 30 delay 0 check no\n"
                                            "compute touching all contact/atom")
         touching = re.findall(r"^\d+ \S+ (\S+) *$", frames, re.M)
@@ -187,11 +189,12 @@ class RecordSteps(SceneCase):
         }
         for more, reason in cases.items():
             with self.subTest(reason=reason):
-                _, log = self.run_scene("run_style verlet/proxy", more=more, run="run 20")
+                _, log = self.run_scene("", more=more, run="run 20")
                 self.assertRegex(log, re.escape(HOST) + ".*" + re.escape(reason))
-                self.assertNotIn(RECORDS, log)
-        _, log = self.run_scene("run_style verlet/proxy", np=2, run="run 20")
-        self.assertIn(HOST + "the exchange is the one of LAMMPS: add 'comm_proxy yes'", log)
+        for style, reason in (("comm_proxy no", "the exchange is the one of LAMMPS: 'comm_proxy no' is set: remove it"),
+                              (STOCK, "run style verlet/stock")):
+            _, log = self.run_scene(style, np=2, run="run 20")
+            self.assertIn(HOST + reason, log)
 
 
 if __name__ == "__main__":

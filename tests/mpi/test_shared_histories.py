@@ -84,7 +84,7 @@ class SharedHistories(SceneCase):
         print("contacts of the large sphere:", touching)
         self.assertGreaterEqual(min(touching), 1000)
         for np, grid, more in ((2, "processors 2 1 1", ""), (4, "processors 1 2 2", ""), (4, "processors 4 1 1", ""),
-                               (2, "comm_style tiled", "balance 1.0 rcb"), (4, "", "comm_proxy yes\nrun_style verlet/proxy")):
+                               (2, "comm_style tiled", "balance 1.0 rcb"), (4, "", "run_style verlet/proxy overlap yes")):
             with self.subTest(np=np, grid=grid, more=more):
                 frames, messages, size = self.simulate(np, grid, more)
                 self.assertEqual(len(frames), len(expected))

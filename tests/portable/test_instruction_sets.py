@@ -46,7 +46,7 @@ LAWS = {
 }
 
 
-def scene(law, run_style="verlet/proxy"):
+def scene(law, run_style="verlet"):
     physics = session_scene.PHYSICS.format(ylo=session_scene.PLANE).replace(session_scene.LAW, law)
     return (START + "read_data grains\n" + PAIR.replace(session_scene.LAW, law) + physics +
             f"fix ball all large/body {BALL}\nthermo 100\nrun_style {run_style}\nrun {STEPS}\n"

@@ -19,13 +19,11 @@ atom_modify map array
 newton off
 comm_modify vel yes
 read_data data
-comm_proxy yes
 neighbor 0.2 bin
 neigh_modify {checks}
 pair_style gran/penalty
 pair_coeff * * hooke 1000.0 0.0
 fix move all nve/sphere/symplectic
-run_style verlet/proxy
 timestep 0.001
 thermo 1000
 dump all all custom 100 dump id x y z vx vy vz

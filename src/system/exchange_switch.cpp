@@ -1,0 +1,102 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/exchange_switch.h"
+
+#include "system/granular_system.h"
+
+#include "comm.h"
+#include "comm_brick.h"
+#include "domain.h"
+#include "error.h"
+#include "lammps.h"
+#include "update.h"
+
+#include <memory>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+namespace {
+
+ExchangeSwitch::MakeDirect make_direct = nullptr;
+
+/* The stock object, apart from a pointer that its constructor leaves as it is and its destructor
+   frees. It holds the system, and with it what the user has chosen, until `clear`. */
+
+class StockComm : public CommBrick {
+ public:
+  StockComm(LAMMPS *lmp, Comm *old) : CommBrick(lmp, old), system(GranularSystem::of(lmp))
+  {
+    localsendlist = nullptr;
+  }
+
+ private:
+  std::shared_ptr<GranularSystem> system;
+};
+
+}    // namespace
+
+void ExchangeSwitch::set_maker(MakeDirect maker)
+{
+  make_direct = maker;
+}
+
+void ExchangeSwitch::choose(Choice choice)
+{
+  if (choice == Choice::YES) {
+    const std::string problem = unsupported(false);
+    if (!problem.empty()) error->all(FLERR, "comm_proxy: {} or 'comm_proxy no'", problem);
+  }
+  chosen = choice;
+  const bool is_direct = dynamic_cast<ProxyUpdates *>(comm);
+  if (choice == Choice::YES && !is_direct) replace_comm(make_direct(lmp, comm));
+  // a tiled one cannot be replaced, and need not: the direct exchange is not supported there
+  if (choice == Choice::NO && comm->style == Comm::BRICK) replace_comm(new StockComm(lmp, comm));
+}
+
+void ExchangeSwitch::start_run()
+{
+  const bool has_proxies =
+      comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  if (!has_proxies || chosen == Choice::NO || dynamic_cast<ProxyUpdates *>(comm)) return;
+  if (unsupported(false).empty()) replace_comm(make_direct(lmp, comm));
+}
+
+ProxyUpdates *ExchangeSwitch::direct() const
+{
+  auto *proxies = dynamic_cast<ProxyUpdates *>(comm);
+  return proxies && !proxies->stands_aside() ? proxies : nullptr;
+}
+
+std::string ExchangeSwitch::reason_for_stock() const
+{
+  if (chosen == Choice::NO) return "'comm_proxy no' is set: remove it";
+  const std::string problem = unsupported(true);
+  return problem.empty() ? "the run style does not choose another: use run_style verlet" : problem;
+}
+
+std::string ExchangeSwitch::unsupported(bool in_run) const
+{
+  if (lmp->kokkos)
+    return "the direct exchange does not run with the KOKKOS package: start LAMMPS without '-k on'";
+  if (comm->style != Comm::BRICK || comm->layout == Comm::LAYOUT_TILED)
+    return "'comm_style tiled' is not supported: use 'comm_style brick' and balance without rcb";
+  if (comm->mode != Comm::SINGLE)
+    return "'comm_modify mode multi' is not supported: use 'comm_modify mode single'";
+  // what LAMMPS adds to the velocities of ghosts depends on their order in its messages
+  if (in_run && domain->deform_vremap && comm->ghost_velocity)
+    return "fix deform with 'remap v' is not supported: use 'remap x' or 'comm_modify vel no'";
+  return "";
+}
+
+void ExchangeSwitch::replace_comm(Comm *with)
+{
+  Comm *old = comm;
+  comm = with;
+  delete old;
+  // The new object knows of no ghosts yet: even 'run N pre no' has to set up everything.
+  update->first_update = 0;
+}
+
+}    // namespace Talus

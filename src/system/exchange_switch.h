@@ -1,0 +1,58 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Which exchange of proxies is in force: that of LAMMPS, or the direct one (class CommProxy), which
+// takes the place of the host's communication object. Unless the user has decided with comm_proxy,
+// the direct one is switched on at the start of a run that can use it.
+//
+// All methods are collective; every rank decides the same.
+
+#ifndef TALUS_SYSTEM_EXCHANGE_SWITCH_H
+#define TALUS_SYSTEM_EXCHANGE_SWITCH_H
+
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+class Comm;
+}
+
+namespace Talus {
+
+class ProxyUpdates;
+
+class ExchangeSwitch : protected LAMMPS_NS::Pointers {
+ public:
+  enum class Choice { AUTOMATIC, YES, NO };
+  using MakeDirect = LAMMPS_NS::Comm *(*) (LAMMPS_NS::LAMMPS *, LAMMPS_NS::Comm *old);
+
+  explicit ExchangeSwitch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  /// Once, when the plugin is loaded: what makes a CommProxy with the settings of `old`.
+  static void set_maker(MakeDirect maker);
+
+  /// What the user has said with comm_proxy. YES and NO take effect at once; YES is an error where
+  /// the direct exchange is not supported.
+  void choose(Choice choice);
+  Choice choice() const { return chosen; }
+
+  /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user or
+  /// the host is against it. What shows later lets it stand aside.
+  void start_run();
+
+  /// The direct exchange if it is in force, else nullptr.
+  ProxyUpdates *direct() const;
+  /// With direct() == nullptr: why, and the cure, for people.
+  std::string reason_for_stock() const;
+  /// "" or what of the present settings the direct exchange does not support, and the cure.
+  /// `in_run`: after Domain::init(); else only what can be known before.
+  std::string unsupported(bool in_run) const;
+
+ private:
+  void replace_comm(LAMMPS_NS::Comm *with);
+
+  Choice chosen = Choice::AUTOMATIC;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,118 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/style_report.h"
+
+#include "system/granular_system.h"
+#include "system/system_fix.h"
+#include "system/system_pair.h"
+#include "system/system_run_style.h"
+
+#include "comm.h"
+#include "fix.h"
+#include "force.h"
+#include "integrate.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cctype>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+namespace {
+
+std::string line(const std::string &style, const std::string &its)
+{
+  return fmt::format("  {:<33} {}\n", style, its);
+}
+
+std::string how(const std::string &reason_for_stock)
+{
+  return reason_for_stock.empty() ? "accelerated" : "stock: " + reason_for_stock;
+}
+
+/* Of a style of the host, from its table of styles of that kind. */
+
+template <typename Styles> std::string why_stock(const Styles &styles, const std::string &name)
+{
+  if (styles.find(name + "/talus") == styles.end()) return "no accelerated variant";
+  return "start with -sf talus (or write suffix talus)";
+}
+
+/* Fixes that styles of the host make for themselves. */
+
+bool is_internal(const Fix *fix)
+{
+  const std::string name = fix->style;
+  return std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::islower(c); });
+}
+
+}    // namespace
+
+void StyleReport::print(const GranularSystem &system, const std::string &reason_for_host)
+{
+  if (!concerns(system)) return;
+  const std::string now = text(system, reason_for_host);
+  if (comm->me == 0 && now != last) utils::logmesg(lmp, now);
+  last = now;
+}
+
+bool StyleReport::concerns(const GranularSystem &system) const
+{
+  if (system.has_pair_style()) return true;
+  if (force->pair && utils::strmatch(force->pair_style, "^gran")) return true;
+  if (force->pair && force->pair_match("^gran", 0)) return true;    // in hybrid
+  const auto &fixes = modify->get_fix_list();
+  return std::any_of(fixes.begin(), fixes.end(),
+                     [](Fix *fix) { return dynamic_cast<SystemFix *>(fix) != nullptr; });
+}
+
+std::string StyleReport::text(const GranularSystem &system,
+                              const std::string &reason_for_host) const
+{
+  const std::string pair = force->pair ? force->pair_style : "none";
+  return "Talus: styles of this run\n" + line("pair " + pair, pair_is(system)) +
+         lines_of_fixes(system) +
+         line(std::string("run ") + update->integrate_style, run_style_is()) +
+         line("steps without output", reason_for_host.empty()
+                                          ? "in the records"
+                                          : "through the arrays of LAMMPS: " + reason_for_host);
+}
+
+std::string StyleReport::pair_is(const GranularSystem &system) const
+{
+  if (!force->pair) return how("there is no pair style");
+  if (const auto *ours = dynamic_cast<const SystemPair *>(force->pair))
+    return how(ours->reason_for_stock());
+  if (system.has_pair_style())
+    return "sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock";
+  if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");
+  return how(why_stock(*force->pair_map, force->pair_style));
+}
+
+/* A fix of the host that does not act on particles within a step, such as fix pour or fix print,
+   keeps none from being in the records: it needs no line. */
+
+std::string StyleReport::lines_of_fixes(const GranularSystem &system) const
+{
+  std::string lines;
+  for (int n = 0; n < modify->nfix; n++) {
+    Fix *fix = modify->fix[n];
+    const auto *ours = dynamic_cast<SystemFix *>(fix);
+    if (is_internal(fix) || (!ours && !system.acts_within_steps(fix, modify->fmask[n]))) continue;
+    lines += line(std::string("fix ") + fix->id + " " + fix->style,
+                  how(ours ? ours->reason_for_stock() : why_stock(*modify->fix_map, fix->style)));
+  }
+  return lines;
+}
+
+std::string StyleReport::run_style_is() const
+{
+  const auto *ours = dynamic_cast<const SystemRunStyle *>(update->integrate);
+  return how(ours ? ours->reason_for_stock() : "use run_style verlet");
+}
+
+}    // namespace Talus
