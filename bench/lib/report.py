@@ -7,7 +7,8 @@ import re
 
 import machine
 
-ORDER = ("single", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "accuracy", "stability")
+ORDER = ("single", "dropin", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "accuracy",
+         "stability")
 HEAD = """# Benchmarks
 
 Written by `scripts/bench NAME`; every section says when, where and with which versions, and how to repeat it.

@@ -119,6 +119,19 @@ build_released_host() {
   finish_host "$dir" "$dir/src" "$sizes"
 }
 
+# want_inputs: the next host that is prepared shall have the inputs for grains of its LAMMPS. Sources
+# that are unpacked now have them; without a network those that were unpacked without stay so.
+want_inputs() { export TALUS_INPUTS=1; }
+
+# complete_released_host NAME DIR
+complete_released_host() {
+  has_inputs "$2/src" && return
+  note "the source of LAMMPS in $2 was unpacked without its inputs for grains: getting them"
+  with_lock "$2.lock" download_inputs "$(host_field "$1" 2)" "$(host_field "$1" 3)" "$2/src" ||
+    note "left out: what runs the inputs for grains of LAMMPS $1, which could not be fetched (see above)." \
+      "Run the command again with a network"
+}
+
 # A tree of the user's may change at any time: its build is brought up to date on every call.
 build_users_host() {
   local source=$1 sizes=$2 dir=$3
@@ -155,6 +168,7 @@ use_released_host() {
   local dir sizes=${2:-smallbig}
   dir=$(released_host_dir "$1" "$sizes")
   stamp_is_good "$dir" || with_lock "$dir.lock" build_released_host "$1" "$sizes" "$dir"
+  [[ -z ${TALUS_INPUTS:-} ]] || complete_released_host "$1" "$dir"
   HOST_SOURCE=$dir/src
   HOST_BINARY=$dir/build
 }

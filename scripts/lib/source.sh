@@ -87,23 +87,52 @@ download_source() {
   fi
 }
 
-# unpack_source TARBALL DIR: the parts that a build and its tests need. Some tarballs have a top
-# folder, some have not.
-unpack_source() {
-  local tarball=$1 dir=$2 first prefix='' strip=0 part parts=()
+# What a build, its tests and the benchmarks need of the tree.
+TALUS_SOURCE_PARTS=(LICENSE README bench cmake lib python src third_party unittest)
+
+# Input scripts for grains that users of LAMMPS know, with the files they read.
+TALUS_INPUT_PARTS=(examples/bpm/pour examples/granregion examples/granular examples/pour)
+
+# unpack_parts TARBALL DIR PART...: some tarballs have a top folder, some have not.
+unpack_parts() {
+  local tarball=$1 dir=$2 first prefix='' strip=0
+  shift 2
   first=$(tar -tf "$tarball" 2>/dev/null | sed -n '1{p;q;}' || true)
   if [[ $first == lammps*/* ]]; then
     prefix=${first%%/*}/
     strip=1
   fi
-  for part in LICENSE README bench cmake lib python src third_party unittest; do
-    parts+=("$prefix$part")
-  done
   mkdir -p "$dir"
   # third_party is not in every version: a name that is missing is no error, a bad file is one.
-  tar -xf "$tarball" -C "$dir" --no-same-owner --strip-components="$strip" "${parts[@]}" 2>"$dir.log" ||
+  tar -xf "$tarball" -C "$dir" --no-same-owner --strip-components="$strip" "${@/#/$prefix}" 2>"$dir.log" ||
     ! grep -v -e 'third_party: Not found' -e 'Exiting with failure' "$dir.log" >&2 ||
     die "cannot unpack $tarball (disk full?): free some space and run the command again"
-  [[ -f $dir/src/version.h ]] || die "no LAMMPS source in $tarball; remove $(dirname "$tarball") and run the command again"
   rm -f "$dir.log"
+}
+
+# unpack_source TARBALL DIR
+unpack_source() {
+  unpack_parts "$1" "$2" "${TALUS_SOURCE_PARTS[@]}" "${TALUS_INPUT_PARTS[@]}"
+  [[ -f $2/src/version.h ]] || die "no LAMMPS source in $1; remove $(dirname "$1") and run the command again"
+}
+
+has_inputs() {
+  local part
+  for part in "${TALUS_INPUT_PARTS[@]}"; do [[ -d $1/$part ]] || return 1; done
+}
+
+# download_inputs UPSTREAM SUITE SOURCE: put the inputs into a tree that has been unpacked without them.
+download_inputs() {
+  local upstream=$1 suite=$2 source=$3 part new=$3.inputs
+  ! has_inputs "$source" || return 0
+  rm -rf "$new"
+  mkdir -p "$new"
+  download_source "$upstream" "$suite" "$new/download"
+  unpack_parts "$(ls "$new"/download/lammps_*.orig.tar.*)" "$new/tree" "${TALUS_INPUT_PARTS[@]}"
+  for part in "${TALUS_INPUT_PARTS[@]}"; do
+    rm -rf "${source:?}/$part"
+    mkdir -p "$(dirname "$source/$part")"
+    mv "$new/tree/$part" "$source/$part"
+  done
+  rm -rf "$new"
 }

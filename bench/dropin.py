@@ -1,0 +1,174 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Existing input scripts, run with -sf talus."""
+
+import os
+import re
+import sys
+
+import beds
+import lammps
+import machine
+import paired
+from lammps import STOCK, TALUS
+
+sys.path.append(os.path.join(machine.ROOT, "tests", "lib"))
+import stock_inputs
+
+TITLE = "Existing scripts"
+QUESTION = """What does `-sf talus` gain for a script that was written for LAMMPS? The whole run is measured, start and output
+included."""
+
+SUFFIX = {STOCK: [], TALUS: ["-sf", "talus"]}
+FLOOR = 0.98            # of inputs of which nothing need be accelerated
+CHUTE_FLOOR = 2.0
+BED_FLOOR, BED_FLOOR_ZEN4 = 4.0, 3.3
+LONG_CHUTE = 3000       # steps
+
+# as users of LAMMPS write it
+BED = """units si
+atom_style sphere
+boundary f f f
+comm_modify vel yes
+read_data {data}
+pair_style gran/{law}
+pair_coeff * *
+neighbor {skin} bin
+neigh_modify every 1 delay 0
+fix weight all gravity {gravity} vector 0 0 -1
+fix move all nve/sphere
+fix floor all wall/gran {law} zplane 0.0 NULL
+fix x all wall/gran {law} xplane $(xlo) $(xhi)
+fix y all wall/gran {law} yplane $(ylo) $(yhi)
+timestep {dt}
+thermo 100
+thermo_modify norm no lost error
+run {steps}
+"""
+
+
+# ---- cases ------------------------------------------------------------------------------------
+
+class Case:
+    """name; what it is; its script; floor of the ratio on one core; folder that holds what it reads."""
+
+    def __init__(self, bench, name, what, text, floor, given=None):
+        self.name, self.what, self.text, self.floor = name, what, text, floor
+        self.variables = [word for key, value in given.variables.items() for word in ("-var", key, str(value))] \
+            if given else []
+        self.folder = bench.path(name)
+        os.makedirs(self.folder, exist_ok=True)
+        if given:
+            stock_inputs.copy_companions(given, machine.HOST_SOURCE, self.folder)
+
+    def run(self, code, cores, check=True):
+        return lammps.run(self.folder, code, self.text, code, cores=cores, ranks=len(cores), check=check,
+                          arguments=[*SUFFIX[code], *self.variables])
+
+
+def zen4():
+    with open("/proc/cpuinfo") as file:
+        head = file.read(2000)
+    return "AuthenticAMD" in head and re.search(r"cpu family\s*: 25\n", head) is not None
+
+
+def bed_case(bench):
+    count = bench.size(50000, 12500)
+    data, _ = beds.bed(bench, count)
+    text = BED.format(data=data, law=beds.STOCK_HISTORY, skin=beds.SKIN, gravity=beds.GRAVITY, dt=beds.DT,
+                      steps=bench.size(1000, 200))
+    return Case(bench, "bed", f"{count} spheres between walls, gran/hertz/history", text,
+                BED_FLOOR_ZEN4 if zen4() else BED_FLOOR)
+
+
+def input_case(bench, given, steps):
+    text = stock_inputs.shortened(stock_inputs.read_text(given, machine.HOST_SOURCE), steps)
+    return Case(bench, given.title[3:], given.name, text, FLOOR, given)
+
+
+def long_chute(bench, given):
+    steps = bench.size(LONG_CHUTE, 300)
+    text = stock_inputs.RUN.sub(rf"\g<1>{steps}", stock_inputs.read_text(given, machine.HOST_SOURCE))
+    return Case(bench, "chute.long", f"{given.name} with {steps} steps", text, CHUTE_FLOOR, given)
+
+
+def cases(bench):
+    """Those that are asked for and can be made."""
+    if bench.wants("bed"):
+        yield bed_case(bench)
+    for given in stock_inputs.INPUTS:
+        if not os.path.exists(os.path.join(machine.HOST_SOURCE, given.name)):
+            bench.section.text(f"Left out: {given.name}, which the source of this LAMMPS does not have.")
+            continue
+        if given.name == "bench/in.chute" and bench.wants("chute.long"):
+            yield long_chute(bench, given)
+        if bench.wants(given.title[3:]):
+            yield input_case(bench, given, bench.size(given.bench_steps, min(500, given.bench_steps)))
+
+
+# ---- measuring --------------------------------------------------------------------------------
+
+def shares(result):
+    """Where LAMMPS spends its time, summed over all runs of a script: the categories above 10 %."""
+    loops = result.loops()
+    total = sum(loop.seconds for loop in loops) or 1.0
+    found = {}
+    for loop in loops:
+        for name, seconds in loop.breakdown.items():
+            found[name] = found.get(name, 0.0) + seconds / total
+    return ", ".join(f"{name} {100 * share:.0f} %" for name, share in sorted(found.items(), key=lambda pair: -pair[1])
+                     if share >= 0.1)
+
+
+def compare(bench, case, cores):
+    """Ratio of wall times; all rounds go to the table of the section."""
+    series = paired.measure({code: lambda c=code: case.run(c, cores).seconds for code in (STOCK, TALUS)}, bench.rounds)
+    for k, (plain, ours) in enumerate(zip(series[STOCK].values, series[TALUS].values)):
+        bench.section.record(case=case.name, ranks=len(cores), round=k + 1, stock_s=plain, talus_s=ours, ratio=plain / ours)
+    return series[STOCK].median, series[TALUS].median, paired.ratio(series[STOCK], series[TALUS])
+
+
+def row(bench, case):
+    """None if LAMMPS itself ends in an error."""
+    bench.note(case.name)
+    first = case.run(STOCK, paired.one_core(), check=False)
+    if first.returncode:
+        bench.section.text(f"Left out: {case.what}, with which this LAMMPS itself ends in an error: `{first.error()}`")
+        return None
+    said = stock_inputs.accelerated(case.run(TALUS, paired.one_core()).log)
+    plain, ours, ratio = compare(bench, case, paired.one_core())
+    if ratio.median < case.floor:
+        bench.section.headline(f"dropin, {case.name}: ratio {ratio.median:.2f}, less than the {case.floor} that was aimed at.")
+    pair = "-"
+    if len(machine.cores()) > 1:
+        pair = str(compare(bench, case, machine.cores()[-2:])[2])
+    return [case.name, case.what, plain, ours, str(ratio), case.floor, pair, said, shares(first)]
+
+
+COLUMNS = ["case", "what", "LAMMPS, s", "-sf talus, s", "ratio, median (range)", "floor", "ratio on 2 ranks",
+           "accelerated", "where LAMMPS spends its time"]
+
+
+def measure(bench):
+    rows = list(filter(None, (row(bench, case) for case in cases(bench))))
+    bench.section.table(COLUMNS, rows)
+    bench.section.text(f"""Wall time of the whole process, on one core unless said otherwise; LAMMPS runs without the plugin.
+`accelerated`: what the log says at the start of the first run. Runs are shortened, so that LAMMPS takes some seconds
+for each; `chute.long` is lengthened. Nothing else is edited. `bed`: settled, 15 diameters deep, floor and four walls. floor
+is what was aimed at on one core ({BED_FLOOR_ZEN4} for `bed` on processors of the generation before Zen 5).""")
+    if rows:
+        bench.section.plot("", "Ratios of run times on one core, with the range over the rounds; the bar is the floor",
+                           lambda plt: draw(plt, rows))
+
+
+def draw(plt, rows):
+    _, axes = plt.subplots(figsize=(6.5, 0.3 * len(rows) + 1))
+    for k, line in enumerate(rows):
+        median, low, high = map(float, re.findall(r"[\d.]+", line[4]))
+        axes.plot([low, high], [k, k], color="0.0", linewidth=3)
+        axes.plot([median], [k], "o", color="0.0", markersize=6)
+        axes.plot([line[5]], [k], "|", color="0.5", markersize=16, markeredgewidth=2)
+    axes.set_yticks(range(len(rows)), [line[0] for line in rows])
+    axes.set_xscale("log")
+    axes.set_xticks([0.5, 1, 2, 4, 8], map(str, [0.5, 1, 2, 4, 8]))
+    axes.invert_yaxis()
+    axes.set_xlabel("times faster")
