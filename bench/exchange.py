@@ -7,6 +7,7 @@ hidden  Two ranks of 20 000 spheres in the model of a network of 25 us and 1 GB/
 model   Times of a step over latency, bandwidth and size in that model: a preloaded library delivers a message
         no earlier than latency + bytes/bandwidth after it was sent. This is a model, not a network.
 real    Two ranks without it: ratio of the times of whole steps, direct over stock, taken in turns.
+packing What it takes to pack and to unpack a proxy, without messages.
 """
 
 import itertools
@@ -14,6 +15,7 @@ import math
 import statistics
 
 import beds
+import google
 import paired
 import plot
 from exchange_runs import Bed, LAWS, METHODS, MODEL, Runner, VERLET, counted, ratio, read_turns
@@ -229,7 +231,25 @@ def real(bench, runner):
                                ", ".join(slower))
 
 
+# ---- packing ----------------------------------------------------------------------------------
+
+def packing(bench, runner):
+    found = google.run(bench, "packing", 0.002)    # to fill the caches takes much longer
+    bench.section.heading("Packing and unpacking")
+    if found is None:
+        bench.section.text(google.LEFT_OUT)
+        return
+    functions = sorted({name for name, _ in found})
+    rows = []
+    for size in sorted({size for _, size in found}):
+        times = [paired.Series([1e9 / each["items_per_second"] for each in found[name, size]]).median for name in functions]
+        rows.append([size, round(found[functions[0], size][0]["proxies"]), *times])
+    tabulate(bench, ["spheres", "proxies", *(f"{name.split('/')[1]} (ns per proxy)" for name in functions)], rows)
+    bench.section.text("One rank that is a cube of a lattice with neighbors on all 26 sides: the states of its proxies packed "
+                       "for them, and as many unpacked. Caches are filled with something else before, as by a step.")
+
+
 def measure(bench):
-    for name, part in {"counts": counts, "hidden": hidden, "model": model, "real": real}.items():
+    for name, part in {"counts": counts, "hidden": hidden, "model": model, "real": real, "packing": packing}.items():
         if bench.wants(name):
             part(bench, Runner(bench.workdir))

@@ -1,12 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Single stages of the contact pipeline on a bed in memory, and what canonical order costs."""
 
-import json
-import os
-import subprocess
-
-import lammps
-import machine
+import google
 import paired
 import plot
 
@@ -14,7 +9,6 @@ TITLE = "Stages"
 QUESTION = """What does each stage of a step and of a rebuild take on its own, with data in the cache and out of it? And what
 does it cost that sums are taken in canonical order, against the same kernels on pairs as the neighbor list gives them?"""
 
-PROGRAM = os.path.join(machine.BUILD, "bench", "contact_stages")
 REBUILD = 100       # steps between rebuilds
 AIM = 1.10          # what canonical order may cost
 
@@ -48,32 +42,11 @@ DIVISIONS = {
 }
 
 
-def results(bench):
-    """{(function, spheres): results of Google Benchmark, one for each round}; all functions in every round, in random order."""
-    out = bench.path("stages.json")
-    command = ["taskset", "-c", str(paired.one_core()[0]), PROGRAM, f"--benchmark_out={out}", "--benchmark_out_format=json",
-               f"--benchmark_min_time={bench.size(0.1, 0.01)}", f"--benchmark_repetitions={bench.rounds}",
-               "--benchmark_enable_random_interleaving=true"]
-    if bench.quick:
-        command.append("--benchmark_filter=/(3000|50000)$")
-    # the parts of several threads one after the other: their work is asked for, not what the machine makes of it
-    done = subprocess.run(command, env=dict(os.environ, OMP_THREAD_LIMIT="1"), capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise lammps.Failed(f"{PROGRAM}: {done.stderr[-1500:]}")
-    found = {}
-    with open(out) as file:
-        for result in json.load(file)["benchmarks"]:
-            if result["run_type"] == "iteration":
-                name, size = result["run_name"].rsplit("/", 1)
-                found.setdefault((name, int(size)), []).append(result)
-    return found
-
-
 def measure(bench):
-    if not os.path.exists(PROGRAM):
-        bench.section.text("Left out: Google Benchmark was not found when Talus was built (Debian: libbenchmark-dev).")
+    found = google.run(bench, "contact_stages", bench.size(0.1, 0.01))
+    if found is None:
+        bench.section.text(google.LEFT_OUT)
         return
-    found = results(bench)
     series = {key: paired.Series([1e9 / result["items_per_second"] for result in each]) for key, each in found.items()}
     sizes = sorted({size for _, size in series})
     for (name, size), times in series.items():

@@ -13,9 +13,8 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
-from tossed_grains import tossed_grains
+from tossed_grains import LAW as FRICTION, tossed_grains
 
-FRICTION = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 LAWS = {"friction": FRICTION, "frictionless": "hertz 4000.0 40.0",
         "rolling": FRICTION + " rolling 0.1"}
 SCENE = """

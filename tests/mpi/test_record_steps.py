@@ -13,44 +13,20 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, write_sphere_data
-from tossed_grains import tossed_grains
+from tossed_grains import LAW, TossedCase
 
-LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 RECORDS = "steps without output              in the records"
 HOST = "steps without output              through the arrays of LAMMPS: "
 STOCK = "run_style verlet/stock"    # of LAMMPS
-
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
+FROZEN = """
 group base id <= 40
 group loose subtract all base
-pair_style gran/penalty
-pair_coeff * * {law}
-neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
-timestep 0.001
-{movers}
-fix floor all large/body plane 0 0 0  0 0 1  contact {law}
-{walls}
-{more}
-{style}
-thermo 7
-thermo_modify norm no lost ignore
-dump all all custom {every} dump id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz
-dump_modify all format float %a sort id
-{run}
+fix step loose nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
+fix held base freeze
 """
-MOVERS = "fix step all nve/sphere/symplectic start {start} gravity 4.0 vector 0.3 0.1 -1"
-FROZEN = "fix step loose nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1\nfix held base freeze"
 # bodies at rest before and behind one that moves, and corners where particles touch several
-WALLS = """fix xlo all large/body plane 0 0 0  1 0 0  contact {law}
+WALLS = """
+fix xlo all large/body plane 0 0 0  1 0 0  contact {law}
 fix ylo all large/body plane 0 0 0  0 1 0  contact {law}
 fix top all large/body box 4.5 3.5 4.5 5 3 1.5 outside move rotate 4.5 3.5 4.5  0 0 1  3.0  contact {law}
 fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
@@ -59,29 +35,12 @@ fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
 PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes"
 
 
-def scene(style, law=LAW, boundary="f f f", movers=None, start="plain", more="", every=20,
-          run="run 130"):
-    return SCENE.format(law=law, boundary=boundary, movers=movers or MOVERS.format(start=start),
-                        walls=WALLS.format(law=law) if boundary == "f f f" else "", more=more,
-                        style=style, every=every, run=run)
+class RecordSteps(TossedCase):
 
-
-class RecordSteps(SceneCase):
-
-    def setUp(self):
-        super().setUp()
-        write_sphere_data(self.path("grains"), ((0, 9.5), (0, 7.2), (-0.5, 6.5)), tossed_grains(3))
-
-    def run_scene(self, style, np=1, threads=1, **options):
+    def run_scene(self, style, law=LAW, boundary="f f f", more="", **options):
         """The text of the dump and of the log."""
-        log = self.run_lammps(scene(style, **options), np=np, cwd=self.dir,
-                              env={"OMP_NUM_THREADS": str(threads)}).log
-        with open(self.path("dump")) as f:
-            frames = f.read()
-        os.remove(self.path("dump"))
-        # a list that came too late voids the promise
-        self.assertNotRegex(log, "Dangerous builds = [1-9]")
-        return frames, log
+        walls = WALLS.format(law=law) if boundary == "f f f" else ""
+        return self.run_tossed(law=law, boundary=boundary, more=f"{walls}{more}\n{style}\nthermo 7", **options)
 
     def assert_same(self, style=PROXY, np=1, threads=1, **options):
         stock = ("comm_proxy yes\n" if "comm_proxy" in style else "") + STOCK

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Contact history in restart files: of a format that is known, or the reader says so."""
+"""Contact history and large bodies in restart files: of a format that is known, or the reader says so."""
 
 import os
 import struct
@@ -48,18 +48,37 @@ class HistoryRestart(SceneCase):
             self.assertNotEqual(whole.column("fy")[tag] + whole.column("fz")[tag],
                                 without.column("fy")[tag] + without.column("fz")[tag])
 
+    def refuse(self, content, commands, message):
+        with open(self.path("other"), "wb") as file:
+            file.write(content)
+        for np in 1, 2:
+            log = self.run_lammps(START + "read_restart other\n" + commands, np=np, expect_error=True).log
+            self.assertIn(message, " ".join(log.split()))
+
     def test_other_formats_are_refused(self):
         with open(self.path("half"), "rb") as file:
             content = file.read()
         state = struct.pack("<id", 24, -2.0)    # length and version
         self.assertEqual(content.count(state), 1)
         for first, found in ((-3.0, 3), (8.0, 1)):    # files of the first format begin with a length
-            with open(self.path("other"), "wb") as file:
-                file.write(content.replace(state, struct.pack("<id", 24, first)))
-            for np in 1, 2:
-                log = self.run_lammps(START + "read_restart other\n" + REST + "run 0\n", np=np, expect_error=True).log
-                self.assertIn(f"the restart file holds contact history in the format {found}, and this version of Talus "
-                              "reads format 2", " ".join(log.split()))
+            self.refuse(content.replace(state, struct.pack("<id", 24, first)), REST + "run 0\n",
+                        f"the restart file holds contact history in the format {found}, and this version of Talus "
+                        "reads format 2: continue with the version that wrote it")
+
+    def test_large_bodies_of_other_versions_are_refused(self):
+        body = "fix floor all large/body plane 0 0 0.5 0 0 1 contact hertz 4000.0 40.0 move linear 0 0 0.1\n"
+        self.run_lammps(START + "read_data grains\n" + PAIR + REST + body + "run 10\nwrite_restart half\n")
+        with open(self.path("half"), "rb") as file:
+            content = file.read()
+        self.run_lammps(START + "read_restart half\n" + REST + body + "run 0\n")
+        # bytes, number of values, and the first one, which is the version; in the first one the number of particles
+        found = [k for k in range(len(content) - 20) if content[k + 12:k + 20] == struct.pack("<d", -2.0)
+                 and struct.unpack("<i", content[k:k + 4])[0] == 8 + 8 * struct.unpack("<d", content[k + 4:k + 12])[0]]
+        self.assertEqual(len(found), 1)
+        for first in -3.0, -1.0, float(len(GRAINS)):
+            self.refuse(content[:found[0] + 12] + struct.pack("<d", first) + content[found[0] + 20:], REST + body,
+                        "Fix large/body floor: the restart file was written by another version of Talus, which kept other "
+                        "data of large bodies: go on with that version")
 
 
 if __name__ == "__main__":
