@@ -9,8 +9,8 @@
 #include "compute/compute_timestep_gran.h"
 #include "fix/fix_gravity_talus.h"
 #include "fix/fix_large_body.h"
-#include "fix/fix_nve_sphere_talus.h"
 #include "fix/fix_nve_sphere_symplectic.h"
+#include "fix/fix_nve_sphere_talus.h"
 #include "pair/pair_gran_penalty.h"
 #if TALUS_HOST_HAS_GRANULAR
 #include "pair/pair_gran_talus.h"

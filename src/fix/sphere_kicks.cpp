@@ -10,8 +10,8 @@
 
 using namespace LAMMPS_NS;
 
-void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step,
-                             int frozenbits, bool drifts)
+void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
+                             bool drifts)
 {
   const Atom *const atom = lmp->atom;
   const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;

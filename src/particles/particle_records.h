@@ -120,10 +120,9 @@ class ParticleRecords {
   Vec4 weight(std::size_t slot, Vec4 its_velocity) const
   {
     if (!has_gravity) return Vec4{};
-    const Vec4 inverse_mass = __builtin_shufflevector(its_velocity, its_velocity, 3, 3, 3, 3);
-    const bool has_weight =
-        inverse_mass[0] > 0.0 && (weightless.empty() || !weightless[slot]);
-    return kept_if(has_weight, load4(gravity) / inverse_mass);
+    const double inverse_mass = its_velocity[3], mass = 1.0 / inverse_mass;
+    const bool has_weight = inverse_mass > 0.0 && (weightless.empty() || !weightless[slot]);
+    return kept_if(has_weight, mass * load4(gravity));
   }
   Vec4 weight(int slot) const { return weight(slot, load4(velocity(slot))); }
 

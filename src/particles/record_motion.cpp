@@ -113,7 +113,7 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    const Moved now = its == MOVES ? kick<rotation>(first, s)
+    const Moved now = its == MOVES  ? kick<rotation>(first, s)
                       : its > MOVES ? kick<rotation>(others[its - MOVES - 1], s)
                                     : Moved{load4(position[s]), load4(motion[its_stride * s])};
     begin_sums(s, now.v);

@@ -97,7 +97,8 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
 
 std::string GranularSystem::reason_of_integrators() const
 {
-  if (integrators.empty()) return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
+  if (integrators.empty())
+    return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
   if (integrators.size() > most_integrators) return "many fixes move particles";
   constexpr int all = 1;
   for (std::size_t n = 1; n < integrators.size(); n++)

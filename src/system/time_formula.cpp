@@ -19,7 +19,10 @@ namespace {
 
 // An explicit instantiation may name private members.
 template <auto styles, auto texts> struct VariableMembers {
-  friend std::string style_of(Variable &all, int n) { return Variable::varstyles[(all.*styles)[n]]; }
+  friend std::string style_of(Variable &all, int n)
+  {
+    return Variable::varstyles[(all.*styles)[n]];
+  }
   friend std::string text_of(Variable &all, int n) { return (all.*texts)[n][0]; }
 };
 std::string style_of(Variable &all, int n);
@@ -61,11 +64,11 @@ bool holds(const std::vector<std::string> &words, const std::string &word)
 bool is_known(const std::string &word)
 {
   static const std::vector<std::string> known = {
-      "step",  "time",    "dt",        "elapsed", "elaplong", "PI",      "version", "yes",
-      "no",    "on",      "off",       "true",    "false",    "sqrt",    "exp",     "ln",
-      "log",   "abs",     "sign",      "sin",     "cos",      "tan",     "asin",    "acos",
-      "atan",  "atan2",   "ceil",      "floor",   "round",    "ternary", "ramp",    "stagger",
-      "logfreq", "logfreq2", "logfreq3", "stride", "stride2", "vdisplace", "swiggle", "cwiggle"};
+      "step",    "time",     "dt",       "elapsed", "elaplong", "PI",        "version", "yes",
+      "no",      "on",       "off",      "true",    "false",    "sqrt",      "exp",     "ln",
+      "log",     "abs",      "sign",     "sin",     "cos",      "tan",       "asin",    "acos",
+      "atan",    "atan2",    "ceil",     "floor",   "round",    "ternary",   "ramp",    "stagger",
+      "logfreq", "logfreq2", "logfreq3", "stride",  "stride2",  "vdisplace", "swiggle", "cwiggle"};
   return holds(known, word);
 }
 
@@ -88,8 +91,8 @@ bool reads_only_time(Variable &all, const std::string &name, std::set<std::strin
   const int n = all.find(name.c_str());
   if (n < 0) return false;
   // values that stay what they are during a run
-  static const std::vector<std::string> fixed = {"index",  "loop",   "world",
-                                                 "string", "getenv", "universe", "uloop"};
+  static const std::vector<std::string> fixed = {"index",  "loop",     "world", "string",
+                                                 "getenv", "universe", "uloop"};
   const std::string style = style_of(all, n);
   if (holds(fixed, style)) return true;
   std::vector<std::string> inner;

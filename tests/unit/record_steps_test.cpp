@@ -23,6 +23,14 @@ namespace {
 constexpr double skin = 1.5;
 const RecordStep euler{1e-3, 1e-3, {0.0, 1e-3, -4e-3}, 0.4};
 
+/// Velocity Verlet: kicks of half a step.
+RecordStep verlet(double inertia)
+{
+  RecordStep step{1e-3, 5e-4, {0.0, 0.0, 0.0}, inertia};
+  step.two_kicks = true;
+  return step;
+}
+
 /// A host: rows of three, owned particles only.
 struct Host {
   std::vector<double> x, v, omega, radius, mass, f, torque;
@@ -45,6 +53,17 @@ struct Host {
     return {x.data(),    v.data(), omega.data(), radius.data(),
             mass.data(), nullptr,  f.data(),     torque.data()};
   }
+  /// One kick, and the drift of particle i.
+  void kick(int i, const RecordStep &with, bool drifts)
+  {
+    const double per_mass = with.kick * (1.0 / mass[i]), inverse_radius = 1.0 / radius[i];
+    const double per_inertia = per_mass * (inverse_radius * inverse_radius) * (1.0 / with.inertia);
+    for (int k = 3 * i; k < 3 * i + 3; k++) {
+      v[k] += per_mass * f[k] + with.fall[k - 3 * i];
+      omega[k] += per_inertia * torque[k];
+      if (drifts) x[k] += with.dt * v[k];
+    }
+  }
   void clear_forces()
   {
     std::fill(f.begin(), f.end(), 0.0);
@@ -56,17 +75,8 @@ struct Host {
   }
   void step(const std::function<bool(int)> &moves)
   {
-    for (int i = 0; i < n; i++) {
-      if (!moves(i)) continue;
-      const double per_mass = euler.kick * (1.0 / mass[i]), inverse_radius = 1.0 / radius[i];
-      const double per_inertia =
-          per_mass * (inverse_radius * inverse_radius) * (1.0 / euler.inertia);
-      for (int k = 3 * i; k < 3 * i + 3; k++) {
-        v[k] += per_mass * f[k] + euler.fall[k - 3 * i];
-        x[k] += euler.dt * v[k];
-        omega[k] += per_inertia * torque[k];
-      }
-    }
+    for (int i = 0; i < n; i++)
+      if (moves(i)) kick(i, euler, true);
   }
 };
 
@@ -204,6 +214,71 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
       EXPECT_TRUE(same_rows(host.torque, twin.torque));
     }
     for (Host *one : {&twin, &host}) one->clear_forces();
+  }
+}
+
+/* Three groups: spheres and discs of velocity Verlet, and semi-implicit Euler. Some have no weight. */
+
+TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
+{
+  const std::vector<RecordStep> steps{verlet(0.4), verlet(0.5), euler};
+  const double g[3] = {0.1, -0.3, -5.0};
+  const auto mover = [this](int i) { return moves(i) ? i % 3 : -1; };
+  const auto weightless = [](int i) { return i % 4 == 1; };
+  for (ContactPipeline *pipeline : {&slow, &fast}) {
+    pipeline->set_gravity(g);
+    pipeline->set_weightless(weightless);
+  }
+  const auto end_step = [&](Host &of) {
+    for (int i = 0; i < of.n; i++)
+      if (mover(i) >= 0 && steps[mover(i)].two_kicks) of.kick(i, steps[mover(i)], false);
+  };
+  for (int n = 0; n < 30; n++) {
+    const bool looked_at = n % 6 == 0 || n == 7;
+    if (n > 0)
+      for (int i = 0; i < twin.n; i++)
+        if (mover(i) >= 0) twin.kick(i, steps[mover(i)], true);
+    twin.clear_forces();
+    compute(slow, twin, {euler.dt, n > 0});
+    end_step(twin);
+
+    const bool held = fast.holds_state();
+    if (held) {
+      if (!fast.can_move()) fast.prepare_to_move(mover, sent, twin_then.data());
+      fast.advance(steps);
+      EXPECT_TRUE(fast.is_moving());
+    } else if (n > 0) {
+      for (int i = 0; i < host.n; i++)
+        if (mover(i) >= 0) host.kick(i, steps[mover(i)], true);
+    }
+    host.clear_forces();
+    ContactStep step{euler.dt, n > 0};
+    step.read = !held;
+    step.deliver = looked_at;
+    compute(fast, host, step);
+    if (!looked_at) {
+      host.spoil();
+      continue;
+    }
+    if (held) fast.write_state(host.x.data(), host.v.data(), host.omega.data());
+    end_step(host);
+    ASSERT_TRUE(same_state(host, twin)) << n;
+    ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
+  }
+}
+
+TEST_P(RecordSteps, BeginSumsWithTheWeights)
+{
+  const double g[3] = {0.0, 0.0, -5.0};
+  Host bare(p);
+  compute(slow, bare, {euler.dt, false});
+  slow.set_gravity(g);
+  slow.set_weightless([](int i) { return i % 4 == 1; });
+  compute(slow, twin, {euler.dt, false});
+  for (int i = 0; i < twin.n; i++) {
+    const double weight = i % 4 == 1 ? 0.0 : -5.0 * twin.mass[i], f = bare.f[3 * i + 2];
+    EXPECT_EQ(twin.f[3 * i], bare.f[3 * i]);
+    EXPECT_NEAR(twin.f[3 * i + 2], f + weight, 1e-12 * (std::abs(f) + std::abs(weight) + 1.0)) << i;
   }
 }
 
