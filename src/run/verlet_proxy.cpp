@@ -224,7 +224,8 @@ void VerletProxy::compute_forces()
     modify->pre_reverse(eflag, vflag);
     timer->stamp(Timer::MODIFY);
   }
-  if (force->newton) {
+  // forces in the records are complete, and those of the host not up to date
+  if (force->newton && system->residence() == Residence::HOST) {
     comm->reverse_comm();
     timer->stamp(Timer::COMM);
   }
