@@ -2,8 +2,7 @@
 # drivers are built from the host's sources and get the files tests/styles/demNN-NAME.yaml of ours, as tests
 # style/dem/NN-NAME. An older host has no such drivers, and nothing is registered.
 #
-# A driver runs a file twice, with `newton on` and with `newton off`. gran/penalty wants it off, so only that test is
-# run. A style that is missing makes the driver skip, which counts as failure here: see style/dem/skips_fail.
+# A driver runs a file twice, with `newton on` and with `newton off`. A style that is missing makes the driver skip, which counts as failure here: see style/dem/skips_fail.
 
 function(talus_find_style_drivers result)
   set(dir "${LAMMPS_SOURCE_DIR}/unittest/granular")
@@ -63,7 +62,7 @@ endfunction()
 # talus_add_style_test(case command ...): a skipped test fails, and so does none at all. The driver shows why a check
 # fails only with -v.
 function(talus_add_style_test case)
-  add_test(NAME style/dem/${case} COMMAND ${ARGN} -v "--gtest_filter=*.newton_off")
+  add_test(NAME style/dem/${case} COMMAND ${ARGN} -v "--gtest_filter=*.newton_*")
   talus_set_test_properties(style/dem/${case} LABELS style dem)
   set_property(TEST style/dem/${case} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()

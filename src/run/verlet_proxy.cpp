@@ -247,7 +247,8 @@ void VerletProxy::compute_forces()
     modify->pre_reverse(eflag, vflag);
     timer->stamp(Timer::MODIFY);
   }
-  if (reverses) {
+  // forces in the records are complete, and those of the host not up to date
+  if (reverses && system->residence() == Residence::HOST) {
     comm->reverse_comm();
     timer->stamp(Timer::COMM);
   }

@@ -31,7 +31,7 @@ units lj
 boundary f f f
 atom_style sphere
 atom_modify map yes sort {sort}
-newton off
+newton {newton}
 comm_modify vel yes
 processors {grid}
 {comm}
@@ -60,8 +60,8 @@ dump_modify contacts format float %a
 """
 
 
-def start(sort="1000 0", grid="* * *", comm=""):
-    return START.format(sort=sort, grid=grid, comm=comm)
+def start(sort="1000 0", grid="* * *", comm="", newton="off"):
+    return START.format(sort=sort, grid=grid, comm=comm, newton=newton)
 
 
 def rebuilds(skin=0.1, rebuild="every 1 delay 0 check yes"):
@@ -182,6 +182,10 @@ class SameBits(HeapCase):
         for grid in "4 1 1", "1 4 1", "1 1 4", "2 2 1", "1 2 2", "2 1 2":
             self.check(grid, 4, grid=grid)
         self.check("3 1 1", 3, grid="3 1 1")
+
+    def test_newton(self):
+        for np in 1, 2, 4:
+            self.check("newton on", np, newton="on")
 
     def test_threads(self):
         for np, threads in (1, 2), (1, 3), (2, 2), (3, 3), (8, 1):

@@ -219,5 +219,152 @@ class TestForces(Case):
         self.compare(f"pair_style {STYLES['hertz/history']}\npair_coeff * *", units="micro", run="run 3")
 
 
+    def test_collisions(self):
+        """1000 steps: no farther from stock than stock on two ranks is from itself on one."""
+        box = ((0.0, 6.0),) * 3
+        spheres = packing(120, box, sizes=(0.7, 1.0))
+        for s in spheres:
+            s.v = tuple(4 * v for v in s.v)
+        self.scene(spheres, box)
+        options = dict(boundary="p p p", local=False, every=1000, run="run 1000")
+        for name in ("hooke", "hooke/history", "hertz/history"):
+            pair = f"pair_style {STYLES[name]}\npair_coeff * *"
+            for folder, suffix, np in (("one", False, 1), ("two", False, 2), ("ours", True, 1)):
+                self.one(suffix, folder, np, pair=pair, **options)
+            one, two, ours = (read_dump(self.path(f"{n}/state"))[-1] for n in ("one", "two", "ours"))
+            self.assertEqual(one.step, 1000)
+            moved = max_difference(read_dump(self.path("one/state"))[0], one, ["xu", "yu", "zu"])
+            self.assertGreater(moved, 1.0)
+            spread = max_difference(one, two, ["xu", "yu", "zu"])
+            difference = max_difference(one, ours, ["xu", "yu", "zu"])
+            print(f"{name}: {difference:.2e} from stock, stock {spread:.2e} from itself")
+            self.assertLessEqual(difference, max(10 * spread, 1e-10))
+
+    def test_energies_and_contacts_of_computes(self):
+        self.scene(packing(150, self.BOX, sizes=(0.3, 0.9), types=2), self.BOX)
+        more = ("compute number all contact/atom\ncompute numbers all reduce sum c_number\n"
+                "compute fabric all fabric contact fn ft\nfix print all ave/time 1 1 1 c_numbers c_fabric[*] "
+                "file fabric format ' %.15g'")
+        for name in ("hooke", "hooke/history"):
+            self.compare(f"pair_style {STYLES[name]}\npair_coeff * *", more=more, run="run 3", local=False)
+            rows = []
+            for folder in "stock", "ours":
+                with open(self.path(f"{folder}/fabric")) as file:
+                    rows.append([list(map(float, line.split())) for line in file if line[0] != "#"])
+            self.assertGreater(rows[0][0][1], 10)
+            for a, b in zip(*rows):
+                for x, y in zip(a, b):
+                    self.assertAlmostEqual(x, y, delta=1e-11 * max(1.0, abs(x)))
+
+    def test_pouring(self):
+        """Particles to come count for the cutoffs."""
+        self.scene(packing(20, self.BOX, sizes=(0.1, 0.2)), self.BOX)
+        more = ("region slot block 0.5 2.5 0.5 2.5 2.0 3.0\nfix weight all gravity 1.0 vector 0 0 -1\n"
+                "fix rain all pour 30 1 4767548 region slot diam range 0.3 0.5\n"
+                "fix floor all wall/gran hooke 2000.0 NULL 10.0 NULL 0.5 1 zplane 0.0 NULL")
+        self.compare(f"pair_style {STYLES['hooke/history']}\npair_coeff * *", 1e-9, more=more, run="run 1200",
+                     every=300, local=False, boundary="s s f")
+
+    def test_minimize(self):
+        self.scene(packing(100, self.BOX, sizes=(0.5, 0.9)), self.BOX)
+        self.compare(f"pair_style {STYLES['hooke']}\npair_coeff * *", 1e-9, local=False, boundary="s s s",
+                     before="min_style fire", run="velocity all set 0 0 0\nminimize 0 0 5 5")
+
+
+class TestStock(Case):
+    """What is not accelerated is computed by the stock methods."""
+    BOX = TestForces.BOX
+
+    def check(self, pair, **options):
+        stock = self.one(False, "stock", pair=pair, local=False, **options)
+        ours = self.one(True, "ours", pair=pair, local=False, **options)
+        self.assert_equal_states("stock", "ours", 1e-12)
+        self.assert_equal_thermo(stock, ours, 1e-12)
+        return ours.log
+
+    def test_second_style_of_hybrid(self):
+        self.scene(packing(150, self.BOX, sizes=(0.3, 0.9), types=2), self.BOX)
+        log = self.check(f"pair_style hybrid {STYLES['hooke/history']} {STYLES['hertz/history']}\n"
+                         "pair_coeff * * gran/hooke/history\npair_coeff 2 2 gran/hertz/history", run="run 5")
+        self.assertIn("Talus gran/hooke/history", log)
+        self.assertNotIn("Talus gran/hertz/history", log)
+
+    def test_narrow_periodic_box(self):
+        box = ((0.0, 1.7), (0.0, 3.0), (0.0, 3.0))
+        self.scene(packing(60, box, sizes=(0.5, 0.9)), box)
+        pair = "pair_style {}\npair_coeff * *".format
+        self.assertNotIn("Talus gran", self.check(pair(STYLES["hooke/history"]), boundary="p p p", run="run 3"))
+        self.assertIn("Talus gran", self.check(pair(STYLES["hooke"]), boundary="p p p", run="run 3"))
+
+    def test_units(self):
+        self.scene(packing(150, self.BOX, sizes=(0.3, 0.9)), self.BOX)
+        log = self.check(f"pair_style {STYLES['hooke']}\npair_coeff * *", units="metal", run="run 3")
+        self.assertNotIn("Talus gran", log)
+
+    def test_fix_that_migrates(self):
+        self.scene(packing(150, self.BOX, sizes=(0.3, 0.9)), self.BOX)
+        log = self.check(f"pair_style {STYLES['hooke']}\npair_coeff * *", run="run 3",
+                         before="fix even all balance 100 1.0 shift x 5 1.0")
+        self.assertNotIn("Talus gran", log)
+
+    def test_two_accelerated_or_penalty(self):
+        self.scene(packing(20, self.BOX, sizes=(0.3, 0.9)), self.BOX)
+        self.assertIn("used only once", self.run_lammps(SCRIPT.format(
+            units="lj", dimension=3, boundary="f f f", newton="on", processors="", before="", disc="", more="", every=1,
+            data=self.path("data"), dump_local="", run="run 0", pair=
+            f"pair_style hybrid/overlay {STYLES['hooke']} gran/penalty\npair_coeff * * gran/hooke\n"
+            "pair_coeff * * gran/penalty hooke 1 1"), arguments=["-sf", "talus"], expect_error=True).log)
+
+
+class TestRestart(Case):
+    BOX = TestForces.BOX
+    CONTINUE = """
+newton on
+read_restart {file}
+neighbor 0.1 bin
+neigh_modify every 1 delay 0 check yes
+fix step all nve/sphere
+thermo 20
+dump state all custom 20 state id xu yu zu vx vy vz fx fy fz tqx tqy tqz
+dump_modify state format float %.17g first yes
+run 40
+"""
+
+    def setUp(self):
+        self.scene(packing(150, self.BOX, sizes=(0.3, 0.9), types=2), self.BOX)
+
+    def continued(self, name, suffix, file, np):
+        os.makedirs(self.path(name))
+        return self.run_lammps(self.CONTINUE.format(file=file), np=np, cwd=self.path(name),
+                               arguments=["-sf", "talus"] if suffix else [])
+
+    def test_crossing(self):
+        """The histories of one are those of the other: a run continued by either is that of stock without an interruption."""
+        columns = ["xu", "yu", "zu", "vx", "vy", "vz", "fx", "fy", "fz", "tqx", "tqy", "tqz"]
+        for style, boundary in (("hooke/history", "s s s"), ("hertz/history", "p p p"), ("hooke", "s s s")):
+            for np in 1, 2:
+                with self.subTest(style=style, np=np):
+                    options = dict(pair=f"pair_style {STYLES[style]}\npair_coeff * *", boundary=boundary, local=False,
+                                   every=20, run="run 40\nwrite_restart restart\nrun 40")
+                    tag = f"-{style.replace('/', '-')}-{np}"
+                    self.one(False, "stock" + tag, np, **options)
+                    self.one(True, "ours" + tag, 3 - np, **options)
+                    whole = read_dump(self.path(f"stock{tag}/state"))
+                    for writer in "stock", "ours":
+                        for suffix in False, True:
+                            name = f"{writer}-{suffix}{tag}"
+                            log = self.continued(name, suffix, self.path(f"{writer}{tag}/restart"), np).log
+                            self.assertEqual("Talus gran" in log, suffix)
+                            if style != "hooke":
+                                self.assertRegex(log, "fix style: (NEIGH_HISTORY|CONTACT_STORE)")
+                            for frame in read_dump(self.path(f"{name}/state")):
+                                same, = [w for w in whole[-3:] if w.step == frame.step]
+                                for kind in ("xyz", "v", "f", "t"):
+                                    group = [c for c in columns if c[0] in kind]
+                                    scale = max(max(map(abs, same.column(c).values())) for c in group)
+                                    self.assertLessEqual(max_difference(frame, same, group), 1e-10 * scale,
+                                                         f"{name} {kind} step {frame.step}")
+
+
 if __name__ == "__main__":
     unittest.main()
