@@ -134,20 +134,24 @@ void GranularSystem::finish_proxies()
   timer->stamp(Timer::COMM);
 }
 
-/* Bodies add their forces in the records if the particles are there before and after the step; those
-   behind one that does not join act on their own, so that the order of sums stays that of the
-   fixes. */
+/* None of those behind a fix that adds its forces on its own. */
 
-std::vector<SystemBody *> GranularSystem::bodies_that_may_join() const
+std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
 {
-  std::vector<SystemBody *> found;
+  std::vector<LargeBody *> found;
+  const auto all = bodies();
+  auto next = all.begin();
   for (const auto &fix : modify->get_fix_list()) {
     const auto *ours = dynamic_cast<SystemFix *>(fix);
-    if (ours && ours->adds_forces()) break;
-    if (auto *body = dynamic_cast<SystemBody *>(fix)) found.push_back(body);
+    if (next == all.end() || (ours && ours->adds_forces())) break;
+    if ((*next)->command() == fix) found.push_back(*next++);
   }
   return found;
 }
+
+/* Bodies add their forces in the records if the particles are there before and after the step; those
+   behind one that does not join act on their own, so that the order of sums stays that of the
+   fixes. */
 
 std::size_t GranularSystem::bodies_that_join()
 {
