@@ -20,11 +20,12 @@ newton off
 comm_modify vel yes
 region box block 0 8 0 7 0 6
 create_box 1 box
-create_atoms 1 random 250 77 box overlap 0.4 maxtry 200
+region middle block 1 7 1 6 1 5
+create_atoms 1 random 200 77 middle overlap 0.5 maxtry 500
 set group all diameter 0.5 density 1.0
 neighbor 0.2 bin
 timestep 0.001
-velocity all create 1.0 4711 loop geom
+velocity all create 0.3 4711 loop geom
 """
 PAIR = """
 pair_style gran/penalty
@@ -93,7 +94,7 @@ class Block(SceneCase):
     def test_fixes(self):
         more = ('fix say all print 10 "here"\ncompute ke all ke\nfix mean all ave/time 2 5 10 c_ke\n'
                 "group still id 1\nfix step all nve/sphere/symplectic\nregion top block 1 7 1 6 4 5\n"
-                "fix more all deposit 1 1 100 4767 region top diam 0.5\n")
+                "fix more all deposit 1 1 100 4767 region top near 0.5\n")
         more = more.replace("fix step all nve/sphere/symplectic\n", "")
         self.assertEqual(blocks(self.run_lammps(scene(more)).log), [OURS])
         log = self.run_lammps(scene("compute ke all ke\nfix mean all ave/time 1 10 10 c_ke")).log
