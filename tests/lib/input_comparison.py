@@ -63,6 +63,14 @@ def run_all(given, steps, folder, error):
     return {**runs, **{(code, 2): one(code, 2) for code in (PLAIN, TALUS)}}
 
 
+def is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
 def printed(log):
     """Thermodynamic output: list of {column: word as printed}, without clocks. Its first line comes after that on
     memory; columns may have any order."""
@@ -75,7 +83,7 @@ def printed(log):
             columns, title_is_next = words, False
         elif line.startswith("Loop time of"):
             columns = None
-        elif columns and len(words) == len(columns) and words[0].lstrip("-").replace(".", "").isdigit() | ("e" in words[0]):
+        elif columns and len(words) == len(columns) and is_number(words[0]):
             rows.append({name: word for name, word in zip(columns, words) if name not in CLOCKS})
     return rows
 
@@ -97,9 +105,11 @@ def largest_up_to_next(values):
 
 def farthest(frame, other):
     """Largest distance along an axis of the particles of two frames, in diameters."""
-    radius = frame.column("radius")
-    return max((abs(value - other.column(key)[tag]) / (2 * radius[tag])
-                for key in "xyz" for tag, value in frame.column(key).items()), default=0.0)
+    radius, far = frame.column("radius"), 0.0
+    for key in "xyz":
+        its = other.column(key)
+        far = max([far, *(abs(value - its[tag]) / (2 * radius[tag]) for tag, value in frame.column(key).items())])
+    return far
 
 
 class InputCase(SceneCase):
@@ -146,7 +156,8 @@ class InputCase(SceneCase):
 
     def check_table(self, given, log, ranks):
         found = stock_inputs.differences(stock_inputs.read_tables(log), stock_inputs.read_expected(given.tables))
-        self.assertFalse(found, f"\n{given.name} on {ranks} ranks:\n  " + "\n  ".join(found))
+        if found:
+            self.fail("\n  ".join([f"the log of {given.name} on {ranks} ranks, {self.dir}:", *found]))
 
 
 def tests_of(length):
