@@ -52,7 +52,7 @@ void ComputePenaltyStats::init()
   if (!system->has_pair_style())
     error->all(FLERR, "Compute penalty/stats requires one pair style gran/penalty");
   system->keep_account();
-  for (Talus::SystemBody *body : system->bodies()) body->keep_account();
+  for (Talus::LargeBody *body : system->bodies()) body->keep_account();
   if (started) return;
   started = true;
   before = energies_here();
@@ -68,7 +68,7 @@ ComputePenaltyStats::Energies ComputePenaltyStats::energies_here() const
     sum.resistance += account.dissipated_resistance();
   };
   add(system->energy_account());
-  for (const Talus::SystemBody *body : system->bodies()) add(body->energy_account());
+  for (const Talus::LargeBody *body : system->bodies()) add(body->energy_account());
   return sum;
 }
 
@@ -84,7 +84,7 @@ void ComputePenaltyStats::compute_vector()
   mine[CANDIDATES] = system->contacts().count_candidates();
   mine[CONTACTS] = system->contacts().count_contacts();
   double largest = system->contacts().deepest_contact().overlap_ratio;
-  for (const Talus::SystemBody *body : system->bodies()) {
+  for (const Talus::LargeBody *body : system->bodies()) {
     mine[CONTACTS] += body->contacts_here();
     largest = std::max(largest, body->largest_overlap_ratio());
   }

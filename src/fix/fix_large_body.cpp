@@ -27,39 +27,37 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), motion(lmp), monitor(lmp), masses(lmp)
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->add_body(this)), motion(lmp),
+    monitor(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
                       "use 'atom_style sphere'");
-  specs.resize(atom->ntypes + 1);
-  spec_is_set.assign(atom->ntypes + 1, false);
-
   // `two-sided` is a property of the shape, so it is looked for before the shape is made
   Words words = command_words(lmp, "fix large/body", narg, arg, 3);
   for (int iarg = 4; iarg < narg; iarg++)
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
-  shape = LargeBodyShapes(lmp, words).parse(two_sided);
-  surface = std::make_unique<LargeBodySurface>(lmp, *shape);
+  body.set_shape(LargeBodyShapes(lmp, words).parse(two_sided));
+  surface = std::make_unique<LargeBodySurface>(lmp, body.shape());
   parse_keywords(words);
-  motion.finish(shape->reference_point());
-  with_history = std::any_of(specs.begin(), specs.end(),
-                             [](const ContactSpec &s) { return s.law.has_history(); });
-  with_impact = std::any_of(specs.begin(), specs.end(),
-                            [](const ContactSpec &s) { return s.law.has_impact(); });
+  motion.finish(body.shape().reference_point());
+  body.set_frame(&motion.frame(), motion.moves());
+  if (surface->records()) body.set_touched(surface->touched());
+  body.keep_history();
   offer_output();
   keep_history();
-  system->run_monitor().add(this,
-                            monitor.checks([this] { return find_worst(); }, motion.moves(), id));
+  system->run_monitor().add(
+      this, monitor.checks([this] { return body.find_worst(); }, motion.moves(), id));
 }
 
 FixLargeBody::~FixLargeBody()
 {
   system->run_monitor().remove(this);
-  finish_reduction();
-  if (!with_history) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  if (body.keeps_history()) {
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
+  system->remove_body(body);
 }
 
 void FixLargeBody::offer_output()
@@ -73,7 +71,7 @@ void FixLargeBody::offer_output()
   virial_global_flag = virial_peratom_flag = 1;
   dynamic_group_allow = 1;
   time_depend = motion.depends_on_time() ? 1 : 0;
-  restart_global = with_history || motion.moves() || surface->records() ? 1 : 0;
+  restart_global = body.keeps_history() || motion.moves() || surface->records() ? 1 : 0;
   nevery = surface->picture_interval();
   if (!surface->records()) return;
   array_flag = 1;
@@ -100,7 +98,7 @@ void FixLargeBody::parse_keywords(Words &words)
     }
   }
   for (int type = 1; type <= atom->ntypes; type++)
-    if (!spec_is_set[type])
+    if (!body.has_law(type))
       error->all(FLERR,
                  "fix large/body: no contact law for particles of type {}: add 'contact "
                  "NORMAL args ...' or 'contact types {} NORMAL args ...'",
@@ -114,51 +112,7 @@ void FixLargeBody::parse_contact_words(Words &words)
   if (words.take("types"))
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
   const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
-  for (int type = lo; type <= hi; type++) {
-    specs[type] = parsed;
-    spec_is_set[type] = true;
-  }
-}
-
-void FixLargeBody::set_laws()
-{
-  LawTable table;
-  table.reset(atom->ntypes);
-  for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
-    for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
-  table.finish();
-  contacts.set_laws(table);
-}
-
-/* A body given by numbers is used as given; a body given by its material is mixed with the material
-   of the particles. Friction and resistance of particles whose own law has none are those of the
-   body. */
-
-ContactCoefficients FixLargeBody::coefficients_of(int type)
-{
-  const ContactSpec &body = specs[type];
-  if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
-
-  const ContactSpec *own = system->own_law(type);
-  if (!own || !own->is_material())
-    error->all(
-        FLERR,
-        "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
-        "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
-        id, body.law.normal().name, type, type, type);
-  ContactSpec particle = body;
-  for (const char *name : {"E", "nu", "e", "mu", "limit_damping"})
-    if (own->given.has(name)) particle.given[name] = own->given.value(name);
-  if (own->law.resists())
-    for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
-  return contact_coefficients(body, particle, system->laws().mix);
-}
-
-double FixLargeBody::contact_period(int type, double mass, double radius)
-{
-  const double k =
-      tangent_stiffness(specs[type].law, coefficients_of(type), 0.01 * radius, mass, radius);
-  return k > 0.0 ? std::sqrt(mass / k) : 0.0;
+  for (int type = lo; type <= hi; type++) body.set_law(type, parsed);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -173,44 +127,19 @@ void FixLargeBody::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
-  if (thermo_energy) keeps_account = true;
-  joined = false;    // a step that an error ended may have left it
   motion.init();
   system->run_monitor().start();
-  masses.find_fixes();
   find_region();
-  find_frozen();
-  set_laws();
+  body.init();
 }
 
 void FixLargeBody::find_region()
 {
-  auto *its = dynamic_cast<RegionShape *>(shape.get());
+  auto *its = dynamic_cast<RegionShape *>(&body.shape());
   if (!its) return;
   Region *region = domain->get_region_by_id(its->region_id());
   if (!region) error->all(FLERR, "Fix large/body {}: region '{}' is gone", id, its->region_id());
   its->replace(region);
-}
-
-/* A fix freeze that stands before this fix in the input has done its work when forces are added
- * here. */
-
-void FixLargeBody::find_frozen()
-{
-  already_frozen = 0;
-  for (const auto &ifix : modify->get_fix_list()) {
-    if (ifix == this) break;
-    if (utils::strmatch(ifix->style, "^freeze")) already_frozen |= ifix->groupbit;
-  }
-}
-
-void FixLargeBody::clear_frozen()
-{
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & already_frozen)) continue;
-    std::fill(atom->f[i], atom->f[i] + 3, 0.0);
-    std::fill(atom->torque[i], atom->torque[i] + 3, 0.0);
-  }
 }
 
 /* The body goes to the place of this step as the particles have just done; the load is that of the
@@ -218,10 +147,8 @@ void FixLargeBody::clear_frozen()
 
 void FixLargeBody::post_integrate()
 {
-  if (motion.driven_by_load()) reduce_exactly();
-  motion.advance(total);
-  if (account.waits_for_move())
-    contacts.account_for_move(motion.frame(), view(), update->dt, account);
+  motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{});
+  body.account_for_move();
 }
 
 void FixLargeBody::setup_post_neighbor()
@@ -237,8 +164,7 @@ void FixLargeBody::min_post_neighbor()
 
 void FixLargeBody::post_neighbor()
 {
-  masses.update();
-  list_particles();
+  body.list_particles();
 }
 
 /* Pair style gran/penalty looks earlier for all; without it the first body does. */
@@ -251,21 +177,6 @@ void FixLargeBody::pre_exchange()
 void FixLargeBody::post_run()
 {
   system->run_monitor().look(RunMonitor::Moment::END);
-}
-
-BodyFindings FixLargeBody::find_worst()
-{
-  return contacts.look_for_trouble(*shape, motion.frame(), view(), comm->nthreads);
-}
-
-void FixLargeBody::list_particles()
-{
-  const BodyParticleView particles = view();
-  if (shape->wants_focus())
-    shape->focus(BodyCandidates::bounds_of_search(motion.frame(), particles, atom->mask, groupbit,
-                                                  neighbor->skin));
-  contacts.find_candidates(*shape, motion.frame(), particles, atom->mask, groupbit, neighbor->skin,
-                           comm->nthreads);
 }
 
 void FixLargeBody::setup(int vflag)
@@ -285,94 +196,23 @@ void FixLargeBody::min_post_force(int vflag)
   post_force(vflag);
 }
 
-BodyParticleView FixLargeBody::view() const
-{
-  if (atom->nlocal == 0) return {};
-  const bool in_records = system->residence() == Residence::RECORDS;
-  return {atom->nlocal,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          masses.override_or_null(),
-          atom->type,
-          atom->f[0],
-          atom->torque[0],
-          nullptr,
-          in_records ? &system->records() : nullptr,
-          in_records ? system->slot_of_atom() : nullptr};
-}
-
 std::string FixLargeBody::needs_host_arrays()
 {
-  if (keeps_account) return "its energies are accounted for";
   if (motion.asks_variables()) return "its variables may read particles";
-  const auto *its = dynamic_cast<const RegionShape *>(shape.get());
+  const auto *its = dynamic_cast<const RegionShape *>(&body.shape());
   if (its && its->moves()) return "its region may read particles";
-  const bool turns = std::any_of(specs.begin() + 1, specs.end(),
-                                 [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && !system->turns_particles())
-    return "it has friction and the contacts between particles have none";
-  return "";
-}
-
-BodyStep FixLargeBody::step_of(bool advance)
-{
-  BodyStep step;
-  step.dt = update->dt;
-  step.advance = advance;
-  step.threads = comm->nthreads;
-  step.account = keeps_account ? &account : nullptr;
-  step.exact = motion.moves() ? &exact : nullptr;
-  step.touched = surface->records() ? surface->touched() : nullptr;
-  return step;
-}
-
-void FixLargeBody::compute_contacts(const BodyParticleView &to, bool advance)
-{
-  mine = contacts.compute(*shape, motion.frame(), to, step_of(advance));
-}
-
-void FixLargeBody::add_contacts(bool advance)
-{
-  BodyParticleView particles = view();
-  if (evflag) {
-    virials.assign(6L * atom->nlocal, 0.0);
-    particles.virial = virials.data();
-  }
-  if (contacts.is_stale(motion.frame(), neighbor->skin)) list_particles();
-  compute_contacts(particles, advance);
-}
-
-bool FixLargeBody::join_step()
-{
-  joined = (comm->nthreads == 1 || shape->thread_safe()) &&
-           contacts.begin_static(*shape, motion.frame(), view(), step_of(true));
-  return joined;
+  return body.needs_host_arrays();
 }
 
 void FixLargeBody::post_force(int vflag)
 {
-  finish_reduction();
   v_init(vflag);
   const bool advance = update->setupflag == 0;
-  if (joined)
-    mine = contacts.static_load();
-  else
-    add_contacts(advance);
-  joined = false;
-  if (evflag) tally_virial();
-  if (already_frozen) clear_frozen();
+  if (evflag) virials.assign(6L * atom->nlocal, 0.0);
+  body.compute(advance, evflag ? virials.data() : nullptr);
+  for (int i = 0; evflag && i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
   surface->add_step(advance ? update->dt : 0.0);
-  reduced = total_is_known = false;
-  has_forces = true;
-  if (motion.driven_by_load()) begin_reduction();
-}
-
-void FixLargeBody::tally_virial()
-{
-  for (int i = 0; i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
+  if (motion.driven_by_load()) body.begin_reduction();
 }
 
 void FixLargeBody::end_of_step()
@@ -384,7 +224,7 @@ int FixLargeBody::modify_param(int narg, char **arg)
 {
   if (strcmp(arg[0], "state") != 0) return 0;
   double reach;
-  const double reach_here = contacts.reach();
+  const double reach_here = body.reach();
   MPI_Allreduce(&reach_here, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
   return motion.set_state(narg, arg, neighbor->skin, reach);
 }

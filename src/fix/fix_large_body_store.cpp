@@ -25,10 +25,9 @@ constexpr int size_head = 2;
 
 void FixLargeBody::keep_history()
 {
-  if (!with_history) return;
+  if (!body.keeps_history()) return;
   restart_peratom = 1;
   create_attribute = 1;
-  contacts.history.keep(shape->most_contacts() > 1, with_impact);
   maxexchange = BodyHistory::max_packed;
   FixLargeBody::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -38,31 +37,32 @@ void FixLargeBody::keep_history()
 
 void FixLargeBody::grow_arrays(int nmax)
 {
-  contacts.history.grow(nmax);
+  body.history().grow(nmax);
 }
 
 void FixLargeBody::copy_arrays(int i, int j, int /*delflag*/)
 {
-  contacts.history.copy(i, j);
+  body.history().copy(i, j);
 }
 
 void FixLargeBody::set_arrays(int i)
 {
-  contacts.history.forget(i);
+  body.history().forget(i);
 }
 
 int FixLargeBody::pack_exchange(int i, double *buf)
 {
-  return contacts.history.pack(i, buf);
+  return body.history().pack(i, buf);
 }
 
 int FixLargeBody::unpack_exchange(int i, double *buf)
 {
-  return contacts.history.unpack(i, buf);
+  return body.history().unpack(i, buf);
 }
 
-/* Version of what follows; number of particles; motion; what triangles have borne. The host does not move what it has read
-   for us when particles are deleted before this fix is defined: the number tells. */
+/* Version of what follows; number of particles; motion; what triangles have borne. The host does not
+   move what it has read for us when particles are deleted before this fix is defined: the number
+   tells. */
 
 void FixLargeBody::write_restart(FILE *fp)
 {
@@ -91,7 +91,7 @@ void FixLargeBody::restart(char *buf)
                "Fix large/body {}: the restart file was written by another version of Talus, which "
                "kept other data of large bodies: go on with that version",
                id);
-  if (with_history && values[1] != static_cast<double>(atom->natoms))
+  if (body.keeps_history() && values[1] != static_cast<double>(atom->natoms))
     error->all(FLERR,
                "Fix large/body {}: particles were added or deleted between read_restart and this "
                "command, so that contact history cannot be assigned: define the fix right after "
@@ -122,7 +122,7 @@ void FixLargeBody::unpack_restart(int i, int nth)
 
 int FixLargeBody::size_restart(int i)
 {
-  return 1 + contacts.history.size_packed(i);
+  return 1 + body.history().size_packed(i);
 }
 
 int FixLargeBody::maxsize_restart()

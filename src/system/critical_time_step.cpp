@@ -98,7 +98,7 @@ std::vector<double> CriticalTimeStep::sizes_here(int types, int group) const
 {
   std::vector<double> sizes_of_all = smallest_here(types, group);
   std::set<int> known{group};
-  for (const SystemBody *body : GranularSystem::of(lmp)->bodies())
+  for (const LargeBody *body : GranularSystem::of(lmp)->bodies())
     if (const int groups = group | body->group_bits(); known.insert(groups).second) {
       const std::vector<double> its = smallest_here(types, groups);
       sizes_of_all.insert(sizes_of_all.end(), its.begin(), its.end());
@@ -163,7 +163,7 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 {
   double smallest = 0.0;
   std::map<int, Sizes> known{{group, sizes}};
-  for (SystemBody *body : GranularSystem::of(lmp)->bodies()) {
+  for (LargeBody *body : GranularSystem::of(lmp)->bodies()) {
     const int groups = group | body->group_bits();
     if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
     const auto &[radius, mass] = known[groups];

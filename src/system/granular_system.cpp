@@ -13,6 +13,7 @@
 #include "pair.h"
 #include "update.h"
 
+#include <algorithm>
 #include <map>
 
 using namespace LAMMPS_NS;
@@ -160,11 +161,32 @@ void GranularSystem::refuse_small_periods()
   }
 }
 
-std::vector<SystemBody *> GranularSystem::bodies() const
+/* ---------------------------------------------------------------------- */
+
+/* A command that ended in an error has left a body behind, and another one may have its address. */
+
+LargeBody &GranularSystem::add_body(const Fix *command)
 {
-  std::vector<SystemBody *> found;
+  const auto is_left = [command](const auto &one) { return one->command() == command; };
+  large_bodies.erase(std::remove_if(large_bodies.begin(), large_bodies.end(), is_left),
+                     large_bodies.end());
+  large_bodies.push_back(std::make_unique<LargeBody>(command, *this, lmp));
+  return *large_bodies.back();
+}
+
+void GranularSystem::remove_body(const LargeBody &body)
+{
+  const auto is_it = [&body](const auto &one) { return one.get() == &body; };
+  large_bodies.erase(std::remove_if(large_bodies.begin(), large_bodies.end(), is_it),
+                     large_bodies.end());
+}
+
+std::vector<LargeBody *> GranularSystem::bodies() const
+{
+  std::vector<LargeBody *> found;
   for (const auto &fix : modify->get_fix_list())
-    if (auto *body = dynamic_cast<SystemBody *>(fix)) found.push_back(body);
+    for (const auto &body : large_bodies)
+      if (body->command() == fix) found.push_back(body.get());
   return found;
 }
 

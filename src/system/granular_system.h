@@ -23,6 +23,7 @@
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
 #include "system/effective_masses.h"
+#include "system/large_body.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
@@ -162,8 +163,16 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Share of the owned particles of this rank whose forces are computed before a pending update of
   /// proxies is finished.
   double share_without_proxies() const;
-  /// All large bodies, in the order of the script.
-  std::vector<SystemBody *> bodies() const;
+
+  // ---- large bodies
+
+  /// A new body, until remove_body(): in the constructor of the command that defines it, and in its
+  /// destructor.
+  LargeBody &add_body(const LAMMPS_NS::Fix *command);
+  void remove_body(const LargeBody &body);
+  /// All of them, in the order of the script.
+  std::vector<LargeBody *> bodies() const;
+
   double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
 
  private:
@@ -192,6 +201,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // particles, pairs, contacts
   std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
+  std::vector<std::unique_ptr<LargeBody>> large_bodies;
   LAMMPS_NS::NeighborSource neighbors;
   LAMMPS_NS::EffectiveMasses masses;
   LAMMPS_NS::LargestRadii radii;
@@ -205,7 +215,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  std::vector<SystemBody *> bodies_of_run;
+  std::vector<LargeBody *> bodies_of_run;
   std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
   bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
   RecordPacker packer;

@@ -1,0 +1,203 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/large_body.h"
+
+#include "system/granular_system.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "fix.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+LargeBody::LargeBody(const Fix *its_fix, GranularSystem &its_system, LAMMPS *lmp) :
+    Pointers(lmp), fix(its_fix), system(its_system), masses(lmp)
+{
+  specs.resize(atom->ntypes + 1);
+  spec_is_set.assign(atom->ntypes + 1, false);
+}
+
+LargeBody::~LargeBody()
+{
+  finish_reduction();
+}
+
+int LargeBody::group_bits() const
+{
+  return fix->groupbit;
+}
+
+std::string LargeBody::name() const
+{
+  return std::string("fix large/body ") + fix->id;
+}
+
+void LargeBody::set_shape(std::unique_ptr<LargeBodyShape> its)
+{
+  its_shape = std::move(its);
+}
+
+void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
+{
+  frame = its;
+  moves = its_moves;
+}
+
+void LargeBody::keep_history()
+{
+  const auto any = [this](bool (ContactLaw::*has)() const) {
+    return std::any_of(specs.begin(), specs.end(),
+                       [has](const ContactSpec &s) { return (s.law.*has)(); });
+  };
+  with_history = any(&ContactLaw::has_history);
+  if (with_history)
+    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LargeBody::init()
+{
+  if (fix->thermo_energy) keeps_account = true;
+  joined = false;    // a step that an error ended may have left it
+  masses.find_fixes();
+  find_frozen();
+  set_laws();
+}
+
+/* A fix freeze that stands before the body in the script has done its work when the body adds its
+   forces. */
+
+void LargeBody::find_frozen()
+{
+  already_frozen = 0;
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (ifix == fix) break;
+    if (utils::strmatch(ifix->style, "^freeze")) already_frozen |= ifix->groupbit;
+  }
+}
+
+void LargeBody::clear_frozen()
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & already_frozen)) continue;
+    std::fill(atom->f[i], atom->f[i] + 3, 0.0);
+    std::fill(atom->torque[i], atom->torque[i] + 3, 0.0);
+  }
+}
+
+void LargeBody::list_particles()
+{
+  masses.update();
+  const BodyParticleView particles = view();
+  if (its_shape->wants_focus())
+    its_shape->focus(BodyCandidates::bounds_of_search(*frame, particles, atom->mask, group_bits(),
+                                                      neighbor->skin));
+  contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
+                           comm->nthreads);
+}
+
+void LargeBody::account_for_move()
+{
+  if (account.waits_for_move()) contacts.account_for_move(*frame, view(), update->dt, account);
+}
+
+/* ---------------------------------------------------------------------- */
+
+BodyParticleView LargeBody::view() const
+{
+  if (atom->nlocal == 0) return {};
+  const bool in_records = system.residence() == Residence::RECORDS;
+  return {atom->nlocal,
+          atom->x[0],
+          atom->v[0],
+          atom->omega[0],
+          atom->radius,
+          atom->rmass,
+          masses.override_or_null(),
+          atom->type,
+          atom->f[0],
+          atom->torque[0],
+          nullptr,
+          in_records ? &system.records() : nullptr,
+          in_records ? system.slot_of_atom() : nullptr};
+}
+
+std::string LargeBody::needs_host_arrays() const
+{
+  if (keeps_account) return "its energies are accounted for";
+  const bool turns = std::any_of(specs.begin() + 1, specs.end(),
+                                 [](const ContactSpec &s) { return s.law.has_friction(); });
+  if (turns && !system.turns_particles())
+    return "it has friction and the contacts between particles have none";
+  return "";
+}
+
+BodyStep LargeBody::step_of(bool advance)
+{
+  BodyStep step;
+  step.dt = update->dt;
+  step.advance = advance;
+  step.threads = comm->nthreads;
+  step.account = keeps_account ? &account : nullptr;
+  step.exact = moves ? &exact : nullptr;
+  step.touched = touched;
+  return step;
+}
+
+bool LargeBody::join_step()
+{
+  joined = (comm->nthreads == 1 || its_shape->thread_safe()) &&
+           contacts.begin_static(*its_shape, *frame, view(), step_of(true));
+  return joined;
+}
+
+void LargeBody::compute(bool advance, double *virial)
+{
+  finish_reduction();
+  if (joined) {
+    mine = contacts.static_load();
+  } else {
+    if (contacts.is_stale(*frame, neighbor->skin)) list_particles();
+    BodyParticleView particles = view();
+    particles.virial = virial;
+    mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
+  }
+  joined = reduced = total_is_known = false;
+  has_forces = true;
+  if (already_frozen) clear_frozen();
+}
+
+/* ---------------------------------------------------------------------- */
+
+BodyFindings LargeBody::find_worst()
+{
+  return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
+}
+
+double LargeBody::energy()
+{
+  if (!keeps_account && has_forces) {
+    keeps_account = true;
+    std::vector<double> unused(6L * atom->nlocal);
+    BodyParticleView particles = view();
+    particles.f = unused.data();
+    particles.torque = unused.data() + 3L * atom->nlocal;
+    mine = contacts.compute(*its_shape, *frame, particles, step_of(false));
+  }
+  const double here = account.elastic() + account.dissipated_normal() +
+                      account.dissipated_tangential() + account.dissipated_resistance();
+  double all;
+  MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+}    // namespace Talus

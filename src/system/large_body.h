@@ -1,0 +1,157 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// One large body as GranularSystem keeps it: its shape, its law for each type of particles, its
+// contacts with their histories, the load that it bears and the energies of its contacts. The
+// command that defines the body (fix large/body) says how it moves and calls at the hooks of LAMMPS:
+//
+//   at the start of a run     init()
+//   after the integrator      account_for_move(), once the body is where it goes
+//   new neighbor lists        list_particles()
+//   forces                    [join_step(), add_to_slots(), by the system], compute()
+//
+//   large_body.cpp        life and steps
+//   large_body_laws.cpp   laws of the types of particles
+//   large_body_load.cpp   sums over ranks
+//
+// Units are those of the script.
+
+#ifndef TALUS_SYSTEM_LARGE_BODY_H
+#define TALUS_SYSTEM_LARGE_BODY_H
+
+#include "body/contact/body_contacts.h"
+#include "body/shape/large_body_shape.h"
+#include "laws/given_law.h"
+#include "system/effective_masses.h"
+
+#include "pointers.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Fix;
+}
+
+namespace Talus {
+
+class GranularSystem;
+
+class LargeBody : protected LAMMPS_NS::Pointers {
+ public:
+  /// `fix`: the command, whose group is that of the particles that the body touches.
+  LargeBody(const LAMMPS_NS::Fix *fix, GranularSystem &system, LAMMPS_NS::LAMMPS *lmp);
+  ~LargeBody() override;
+  LargeBody(const LargeBody &) = delete;
+  LargeBody &operator=(const LargeBody &) = delete;
+
+  const LAMMPS_NS::Fix *command() const { return fix; }
+  int group_bits() const;
+  /// For messages.
+  std::string name() const;
+
+  // ---- definition: what follows must be called before the first run
+
+  void set_shape(std::unique_ptr<LargeBodyShape> its);
+  LargeBodyShape &shape() { return *its_shape; }
+  void set_law(int type, const ContactSpec &spec);
+  bool has_law(int type) const { return spec_is_set[type]; }
+  /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
+  void set_frame(const BodyFrame *its, bool moves);
+  /// Receives one entry for each contact of a step.
+  void set_touched(std::vector<TouchedPart> *parts) { touched = parts; }
+  /// After shape and laws: from now on histories are kept, if the laws have some.
+  void keep_history();
+  bool keeps_history() const { return with_history; }
+  /// By particle; the command moves them with the particles and saves them.
+  BodyHistory &history() { return contacts.history; }
+
+  // ---- hooks
+
+  void init();
+  void list_particles();
+  /// Velocities have moved, and the body is at its new place.
+  void account_for_move();
+  /// At the beginning of a step in the records: whether its forces will be added by add_to_slots().
+  /// If not, nor are those of the bodies behind it: forces on a particle are summed in the order of
+  /// the commands.
+  bool join_step();
+  /// Adds the forces on the particles of slots begin ... end-1. Called by several threads at the
+  /// same time, for ranges that together hold all owned particles.
+  void add_to_slots(int thread, int begin, int end) { contacts.add_to_slots(thread, begin, end); }
+  /// The forces of a step, unless they have been added so. `advance`: histories go on; `virial`:
+  /// nullptr, or six for each owned particle, added to.
+  void compute(bool advance, double *virial);
+  /// Why steps with this body cannot be made in the records; "" if they can.
+  std::string needs_host_arrays() const;
+
+  // ---- load: force, torque about the reference point, contacts, of the last step
+
+  /// Lets the sum over ranks go on until exact_load() is called.
+  void begin_reduction();
+  void finish_reduction();
+  /// Collective. Force and torque without rounding; only of bodies that move.
+  const BodyLoad &exact_load();
+  /// Collective.
+  const BodyLoad &load();
+  double contacts_here() const { return mine.contacts; }
+  /// Distance from the reference point within which all particles were when they were last listed.
+  double reach() const { return contacts.reach(); }
+
+  // ---- energies and questions
+
+  /// From the next step on energies are accounted for; what the last step found on this rank.
+  void keep_account() { keeps_account = true; }
+  const EnergyAccount &energy_account() const { return account; }
+  /// Collective: energy stored in and dissipated by the contacts. The first question begins the
+  /// account: then the contacts of this step are looked at once more.
+  double energy();
+  double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
+  BodyFindings find_worst();
+  double memory_usage() const { return contacts.memory_usage(); }
+
+  /// sqrt(m/k) (time) of a particle of this type, mass and radius against the body, with the
+  /// stiffness at an overlap of 1 % of the radius; 0 without stiffness.
+  double contact_period(int type, double mass, double radius);
+  /// Law and coefficients of contacts of particles of this type with the body.
+  ContactLaw law_of(int type) const { return specs[type].law; }
+  ContactCoefficients coefficients_of(int type);
+
+ private:
+  BodyParticleView view() const;
+  BodyStep step_of(bool advance);
+  void find_frozen();
+  void clear_frozen();
+  void set_laws();
+  void collect_digits();
+
+  const LAMMPS_NS::Fix *fix;
+  GranularSystem &system;
+  std::unique_ptr<LargeBodyShape> its_shape;
+  const BodyFrame *frame = nullptr;
+  bool moves = false;
+  std::vector<TouchedPart> *touched = nullptr;
+  std::vector<ContactSpec> specs;    ///< by type
+  std::vector<bool> spec_is_set;
+  bool with_history = false;
+  BodyContacts contacts;
+  LAMMPS_NS::EffectiveMasses masses;
+  int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before
+
+  bool keeps_account = false, has_forces = false;
+  bool joined = false;    ///< forces of this step have been added by the threads of the system
+  EnergyAccount account;
+
+  BodyLoad mine, total;           ///< of this rank, and of all
+  bool reduced = false;           ///< forces and torques of `total` are those of the last step
+  bool total_is_known = false;    ///< all of it is
+  ExactLoad exact;
+  static constexpr int size_digits = 6 * ExactSum::size;
+  std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
+  MPI_Request reduction = MPI_REQUEST_NULL;
+};
+
+}    // namespace Talus
+
+#endif

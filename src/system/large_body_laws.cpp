@@ -1,0 +1,66 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The laws of a large body, one for each type of particles.
+
+#include "system/large_body.h"
+
+#include "system/granular_system.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+void LargeBody::set_law(int type, const ContactSpec &spec)
+{
+  specs[type] = spec;
+  spec_is_set[type] = true;
+}
+
+void LargeBody::set_laws()
+{
+  LawTable table;
+  table.reset(atom->ntypes);
+  for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
+    for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
+  table.finish();
+  contacts.set_laws(table);
+}
+
+/* A body given by numbers is used as given; a body given by its material is mixed with the material
+   of the particles. Friction and resistance of particles whose own law has none are those of the
+   body. */
+
+ContactCoefficients LargeBody::coefficients_of(int type)
+{
+  const ContactSpec &body = specs[type];
+  if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
+
+  const ContactSpec *own = system.own_law(type);
+  if (!own || !own->is_material())
+    error->all(
+        FLERR,
+        "Fix large/body {}: the material law {} needs the material of particles of type {}: set "
+        "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
+        fix->id, body.law.normal().name, type, type, type);
+  ContactSpec particle = body;
+  for (const char *name : {"E", "nu", "e", "mu", "limit_damping"})
+    if (own->given.has(name)) particle.given[name] = own->given.value(name);
+  if (own->law.resists())
+    for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
+  return contact_coefficients(body, particle, system.laws().mix);
+}
+
+double LargeBody::contact_period(int type, double mass, double radius)
+{
+  const double k =
+      tangent_stiffness(specs[type].law, coefficients_of(type), 0.01 * radius, mass, radius);
+  return k > 0.0 ? std::sqrt(mass / k) : 0.0;
+}
+
+}    // namespace Talus
