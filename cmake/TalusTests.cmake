@@ -1,6 +1,7 @@
 # Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli, portable) and
 # what a script asks for in comment lines such as
 #   # ctest: timeout=600 label=slow,smoke serial procs=4
+# Label hostless: no LAMMPS is run, so that one configuration is enough.
 
 find_package(GTest REQUIRED)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)

@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: label=hostless
 """scripts/bench: its errors, its report, and what its verdicts and fits are made of; no benchmark is run."""
 
 import math

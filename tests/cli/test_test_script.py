@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: label=hostless
 """scripts/test: which configurations are built and tested, and that nothing is left out without a word. Build, ctest and
 the hosts are stubs that write down how they are called."""
 
@@ -83,6 +84,9 @@ class Configurations(ScriptCase):
         folders = [folder for folder, _ in found]
         self.assertEqual(folders, [f"build-{SECOND}-smallbig"] * 2 + ["build-4Feb2025-bigbig", f"build-{SECOND}-bigbig",
                                    "build-portable", "build-sanitize", "build-tsan", "build"])
+        for configuration in f"build-{SECOND}-smallbig", "build-4Feb2025-bigbig":
+            options = dict(reversed(found))[configuration]
+            self.assertRegex(options, r"^-LE \S*\bslow\|unit\|bench\|hostless\b", "what needs no host runs once")
         slow = [folder for folder, options in found if "-LE" not in options and "-L" not in options]
         self.assertEqual(slow, ["build-tsan", "build"], "slow tests run once, with the default host")
 

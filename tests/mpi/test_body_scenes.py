@@ -6,14 +6,12 @@ program drives."""
 import glob
 import os
 import re
-import shlex
 import shutil
-import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import MPIEXEC, SceneCase
+from talus_testing import SceneCase, run_program
 
 SOURCE = os.environ["TALUS_SOURCE_DIR"]
 HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
@@ -75,18 +73,15 @@ class Scenes(SceneCase):
         self.assertEqual(mass[0], 0.0)
 
     def test_wheel(self):
-        env = {**os.environ, "PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
+        env = {"PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
                "LD_LIBRARY_PATH": HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")}
         rows = []
         for np in (1, 2):
-            prefix = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
-            done = subprocess.run([*prefix, sys.executable, os.path.join(SOURCE, "examples/cosim/wheel.py"), "--quick",
-                                   "--out", self.dir], env=env, timeout=120, text=True, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT)
-            self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+            done = run_program(sys.executable, np, [os.path.join(SOURCE, "examples/cosim/wheel.py"), "--quick", "--out", self.dir],
+                               env=env, timeout=240)
             with open(self.path("wheel.csv")) as file:
                 rows.append(file.read())
-        print(done.stdout.strip())
+        print(done.output.strip())
         self.assertEqual(rows[0], rows[1], "the same bits on 1 and 2 ranks")
         numbers = [list(map(float, line.split(","))) for line in rows[0].splitlines()[1:]]
         last = numbers[len(numbers) // 2:]
