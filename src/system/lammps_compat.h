@@ -27,6 +27,12 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
 #endif
 
+// TALUS_HOST_TELLS_FORMULAS, set by the build: Variable::get_info() tells the text of a variable.
+// Before, it is a private member.
+#if !defined(TALUS_HOST_TELLS_FORMULAS)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_TELLS_FORMULAS"
+#endif
+
 // Set by the build: TALUS_HOST_HAS_GRANULAR, the host has package GRANULAR; of its fix wall/gran,
 // TALUS_HOST_HAS_WALL_CYLINDER, it has the keyword zcylinder, and TALUS_HOST_DRAWS_GRAN_WALLS, its
 // planes can be seen in pictures. All three changed within updates of a release.

@@ -1,0 +1,135 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/time_formula.h"
+
+#include "system/lammps_compat.h"
+
+#include "input.h"
+#include "lammps.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <set>
+
+#if !TALUS_HOST_TELLS_FORMULAS
+namespace LAMMPS_NS {
+namespace {
+
+// An explicit instantiation may name private members.
+template <auto styles, auto texts> struct VariableMembers {
+  friend std::string style_of(Variable &all, int n)
+  {
+    return Variable::varstyles[(all.*styles)[n]];
+  }
+  friend std::string text_of(Variable &all, int n) { return (all.*texts)[n][0]; }
+};
+std::string style_of(Variable &all, int n);
+std::string text_of(Variable &all, int n);
+template struct VariableMembers<&Variable::style, &Variable::data>;
+
+}    // namespace
+}    // namespace LAMMPS_NS
+#endif
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+namespace {
+
+#if TALUS_HOST_TELLS_FORMULAS
+std::string style_of(Variable &all, int n)
+{
+  return all.get_style(n);
+}
+
+/* Behind the formula comes the last value, which is a number once there is one. */
+
+std::string text_of(Variable &all, int n)
+{
+  std::string info = all.get_info(n);
+  if (const std::size_t none = info.find("(undefined)"); none != std::string::npos)
+    info.resize(none);
+  const std::size_t begin = info.find("def =");
+  return begin == std::string::npos ? "?" : info.substr(begin + 5);
+}
+#endif
+
+bool holds(const std::vector<std::string> &words, const std::string &word)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_known(const std::string &word)
+{
+  static const std::vector<std::string> known = {
+      "step",    "time",     "dt",       "elapsed", "elaplong", "PI",        "version", "yes",
+      "no",      "on",       "off",      "true",    "false",    "sqrt",      "exp",     "ln",
+      "log",     "abs",      "sign",     "sin",     "cos",      "tan",       "asin",    "acos",
+      "atan",    "atan2",    "ceil",     "floor",   "round",    "ternary",   "ramp",    "stagger",
+      "logfreq", "logfreq2", "logfreq3", "stride",  "stride2",  "vdisplace", "swiggle", "cwiggle"};
+  return holds(known, word);
+}
+
+/// The end of a number that begins at `text`, its exponent included.
+const char *end_of_number(const char *text)
+{
+  char *end;
+  std::strtod(text, &end);
+  return std::max<const char *>(end, text + 1);
+}
+
+bool is_in_word(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+bool reads_only_time(Variable &all, const std::string &name, std::set<std::string> &met)
+{
+  if (!met.insert(name).second) return true;    // met before, or an error later
+  const int n = all.find(name.c_str());
+  if (n < 0) return false;
+  // values that stay what they are during a run
+  static const std::vector<std::string> fixed = {"index",  "loop",     "world", "string",
+                                                 "getenv", "universe", "uloop"};
+  const std::string style = style_of(all, n);
+  if (holds(fixed, style)) return true;
+  std::vector<std::string> inner;
+  if (style != "equal" || !formula_reads_only_time(text_of(all, n), inner)) return false;
+  return std::all_of(inner.begin(), inner.end(),
+                     [&](const std::string &its) { return reads_only_time(all, its, met); });
+}
+
+}    // namespace
+
+bool formula_reads_only_time(const std::string &formula, std::vector<std::string> &variables)
+{
+  const char *c = formula.c_str();
+  while (*c) {
+    if (std::isdigit(static_cast<unsigned char>(*c)) || *c == '.') {
+      c = end_of_number(c);
+    } else if (is_in_word(*c)) {
+      const char *begin = c;
+      while (is_in_word(*c)) c++;
+      const std::string word(begin, c);
+      if (word.compare(0, 2, "v_") == 0)
+        variables.push_back(word.substr(2));
+      else if (!is_known(word))
+        return false;
+    } else if (std::string("[]{}\"'$?@").find(*c) != std::string::npos) {
+      return false;
+    } else {
+      c++;
+    }
+  }
+  return true;
+}
+
+bool reads_only_time(LAMMPS *lmp, const std::string &variable)
+{
+  std::set<std::string> met;
+  return reads_only_time(*lmp->input->variable, variable, met);
+}
+
+}    // namespace Talus
