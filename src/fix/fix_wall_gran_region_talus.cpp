@@ -19,8 +19,9 @@ void FixWallGranRegionTalus::begin_run()
 std::string FixWallGranRegionTalus::what_reads_arrays()
 {
   if (!region->dynamic_check()) return "";
-  const std::string its = what_else_moves(lmp, *region);
-  return its.empty() ? "" : "its region moves with particles: " + its;
+  const std::string its = variable_that_may_read_particles(lmp, *region);
+  return its.empty() ? ""
+                     : "its region may move with particles: v_" + its + " reads more than time";
 }
 
 double FixWallGranRegionTalus::displacement() const

@@ -43,6 +43,11 @@ double FixWallGranTalus::radius_of_cylinder() const
 #endif
 }
 
+double FixWallGranTalus::phase() const
+{
+  return omega * static_cast<double>(update->ntimestep - time_origin) * dt;
+}
+
 /* The sums are in the order of LAMMPS: so they have its bits. */
 
 void FixWallGranTalus::place()
@@ -51,7 +56,7 @@ void FixWallGranTalus::place()
   now[1] = hi;
   std::fill(velocity, velocity + 3, 0.0);
   if (wiggle) {
-    const double arg = omega * (update->ntimestep - time_origin) * dt;
+    const double arg = phase();
     if (wallstyle == axis) {
       now[0] = lo + amplitude - amplitude * cos(arg);
       now[1] = hi + amplitude - amplitude * cos(arg);
@@ -65,7 +70,7 @@ void FixWallGranTalus::place()
 double FixWallGranTalus::displacement() const
 {
   if (!wiggle || wallstyle != axis) return 0.0;
-  return amplitude - amplitude * cos(omega * (update->ntimestep - time_origin) * dt);
+  return amplitude - amplitude * cos(phase());
 }
 
 FixWallGranTalus::Gap FixWallGranTalus::gap(const double *x, double radius) const

@@ -43,6 +43,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
   {
     return wallstyle > 2;
   }
+  double phase() const;    // of the oscillation
   double displacement() const;
   Gap gap(const double *x, double radius) const;
   double distance(const double *x) const;

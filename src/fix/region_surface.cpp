@@ -2,10 +2,14 @@
 
 #include "fix/region_surface.h"
 
+#include "system/lammps_compat.h"
 #include "system/private_member.h"
-#include "system/time_variables.h"
+#include "system/time_formula.h"
 
+#include "input.h"
+#include "lammps.h"
 #include "region.h"
+#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,25 +135,39 @@ bool has_distance(const Region &region)
                                         [](const Region *part) { return has_distance(*part); });
 }
 
+/* Of all equal-style variables the first whose value depends on more than the time, or "". */
+
+static std::string variable_of_more_than_time(LAMMPS *lmp)
+{
+  Variable &all = *lmp->input->variable;
+#if TALUS_HOST_TELLS_FORMULAS
+  const int count = all.get_nvar();
+  const auto name = [&all](int n) { return all.get_name(n); };
+#else
+  const int count = all.nvar;
+  const auto name = [&all](int n) { return all.names[n]; };
+#endif
+  for (int n = 0; n < count; n++)
+    if (all.equalstyle(n) && !reads_only_time(lmp, name(n))) return name(n);
+  return "";
+}
+
 /* The variables of a shape are known to each style alone: all must do. */
 
-std::string what_else_moves(LAMMPS *lmp, Region &region)
+std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
 {
-  if (region.varshape) return what_else_variables_read(lmp);
+  if (region.varshape) return variable_of_more_than_time(lmp);
   if (is_composite(region)) {
     for (int n = 0; n < region.nregion; n++) {
-      const std::string its = what_else_moves(lmp, *region.reglist[n]);
+      const std::string its = variable_that_may_read_particles(lmp, *region.reglist[n]);
       if (!its.empty()) return its;
     }
     return "";
   }
   if (!region.dynamic) return "";
   for (const char *name : {region.*pointer_to(RegionMoveX{}), region.*pointer_to(RegionMoveY{}),
-                           region.*pointer_to(RegionMoveZ{}), region.*pointer_to(RegionAngle{})}) {
-    if (!name) continue;
-    const std::string its = what_else_variable_reads(lmp, name);
-    if (!its.empty()) return "v_" + std::string(name) + " reads " + its;
-  }
+                           region.*pointer_to(RegionMoveZ{}), region.*pointer_to(RegionAngle{})})
+    if (name && !reads_only_time(lmp, name)) return name;
   return "";
 }
 

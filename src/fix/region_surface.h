@@ -51,8 +51,10 @@ class RegionPose {
 /// particle may touch the surface in every step.
 bool has_distance(const LAMMPS_NS::Region &region);
 
-/// "" if what moves a region depends on the time alone; else what else, for people.
-std::string what_else_moves(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
+/// "" if the variables that move a region, or shape it, depend on the time alone; else the name of
+/// one that may depend on particles. Of a region that changes its shape all variables of the script
+/// are asked.
+std::string variable_that_may_read_particles(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
 
 /// While it exists, a region that has_distance() is asked for its closed surface in place of its
 /// contacts: open faces count as closed, and both sides are seen.

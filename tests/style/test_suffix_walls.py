@@ -234,10 +234,10 @@ class Walls(SceneCase):
 
     def test_reasons(self):
         region = "fix w all {wall} {law} region w\n"
-        self.assertIn("its region moves with particles: v_turn reads ke",
+        self.assertIn("its region may move with particles: v_turn reads more than time",
                       self.reason("variable turn equal ke*0\n"
                                   "region w cylinder y 4 3 30 -20 20 rotate v_turn 4 0 3 0 1 0\n" + region, True))
-        self.assertIn("its region moves with particles: v_other reads c_",
+        self.assertIn("its region may move with particles: v_other reads more than time",
                       self.reason("compute t all ke\nvariable other equal c_t\n" + SWELL +
                                   "region w sphere 4.7 3.5 0.0 v_radius side out\n" + region, True))
 
