@@ -298,7 +298,8 @@ class TestStock(Case):
 
     def test_units(self):
         self.scene(packing(150, self.BOX, sizes=(0.3, 0.9)), self.BOX)
-        log = self.check(f"pair_style {STYLES['hooke']}\npair_coeff * *", units="metal", run="run 3")
+        log = self.check(f"pair_style {STYLES['hooke']}\npair_coeff * *", units="metal",
+                         run="timestep 1e-8\nrun 3")
         self.assertNotIn("Talus gran", log)
 
     def test_fix_that_migrates(self):
@@ -357,8 +358,9 @@ run 40
                             self.assertEqual("Talus gran" in log, suffix)
                             if style != "hooke":
                                 self.assertRegex(log, "fix style: (NEIGH_HISTORY|CONTACT_STORE)")
-                            for frame in read_dump(self.path(f"{name}/state")):
-                                same, = [w for w in whole[-3:] if w.step == frame.step]
+                            # at its first step a run has other forces than the one before at its last
+                            for frame in read_dump(self.path(f"{name}/state"))[1:]:
+                                same, = [w for w in whole if w.step == frame.step]
                                 for kind in ("xyz", "v", "f", "t"):
                                     group = [c for c in columns if c[0] in kind]
                                     scale = max(max(map(abs, same.column(c).values())) for c in group)
