@@ -39,8 +39,7 @@ constexpr StockLaw law_of<PairGranHertzHistory> = {"gran/hertz/history", "hertz"
 
 /* ---------------------------------------------------------------------- */
 
-template <class Stock>
-PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : PairOfSystem<Stock>(lmp)
+template <class Stock> PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : PairOfSystem<Stock>(lmp)
 {
   this->no_virial_fdotr_compute = 1;    // ghosts have no forces
   attached = this->system->attach(this, {law_of<Stock>.style, true});
@@ -157,8 +156,7 @@ template <class Stock>
 double PairGranTalus<Stock>::single(int i, int j, int itype, int jtype, double rsq,
                                     double factor_coul, double factor_lj, double &fforce)
 {
-  if (!in_system())
-    return Stock::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
+  if (!in_system()) return Stock::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   double extra[PairOfSystem<Stock>::num_extra];
   fforce = this->force_of_pair(i, j, itype, jtype, rsq, extra);
   std::copy(extra, extra + this->single_extra, this->svector);

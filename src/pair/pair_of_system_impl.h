@@ -79,8 +79,7 @@ double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, dou
   return dot(out.force - out.tangential, s.normal) / r;    // with adhesion
 }
 
-template <class Base>
-int PairOfSystem<Base>::pack_masses(int n, const int *send, double *buf) const
+template <class Base> int PairOfSystem<Base>::pack_masses(int n, const int *send, double *buf) const
 {
   for (int k = 0; k < n; k++) buf[k] = system->mass_override()[send[k]];
   return n;

@@ -41,14 +41,20 @@ void FixPairHistory::post_constructor()
   style = utils::strdup("NEIGH_HISTORY");
 }
 
-/* The store has brought its lists up to date when the restart file was begun. */
+/* The list of a particle; returns how many contacts it has. The store has brought its lists up to
+   date when the restart file was begun. */
 
-int FixPairHistory::pack_restart(int i, double *buf)
+int FixPairHistory::read_list(int i)
 {
   Talus::HistoryStore &store = system->histories();
   list.resize(store.list_size(i));
   store.pack_list(i, list.data());
-  const int contacts = static_cast<int>(list[0]), values = static_cast<int>(list[1]);
+  return static_cast<int>(list[0]);
+}
+
+int FixPairHistory::pack_restart(int i, double *buf)
+{
+  const int contacts = read_list(i), values = static_cast<int>(list[1]);
   const double *from = list.data() + list_header;
   double *to = buf + header;
   for (int n = 0; n < contacts; n++, from += 1 + values, to += stock_entry)
@@ -76,10 +82,11 @@ void FixPairHistory::unpack_restart(int i, int nth)
   store.unpack_list(i, list.data());
 }
 
+/* Exactly: the host writes as much. */
+
 int FixPairHistory::size_restart(int i)
 {
-  // values of a list are at least as many
-  return header + system->histories().list_size(i);
+  return header + stock_entry * read_list(i);
 }
 
 int FixPairHistory::maxsize_restart()

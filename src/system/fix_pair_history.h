@@ -39,6 +39,7 @@ class FixPairHistory : public Fix {
   int maxsize_restart() override;
 
  private:
+  int read_list(int atom);
   std::shared_ptr<Talus::GranularSystem> system;
   std::vector<double> list;    // of one particle, as HistoryStore has it
 };

@@ -32,8 +32,8 @@ void NeighborSource::init(Pair *pair)
   own = reason.empty();
   // of ours the host makes no list, but knows that pairs are those of spheres; of its own it has
   // pairs across ranks on both sides, whatever `newton` says
-  neighbor->add_request(pair, NeighConst::REQ_SIZE | (own ? NeighConst::REQ_OCCASIONAL
-                                                          : NeighConst::REQ_NEWTON_OFF));
+  neighbor->add_request(pair, NeighConst::REQ_SIZE |
+                                  (own ? NeighConst::REQ_OCCASIONAL : NeighConst::REQ_NEWTON_OFF));
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
       (own ? ": finds neighbors itself, as often as neigh_modify says\n"
@@ -62,8 +62,7 @@ NeighborView NeighborSource::find(const NeighList *list)
                     ? [this](int i, int j) { return excludes(i, j); }
                     : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
-    error->one(FLERR,
-               "Pair style {}: {}: the simulation is unstable: reduce the time step",
+    error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
                GranularSystem::of(lmp)->style_name(), problem.what());
   }
   return search.view();

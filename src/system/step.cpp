@@ -102,7 +102,8 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   // a set-up is a step of no duration, or none
   const bool setting_up = update->setupflag != 0;
   ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
-                   !setting_up || style.limits_at_setup, report, keeps_account ? &account : nullptr};
+                   !setting_up || style.limits_at_setup, report,
+                   keeps_account ? &account : nullptr};
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;

@@ -86,8 +86,7 @@ TALUS_INLINE Vector3<Real> stock_limit(const SlidingInput<Real> &in, const Trial
     history = {d, select(slides, one, zero)};
     const Vector3<Real> sliding = select(by_spring, -(in.kt * d + trial.drag), capped);
     const Vector3<Real> none{zero, zero, zero};
-    return unsigned_zeros(
-        select(trial.exceeds, select(slides, sliding, none), trial.force));
+    return unsigned_zeros(select(trial.exceeds, select(slides, sliding, none), trial.force));
   }
   // the flag counts as long as spring and dashpot do not exceed the limit but for rounding: not
   // with other velocities or coefficients
