@@ -115,7 +115,9 @@ class ContactPipeline {
   void advance(const std::vector<RecordStep> &steps);
   /// It has not been completed.
   bool is_moving() const { return move_pending; }
-  /// How far they went, after compute().
+  /// Moves those that are still to be moved now, in a pass of its own.
+  void complete_move();
+  /// How far they went, after compute() or complete_move().
   RecordTravel travel() const;
   /// Ends holds_state(): completes an advance() and writes positions, velocities and angular velocities of all
   /// owned particles to the host's arrays, and sets its forces and torques to those in the records,

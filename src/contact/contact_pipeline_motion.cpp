@@ -77,18 +77,22 @@ RecordTravel ContactPipeline::travel() const
   return all;
 }
 
+void ContactPipeline::complete_move()
+{
+  if (!move_pending) return;
+  Talus::in_ranges(order.size(), threads, [&](int t, int begin, int end) {
+    travels[t].join(particles.advance(move, role, held_or_null(), of_thread(moved_first, t)));
+    SlotChoice slots{begin, end};
+    slots.marked = is_moved_before.empty() ? nullptr : is_moved_before.data();
+    travels[t].join(particles.advance(move, role, held_or_null(), slots));
+  });
+  move_pending = false;
+}
+
 void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
 {
-  if (move_pending) {
-    for (int t = 0; t < threads; t++)
-      particles.advance(move, role, nullptr, of_thread(moved_first, t));
-    in_ranges(order.size(), [&](int begin, int end) {
-      SlotChoice slots{begin, end};
-      slots.marked = is_moved_before.empty() ? nullptr : is_moved_before.data();
-      particles.advance(move, role, nullptr, slots);
-    });
-  }
-  move_pending = in_records = false;
+  complete_move();
+  in_records = false;
   write_state(x, v, omega);
   if (f)
     in_ranges(order.owned, [&](int begin, int end) {

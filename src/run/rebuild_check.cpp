@@ -13,6 +13,15 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
+namespace {
+
+double distance(const std::array<double, 3> &a, const std::array<double, 3> &b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+}    // namespace
+
 RebuildCheck::RebuildCheck(LAMMPS *lmp) : Pointers(lmp)
 {
   MPI_Comm_dup(world, &own_world);
@@ -66,7 +75,7 @@ void RebuildCheck::ask(const RecordTravel *travel)
 /* The host decides first, as if there were no check: that tells whether a fix or a restart file
    demands new lists, which leaves the age of the lists as it is, or whether a check is due. */
 
-bool RebuildCheck::decide()
+bool RebuildCheck::decide(const std::function<double()> &moved)
 {
   const int age = neighbor->ago, with_check = neighbor->dist_check;
   neighbor->dist_check = 0;
@@ -79,7 +88,8 @@ bool RebuildCheck::decide()
   MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
-  if (!forecast.may_leave(limit(), neighbor->every)) return false;
+  if (!forecast.may_leave(limit_when_asked(), neighbor->every)) return false;
+  if (neighbor->every == 1 && !has_left(moved())) return false;
   if (forecast.moved > 0.5 * neighbor->skin) {
     const int first_check = std::max(neighbor->every, neighbor->delay);    // a multiple of `every`
     (neighbor->ago == first_check ? delayed : unforeseen)++;
@@ -110,22 +120,37 @@ RebuildCheck::Corners RebuildCheck::box_corners() const
   return corners;
 }
 
+bool RebuildCheck::has_left(double moved) const
+{
+  double farthest = 0.0;
+  MPI_Allreduce(&moved, &farthest, 1, MPI_DOUBLE, MPI_MAX, own_world);
+  return farthest > limit();
+}
+
 /* Half of the skin. As in the host, a box that changes takes from it what its two fastest corners
-   have moved; and what the box has done since we asked can have carried particles along. */
+   have moved, or if it is orthogonal its lowest and its highest one. */
 
 double RebuildCheck::limit() const
 {
   if (!domain->box_change) return 0.5 * neighbor->skin;
   const Corners now = box_corners();
-  const auto distance = [&now](const Corners &then, int c) {
-    return std::hypot(now[c][0] - then[c][0], now[c][1] - then[c][1], now[c][2] - then[c][2]);
-  };
-  double first = 0.0, second = 0.0, since = 0.0;
+  double first = 0.0, second = 0.0;
   for (int c = 0; c < 8; c++) {
-    const double moved = distance(corners_of_list, c);
+    if (!domain->triclinic && c != 0 && c != 7) continue;
+    const double moved = distance(corners_of_list[c], now[c]);
     second = std::max(second, std::min(first, moved));
     first = std::max(first, moved);
-    since = std::max(since, distance(corners_when_asked, c));
   }
-  return std::max(0.0, 0.5 * (neighbor->skin - (first + second)) - since);
+  return std::max(0.0, 0.5 * (neighbor->skin - (first + second)));
+}
+
+/* What the box has done since we asked can have carried particles along. */
+
+double RebuildCheck::limit_when_asked() const
+{
+  if (!domain->box_change) return limit();
+  const Corners now = box_corners();
+  double since = 0.0;
+  for (int c = 0; c < 8; c++) since = std::max(since, distance(corners_when_asked[c], now[c]));
+  return std::max(0.0, limit() - since);
 }

@@ -1,8 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Decides when neighbor lists are made anew, without waiting for all ranks: takes the place of
-// Neighbor::decide() in run style verlet/proxy and keeps to `neigh_modify`. The question is asked
-// in one step (ask()) and the answer used in the next (decide()), see motion_forecast.h.
+// Decides when neighbor lists are made anew, without waiting for all ranks in every step: takes the
+// place of Neighbor::decide() in our Verlet loop and keeps to `neigh_modify`.
+//
+// The question how far particles may be in the next step is asked in one step (ask()) and the answer
+// used in the next (decide()), see motion_forecast.h. With `every 1` a forecast that a particle may
+// be beyond half of the skin is followed by LAMMPS' own check in the step itself: lists are made anew
+// in the same steps as by LAMMPS. With `every N` they are made anew if a particle may be beyond it
+// before the next chance.
 //
 // All methods are collective; every rank decides the same.
 
@@ -15,6 +20,7 @@
 #include "pointers.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 
 namespace Talus {
@@ -36,8 +42,9 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   /// what is known of that already, where the host's arrays are not up to date.
   void ask(const RecordTravel *travel);
 
-  /// Once per step, after particles have moved: whether lists are made anew in this step.
-  bool decide();
+  /// Once per step, after particles have moved: whether lists are made anew in this step. `moved`:
+  /// tells how far the particles of this rank are from where they were when lists were made.
+  bool decide(const std::function<double()> &moved);
 
   /// At the end of a run: what was asked is not needed.
   void drop();
@@ -52,6 +59,8 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   using Corners = std::array<std::array<double, 3>, 8>;
   Corners box_corners() const;
   double limit() const;
+  double limit_when_asked() const;
+  bool has_left(double moved) const;
 
   MPI_Comm own_world = MPI_COMM_NULL;
   MPI_Request request = MPI_REQUEST_NULL;

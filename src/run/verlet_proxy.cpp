@@ -140,7 +140,8 @@ void VerletProxy::step()
   if (modify->n_post_integrate) modify->post_integrate();
   timer->stamp(Timer::MODIFY);
 
-  const bool anew = lists->decide();    // the host's decide() waits for all ranks
+  // the host's decide() waits for all ranks
+  const bool anew = lists->decide([this] { return system->moved_since_rebuild(); });
   if (anew) rebuild();
   // the host's forces are not read in a step after which particles stay in the records
   const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;

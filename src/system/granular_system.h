@@ -105,8 +105,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// How far the particles went in the last step, if it was made in the records.
   RecordTravel travel() const { return pipeline->travel(); }
-  /// For fixes after the forces of a step: largest distance of an owned particle from where it was
-  /// when neighbor lists were made; infinity if nobody knows.
+  /// After particles have moved: largest distance of an owned particle from where it was when
+  /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
   /// Waits for proxies that are under way.
   void finish_proxies();

@@ -65,7 +65,10 @@ double GranularSystem::moved_since_rebuild()
 {
   if (!neighbor->dist_check || neighbor->includegroup) return HUGE_VAL;
   const bigint now = update->ntimestep;
-  if (moved_in_records == now && neighbor->ago > 0) return pipeline->travel().moved;
+  if (moved_in_records == now && neighbor->ago > 0) {
+    pipeline->complete_move();
+    return pipeline->travel().moved;
+  }
   if (farthest.step == now && neighbor->ago > 0 && !update->setupflag) return farthest.moved;
   farthest = {now, moved_in_arrays()};
   return farthest.moved;
