@@ -103,9 +103,10 @@ unpack_parts() {
     strip=1
   fi
   mkdir -p "$dir"
-  # third_party is not in every version: a name that is missing is no error, a bad file is one.
+  # third_party is not in every version, examples not in every tarball: a name that is missing is no
+  # error, a bad file is one.
   tar -xf "$tarball" -C "$dir" --no-same-owner --strip-components="$strip" "${@/#/$prefix}" 2>"$dir.log" ||
-    ! grep -v -e 'third_party: Not found' -e 'Exiting with failure' "$dir.log" >&2 ||
+    ! grep -v -e 'third_party: Not found' -e 'examples/[a-z/]*: Not found' -e 'Exiting with failure' "$dir.log" >&2 ||
     die "cannot unpack $tarball (disk full?): free some space and run the command again"
   rm -f "$dir.log"
 }
@@ -129,6 +130,7 @@ download_inputs() {
   mkdir -p "$new"
   download_source "$upstream" "$suite" "$new/download"
   unpack_parts "$(ls "$new"/download/lammps_*.orig.tar.*)" "$new/tree" "${TALUS_INPUT_PARTS[@]}"
+  has_inputs "$new/tree" || die "no input scripts in the source of LAMMPS $upstream"
   for part in "${TALUS_INPUT_PARTS[@]}"; do
     rm -rf "${source:?}/$part"
     mkdir -p "$(dirname "$source/$part")"

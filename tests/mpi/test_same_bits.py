@@ -222,7 +222,7 @@ class Restart(HeapCase):
 
     @staticmethod
     def rest(file, pair=""):
-        return (START.format(sort="1000 0", grid="* * *", comm="") + f"read_restart {file}\n" +
+        return (start() + f"read_restart {file}\n" +
                 rebuilds() + pair + physics() + f"run {STEPS} upto\n")
 
     def assert_same_after(self, step, name):

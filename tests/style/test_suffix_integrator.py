@@ -13,8 +13,8 @@ from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sp
 from tossed_grains import tossed_grains
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-RECORDS = "steps without output are made in Talus' own records"
-HOST = "every step goes through the arrays of LAMMPS: "
+RECORDS = "steps without output              in the records"
+HOST = "steps without output              through the arrays of LAMMPS: "
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 ALL = MOTION + "fx fy fz tqx tqy tqz".split()
 
