@@ -22,14 +22,23 @@ void do_stages(int count, const Guarded &guarded, Stage &stage, Later &...later)
   }
 }
 
+template <class Stage> void do_alone(int count, Stage &stage)
+{
+  for (int n = 0; n < count; n++) stage(n);
+}
+
 }    // namespace in_parallel_detail
 
 /// stage(n) for n = 0 ... count-1 by so many threads, each of them a range of n. Of several stages
 /// all of one is done before any of the next one begins; the same thread does all stages for one n,
-/// and threads start and end once. What a stage throws, out of memory for one, is thrown here when
-/// all are done: no handler catches exceptions of a thread.
+/// and threads start and end once. What a stage throws, out of memory for one, is thrown here, by
+/// several threads when all are done: no handler catches exceptions of a thread.
 template <class... Stage> void in_parallel(int count, int threads, Stage... stages)
 {
+  if (threads <= 1) {    // even a team of one would be made anew, and its barriers ask the system
+    (in_parallel_detail::do_alone(count, stages), ...);
+    return;
+  }
   std::exception_ptr failure;
   const auto guarded = [&failure](auto &stage, int n) {
     try {
@@ -39,7 +48,7 @@ template <class... Stage> void in_parallel(int count, int threads, Stage... stag
       failure = std::current_exception();
     }
   };
-#pragma omp parallel num_threads(threads) if (threads > 1)
+#pragma omp parallel num_threads(threads)
   in_parallel_detail::do_stages(count, guarded, stages...);
   if (failure) std::rethrow_exception(failure);
 }

@@ -9,7 +9,9 @@
 #include "domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -22,9 +24,13 @@ template <class Visit>
 void for_each_shifted(const ExchangeNeighbor &from, const PeriodicBox &box, Visit visit)
 {
   PeriodicShift known{};
-  auto steps = box.steps_of(known);
+  std::vector<std::array<double, 3>> steps;
   from.for_each_proxy([&](int proxy, int place, const PeriodicShift &shift) {
-    if (shift != known) steps = box.steps_of(known = shift);
+    if (shift != known) {
+      known = shift;
+      steps.clear();
+      box.for_each_step(shift, [&](const auto &step) { steps.push_back(step); });
+    }
     visit(proxy, place, steps);
   });
 }

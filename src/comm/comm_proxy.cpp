@@ -25,6 +25,12 @@ CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
     sphere_packer(lmp)
 {
   localsendlist = nullptr;
+  system->exchange().is_made(this, this);
+}
+
+CommProxy::~CommProxy()
+{
+  system->exchange().is_deleted(this);
 }
 
 /* ---------------------------------------------------------------------- */

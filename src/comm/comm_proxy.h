@@ -31,6 +31,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
  public:
   /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
   CommProxy(class LAMMPS *, class Comm *old);
+  ~CommProxy() override;
 
   // ---- the host's interface
 

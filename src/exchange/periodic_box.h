@@ -9,7 +9,7 @@
 #include "exchange/exchange_plan.h"
 
 #include <array>
-#include <vector>
+#include <cstdlib>
 
 namespace Talus {
 
@@ -19,10 +19,21 @@ struct PeriodicBox {
   bool tilted = false;
   double xy = 0.0, xz = 0.0, yz = 0.0;
 
-  /// The single steps of a shift: one period after the other, x first, in the order of the staged
-  /// exchange of LAMMPS. Code that adds all of them, zeros included, makes the same additions and
-  /// gets the same bits.
-  std::vector<std::array<double, 3>> steps_of(const PeriodicShift &shift) const;
+  /// visit(step) for the single steps of a shift: one period after the other, x first, in the order
+  /// of the staged exchange of LAMMPS. Code that adds all of them, zeros included, makes the same
+  /// additions and gets the same bits: the zeros are products too, and their signs decide about
+  /// signed zeros of coordinates. A step along y or z has the tilts of a triclinic box.
+  template <class Visit> void for_each_step(const PeriodicShift &shift, Visit visit) const
+  {
+    for (int d = 0; d < 3; d++) {
+      const double s = shift[d] > 0 ? 1.0 : -1.0;
+      std::array<double, 3> step{0.0, 0.0, 0.0};
+      if (d == 0) step[0] = s * x;
+      if (d == 1) step = {tilted ? s * xy : 0.0, s * y, 0.0};
+      if (d == 2) step = {tilted ? s * xz : 0.0, tilted ? s * yz : 0.0, s * z};
+      for (int n = std::abs(shift[d]); n > 0; n--) visit(step);
+    }
+  }
 };
 
 }    // namespace Talus

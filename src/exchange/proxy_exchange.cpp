@@ -128,12 +128,13 @@ void ProxyExchange::begin(ProxyPacker &with)
     throw std::logic_error("states of proxies are longer than their plan was told");
   complete_sends();
   packer = &with;
+  counters.exchanges++;
+  if (sends.empty()) return;
 
   const double start = MPI_Wtime();
   const std::vector<ExchangeNeighbor> &neighbors = the_plan.neighbors();
   for (std::size_t n = 0; n < neighbors.size(); n++)
     if (neighbors[n].send_count()) pack_and_send(static_cast<int>(n));
-  counters.exchanges++;
   counters.pack_seconds += MPI_Wtime() - start;
 }
 
@@ -197,7 +198,7 @@ void ProxyExchange::finish()
 
   copy_to_self();
   lap(counters.unpack_seconds);
-  for (;;) {
+  while (!receives.empty()) {
     int n = MPI_UNDEFINED;
     MPI_Waitany(static_cast<int>(receives.size()), receives.data(), &n, MPI_STATUS_IGNORE);
     lap(counters.wait_seconds);
@@ -224,6 +225,7 @@ void ProxyExchange::abandon()
 
 void ProxyExchange::complete_sends()
 {
+  if (sends.empty()) return;
   const double start = MPI_Wtime();
   wait_for(sends);
   counters.wait_seconds += MPI_Wtime() - start;

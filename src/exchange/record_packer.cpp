@@ -124,9 +124,10 @@ void RecordPacker::unpack(const ExchangeNeighbor &from, const double *message)
 template <bool rotation> void RecordPacker::unpack_run(const Run &run, const double *message)
 {
   constexpr std::ptrdiff_t width = rotation ? 9 : 6;
-  std::vector<Vec4, AlignedAllocator<Vec4>> steps;
-  for (const auto &step : box.steps_of(run.shift))
-    steps.push_back(Vec4{step[0], step[1], step[2], 0.0});
+  steps.clear();
+  box.for_each_step(run.shift, [this](const std::array<double, 3> &step) {
+    steps.push_back({{step[0], step[1], step[2], 0.0}});
+  });
   const int count = static_cast<int>(run.targets.size());
   for (int k = 0; k < count; k++) {
     records->call(run.targets[std::min(k + ahead, count - 1)].slot);
@@ -135,7 +136,7 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
     Record &position = records->position[s];
     Record *moves = &records->motion[(rotation ? 2 : 1) * s];
     Vec4 x = with_fourth_of(load_anywhere(in), load4(position));
-    for (const Vec4 &step : steps) x = x + step;
+    for (const Record &step : steps) x = x + load4(step);
     store(position, x);
     if (rotation) store(moves[0], with_fourth_of(load_anywhere(in + 3), load4(moves[0])));
     Record &last =

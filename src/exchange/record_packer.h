@@ -10,8 +10,10 @@
 #ifndef TALUS_EXCHANGE_RECORD_PACKER_H
 #define TALUS_EXCHANGE_RECORD_PACKER_H
 
+#include "base/aligned_vector.h"
 #include "exchange/periodic_box.h"
 #include "exchange/proxy_packer.h"
+#include "particles/record.h"
 
 #include <vector>
 
@@ -55,6 +57,7 @@ class RecordPacker : public ProxyPacker {
   std::vector<Slots> slots;    ///< by neighbor
   ParticleRecords *records = nullptr;
   PeriodicBox box;
+  AlignedVector<Record> steps;    ///< of the shift of a run; the fourth numbers are 0
 };
 
 }    // namespace Talus

@@ -49,7 +49,7 @@ void ExchangeSwitch::choose(Choice choice)
     if (!problem.empty()) error->all(FLERR, "comm_proxy: {} or 'comm_proxy no'", problem);
   }
   chosen = choice;
-  const bool is_direct = dynamic_cast<ProxyUpdates *>(comm);
+  const bool is_direct = present();
   if (choice == Choice::YES && !is_direct) replace_comm(make_direct(lmp, comm));
   // a tiled one cannot be replaced, and need not: the direct exchange is not supported there
   if (choice == Choice::NO && comm->style == Comm::BRICK) replace_comm(new StockComm(lmp, comm));
@@ -59,13 +59,24 @@ void ExchangeSwitch::start_run()
 {
   const bool has_proxies =
       comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
-  if (!has_proxies || chosen == Choice::NO || dynamic_cast<ProxyUpdates *>(comm)) return;
+  if (!has_proxies || chosen == Choice::NO || present()) return;
   if (unsupported(false).empty()) replace_comm(make_direct(lmp, comm));
+}
+
+void ExchangeSwitch::is_made(const Comm *one, ProxyUpdates *proxies)
+{
+  made = one;
+  proxies_of_made = proxies;
+}
+
+void ExchangeSwitch::is_deleted(const Comm *one)
+{
+  if (made == one) is_made(nullptr, nullptr);
 }
 
 ProxyUpdates *ExchangeSwitch::direct() const
 {
-  auto *proxies = dynamic_cast<ProxyUpdates *>(comm);
+  ProxyUpdates *proxies = present();
   return proxies && !proxies->stands_aside() ? proxies : nullptr;
 }
 

@@ -39,6 +39,10 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   /// the host is against it. What shows later lets it stand aside.
   void start_run();
 
+  /// From the constructor and the destructor of a direct exchange: in every step it is asked several
+  /// times whether one is there.
+  void is_made(const LAMMPS_NS::Comm *comm, ProxyUpdates *proxies);
+  void is_deleted(const LAMMPS_NS::Comm *comm);
   /// The direct exchange if it is in force, else nullptr.
   ProxyUpdates *direct() const;
   /// With direct() == nullptr: why, and the cure, for people.
@@ -50,7 +54,11 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
  private:
   void replace_comm(LAMMPS_NS::Comm *with);
 
+  ProxyUpdates *present() const { return comm == made ? proxies_of_made : nullptr; }
+
   Choice chosen = Choice::AUTOMATIC;
+  const LAMMPS_NS::Comm *made = nullptr;
+  ProxyUpdates *proxies_of_made = nullptr;
 };
 
 }    // namespace Talus
