@@ -32,7 +32,7 @@ std::string FixNVESphereTalus::find_reason() const
 {
   if (extra) return "it turns dipoles";
   if (utils::strmatch(update->integrate_style, "^respa")) return "run_style respa has levels";
-  if (!system->has_pair_style()) return "there is no pair style of Talus";
+  if (!system->has_pair_style()) return system->reason_of_pair_style();
   return "";
 }
 

@@ -128,11 +128,11 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
 
   std::string find_reason_for_stock() const
   {
-    if (!system->has_pair_style()) return "the pair style is not accelerated";
+    if (!system->has_pair_style()) return system->reason_of_pair_style();
     if (!LAMMPS_NS::utils::strmatch(this->update->integrate_style, "^verlet"))
       return "run_style is not verlet";
     if (this->heat_flag) return "it conducts heat";
-    if (this->fix_rigid) return std::string("fix ") + this->fix_rigid->id + " joins particles";
+    if (this->fix_rigid) return std::string("fix ") + this->fix_rigid->id + " moves rigid bodies";
     if (this->group->dynamic[this->igroup]) return "its group is dynamic";
     if (this->model->sub_models[LAMMPS_NS::Granular_NS::NORMAL]->name == "mdr")
       return "normal model mdr";

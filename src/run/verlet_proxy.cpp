@@ -46,7 +46,8 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 
 std::string VerletProxy::reason_for_stock() const
 {
-  return makes_own_steps() ? "" : "as the pair style";
+  if (!system->accelerates_pairs()) return system->reason_of_pair_style();
+  return pair_compute_flag ? "" : "'pair_modify compute no' is set";
 }
 
 void VerletProxy::init()

@@ -88,6 +88,12 @@ bool GranularSystem::pair_style_is_alone() const
   return pair && force->pair == pair;
 }
 
+std::string GranularSystem::reason_of_pair_style() const
+{
+  if (accelerates_pairs()) return "";
+  return has_pair_style() ? "the pair style is hybrid" : "the pair style is not accelerated";
+}
+
 void GranularSystem::init_pair_style()
 {
   neighbors.init(pair);
@@ -173,7 +179,7 @@ std::string GranularSystem::reason_against_history()
 
 std::string GranularSystem::take_gravity(SystemGravity *field)
 {
-  if (!pair_style_is_alone()) return "there is no pair style of Talus on its own";
+  if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pair->compute_flag) return "'pair_modify compute no' is set";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
   if (masses.bodies_are_rigid()) return "a fix moves rigid bodies";

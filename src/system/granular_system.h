@@ -85,6 +85,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string reason_against_history();
   /// In this run all pairs are computed here. Valid after init() of the host.
   bool accelerates_pairs() const { return pair_style_is_alone(); }
+  /// "" if so, else why not, for people.
+  std::string reason_of_pair_style() const;
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 

@@ -60,7 +60,7 @@ void GranularSystem::report_styles(bool pairs_computed)
 std::string GranularSystem::find_reason_for_host(bool pairs_computed)
 {
   const auto *run_style = dynamic_cast<const SystemRunStyle *>(update->integrate);
-  if (!accelerates_pairs()) return "the pair style is not accelerated on its own";
+  if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!run_style) return std::string("run style ") + update->integrate_style;
   if (keeps_account) return "energies of contacts are accounted for";

@@ -26,7 +26,7 @@ namespace {
 
 std::string line(const std::string &style, const std::string &its)
 {
-  return fmt::format("  {:<33} {}\n", style, its);
+  return fmt::format("  {:<32}  {}\n", style, its);
 }
 
 std::string how(const std::string &reason_for_stock)
@@ -73,7 +73,9 @@ bool StyleReport::concerns(const GranularSystem &system) const
 std::string StyleReport::text(const GranularSystem &system,
                               const std::string &reason_for_host) const
 {
-  const std::string pair = force->pair ? force->pair_style : "none";
+  std::string pair = force->pair ? force->pair_style : "none";
+  const std::size_t suffix = pair.rfind("/talus");
+  if (suffix != std::string::npos) pair.erase(suffix);
   return "Talus: styles of this run\n" + line("pair " + pair, pair_is(system)) +
          lines_of_fixes(system) +
          line(std::string("run ") + update->integrate_style, run_style_is()) +
