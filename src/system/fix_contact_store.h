@@ -101,6 +101,7 @@ class FixContactStore : public Fix {
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
+  std::vector<double> scratch;    // a list whose size is asked for
   Talus::HistoryStore store;
   Talus::SparseExchange exchange;
 

@@ -172,9 +172,12 @@ void FixContactStore::unpack_restart(int i, int nth)
   store.unpack_list(i, extra + m + restart_header);
 }
 
+/* Exactly, not an upper limit: the host writes as much, and reads it as further particles. */
+
 int FixContactStore::size_restart(int i)
 {
-  return restart_header + store.list_size(i);
+  scratch.resize(store.list_size(i));
+  return restart_header + store.pack_list(i, scratch.data());
 }
 
 int FixContactStore::maxsize_restart()

@@ -2,6 +2,7 @@
 """Contact history and large bodies in restart files: of a format that is known, or the reader says so."""
 
 import os
+import random
 import struct
 import sys
 import unittest
@@ -47,6 +48,24 @@ class HistoryRestart(SceneCase):
         for tag in whole.atoms:
             self.assertNotEqual(whole.column("fy")[tag] + whole.column("fz")[tag],
                                 without.column("fy")[tag] + without.column("fz")[tag])
+
+    def test_contacts_that_one_side_sees(self):
+        """Grazing ones across a periodic border: positions are rounded there, and the other side decides."""
+        draw, grains, length = random.Random(1), [], 10.0
+        while len(grains) < 200:
+            d, x = draw.uniform(0.8, 1.0), draw.uniform(0.2, 0.4)
+            far = x + length - d + draw.choice((-1, 0, 1)) * 1.8e-15
+            one, other = x - (far - length), (x + length) - far
+            if (one * one < d * d) == (other * other < d * d):
+                continue
+            k = len(grains) // 2
+            place = (1.5 * (k // 10) + 0.75, 1.5 * (k % 10) + 0.75)
+            grains += [Sphere((x, *place), diameter=d), Sphere((far, *place), diameter=d)]
+        write_sphere_data(self.path("grazing"), ((0, length), (0, 15), (0, 15)), grains)
+        for np in 1, 2:
+            self.run_lammps(START + "read_data grazing\n" + PAIR + REST + "run 0\nwrite_restart grazing.restart\n", np=np)
+            log = self.run_lammps(START + "read_restart grazing.restart\n" + REST + "run 0\n").log
+            self.assertIn("200 atoms", log)
 
     def refuse(self, content, commands, message):
         with open(self.path("other"), "wb") as file:
