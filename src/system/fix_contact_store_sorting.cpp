@@ -22,11 +22,15 @@ using namespace LAMMPS_NS;
 /* The host sorts particles by place now and then, for the sake of the cache. Sorting them into the
    canonical order instead serves the same end, and lets the records of src/contact be read and
    written straight through. Only while a run lasts: init() is called by many commands after which
-   no run follows, and what atom_modify sets between runs must hold. */
+   no run follows, and what atom_modify sets between runs must hold.
+
+   It is done before the exchange, where the histories of bonds, and those of other pair styles, are
+   still known by the places of particles in lists of the host: then the host sorts, behind it. */
 
 void FixContactStore::take_over_sorting()
 {
   if (host_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
+  if (atom->molecular != Atom::ATOMIC || !system || !system->accelerates_pairs()) return;
   host_sorts_every = atom->sortfreq;
   atom->sortfreq = 0;    // until post_run()
 }

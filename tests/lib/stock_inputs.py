@@ -53,7 +53,7 @@ fix 2 freeze                      accelerated
 fix 3 nve/sphere                  accelerated
 run verlet                        accelerated
 steps without output              in the records
-""", steps=100, every=100, long_steps=1000, bench_steps=3000, exact=True),
+""", steps=100, every=100, long_steps=1000, bench_steps=100, exact=True),
     StockInput("bench/in.chute.scaled", """
 pair gran/hooke/history           accelerated
 fix 1 gravity                     accelerated
@@ -61,7 +61,7 @@ fix 2 freeze                      accelerated
 fix 3 nve/sphere                  accelerated
 run verlet                        accelerated
 steps without output              in the records
-""", steps=100, every=100, long_steps=1000, bench_steps=1000, exact=True, variables={"x": 2}),
+""", steps=100, every=100, long_steps=1000, bench_steps=100, exact=True, variables={"x": 2}),
     StockInput("examples/granregion/in.granregion.box", """
 pair hybrid                       sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock
 fix container wall/gran/region    accelerated
@@ -77,7 +77,7 @@ fix 1 nve/sphere                  accelerated
 fix hopper3 wall/gran/region      accelerated
 run verlet                        accelerated
 steps without output              through the arrays of LAMMPS: {MULTI}
-""", steps=2000, every=1000, long_steps=20000, bench_steps=10000),
+""", steps=2000, every=1000, long_steps=20000, bench_steps=3000),
     StockInput("examples/granregion/in.granregion.mixer", f"""
 pair gran/hertz/history           accelerated
 fix grav gravity                  accelerated
@@ -85,7 +85,7 @@ fix 1 nve/sphere                  accelerated
 fix mixwall wall/gran/region      accelerated
 run verlet                        accelerated
 steps without output              through the arrays of LAMMPS: {MULTI}
-""", steps=5000, every=1000, long_steps=100000, bench_steps=20000, rubs="long"),
+""", steps=5000, every=1000, long_steps=100000, bench_steps=10000, rubs="long"),
     StockInput("examples/pour/in.pour", """
 pair gran/hooke/history           accelerated
 fix 1 nve/sphere                  accelerated
