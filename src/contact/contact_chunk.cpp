@@ -119,10 +119,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   transpose_results<friction>(end, scene.with_resistance);
   if (pairs.weighted()) apply_weights(end);
   if (!pairs.is_late()) {
-    if (scene.laws.num_laws() == 1)
-      add_up<friction, true>(step.particles, block, count);
-    else
-      add_up<friction, false>(step.particles, block, count);
+    add_up<friction>(step, block, count);
     if (scene.with_resistance) add_twisting_torques(step.particles, block, count);
   }
   defer(step, block, count);
@@ -203,11 +200,11 @@ void ContactChunk::apply_weights(int end)
 }
 
 /* The contacts of one second particle follow each other, and nothing has been added to it before
-   the first of them but its weight: its sums stay in registers and are stored again and again, but
-   not loaded. What is loaded for a contact that is not the first, and not used, was stored long ago.
-   Sums of particles with late contacts are wrong here, and replaced when all have been computed. */
+   the first of them but its weight, if it has one: its sums stay in registers and are stored again
+   and again, but not loaded. Sums of particles with late contacts are wrong here, and replaced when
+   all have been computed. */
 
-template <bool friction, bool one_law>
+template <bool friction, bool one_law, bool weights>
 void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
@@ -228,8 +225,10 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
     last = b;
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
-    const Record *begins = same ? &not_used : j;
-    force = chosen(same, force, load4(begins[0])) - f;
+    if constexpr (weights)    // an address that was written long ago, not the one of the last turn
+      force = chosen(same, force, load4(same ? not_used : j[0])) - f;
+    else
+      force = kept_if(same, force) - f;
     store(j[0], force);
     if constexpr (friction) {
       const Vec4 m = load4(moment_of_lane[lane]);
@@ -238,6 +237,19 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
       store(j[1], moment);
     }
   }
+}
+
+template <bool friction>
+void ContactChunk::add_up(const Step &step, const std::uint32_t *block, int count)
+{
+  ParticleRecords &particles = step.particles;
+  const bool one_law = step.scene.laws.num_laws() == 1;
+  if (particles.have_weights())
+    one_law ? add_up<friction, true, true>(particles, block, count)
+            : add_up<friction, false, true>(particles, block, count);
+  else
+    one_law ? add_up<friction, true, false>(particles, block, count)
+            : add_up<friction, false, false>(particles, block, count);
 }
 
 void ContactChunk::add_twisting_torques(ParticleRecords &particles, const std::uint32_t *block,

@@ -133,8 +133,9 @@ class ContactChunk {
                     Record *records);
   template <bool friction> void transpose_results(int end, bool with_resistance);
   void apply_weights(int end);
-  template <bool friction, bool one_law>
+  template <bool friction, bool one_law, bool weights>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  template <bool friction> void add_up(const Step &step, const std::uint32_t *contacts, int count);
   void add_twisting_torques(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);

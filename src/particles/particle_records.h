@@ -114,6 +114,7 @@ class ParticleRecords {
   /// particle in a field of gravity (acceleration, nullptr: none). Without weight are those of
   /// infinite mass and the slots marked in set_weightless().
   void set_gravity(const double *acceleration);
+  bool have_weights() const { return has_gravity; }
   /// By slot of the present order; empty: none.
   void set_weightless(std::vector<unsigned char> marks) { weightless = std::move(marks); }
   /// Where the sum of forces of a slot begins, if its velocity record is that.
