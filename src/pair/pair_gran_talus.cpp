@@ -6,8 +6,10 @@
 
 #include "laws/law_list.h"
 #include "pair/pair_of_system_impl.h"
+#include "system/private_member.h"
 
 #include "atom.h"
+#include "bond.h"
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
@@ -18,6 +20,14 @@
 
 using namespace LAMMPS_NS;
 using namespace Talus;
+
+namespace Talus {
+struct ProxiesOfGroup {
+  using Type = int Comm::*;
+  friend Type pointer_to(ProxiesOfGroup);
+};
+template struct PrivateMember<ProxiesOfGroup, &Comm::bordergroup>;
+}    // namespace Talus
 
 namespace {
 
@@ -42,7 +52,7 @@ constexpr StockLaw law_of<PairGranHertzHistory> = {"gran/hertz/history", "hertz"
 template <class Stock> PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : PairOfSystem<Stock>(lmp)
 {
   this->no_virial_fdotr_compute = 1;    // ghosts have no forces
-  attached = this->system->attach(this, {law_of<Stock>.style, true});
+  attached = this->system->attach(this, {law_of<Stock>.style, true, true});
 }
 
 template <class Stock> PairGranTalus<Stock>::~PairGranTalus()
@@ -96,6 +106,9 @@ template <class Stock> std::string PairGranTalus<Stock>::find_reason_for_stock()
   if (!this->atom->tag_enable) return "particles have no IDs (atom_modify id no)";
   if (this->force->ftm2v != 1.0)
     return "the unit of force is not that of mass times acceleration in these units";
+  if (this->force->bond && this->force->bond->partial_flag)
+    return "bonds may break, whose particles then touch with the same neighbor lists";
+  if (this->comm->*pointer_to(ProxiesOfGroup{})) return "'comm_modify group' leaves out proxies";
   const std::string its = reason_of_fixes();
   if (!its.empty()) return its;
   return this->history ? this->system->reason_against_history() : "";

@@ -142,7 +142,9 @@ void GranularSystem::prepare_laws()
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
   const std::string problem = pipeline->keeps_history() ? small_period() : "";
-  if (!problem.empty()) error->all(FLERR, "Pair style {}: {}", style.name, problem);
+  if (problem.empty()) return;
+  if (!style.allows_small_period) error->all(FLERR, "Pair style {}: {}", style.name, problem);
+  if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", style.name, problem);
 }
 
 const LawTable &GranularSystem::law_table()

@@ -70,6 +70,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
     /// The Coulomb limit acts on stored displacements also while a run is set up, as in the stock
     /// styles; else histories are only read then.
     bool limits_at_setup = false;
+    /// Runs also where two particles may touch on both sides of a period: with a warning, for the
+    /// stock style does not tell these contacts apart either.
+    bool allows_small_period = false;
   };
   /// In the constructor of a pair style, and in its destructor. false: there is one already.
   bool attach(LAMMPS_NS::Pair *pair, const StyleTraits &traits);

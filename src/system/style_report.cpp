@@ -73,9 +73,8 @@ bool StyleReport::concerns(const GranularSystem &system) const
 std::string StyleReport::text(const GranularSystem &system,
                               const std::string &reason_for_host) const
 {
-  std::string pair = force->pair ? force->pair_style : "none";
-  const std::size_t suffix = pair.rfind("/talus");
-  if (suffix != std::string::npos) pair.erase(suffix);
+  const auto *ours = dynamic_cast<const SystemPair *>(force->pair);
+  const std::string pair = ours ? ours->plain_style() : force->pair ? force->pair_style : "none";
   return "Talus: styles of this run\n" + line("pair " + pair, pair_is(system)) +
          lines_of_fixes(system) +
          line(std::string("run ") + update->integrate_style, run_style_is()) +

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300
+"""Whole scripts with and without the suffix talus: the same thermo output and dumps, whatever else is in them."""
+
+import os
+import random
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+
+BOX = ((0, 6), (0, 6), (-1, 12))
+
+SCRIPT = """
+units lj
+boundary {boundary}
+{before}
+atom_style {atoms}
+newton {newton}
+comm_modify vel yes
+{read}
+group rest id > 40
+{pair}
+{bonds}
+neighbor 0.3 bin
+timestep 0.0005
+fix 1 all {integrator}
+fix 2 all gravity 1.0 chute 22.0
+fix 3 all wall/gran hooke/history 20000.0 NULL 50.0 NULL 0.5 1 zplane 0.0 NULL
+thermo_style custom step atoms ke press pxx pxz
+thermo_modify format float %.17g norm no lost warn
+thermo 20
+dump d all custom 20 state id x y z vx vy vz fx fy fz tqx tqy tqz
+dump_modify d format float %.17g
+{commands}
+"""
+PAIR = "pair_style gran/hooke/history 20000.0 NULL 50.0 NULL 0.5 1\npair_coeff * *"
+
+
+def grains():
+    """A cubic packing, loose but for some contacts, in motion."""
+    draw = random.Random(3)
+    found = []
+    for site in ((i, j, k) for k in range(7) for i in range(6) for j in range(6)):
+        x = tuple(s + 0.5 + draw.uniform(-0.04, 0.04) for s in site)
+        motion = [tuple(draw.gauss(0, 0.6) for _ in "xyz") for _ in "vw"]
+        found.append(Sphere(x, *motion, diameter=draw.uniform(0.9, 1.08)))
+    return found
+
+
+def write_bonded(path):
+    """The same for atom_style bpm/sphere, with bonds along z in pairs."""
+    spheres = grains()
+    bonds = [(n, n + 36) for n in range(1, 37)]
+    with open(path, "w") as file:
+        file.write(f"Talus test\n\n{len(spheres)} atoms\n1 atom types\n{len(bonds)} bonds\n1 bond types\n"
+                   "4 extra bond per atom\n8 extra special per atom\n")
+        for axis, (low, high) in zip("xyz", BOX):
+            file.write(f"{low} {high} {axis}lo {axis}hi\n")
+        file.write("\nAtoms # bpm/sphere\n\n")
+        for n, s in enumerate(spheres, start=1):
+            file.write(f"{n} 1 1 {s.diameter!r} 1.0 " + " ".join(map(repr, s.x)) + "\n")
+        file.write("\nVelocities\n\n")
+        for n, s in enumerate(spheres, start=1):
+            file.write(f"{n} " + " ".join(map(repr, s.v + s.omega)) + "\n")
+        file.write("\nBonds\n\n")
+        for n, (i, j) in enumerate(bonds, start=1):
+            file.write(f"{n} 1 {i} {j}\n")
+
+
+class Scripts(SceneCase):
+
+    def compare(self, commands, np=1, tolerance=1e-8, data=None, **options):
+        """The log with the suffix, after both have been found equal."""
+        settings = dict(boundary="p p f", before="", atoms="sphere", newton="on", read="read_data grains", pair=PAIR,
+                        bonds="", integrator="nve/sphere", commands=commands)
+        settings.update(options)
+        results, frames = [], []
+        for suffix in [], ["-sf", "talus"]:
+            cwd = self.path("talus" if suffix else "stock")
+            os.makedirs(cwd, exist_ok=True)
+            (data or (lambda path: write_sphere_data(path, BOX, grains())))(os.path.join(cwd, "grains"))
+            results.append(self.run_lammps(SCRIPT.format(**settings), np=np, cwd=cwd, arguments=suffix))
+            frames.append(read_dump(os.path.join(cwd, "state")))
+        rows, others = (thermo(r.log) for r in results)
+        self.assertGreater(len(rows), 1)
+        self.assertEqual(len(rows), len(others))
+        for a, b in zip(rows, others):
+            for key in a:
+                self.assertLessEqual(abs(a[key] - b[key]), tolerance * max(1.0, abs(a[key])), f"{key} at {a['Step']}")
+        self.assertEqual(len(frames[0]), len(frames[1]))
+        for a, b in zip(*frames):
+            self.assertEqual(sorted(a.atoms), sorted(b.atoms))
+            for column in a.columns[1:]:
+                scale = max(1.0, *map(abs, a.column(column).values()))
+                self.assertLessEqual(max_difference(a, b, [column]), tolerance * scale, f"{column} at {a.step}")
+        return results[1].log
+
+    def test_bonds_that_break(self):
+        log = self.compare(
+            "run 60", data=write_bonded, atoms="bpm/sphere", newton="on off", integrator="nve/bpm/sphere",
+            before="special_bonds lj 0 1 1 coul 1 1 1",
+            bonds="bond_style bpm/rotational\nbond_coeff 1 1.0 0.2 0.02 0.02 0.02 0.02 0.02 0.02 0.2 0.02 0.2 0.02")
+        self.assertIn("bonds may break", log)
+
+    def test_proxies_of_a_group(self):
+        for np in 1, 2:
+            log = self.compare("run 60", np=np, newton="off", before="", read="atom_modify first rest\nread_data grains",
+                               bonds="neigh_modify include rest\ncomm_modify group rest")
+            self.assertIn("comm_modify group", log)
+
+    def test_narrow_box(self):
+        """Stock from the first run on, or with a warning if it becomes narrow later."""
+        big = "set atom 252 diameter 3.2\nset atom 252 x 3.0 y 3.0 z 10.0"
+        log = self.compare(f"{big}\nrun 40")
+        self.assertRegex(log, r"pair gran/hooke/history +stock: the box is periodic in x")
+        for np in 1, 2:
+            log = self.compare(f"run 20\n{big}\nrun 40", np=np)
+            self.assertIn("WARNING: Pair style gran/hooke/history: the box is periodic in x", log)
+            self.assertRegex(log, r"pair gran/hooke/history +accelerated")
+
+
+if __name__ == "__main__":
+    unittest.main()
