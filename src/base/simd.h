@@ -275,6 +275,15 @@ TALUS_INLINE Vec4 kept_if(bool condition, Vec4 vector)
   return (Vec4) ((Bits) vector & (Bits{} - static_cast<std::int64_t>(condition)));
 }
 
+/// One of two addresses, without a branch.
+template <class T> TALUS_INLINE const T *chosen(bool condition, const T *one, const T *other)
+{
+  const std::uintptr_t mask = std::uintptr_t{0} - static_cast<std::uintptr_t>(condition);
+  const auto address = (reinterpret_cast<std::uintptr_t>(one) & mask) |
+                       (reinterpret_cast<std::uintptr_t>(other) & ~mask);
+  return reinterpret_cast<const T *>(address);
+}
+
 /// One of two, without a branch.
 TALUS_INLINE Vec4 chosen(bool condition, Vec4 one, Vec4 other)
 {

@@ -208,7 +208,7 @@ template <bool friction, bool one_law, bool weights>
 void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block, int count)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
-  static constexpr Record not_used{};
+  static const Record not_used{};
   const int *first = pairs.first.data(), *second = pairs.second.data();
   Record *load = particles.load.data();
   int last = second[block[0]];    // may have begun in the last block
@@ -225,8 +225,8 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
     last = b;
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
-    if constexpr (weights)    // an address that was written long ago, not the one of the last turn
-      force = chosen(same, force, load4(same ? not_used : j[0])) - f;
+    if constexpr (weights)    // never waits for what the last turn has stored
+      force = chosen(same, force, load4(*chosen(same, &not_used, j))) - f;
     else
       force = kept_if(same, force) - f;
     store(j[0], force);

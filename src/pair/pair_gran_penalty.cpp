@@ -32,9 +32,10 @@ PairGranPenalty::PairGranPenalty(LAMMPS *lmp) : PairOfSystem(lmp)
   pvector = new double[nextra]();
 
   if (!system->attach(this, {plain_style()}))
-    error->all(FLERR,
-               "Pair style gran/penalty can be used only once, also in pair_style hybrid: give each "
-               "pair of types a law of its own with pair_coeff");
+    error->all(
+        FLERR,
+        "Pair style gran/penalty can be used only once, also in pair_style hybrid: give each "
+        "pair of types a law of its own with pair_coeff");
 }
 
 PairGranPenalty::~PairGranPenalty()

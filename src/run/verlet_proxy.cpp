@@ -146,7 +146,8 @@ void VerletProxy::step()
   if (anew) rebuild();
   // the host's forces are not read in a step after which particles stay in the records
   const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;
-  if (!anew) system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
+  if (!anew)
+    system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
   const bool in_records = system->residence() == Residence::RECORDS;
   if (!in_records) lists->ask(nullptr);

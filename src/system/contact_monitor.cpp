@@ -45,8 +45,8 @@ void ContactMonitor::say_overlap(const RunMonitor::Finding &worst) const
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
                  "radius at step {}; contact laws are made for small overlaps: use a higher "
                  "stiffness, or look for particles that overlap from the beginning",
-                 GranularSystem::of(lmp)->style_name(),
-                 worst.details[0], worst.details[1], worst.value, update->ntimestep);
+                 GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
+                 worst.value, update->ntimestep);
 }
 
 RunMonitor::Finding ContactMonitor::largest_own_move() const
@@ -76,6 +76,6 @@ void ContactMonitor::say_move(const RunMonitor::Finding &worst) const
   error->warning(FLERR,
                  "Pair style {}: particle {:.0f} moves by {:.3g} of its radius in a time step at "
                  "step {}; an impact is not resolved: reduce the time step",
-                 GranularSystem::of(lmp)->style_name(),
-                 worst.details[0], worst.value, update->ntimestep);
+                 GranularSystem::of(lmp)->style_name(), worst.details[0], worst.value,
+                 update->ntimestep);
 }

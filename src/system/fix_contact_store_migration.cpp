@@ -133,7 +133,8 @@ void FixContactStore::restart(char *buf)
     error->all(FLERR,
                "Pair style {}: the restart file holds contact history in the format {}, and this "
                "version of Talus reads format {}: continue with the version that wrote it",
-               Talus::GranularSystem::of(lmp)->style_name(), state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
+               Talus::GranularSystem::of(lmp)->style_name(),
+               state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
     error->all(

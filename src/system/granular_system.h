@@ -270,7 +270,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  std::vector<LargeBody *> bodies_of_run;    // that may join
+  std::vector<LargeBody *> bodies_of_run;       // that may join
   std::vector<LAMMPS_NS::Fix *> integrators;    // of Talus, in this run
   std::vector<RecordStep> steps;                // of the first of these, in this step
   SystemGravity *gravity = nullptr;
@@ -278,7 +278,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   struct {
     LAMMPS_NS::bigint step = -1;
     double moved = 0.0;
-  } farthest;    // answer of moved_since_rebuild()
+  } farthest;               // answer of moved_since_rebuild()
   std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
   bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
   RecordPacker packer;

@@ -36,7 +36,7 @@
 // Set by the build: TALUS_HOST_HAS_GRANULAR, the host has package GRANULAR; of its fix wall/gran,
 // TALUS_HOST_HAS_WALL_CYLINDER, it has the keyword zcylinder, and TALUS_HOST_DRAWS_GRAN_WALLS, its
 // planes can be seen in pictures. All three changed within updates of a release.
-#if !defined(TALUS_HOST_HAS_GRANULAR) || !defined(TALUS_HOST_HAS_WALL_CYLINDER) || \
+#if !defined(TALUS_HOST_HAS_GRANULAR) || !defined(TALUS_HOST_HAS_WALL_CYLINDER) ||                 \
     !defined(TALUS_HOST_DRAWS_GRAN_WALLS)
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_GRANULAR"
 #endif

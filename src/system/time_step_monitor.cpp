@@ -85,6 +85,6 @@ void TimeStepMonitor::judge()
     error->warning(FLERR,
                    "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; "
                    "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
-                   GranularSystem::of(lmp)->style_name(), update->dt / limit, limit, critical.contact, critical.rayleigh, critical.hertz,
-                   advised);
+                   GranularSystem::of(lmp)->style_name(), update->dt / limit, limit,
+                   critical.contact, critical.rayleigh, critical.hertz, advised);
 }

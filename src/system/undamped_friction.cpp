@@ -66,7 +66,8 @@ void UndampedFriction::warn(double fraction) const
                    "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
                    "impacts gain energy: add the word midpoint, or damping, or use at most {:.2g} "
                    "of it",
-                   GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction, harmless_fraction(worst_step.mu));
+                   GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction,
+                   harmless_fraction(worst_step.mu));
   if (worst_spring.mu > 0.0)
     error->warning(FLERR,
                    "Pair style {}: contacts of {} have a coefficient of friction of "
