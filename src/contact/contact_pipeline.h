@@ -88,10 +88,10 @@ class ContactPipeline {
   /// Computes all contacts and adds their forces to the host's arrays.
   ///
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
-  /// them: until a compute() that delivers, the host's arrays need not be up to date. Whoever adds
+  /// them: until a compute() that delivers, the host's arrays need not be up to date. Code that adds
   /// other forces does so in records(). With `read` false, owned particles are taken as they are in
   /// the records: allowed if the last compute() did not deliver, and usual after advance(); and
-  /// with `read_ghosts` false as well, ghosts too, if someone has brought their state there.
+  /// with `read_ghosts` false as well, ghosts too, if their state has been brought there.
   void compute(const ParticleView &host, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
   /// are neither read nor written; then those with a ghost.

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How far the periodic image of a particle is from the particle: data only, without LAMMPS. Whoever
-// knows the box hands it over before each exchange, because boxes may change.
+// How far the periodic image of a particle is from the particle: data only, without LAMMPS. It is
+// set before each exchange, because boxes may change.
 
 #ifndef TALUS_EXCHANGE_PERIODIC_BOX_H
 #define TALUS_EXCHANGE_PERIODIC_BOX_H

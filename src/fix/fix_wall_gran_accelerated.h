@@ -11,6 +11,7 @@
 #ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 #define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 
+#include "fix/plain_style.h"
 #include "fix/wall_candidates.h"
 #include "system/granular_system.h"
 
@@ -39,12 +40,10 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   {
   }
 
-  /// Restart files know a fix by its style: both classes write and read the same.
   void post_constructor() override
   {
     Stock::post_constructor();
-    delete[] this->style;
-    this->style = LAMMPS_NS::utils::strdup(plain_style);
+    LAMMPS_NS::restore_style(this, plain_style);
   }
 
   int setmask() override { return Stock::setmask() | LAMMPS_NS::FixConst::POST_NEIGHBOR; }
@@ -102,7 +101,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
   /// As in LAMMPS: histories stand still while a run is set up.
   bool histories_advance() const { return !this->update->setupflag; }
-  /// Forces by particle are kept for output; in the records nobody looks at them.
+  /// Forces by particle are kept for output; steps in the records have no output.
   bool keeps_contacts() const
   {
     return this->peratom_flag && system->residence() == Residence::HOST;

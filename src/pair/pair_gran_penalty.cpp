@@ -82,6 +82,11 @@ void PairGranPenalty::check_host()
   if (lmp->kokkos)
     error->all(FLERR, "Pair style gran/penalty does not run with the KOKKOS package: "
                       "start LAMMPS without '-k on'");
+  const std::string problem = system->unsupported_settings();
+  if (!problem.empty())
+    error->all(FLERR,
+               "Pair style gran/penalty: {}: use bonds that last, and no 'comm_modify group'",
+               problem);
 }
 
 double PairGranPenalty::init_one(int i, int j)

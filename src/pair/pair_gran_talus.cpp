@@ -6,10 +6,8 @@
 
 #include "laws/law_list.h"
 #include "pair/pair_of_system_impl.h"
-#include "system/private_member.h"
 
 #include "atom.h"
-#include "bond.h"
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
@@ -20,14 +18,6 @@
 
 using namespace LAMMPS_NS;
 using namespace Talus;
-
-namespace Talus {
-struct ProxiesOfGroup {
-  using Type = int Comm::*;
-  friend Type pointer_to(ProxiesOfGroup);
-};
-template struct PrivateMember<ProxiesOfGroup, &Comm::bordergroup>;
-}    // namespace Talus
 
 namespace {
 
@@ -85,6 +75,12 @@ template <class Stock> void PairGranTalus<Stock>::init_style()
   if (!complete) return Stock::init_style();    // which says what is missing
   if (!stock_reason) decide();
   if (!in_system()) return Stock::init_style();
+  const std::string later = this->system->unsupported_settings();
+  if (!later.empty())
+    this->error->all(FLERR,
+                     "Pair style {}: {}: it was accelerated in the last run, so use 'suffix off' "
+                     "before pair_style, or set this before the first run",
+                     plain_style(), later);
 
   set_laws();
   this->system->init_pair_style();
@@ -106,11 +102,8 @@ template <class Stock> std::string PairGranTalus<Stock>::find_reason_for_stock()
   if (!this->atom->tag_enable) return "particles have no IDs (atom_modify id no)";
   if (this->force->ftm2v != 1.0)
     return "the unit of force is not that of mass times acceleration in these units";
-  if (this->force->bond && this->force->bond->partial_flag)
-    return "bonds may break, whose particles then touch with the same neighbor lists";
-  if (this->comm->*pointer_to(ProxiesOfGroup{})) return "'comm_modify group' leaves out proxies";
-  const std::string its = reason_of_fixes();
-  if (!its.empty()) return its;
+  for (const std::string &its : {this->system->unsupported_settings(), reason_of_fixes()})
+    if (!its.empty()) return its;
   return this->history ? this->system->reason_against_history() : "";
 }
 

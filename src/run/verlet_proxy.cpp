@@ -103,7 +103,6 @@ void VerletProxy::run(int n)
   lists->start_count();
   lists->ask(nullptr);
   system->start_run(pair_compute_flag);
-  system->report_styles(pair_compute_flag);    // what setup has found out may have changed it
   reverses = force->newton && others_act_on_ghosts();
   // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
   struct End {

@@ -165,7 +165,7 @@ std::string GranularSystem::small_period() const
           "the box is periodic in {} with a period of {:.4g}, below two diameters of the largest "
           "particle: two particles could touch on both sides, and laws with history cannot tell "
           "these contacts apart: make the box at least {:.4g} wide, or use 'boundary f'",
-          "xyz"[d], domain -> prd[d], needed);
+          std::string(1, "xyz"[d]), domain->prd[d], needed);
   }
   return "";
 }

@@ -90,6 +90,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool accelerates_pairs() const { return pair_style_is_alone(); }
   /// "" if so, else why not, for people.
   std::string reason_of_pair_style() const;
+  /// In init_style(), before it: "", or what of the settings of LAMMPS would make forces wrong.
+  std::string unsupported_settings() const;
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
 
@@ -135,8 +137,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// At the start of a run, after setup: finds out whether it may have steps in the records.
   /// Collective; `pairs_computed`: the run style calls the pair style.
   void start_run(bool pairs_computed);
-  /// At the start of a run, before setup or after it: prints which styles are accelerated, if that has
-  /// changed. Collective; `pairs_computed` as in start_run().
+  /// Before setup: prints which styles are accelerated, if that has changed. Collective;
+  /// `pairs_computed` as in start_run().
   void report_styles(bool pairs_computed);
   /// A fix of the host reads or changes particles in every step.
   bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask) const;

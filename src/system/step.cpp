@@ -85,7 +85,7 @@ double GranularSystem::moved_in_arrays() const
       const double *x = atom->x[i], *x0 = then[i];
       const double d[3] = {x[0] - x0[0], x[1] - x0[1], x[2] - x0[2]};
       const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-      if (!(squared <= most)) most = squared;    // not a number: nobody knows
+      if (!(squared <= most)) most = squared;    // also if it is not a number
     }
     largest[t] = most;
   });
