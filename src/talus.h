@@ -10,10 +10,10 @@
      talus_run(lmp, 10);
      talus_get_load(lmp, "wheel", load);             // force, torque at that time
 
-   A state is 13 numbers: position of the reference point (3), orientation as a quaternion w x y z of
-   length 1 (4), velocity of the reference point (3), angular velocity about the axes of space (3).
-   A bad state (not finite, no unit quaternion, or so far away that the body would go more than the
-   skin in a step) ends in an error of LAMMPS; ask lammps_has_error() if your LAMMPS throws
+   A state is 13 numbers: position of the reference point (3), orientation as a quaternion w x y z
+   of length 1 (4), velocity of the reference point (3), angular velocity about the axes of space
+   (3). A bad state (not finite, no unit quaternion, or so far away that the body would go more than
+   the skin in a step) ends in an error of LAMMPS; ask lammps_has_error() if your LAMMPS throws
    exceptions. Include LAMMPS' library.h before this file. */
 
 #ifndef TALUS_H

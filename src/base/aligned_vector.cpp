@@ -25,7 +25,8 @@ bool is_large(std::size_t bytes)
 }
 
 #if defined(__linux__)
-/* Mapped with room for one huge page more, of which what is before and behind the block is returned. */
+/* Mapped with room for one huge page more, of which what is before and behind the block is
+   returned. */
 
 void *map_large(std::size_t bytes)
 {

@@ -16,9 +16,9 @@
 
 namespace Talus {
 
-/// Throws std::bad_alloc. Memory of release_aligned() must come from allocate_aligned() with the same
-/// number of bytes. Large blocks come from the system and go back to it at once: those of the C
-/// library may stay resident, below others that are still in use.
+/// Throws std::bad_alloc. Memory of release_aligned() must come from allocate_aligned() with the
+/// same number of bytes. Large blocks come from the system and go back to it at once: those of the
+/// C library may stay resident, below others that are still in use.
 void *allocate_aligned(std::size_t bytes);
 void release_aligned(void *memory, std::size_t bytes) noexcept;
 

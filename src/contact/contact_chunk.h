@@ -24,9 +24,10 @@
 
 namespace Talus {
 
-/// One contact as reported on request: host's indices, force on i, x_i - x_j. Every end of a contact
-/// is reported once, and those of every owned particle in canonical order. Both ends come at once,
-/// unless one of them waits for contacts of the late phase: `for_i` and `for_j` say which it is.
+/// One contact as reported on request: host's indices, force on i, x_i - x_j. Every end of a
+/// contact is reported once, and those of every owned particle in canonical order. Both ends come
+/// at once, unless one of them waits for contacts of the late phase: `for_i` and `for_j` say which
+/// it is.
 struct ReportedContact {
   int i, j;
   bool for_i, for_j;

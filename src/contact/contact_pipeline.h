@@ -88,10 +88,10 @@ class ContactPipeline {
   /// Computes all contacts and adds their forces to the host's arrays.
   ///
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
-  /// them: until a compute() that delivers, the host's arrays need not be up to date. Code that adds
-  /// other forces does so in records(). With `read` false, owned particles are taken as they are in
-  /// the records: allowed if the last compute() did not deliver, and usual after advance(); and
-  /// with `read_ghosts` false as well, ghosts too, if their state has been brought there.
+  /// them: until a compute() that delivers, the host's arrays need not be up to date. Code that
+  /// adds other forces does so in records(). With `read` false, owned particles are taken as they
+  /// are in the records: allowed if the last compute() did not deliver, and usual after advance();
+  /// and with `read_ghosts` false as well, ghosts too, if their state has been brought there.
   void compute(const ParticleView &host, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
   /// are neither read nor written; then those with a ghost.
@@ -104,9 +104,9 @@ class ContactPipeline {
   const ParticleOrder &particle_order() const { return order; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by host's index: the number of the step that moves a particle, -1 if none does (asked by all threads); whose states are sent away before forces
-  /// are computed; and where they were when lists were made, rows of three doubles, nullptr if
-  /// the travel is not needed.
+  /// by host's index: the number of the step that moves a particle, -1 if none does (asked by all
+  /// threads); whose states are sent away before forces are computed; and where they were when
+  /// lists were made, rows of three doubles, nullptr if the travel is not needed.
   void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent,
                        const double *x_then);
   bool can_move() const { return prepared; }
@@ -119,20 +119,21 @@ class ContactPipeline {
   void complete_move();
   /// How far they went, after compute() or complete_move().
   RecordTravel travel() const;
-  /// Ends holds_state(): completes an advance() and writes positions, velocities and angular velocities of all
-  /// owned particles to the host's arrays, and sets its forces and torques to those in the records,
-  /// if given.
+  /// Ends holds_state(): completes an advance() and writes positions, velocities and angular
+  /// velocities of all owned particles to the host's arrays, and sets its forces and torques to
+  /// those in the records, if given.
   void return_state(double *x, double *v, double *omega, double *f, double *torque);
   /// After a compute() that has delivered: only the state.
   void write_state(double *x, double *v, double *omega) const;
-  /// Positions, velocities and angular velocities of some owned particles, for those who only read them.
+  /// Positions, velocities and angular velocities of some owned particles, for those who only read
+  /// them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
 
-  /// History and impact of the pair (i, j) in the host's numbering as i sees it; zero if the pair is
-  /// unknown.
+  /// History and impact of the pair (i, j) in the host's numbering as i sees it; zero if the pair
+  /// is unknown.
   TangentialHistory<double> history_of(int i, int j) const;
   ContactImpact<double> impact_of(int i, int j) const;
 

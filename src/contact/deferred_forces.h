@@ -26,7 +26,8 @@
 namespace Talus {
 
 /// What a contact adds to its first particle, see record.h; the second one gets the opposite force
-/// and twisting torque and the same moment. Moment and twisting torque count only in scenes that have them.
+/// and twisting torque and the same moment. Moment and twisting torque count only in scenes that
+/// have them.
 struct ContactLoad {
   Vec4 force, moment, twisting_torque;
 };

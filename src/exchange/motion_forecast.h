@@ -1,21 +1,21 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Will a neighbor list still be valid until it can be made anew? A list made with a skin s holds
-// every pair that can touch as long as no particle has moved further than s/2 since it was made. The
-// stock check asks all ranks in the step itself and waits for their answers. Asked one step ahead,
-// the answers have a step's time to arrive; the price is that the motion until then has to be
-// estimated from above, so that the list is made anew slightly earlier. A list that is kept is kept
-// until the next check, N steps later (`neigh_modify every N`): it serves in N steps.
+// every pair that can touch as long as no particle has moved further than s/2 since it was made.
+// The stock check asks all ranks in the step itself and waits for their answers. Asked one step
+// ahead, the answers have a step's time to arrive; the price is that the motion until then has to
+// be estimated from above: that the list may have to be made anew is known slightly earlier. A list
+// that is kept is kept until the next check, N steps later (`neigh_modify every N`): it serves in N steps.
 //
 // Estimate: particle i has moved d_i, at most D, and moved s_i = dt |v_i| in the last step
 // (exactly, when the integrator moves x by dt v), at most S, where D and S are the largest of all
 // particles of all ranks. In each of the next N steps it moves at most s_i + S <= 2 S: no contact
-// changes a velocity, before the next check, by more than the largest speed there is. (The change in
-// a stable step is about omega dt times the relative speed, with omega dt well below 1, and a whole
-// collision of equal particles ends with at most the speed of the other one; see
+// changes a velocity, before the next check, by more than the largest speed there is. (The change
+// in a stable step is about omega dt times the relative speed, with omega dt well below 1, and a
+// whole collision of equal particles ends with at most the speed of the other one; see
 // doc/run_style_verlet_proxy.md.) Where this does not hold, for instance because positions are set
-// by something else than v, the list may be late: that is noticed in the next forecast by its D, and
-// counts as a dangerous build.
+// by something else than v, the list may be late: that is noticed in the next forecast by its D,
+// and counts as a dangerous build.
 //
 // No LAMMPS, no MPI. Both numbers are maxima, exact in any order: the decision does not depend on
 // the number of ranks.

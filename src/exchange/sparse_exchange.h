@@ -1,10 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Messages of any length to a few ranks that do not know of them. Messages are not counted: each rank
-// sends synchronously, takes what comes, and starts a reduction over all ranks once its own messages
-// are being received. When the reduction is over, no message is under way any more (Hoefler, Siebert
-// and Lumsdaine, "Scalable communication protocols for dynamic sparse data exchange", PPoPP 2010).
-// The reduction finds the largest of a number on the way, for which one would be needed anyway.
+// Messages of any length to a few ranks that do not know of them. Messages are not counted: each
+// rank sends synchronously, takes what comes, and starts a reduction over all ranks once its own
+// messages are being received. When the reduction is over, no message is under way any more
+// (Hoefler, Siebert and Lumsdaine, "Scalable communication protocols for dynamic sparse data
+// exchange", PPoPP 2010). The reduction finds the largest of a number on the way, for which one
+// would be needed anyway.
 
 #ifndef TALUS_EXCHANGE_SPARSE_EXCHANGE_H
 #define TALUS_EXCHANGE_SPARSE_EXCHANGE_H

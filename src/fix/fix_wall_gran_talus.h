@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// fix wall/gran/talus: the accelerated variant of fix wall/gran, planes and cylinders. Words, output
-// and restart data: fix wall/gran of LAMMPS. Errors: those of LAMMPS.
+// fix wall/gran/talus: the accelerated variant of fix wall/gran, planes and cylinders. Words,
+// output and restart data: fix wall/gran of LAMMPS. Errors: those of LAMMPS.
 
 #ifndef LMP_FIX_WALL_GRAN_TALUS_H
 #define LMP_FIX_WALL_GRAN_TALUS_H

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact history of the candidate pairs during a run: one record for each pair that touches, seen
-// from the first particle of the pair; and a second one, the impact of the contact, in scenes with a
-// law that needs it. Half of the candidates or more do not touch: the records stand side by side
+// from the first particle of the pair; and a second one, the impact of the contact, in scenes with
+// a law that needs it. Half of the candidates or more do not touch: the records stand side by side
 // in the order in which the contacts were found, so nearly in that of the pairs, and each pair
 // knows its place.
 

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contact histories from one pair list to the next. The contacts of the last lists are put aside as
-// they stand, by the slots of then, and every particle carries along which slot it had: a contact of
-// two particles that were and are owned by this rank is found at once. Names (the tags of then) are
-// needed for the others: contacts with a ghost, and contacts that arrive with a particle from
+// they stand, by the slots of then, and every particle carries along which slot it had: a contact
+// of two particles that were and are owned by this rank is found at once. Names (the tags of then)
+// are needed for the others: contacts with a ghost, and contacts that arrive with a particle from
 // another rank or out of a restart file.
 //
 //   begin(), ContactHistory::put_aside() for     the last lists are still there

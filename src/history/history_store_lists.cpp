@@ -67,8 +67,8 @@ HistoryStore::Origin HistoryStore::read(const double *from)
   return origin;
 }
 
-/* Of a particle, the contacts in its own rows are those with partners before it; the others are with
-   its followers: contacts of whose pairs it is the first particle. Calls visit(chunk) for all
+/* Of a particle, the contacts in its own rows are those with partners before it; the others are
+   with its followers: contacts of whose pairs it is the first particle. Calls visit(chunk) for all
    chunks: the ranges of a phase at the same time, the phases one after the other, for both add to
    the same particles. */
 

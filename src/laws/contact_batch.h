@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // A batch holds the state and the result of up to `width` contacts as structure of arrays.
-// The code that knows the geometry fills the input arrays (pairs of spheres, or a sphere and a large
-// body), a kernel turns them into forces, and the owner adds these up in its canonical order.
+// The code that knows the geometry fills the input arrays (pairs of spheres, or a sphere and a
+// large body), a kernel turns them into forces, and the owner adds these up in its canonical order.
 
 #ifndef TALUS_LAWS_CONTACT_BATCH_H
 #define TALUS_LAWS_CONTACT_BATCH_H

@@ -24,8 +24,8 @@ template <class Real> struct ContactState {
   Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a flat body; only for midpoint laws
 };
 
-/// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting torque on
-/// body 1, -r_2 moment - twisting torque on body 2.
+/// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
+/// torque on body 1, -r_2 moment - twisting torque on body 2.
 template <class Real> struct ContactLanes : ContactState<Real> {
   // approach, see approach.h
   Real normal_velocity{};    ///< (v_1 - v_2) . n, negative when approaching

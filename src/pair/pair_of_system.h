@@ -22,10 +22,10 @@ template <class Base> class PairOfSystem : public Base, public Talus::SystemPair
   /// In the place of compute().
   void compute_contacts(int eflag, int vflag);
 
-  /// In the place of single(): forces of a pair at squared distance rsq that touches or not, history
-  /// as stored. Returns what the host wants of single(): force over distance. `extra`: friction
-  /// (vector and length), normal and tangential velocity as the stock styles have them, and then
-  /// overlap over the smaller radius.
+  /// In the place of single(): forces of a pair at squared distance rsq that touches or not,
+  /// history as stored. Returns what the host wants of single(): force over distance. `extra`:
+  /// friction (vector and length), normal and tangential velocity as the stock styles have them,
+  /// and then overlap over the smaller radius.
   static constexpr int num_extra = 11;
   double force_of_pair(int i, int j, int itype, int jtype, double rsq, double *extra);
 

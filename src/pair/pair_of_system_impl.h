@@ -32,8 +32,8 @@ template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int v
 template <class Base> void PairOfSystem<Base>::tally(const Talus::ReportedContact &c)
 {
   const int no_particle = this->atom->nlocal;
-  this->ev_tally_xyz(c.for_i ? c.i : no_particle, c.for_j ? c.j : no_particle, no_particle, 0, 0.0, 0.0,
-                     c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
+  this->ev_tally_xyz(c.for_i ? c.i : no_particle, c.for_j ? c.j : no_particle, no_particle, 0, 0.0,
+                     0.0, c.force[0], c.force[1], c.force[2], c.separation[0], c.separation[1],
                      c.separation[2]);
 }
 

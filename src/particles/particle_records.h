@@ -97,9 +97,10 @@ struct alignas(64) RecordTravel {
 
 class ParticleRecords {
  public:
-  /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false in
-  /// scenes without friction: omega records and moments are then neither read nor kept. `twisting_torques`:
-  /// laws with resistance occur. `copies`: of the states of some particles, behind those of all.
+  /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
+  /// in scenes without friction: omega records and moments are then neither read nor kept.
+  /// `twisting_torques`: laws with resistance occur. `copies`: of the states of some particles,
+  /// behind those of all.
   void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0);
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
@@ -127,8 +128,8 @@ class ParticleRecords {
   }
   Vec4 weight(int slot) const { return weight(slot, load4(velocity(slot))); }
 
-  /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1 to the host's
-  /// rows of owned particles: f += F, torque += C - r M.
+  /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1
+  /// to the host's rows of owned particles: f += F, torque += C - r M.
   void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
 
   /// Writes x, v and, if angular velocities are kept, omega of a slot to the host's row.

@@ -3,11 +3,11 @@
 // Decides when neighbor lists are made anew, without waiting for all ranks in every step: takes the
 // place of Neighbor::decide() in our Verlet loop and keeps to `neigh_modify`.
 //
-// The question how far particles may be in the next step is asked in one step (ask()) and the answer
-// used in the next (decide()), see motion_forecast.h. With `every 1` a forecast that a particle may
-// be beyond half of the skin is followed by LAMMPS' own check in the step itself: lists are made anew
-// in the same steps as by LAMMPS. With `every N` they are made anew if a particle may be beyond it
-// before the next chance.
+// The question how far particles may be in the next step is asked in one step (ask()) and the
+// answer used in the next (decide()), see motion_forecast.h. With `every 1` a forecast that a
+// particle may be beyond half of the skin is followed by LAMMPS' own check in the step itself:
+// lists are made anew in the same steps as by LAMMPS. With `every N` they are made anew if a
+// particle may be beyond it before the next chance.
 //
 // All methods are collective; every rank decides the same.
 
@@ -50,7 +50,8 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   void drop();
 
   /// Lists that were used too long, in this run: because `neigh_modify every` and `delay` left no
-  /// step before in which they could be made anew, or because particles moved further than foreseen.
+  /// step before in which they could be made anew, or because particles moved further than
+  /// foreseen.
   int num_delayed() const { return delayed; }
   int num_unforeseen() const { return unforeseen; }
   void start_count() { delayed = unforeseen = 0; }

@@ -1,12 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// run_style verlet, and run_style verlet/proxy [overlap yes|no]: the Verlet loop with the exchange of
-// proxies under way while pairs inside the sub-domain are computed, and without a step in which every
-// rank waits for every other. Where the pair style is not one of Talus the steps are those of
+// run_style verlet, and run_style verlet/proxy [overlap yes|no]: the Verlet loop with the exchange
+// of proxies under way while pairs inside the sub-domain are computed, and without a step in which
+// every rank waits for every other. Where the pair style is not one of Talus the steps are those of
 // LAMMPS. doc/run_style_verlet_proxy.md is the user's page.
 //
-// The only place that lets an exchange be under way while forces are computed: GranularSystem finishes
-// it.
+// The only place that lets an exchange be under way while forces are computed: GranularSystem
+// finishes it.
 
 #ifndef LMP_VERLET_PROXY_H
 #define LMP_VERLET_PROXY_H

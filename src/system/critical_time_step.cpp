@@ -70,8 +70,8 @@ double CriticalTimeStep::smallest() const
   return smaller_defined(contact, smaller_defined(rayleigh, hertz));
 }
 
-/* Of the particles that are members of all groups, given by their bits: radius by type, then mass by
-   type. */
+/* Of the particles that are members of all groups, given by their bits: radius by type, then mass
+   by type. */
 
 std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
 {

@@ -35,12 +35,12 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   void choose(Choice choice);
   Choice choice() const { return chosen; }
 
-  /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user or
-  /// the host is against it. What shows later lets it stand aside.
+  /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user
+  /// or the host is against it. What shows later lets it stand aside.
   void start_run();
 
-  /// From the constructor and the destructor of a direct exchange: in every step it is asked several
-  /// times whether one is there.
+  /// From the constructor and the destructor of a direct exchange: in every step it is asked
+  /// several times whether one is there.
   void is_made(const LAMMPS_NS::Comm *comm, ProxyUpdates *proxies);
   void is_deleted(const LAMMPS_NS::Comm *comm);
   /// The direct exchange if it is in force, else nullptr.

@@ -157,8 +157,8 @@ void FixContactStore::pairs_are_current()
   current = true;
 }
 
-/* From here on each particle carries its slot along, also if it is moved or deleted before histories
-   are stored. */
+/* From here on each particle carries its slot along, also if it is moved or deleted before
+   histories are stored. */
 
 void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 {
@@ -185,8 +185,8 @@ bool FixContactStore::in_periodic_box() const
 }
 
 /* Something may still be to be asked about them. And in a periodic box a run that goes on without a
-   new set-up goes on with the histories of both sides as they are, not with what the sides agree on:
-   the same bits as one run. */
+   new set-up goes on with the histories of both sides as they are, not with what the sides agree
+   on: the same bits as one run. */
 
 bool FixContactStore::pairs_stay_after_run() const
 {

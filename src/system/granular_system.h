@@ -104,8 +104,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- one step
 
-  /// Moves the owned particles of an integrator's group in the records, at the latest while the next
-  /// compute_contacts() goes on. Called by all integrators of the run in their order, only if
+  /// Moves the owned particles of an integrator's group in the records, at the latest while the
+  /// next compute_contacts() goes on. Called by all integrators of the run in their order, only if
   /// residence() is RECORDS.
   void advance(const RecordStep &step);
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
@@ -120,8 +120,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- gravity
 
-  /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with the
-  /// weights. Returns "", or why the fix has to add them itself.
+  /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with
+  /// the weights. Returns "", or why the fix has to add them itself.
   std::string take_gravity(SystemGravity *field);
   /// The fix is going.
   void drop_gravity(const SystemGravity *field);

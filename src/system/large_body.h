@@ -2,7 +2,8 @@
 //
 // One large body as GranularSystem keeps it: its shape, its law for each type of particles, its
 // contacts with their histories, the load that it bears and the energies of its contacts. The
-// command that defines the body (fix large/body) says how it moves and calls at the hooks of LAMMPS:
+// command that defines the body (fix large/body) says how it moves and calls at the hooks of
+// LAMMPS:
 //
 //   at the start of a run     init()
 //   after the integrator      account_for_move(), once the body is where it goes

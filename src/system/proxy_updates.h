@@ -2,8 +2,8 @@
 //
 // The direct exchange as the system and the run style see it: states of proxies are valid only once
 // nothing is pending. The communication object of the host implements it while it is
-// in force (see exchange_switch.h); scripts may replace that object at any time, so GranularSystem::proxy_updates() looks
-// for it anew in every step.
+// in force (see exchange_switch.h); scripts may replace that object at any time, so
+// GranularSystem::proxy_updates() looks for it anew in every step.
 
 #ifndef TALUS_SYSTEM_PROXY_UPDATES_H
 #define TALUS_SYSTEM_PROXY_UPDATES_H
@@ -28,8 +28,8 @@ class ProxyUpdates {
   virtual const ExchangePlan &plan() const = 0;
 
   /// Starts the update of all proxies; the caller sees to it that they are not read before
-  /// finish(). Collective among neighbors. `packer`: if states are not in the arrays of the host, on
-  /// all ranks; else nullptr.
+  /// finish(). Collective among neighbors. `packer`: if states are not in the arrays of the host,
+  /// on all ranks; else nullptr.
   virtual void begin(ProxyPacker *packer) = 0;
 
   /// At the start of a run: whether begin() will be called without finish() in each step.

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Which steps are made in the records: those in which only Talus looks at the particles. The arrays
-// of the host are then neither read nor written. The particles come back to them for every step with
-// output, a fix of the host at its end or new neighbor lists, and at the end of a run, also of one
-// that ends in an error.
+// of the host are then neither read nor written. The particles come back to them for every step
+// with output, a fix of the host at its end or new neighbor lists, and at the end of a run, also of
+// one that ends in an error.
 
 #include "system/granular_system.h"
 

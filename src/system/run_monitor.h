@@ -51,8 +51,8 @@ class RunMonitor : protected Pointers {
   void start();
 
   enum class Moment { SETUP, REBUILD, END };
-  /// Collective: one reduction. Does nothing if it has been called for this moment before: everybody
-  /// who owns a check may call it.
+  /// Collective: one reduction. Does nothing if it has been called for this moment before:
+  /// everybody who owns a check may call it.
   void look(Moment moment);
 
  private:

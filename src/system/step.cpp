@@ -172,8 +172,8 @@ std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
   return found;
 }
 
-/* Bodies add their forces in the records if the particles are there before and after the step; those
-   behind one that does not join act on their own, so that the order of sums stays that of the
+/* Bodies add their forces in the records if the particles are there before and after the step;
+   those behind one that does not join act on their own, so that the order of sums stays that of the
    fixes. */
 
 std::size_t GranularSystem::bodies_that_join()

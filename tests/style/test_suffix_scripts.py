@@ -111,6 +111,26 @@ class Scripts(SceneCase):
                                bonds="neigh_modify include rest\ncomm_modify group rest")
             self.assertIn("comm_modify group", log)
 
+    def refused(self, message, np=1, suffix=(), **options):
+        settings = dict(boundary="p p f", before="", atoms="sphere", newton="off", read="read_data grains", pair=PAIR,
+                        bonds="", integrator="nve/sphere", commands="run 1")
+        settings.update(options)
+        write_sphere_data(self.path("grains"), BOX, grains())
+        log = self.run_lammps(SCRIPT.format(**settings), np=np, arguments=suffix, expect_error=True).log
+        self.assertIn(message, log)
+
+    def test_what_cannot_be_left_to_stock_is_an_error(self):
+        """With the pair style of Talus itself, and with the suffix if it comes after a run."""
+        group = "neigh_modify include rest\ncomm_modify group rest"
+        first = "atom_modify first rest\nread_data grains"
+        penalty = "pair_style gran/penalty\npair_coeff * * hooke 20000.0 50.0 tangential multistep NULL NULL 0.5"
+        for np in 1, 2:
+            self.refused("Pair style gran/penalty: 'comm_modify group' leaves out proxies: use bonds that last, and no "
+                         "'comm_modify group'", np, pair=penalty, read=first, bonds=group)
+            self.refused("Pair style gran/hooke/history: 'comm_modify group' leaves out proxies: it was accelerated in the "
+                         "last run, so use 'suffix off'", np, ["-sf", "talus"], read=first,
+                         commands=f"run 1\n{group}\nrun 1")
+
     def test_narrow_box(self):
         """Stock from the first run on, or with a warning if it becomes narrow later."""
         big = "set atom 252 diameter 3.2\nset atom 252 x 3.0 y 3.0 z 10.0"

@@ -212,8 +212,8 @@ void BodyBatch::add_to_arrays()
 }
 
 /* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
-   twisting resistance act as twisting torques of opposite sign: so forces and torques of particle and body
-   balance exactly. */
+   twisting resistance act as twisting torques of opposite sign: so forces and torques of particle
+   and body balance exactly. */
 
 void BodyBatch::add_load()
 {

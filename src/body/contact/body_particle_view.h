@@ -13,8 +13,8 @@
 namespace Talus {
 
 /// The host's arrays, rows of three doubles. Forces, torques and virials are added to. With
-/// `records`, which keep angular velocities or else are of a scene without torques, only owned, type and virial
-/// are those of the host.
+/// `records`, which keep angular velocities or else are of a scene without torques, only owned,
+/// type and virial are those of the host.
 struct BodyParticleView {
   int owned;
   const double *x, *v, *omega;

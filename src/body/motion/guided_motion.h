@@ -9,8 +9,9 @@ namespace Talus {
 
 /// Motion of a body that another program steers. The program gives states that the body is to have
 /// a number of steps later; on the way there its position goes along a straight line, its
-/// orientation turns about one axis, both at constant speed, while velocity and angular velocity change
-/// linearly from the old values to the given ones. After that it goes on with the last of both. The state that was given is reached with all its bits.
+/// orientation turns about one axis, both at constant speed, while velocity and angular velocity
+/// change linearly from the old values to the given ones. After that it goes on with the last of
+/// both. The state that was given is reached with all its bits.
 class GuidedMotion {
  public:
   /// `steps` 0: the body has this state at once.

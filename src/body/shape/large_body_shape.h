@@ -87,8 +87,8 @@ class LargeBodyShape {
   /// No sphere touches the body at more points than this: 1 ... max_contacts.
   virtual int most_contacts() const { return 1; }
 
-  /// Fills found[0 ...] with at most most_contacts() contacts, in an order that depends on nothing but
-  /// the sphere, and returns their number.
+  /// Fills found[0 ...] with at most most_contacts() contacts, in an order that depends on nothing
+  /// but the sphere, and returns their number.
   virtual int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                             SurfaceContact *found) const
   {
@@ -130,7 +130,8 @@ class LargeBodyShape {
   }
 
   /// touches() for the first `count` of eight spheres: returns one bit for each, and fills the
-  /// contacts whose bits are set. Called instead of touches(), so it must yield the same bits. To implement it pays for a shape that is computed in a few nanoseconds.
+  /// contacts whose bits are set. Called instead of touches(), so it must yield the same bits. To
+  /// implement it pays for a shape that is computed in a few nanoseconds.
   virtual unsigned touches_eight(const EightSpheres &spheres, int count,
                                  EightContacts &contacts) const
   {

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spinning after one collision time, as Chrono: twisting torque -mu_twist r_c F_n (w.n) n/|w| on body 1, its
-// opposite on body 2, with w = omega_1 - omega_2 and r_c the radius of the circle in which the
-// surfaces intersect; an attractive F_n with its sign.
+// Spinning after one collision time, as Chrono: twisting torque -mu_twist r_c F_n (w.n) n/|w| on
+// body 1, its opposite on body 2, with w = omega_1 - omega_2 and r_c the radius of the circle in
+// which the surfaces intersect; an attractive F_n with its sign.
 
 #ifndef TALUS_LAWS_TWISTING_DELAYED_H
 #define TALUS_LAWS_TWISTING_DELAYED_H

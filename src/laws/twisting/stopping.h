@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spinning that stops: twisting torque -mu_twist r_c F_n (w.n) n/|w| on body 1, its opposite on body 2, with
-// w = omega_1 - omega_2 and r_c the radius of the circle in which the surfaces intersect; but not
-// more than what leaves 1 - stopping_share of the twisting after the step; of unlike spheres it leaves
-// more (1/r_1^2 + 1/r_2^2 is less than inverse_radius squared). F_n >= 0.
+// Spinning that stops: twisting torque -mu_twist r_c F_n (w.n) n/|w| on body 1, its opposite on
+// body 2, with w = omega_1 - omega_2 and r_c the radius of the circle in which the surfaces
+// intersect; but not more than what leaves 1 - stopping_share of the twisting after the step; of
+// unlike spheres it leaves more (1/r_1^2 + 1/r_2^2 is less than inverse_radius squared). F_n >= 0.
 
 #ifndef TALUS_LAWS_TWISTING_STOPPING_H
 #define TALUS_LAWS_TWISTING_STOPPING_H
