@@ -48,7 +48,10 @@ double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, dou
   const Talus::LawTable &laws = system->law_table();
   std::fill(extra, extra + num_extra, 0.0);
   const double ri = atom->radius[i], rj = atom->radius[j];
-  if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return 0.0;
+  const auto remembered = system->remembered_of(i, j);
+  const int row_of_types = laws.row(itype, jtype);
+  const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
+  if (rsq >= touch * touch || rsq == 0.0) return 0.0;
 
   const double r = std::sqrt(rsq);
   Talus::ContactState<double> s;
@@ -61,14 +64,12 @@ double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, dou
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = Talus::circle_of_intersection(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
+  s.arm_loss = s.overlap / (ri + rj);
+  s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
 
-  Talus::ContactImpact<double> impact;
-  const Talus::TangentialHistory<double> history = system->history_of(i, j, impact);
-  const int row_of_types = laws.row(itype, jtype);
-  const Vector &d = history.displacement;
-  const Talus::ContactLanes<double> out = Talus::single_contact(
-      laws.law(row_of_types), laws.coefficients(row_of_types), s, this->update->dt,
-      {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age, impact.begun}});
+  const Talus::ContactLanes<double> out =
+      Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types), s,
+                            this->update->dt, remembered.value_or(Talus::RememberedValues{}));
 
   const Vector vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector ft = out.tangential;
