@@ -94,6 +94,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string unsupported_settings() const;
   /// Of types i and j, after init_pair_style() (length).
   double cutoff(int i, int j) const { return radii.cutoff(i, j); }
+  /// As of init_pair_style().
+  const LAMMPS_NS::LargestRadii &largest_radii() const { return radii; }
 
   Talus::LawBook &laws() { return book; }
   const Talus::LawBook &laws() const { return book; }
