@@ -3,6 +3,7 @@
 #include "pair/granular_spec.h"
 
 #include "laws/law_list.h"
+#include "system/lammps_compat.h"
 #include "system/private_member.h"
 
 #include "gran_sub_mod_normal.h"
@@ -55,9 +56,11 @@ constexpr StageOfModel stages[] = {{NORMAL, Stage::NORMAL, "normal"},
 
 const Law *law_of(const GranSubMod &sub_model, Stage stage)
 {
-  if (stage == Stage::NORMAL && sub_model.name == "hertz/material")
-    return find_law(stage, "hertz");
-  return find_law(stage, sub_model.name);
+  const std::string &name = sub_model.name;
+  if (stage == Stage::NORMAL && name == "hertz/material") return find_law(stage, "hertz");
+  const bool classic = name == "linear_history_classic" || name == "mindlin_classic";
+  if (classic && !TALUS_HOST_SCALES_CLASSIC_SLIP) return find_law(stage, "classic of 4 Feb 2025");
+  return find_law(stage, name);
 }
 
 /* In releases that have it. */
@@ -67,7 +70,7 @@ template <class AnyModel> auto is_synchronized(const AnyModel *model)
 {
   return model->synchronized_verlet != 0;
 }
-bool is_synchronized(const void *)
+[[maybe_unused]] bool is_synchronized(const void *)
 {
   return false;
 }
@@ -115,7 +118,7 @@ std::string reason_of_model(const Model &model)
     const GranSubMod &sub_model = *model.sub_models[its.type];
     if (!law_of(sub_model, its.stage)) return std::string(its.word) + " model " + sub_model.name;
   }
-  if (model.heat_model->name != "none") return "contacts conduct heat";
+  if (model.sub_models[HEAT]->name != "none") return "contacts conduct heat";
   if (is_synchronized(&model)) return "synchronized_verlet";
   return "";
 }

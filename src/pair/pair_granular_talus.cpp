@@ -38,8 +38,9 @@ std::string PairGranularTalus::reason_of_models() const
 
 std::string PairGranularTalus::stock_history() const
 {
+  const std::optional<std::vector<int>> places = stock_history_of(all_models());
   std::string words;
-  for (const int place : *stock_history_of(all_models()))
+  for (const int place : places.value())
     words += place < 0 ? " -" : " " + std::to_string(place);
   return words;
 }
