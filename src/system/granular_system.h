@@ -96,6 +96,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double cutoff(int i, int j) const;
   /// How far contacts of all types last beyond zero overlap (length).
   double largest_reach() const;
+  /// As of init_pair_style().
+  const LAMMPS_NS::LargestRadii &largest_radii() const { return radii; }
 
   Talus::LawBook &laws() { return book; }
   const Talus::LawBook &laws() const { return book; }
