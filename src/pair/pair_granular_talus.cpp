@@ -76,7 +76,8 @@ double PairGranularTalus::init_pair_of_types(int i, int j)
 /* ---------------------------------------------------------------------- */
 
 /* Friction, rolling "force" (see the documentation of the stock style), their lengths, twisting
-   torque, and separation. The couple is R_eff n x f_r + M_t n. */
+   torque, and separation. What is opposite on both particles is R_eff n x f_r + M_t n, and what
+   lever arms that end in the middle of the overlap add to friction. */
 
 void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
 {
@@ -85,8 +86,9 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   using Vector = Vector3<double>;
   const ContactLanes<double> &s = pair->contact;
   const Vector n = s.normal, fs = s.tangential;
-  const double twist = dot(s.twisting_torque, n);
-  const Vector fr = s.inverse_radius * cross(s.twisting_torque - twist * n, n);
+  const Vector opposite = s.twisting_torque - s.arm_difference * cross(n, fs);
+  const double twist = dot(opposite, n);
+  const Vector fr = s.inverse_radius * cross(opposite - twist * n, n);
   const Vector dx = pair->distance * n;
   const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)), fr.x, fr.y, fr.z,
                         std::sqrt(dot(fr, fr)), twist, dx.x, dx.y, dx.z};
