@@ -222,6 +222,22 @@ template <class Half> Twice<Half> fifth_root(Twice<Half> a)
   return {fifth_root(a.low), fifth_root(a.high)};
 }
 
+/// Cube root.
+inline double cube_root(double a)
+{
+  return std::cbrt(a);
+}
+inline Vec8 cube_root(Vec8 a)
+{
+  for (int k = 0; k < lanes; k++) a[k] = std::cbrt(a[k]);
+  return a;
+}
+
+template <class Half> Twice<Half> cube_root(Twice<Half> a)
+{
+  return {cube_root(a.low), cube_root(a.high)};
+}
+
 /// One bit for each lane: set where a < b.
 inline unsigned less_bits(Vec4 a, Vec4 b)
 {

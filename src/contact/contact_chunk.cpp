@@ -69,6 +69,9 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
+  const LastsBeyondContact lasts = [&](std::int64_t pair) {
+    return lasts_beyond_contact(step.scene, position, pair);
+  };
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
@@ -79,13 +82,28 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
     const int ahead = std::min(slots_ahead, to_load.end - to_load.begin);
     to_prefetch = {std::max(to_prefetch.begin, to_load.begin), to_load.begin + ahead};
     touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
-                              &contacts[touching]);
+                              &contacts[touching], step.scene.beyond_contact ? &lasts : nullptr);
     for (; touching - done >= block_size; done += block_size)
       compute_block<friction, history_kept>(step, done, block_size);
   }
   if (done < touching)
     compute_block<friction, history_kept>(step, done, static_cast<int>(touching - done));
   if (to_load.begin < to_load.end) step.load(to_load.begin, to_load.end);
+}
+
+/* A pair that touched and has come apart. */
+
+bool ContactChunk::lasts_beyond_contact(const ContactScene &scene, const Record *position,
+                                        std::int64_t pair) const
+{
+  const int row = row_of_pair(scene, pair);
+  const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];
+  const double reach = scene.laws.reach(row, i.c[3], j.c[3]);
+  if (reach == 0.0) return false;
+  double squared = 0.0;
+  for (int d = 0; d < 3; d++) squared += (i.c[d] - j.c[d]) * (i.c[d] - j.c[d]);
+  const double apart = i.c[3] + j.c[3] + reach;
+  return squared < apart * apart;
 }
 
 /* Prefetches the distant particles of pairs before `end`. */
@@ -182,7 +200,7 @@ void ContactChunk::run_kernels(const Step &step)
     const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())
       clear_lanes(batch.moment, range.begin, range.end);
-    if (step.scene.with_resistance && !law.resists())
+    if (step.scene.with_resistance && !law.twists())
       clear_lanes(batch.twisting_torque, range.begin, range.end);
   }
 }

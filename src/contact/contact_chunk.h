@@ -38,7 +38,8 @@ struct ReportedContact {
 struct ContactScene {
   LawTable laws;
   bool with_friction = false, with_history = false, with_impact = false, with_resistance = false;
-  std::vector<int> slot_type;    ///< types in canonical order; empty if laws are uniform
+  bool beyond_contact = false;    ///< contacts of some laws last beyond zero overlap
+  std::vector<int> slot_type;     ///< types in canonical order; empty if laws are uniform
 
   int row_of(int slot_a, int slot_b) const
   {
@@ -115,6 +116,8 @@ class ContactChunk {
     const Frontier &frontier;
   };
   template <bool friction, bool history_kept> void compute_all(const Step &step);
+  bool lasts_beyond_contact(const ContactScene &scene, const Record *position,
+                            std::int64_t pair) const;
   template <bool friction, bool history_kept>
   void compute_block(const Step &step, std::int64_t begin, int count);
   void prefetch_distant(const ParticleRecords &particles, std::size_t &next,

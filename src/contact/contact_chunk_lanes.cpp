@@ -113,8 +113,8 @@ void ContactChunk::finish_geometry(int end, bool radii_known)
   }
 }
 
-/* What only laws with resistance read: omega_i - omega_j and the circle in which the surfaces
- * intersect. */
+/* What only laws read that write twisting torques: omega_i - omega_j, the circle in which the
+   surfaces intersect, and how lever arms that end in the middle of the overlap differ from radii. */
 
 void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
 {
@@ -132,10 +132,13 @@ void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
     for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
     to_lanes(row, batch.relative_omega, nullptr, k);
   }
-  for (int k = 0; k < end; k += lanes)
-    store(&batch.circle[k],
-          circle_of_intersection(load8(&batch.circle[k]), load8(&second_radius[k]),
-                                 load8(&batch.overlap[k])));
+  for (int k = 0; k < end; k += lanes) {
+    const Vec8 ri = load8(&batch.circle[k]), rj = load8(&second_radius[k]),
+               overlap = load8(&batch.overlap[k]), loss = overlap / (ri + rj);
+    store(&batch.circle[k], circle_of_intersection(ri, rj, overlap));
+    store(&batch.arm_loss[k], loss);
+    store(&batch.arm_difference[k], 0.5 * loss * (rj - ri));
+  }
 }
 
 /* Copies of a contact hold the same result, so writing them twice does no harm. */

@@ -13,6 +13,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_history = table.has_history();
   scene.with_impact = table.has_impact();
   scene.with_resistance = table.has_resistance();
+  scene.beyond_contact = table.lasts_beyond_contact();
 }
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)
@@ -277,23 +278,23 @@ ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
   return {pair < 0 ? nullptr : &chunk, pair};
 }
 
-TangentialHistory<double> ContactPipeline::history_of(int i, int j) const
+RememberedValues remembered_values(const Record &history, const Record &impact)
 {
-  const Place place = place_of(i, j);
-  if (!place.chunk || !place.chunk->history.touches(place.pair)) return {};
-  const bool in_order = order.slot_of_atom[i] < order.slot_of_atom[j];
-  const Record &stored = place.chunk->history.record(place.pair);
-  const Record h = in_order ? stored : mirrored(stored);
-  return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
+  RememberedValues all;
+  std::copy_n(history.c, 4, all.value);
+  std::copy_n(impact.c, 4, all.value + 4);
+  return all;
 }
 
-ContactImpact<double> ContactPipeline::impact_of(int i, int j) const
+std::optional<RememberedValues> ContactPipeline::remembered_of(int i, int j) const
 {
   const Place place = place_of(i, j);
-  if (!place.chunk || !place.chunk->history.with_impacts()) return {};
-  if (!place.chunk->history.touches(place.pair)) return {};
-  const Record &o = place.chunk->history.impact(place.pair);
-  return {o.c[0], o.c[1], o.c[2]};
+  if (!place.chunk || !place.chunk->history.touches(place.pair)) return std::nullopt;
+  const bool in_order = order.slot_of_atom[i] < order.slot_of_atom[j];
+  const ContactHistory &history = place.chunk->history;
+  const Record &stored = history.record(place.pair);
+  return remembered_values(in_order ? stored : mirrored(stored),
+                           history.with_impacts() ? history.impact(place.pair) : no_history);
 }
 
 double ContactPipeline::memory_usage() const

@@ -42,6 +42,9 @@ struct ContactSurvey {
   double smallest_period, largest_speed;
 };
 
+/// Both records of a contact by place, see ContactBatch::history.
+RememberedValues remembered_values(const Record &history, const Record &impact);
+
 class ContactPipeline {
  public:
   ContactPipeline() = default;
@@ -132,10 +135,9 @@ class ContactPipeline {
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
 
-  /// History and impact of the pair (i, j) in the host's numbering as i sees it; zero if the pair
-  /// is unknown.
-  TangentialHistory<double> history_of(int i, int j) const;
-  ContactImpact<double> impact_of(int i, int j) const;
+  /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
+  /// not touch, or in a scene without history.
+  std::optional<RememberedValues> remembered_of(int i, int j) const;
 
   /// At the end of a run, before memory is given back: the answers below, of which early_share() is
   /// none, are those of now until the next compute().

@@ -44,18 +44,32 @@ unsigned touching_tail(const Record *position, const int *first, const int *seco
   return touching8(position, i, j) & ((1U << count) - 1U);
 }
 
+/// Of the pairs first ... first + 7 that touched and are not in `bits`, those that still do.
+unsigned lasting(const ContactHistory &history, std::int64_t first, unsigned bits,
+                 const LastsBeyondContact &lasts)
+{
+  unsigned still = 0;
+  for (unsigned rest = history.touching_bits(first / 8) & ~bits; rest; rest &= rest - 1) {
+    const int k = __builtin_ctz(rest);
+    if (lasts(first + k)) still |= 1U << k;
+  }
+  return still;
+}
+
 }    // namespace
 
 std::int64_t find_contacts(const PairList &pairs, std::int64_t begin, std::int64_t end,
-                           const Record *position, ContactHistory *history, std::uint32_t *contacts)
+                           const Record *position, ContactHistory *history, std::uint32_t *contacts,
+                           const LastsBeyondContact *lasts)
 {
   const int *first = pairs.state_of_first(), *second = pairs.second.data();
   std::uint32_t *out = contacts;
 
   for (std::int64_t c = begin; c < end; c += 8) {
-    const unsigned bits =
-        c + 8 <= end ? touching8(position, first + c, second + c)
-                     : touching_tail(position, first + c, second + c, static_cast<int>(end - c));
+    unsigned bits = c + 8 <= end
+                        ? touching8(position, first + c, second + c)
+                        : touching_tail(position, first + c, second + c, static_cast<int>(end - c));
+    if (lasts) bits |= lasting(*history, c, bits, *lasts);
     out += store_places(out, static_cast<std::uint32_t>(c), bits);
     if (history) history->set_touching(c / 8, bits);
   }

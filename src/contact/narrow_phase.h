@@ -10,16 +10,19 @@
 #include "particles/record.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace Talus {
 
 /// Writes the indices of the pairs among begin ... end-1 whose spheres overlap (|x_i - x_j| < r_i +
 /// r_j), in ascending order, and returns their number; `begin` must be a multiple of 8 and
 /// `contacts` have room for end - begin + 8. Pairs that overlapped at the last call and do not now
-/// lose their history. `history` may be nullptr.
+/// lose their history. `history` may be nullptr. `lasts`, if given, is asked of pairs that
+/// overlapped and do not now whether they touch all the same.
+using LastsBeyondContact = std::function<bool(std::int64_t pair)>;
 std::int64_t find_contacts(const PairList &pairs, std::int64_t begin, std::int64_t end,
-                           const Record *position, ContactHistory *history,
-                           std::uint32_t *contacts);
+                           const Record *position, ContactHistory *history, std::uint32_t *contacts,
+                           const LastsBeyondContact *lasts = nullptr);
 
 }    // namespace Talus
 

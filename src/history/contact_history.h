@@ -39,6 +39,7 @@ class ContactHistory {
     if (touching[block] != bits) change(block, bits);
   }
 
+  unsigned touching_bits(std::int64_t block) const { return touching[block]; }
   bool touches(std::int64_t pair) const { return touching[pair / 8] >> (pair % 8) & 1U; }
   /// Of a pair that touches.
   Record &record(std::int64_t pair) { return records[places[pair]]; }

@@ -25,6 +25,7 @@ struct ContactBatch {
   alignas(64) double relative_omega[3][width];
   alignas(64) double circle[width];
   alignas(64) double inverse_distance[width];
+  alignas(64) double arm_loss[width], arm_difference[width];
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
   /// Input and output, as seen from the first body: which law remembers what here, see
@@ -41,12 +42,18 @@ struct ContactBatch {
     alignas(64) double normal_velocity[width], mass[width], radius[width],
         impact_speed[width], age[width];
     alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],
-        contact_radius[width], elastic[width];
-    alignas(64) double gn[width], gt[width], normal_force[width], delayed_force[width];
+        contact_radius[width], elastic[width], pull_off[width];
+    alignas(64) double gn[width], gt[width], normal_force[width], critical_force[width],
+        delayed_force[width];
   } between;
 
   /// Puts a harmless contact of overlap zero into every lane. Call once after construction.
   void clear();
+};
+
+/// What a contact remembers, by place.
+struct RememberedValues {
+  double value[ContactBatch::history_size] = {};
 };
 
 }    // namespace Talus

@@ -50,10 +50,14 @@ ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &r
 
   e.friction = s.tangential;
   e.friction_moment = cross(s.normal, s.tangential);
+  if (law.tangential().lever_arms) {
+    e.friction_torque = s.arm_difference * e.friction_moment;
+    e.friction_moment = (1.0 - s.arm_loss) * e.friction_moment;
+  }
   e.elastic_tangential = stored(Stage::TANGENTIAL);
   e.elastic_resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
   e.rolling_moment = s.moment - e.friction_moment;
-  e.twisting_torque = s.twisting_torque;
+  e.resistance_torque = s.twisting_torque - e.friction_torque;
   return e;
 }
 
@@ -70,6 +74,8 @@ ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coef
   s.relative_omega = lane_of(b.relative_omega, k);
   s.circle = b.circle[k];
   s.inverse_distance = b.inverse_distance[k];
+  s.arm_loss = b.arm_loss[k];
+  s.arm_difference = b.arm_difference[k];
   RememberedValues memory;
   for (int n = 0; n < ContactBatch::history_size; n++) memory.value[n] = b.history[n][k];
   return contact_energy(law, coefficients, s, dt, memory);
@@ -99,8 +105,9 @@ void EnergyAccount::add_end(const ContactEnergy &e, int particle, double radius,
   Forces &f = forces[particle];
   f.damping = f.damping + sign * e.damping;
   f.friction = f.friction + sign * e.friction;
-  f.friction_torque = f.friction_torque - radius * e.friction_moment;
-  f.resistance_torque = f.resistance_torque - radius * e.rolling_moment + sign * e.twisting_torque;
+  f.friction_torque = f.friction_torque - radius * e.friction_moment + sign * e.friction_torque;
+  f.resistance_torque =
+      f.resistance_torque - radius * e.rolling_moment + sign * e.resistance_torque;
 }
 
 void EnergyAccount::add(const ContactEnergy &e, double share, int first, double first_radius,

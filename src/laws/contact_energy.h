@@ -14,8 +14,8 @@
 namespace Talus {
 
 /// Energy stored in one contact, and the parts of its forces that take energy from the bodies.
-/// Forces act on the first body, torques on body i are -r_i times a moment, plus or minus the
-/// twisting torque.
+/// Forces act on the first body, torques on body i are -r_i times a moment, plus (first body) or
+/// minus a torque.
 struct ContactEnergy {
   double elastic_normal = 0.0;                ///< of normal law and cohesion
   double elastic_tangential = 0.0;            ///< of the tangential law
@@ -23,8 +23,9 @@ struct ContactEnergy {
   Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force
   Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
   Vector3<double> friction_moment{0.0, 0.0, 0.0};
+  Vector3<double> friction_torque{0.0, 0.0, 0.0};    ///< of friction, opposite on both bodies
   Vector3<double> rolling_moment{0.0, 0.0, 0.0};
-  Vector3<double> twisting_torque{0.0, 0.0, 0.0};
+  Vector3<double> resistance_torque{0.0, 0.0, 0.0};    ///< of rolling and twisting, the same
 };
 
 /// `memory` as it is after the step.

@@ -46,8 +46,7 @@ template <class Visit> void for_each_stage(const ContactLaw &law, Visit visit)
   for (Stage stage : {Stage::NORMAL, Stage::DAMPING, Stage::TANGENTIAL, Stage::ROLLING,
                       Stage::TWISTING, Stage::COHESION}) {
     const bool turns = stage == Stage::TANGENTIAL && law.has_friction();
-    const bool twists = stage == Stage::TWISTING && law.resists();
-    if (law[stage].acts || turns || twists) visit(stage, law[stage]);
+    if (law[stage].acts || turns) visit(stage, law[stage]);
   }
 }
 

@@ -61,11 +61,6 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance);
 /// The same, stage by stage in any case.
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance);
 
-/// What a contact remembers.
-struct RememberedValues {
-  double value[ContactBatch::history_size] = {};
-};
-
 /// One contact alone, history only read: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,

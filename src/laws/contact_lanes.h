@@ -22,6 +22,9 @@ template <class Real> struct ContactState {
   Vector3<Real> relative_omega{};    ///< omega_1 - omega_2; only for laws with resistance
   Real circle{};                     ///< radius of the circle of intersection; only for the same
   Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a flat body; only for midpoint laws
+  // Only for laws whose lever arms end in the middle of the overlap, and 0 against a large body,
+  // where they do not: overlap/(r_1 + r_2), and overlap/2 (r_2 - r_1)/(r_1 + r_2).
+  Real arm_loss{}, arm_difference{};
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
@@ -38,10 +41,12 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Real tangent_n{}, tangent_t{};    ///< force/length: d elastic/d overlap, and the like for kt
   Real contact_radius{};            ///< length; 0 of laws that have none
   Real elastic{};                   ///< normal force without damping
+  Real pull_off{};    ///< force that separates the bodies, > 0; 0 of laws without adhesion
 
   // damping
-  Real gn{}, gt{};        ///< force/velocity
-  Real normal_force{};    ///< repulsive if positive; without cohesion
+  Real gn{}, gt{};          ///< force/velocity
+  Real normal_force{};      ///< repulsive if positive; without cohesion
+  Real critical_force{};    ///< friction is limited to mu times this, see finish_normal_force()
 
   Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
 
@@ -49,7 +54,7 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Vector3<Real> force{};              ///< on the first body; the second receives the opposite
   Vector3<Real> tangential{};         ///< the tangential part of it
   Vector3<Real> moment{};             ///< normal x tangential, and rolling resistance
-  Vector3<Real> twisting_torque{};    ///< spinning resistance
+  Vector3<Real> twisting_torque{};    ///< spinning resistance, and what else is opposite on both
 };
 
 }    // namespace Talus

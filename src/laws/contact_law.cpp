@@ -10,23 +10,41 @@
 namespace Talus {
 namespace {
 
-/// Gives values places, those that change their sign and others apart.
+/// Gives values places: those that change their sign 0 to 2, others 3 to 7. Rolling and twisting
+/// have theirs at the end, whatever the other laws remember: restart files of LAMMPS tell which
+/// they are by that.
 class Places {
  public:
-  HistoryPlaces take(int num_odd, int num_even)
+  HistoryPlaces take(int num_odd, int num_even, int first_even = 3)
   {
     HistoryPlaces places{};
-    int n = 0;
-    for (; n < num_odd; n++) places[n] = odd++;
-    for (; n < num_odd + num_even; n++) places[n] = even++;
+    for (int n = 0; n < num_odd; n++) places[n] = take_one(0, 3);
+    for (int n = 0; n < num_even; n++)
+      places[num_odd + n] = take_one(first_even, ContactBatch::history_size);
     return places;
   }
-  bool fit() const { return odd <= first_even && even <= ContactBatch::history_size; }
-  int size() const { return even > first_even ? even : odd; }
+  static int first_of(Stage stage)
+  {
+    return stage == Stage::TWISTING ? 7 : stage == Stage::ROLLING ? 4 : 3;
+  }
+  bool fit() const { return fits; }
+  int size() const
+  {
+    int size = ContactBatch::history_size;
+    while (size > 0 && !taken[size - 1]) size--;
+    return size;
+  }
 
  private:
-  static constexpr int first_even = 3;
-  int odd = 0, even = first_even;
+  int take_one(int begin, int end)
+  {
+    while (begin < end && taken[begin]) begin++;
+    fits = fits && begin < end;
+    if (begin < end) taken[begin] = true;
+    return begin < end ? begin : 0;
+  }
+  std::array<bool, ContactBatch::history_size> taken{};
+  bool fits = true;
 };
 
 }    // namespace
@@ -47,7 +65,8 @@ HistoryLayout ContactLaw::history() const
   HistoryLayout layout;
   bool reads_impact = false;
   for (int s = 0; s < num_stages; s++) {
-    layout.of_stage[s] = places.take(laws[s]->odd_history, laws[s]->even_history);
+    layout.of_stage[s] = places.take(laws[s]->odd_history, laws[s]->even_history,
+                                     Places::first_of(static_cast<Stage>(s)));
     reads_impact = reads_impact || laws[s]->reads_impact;
   }
   const bool tangential_remembers = tangential().odd_history + tangential().even_history > 0;
@@ -55,6 +74,7 @@ HistoryLayout ContactLaw::history() const
   if (layout.keeps_impact) layout.impact = places.take(0, 3);
   layout.fits = places.fit();
   layout.size = places.size();
+  if (layout.size == 0 && normal().lasts_beyond_contact) layout.size = 1;    // that it touches
   return layout;
 }
 
@@ -76,6 +96,15 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
   for (int n = 0; n < law.num_coefficients; n++)
     if (std::strcmp(law.coefficients[n].name, name) == 0) return coefficients(stage, row)[n];
   return 0.0;
+}
+
+double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
+                double radius_j)
+{
+  const Law &normal = law.normal();
+  if (!normal.reach || radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
+  return normal.reach(law.coefficients(Stage::NORMAL, row),
+                      radius_i * radius_j / (radius_i + radius_j));
 }
 
 std::string describe_law(const ContactLaw &law)

@@ -43,6 +43,8 @@ class ContactLaw {
 
   /// There is rolling or spinning resistance.
   bool resists() const { return rolling().acts || twisting().acts; }
+  /// Torques arise that are not the moment of a force on both surfaces: twisting_torque is written.
+  bool twists() const { return resists() || tangential().lever_arms; }
   bool adheres() const { return cohesion().acts; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
@@ -68,6 +70,11 @@ class ContactLaw {
  private:
   std::array<const Law *, num_stages> laws;
 };
+
+/// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a radius
+/// is.
+double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
+                double radius_j);
 
 /// A law in words, e.g. "hertz + multistep + resistance".
 std::string describe_law(const ContactLaw &law);

@@ -15,6 +15,12 @@ double Mixing::mean(const std::string &name) const
   return 0.5 * (a.given.value(name) + b.given.value(name));
 }
 
+double Mixing::geometric(const std::string &name) const
+{
+  const double p = a.given.value(name), q = b.given.value(name);
+  return p == q ? p : std::sqrt(p * q);
+}
+
 double Mixing::smallest(const std::string &name) const
 {
   return std::min(a.given.value(name), b.given.value(name));

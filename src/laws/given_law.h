@@ -48,6 +48,7 @@ struct Mixing {
   FrictionMix rule;
 
   double mean(const std::string &name) const;
+  double geometric(const std::string &name) const;
   double smallest(const std::string &name) const;
   /// `otherwise` stands for a number that was not given.
   double largest(const std::string &name, double otherwise = 0.0) const;

@@ -79,6 +79,11 @@ struct Law {
   bool holds;              ///< rolling: a body at rest is held
   bool delayed;            ///< rolling, twisting: reads delayed_force
   double exponent;         ///< normal: elastic force ~ overlap^exponent
+  bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
+  bool cohesive;      ///< normal: adhesion of its own
+  bool allows_cohesion;    ///< damping: may follow such a normal law
+  bool
+      lasts_beyond_contact;    ///< normal: a contact ends when the bodies have come apart, at reach
   bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
   const char *takes_no_kt,
       *needs_gt;    ///< normal, damping: why kt or gt has to be, or not be, NULL
@@ -97,6 +102,8 @@ struct Law {
   double (*stored)(const ContactLanes<double> &contact, const double *c, const double *history);
   /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
   double (*modulus)(const double *c);
+  /// Normal: how far a contact that has begun lasts beyond zero overlap (length); nullptr if not.
+  double (*reach)(const double *c, double effective_radius);
 };
 
 }    // namespace Talus

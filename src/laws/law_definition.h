@@ -45,12 +45,14 @@ struct LawBase {
   static constexpr bool acts = true, needs_radius = false, reads_impact = false;
   static constexpr bool reads_stiffness = false, has_spring = false, is_midpoint = false;
   static constexpr bool holds = false, delayed = false, like_stock = false;
+  static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
+  static constexpr bool lasts_beyond_contact = false;
   static constexpr const char *takes_no_kt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
   static constexpr double exponent = 1.0;
 };
 
-/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic.
+/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own pull_off.
 struct NormalLaw : LawBase {
   static constexpr Stage stage = Stage::NORMAL;
 
@@ -58,6 +60,11 @@ struct NormalLaw : LawBase {
   /// delayed resistance takes them.
   template <class Real> static void reduce(Real /*overlap*/, Real & /*k*/, Real & /*g*/) {}
   template <class Row> static double modulus(const Row & /*c*/) { return 0.0; }
+  /// How far a contact lasts beyond zero overlap (length); only called if lasts_beyond_contact.
+  template <class Row> static double reach(const Row & /*c*/, double /*effective_radius*/)
+  {
+    return 0.0;
+  }
 };
 
 /// Finds gn, gt, normal_force and force; see finish_normal_force().
@@ -66,17 +73,17 @@ struct DampingLaw : LawBase {
   static constexpr const char *label = nullptr;    // the normal law says it
 };
 
-/// Finds tangential and moment, and adds to force.
+/// Finds tangential and moment, and twisting_torque if it has lever_arms, and adds to force.
 struct TangentialLaw : LawBase {
   static constexpr Stage stage = Stage::TANGENTIAL;
 };
 
-/// Adds to moment.
+/// Adds to moment, or to twisting_torque.
 struct RollingLaw : LawBase {
   static constexpr Stage stage = Stage::ROLLING;
 };
 
-/// Finds twisting torque.
+/// Adds to twisting_torque.
 struct TwistingLaw : LawBase {
   static constexpr Stage stage = Stage::TWISTING;
 };
@@ -155,6 +162,8 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.relative_omega = load_vector<Real>(b.relative_omega, k);
   s.circle = In::load(&b.circle[k]);
   s.inverse_distance = In::load(&b.inverse_distance[k]);
+  s.arm_loss = In::load(&b.arm_loss[k]);
+  s.arm_difference = In::load(&b.arm_difference[k]);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -169,10 +178,12 @@ TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
     visit(s.tangent_t, b.between.tangent_t);
     visit(s.contact_radius, b.between.contact_radius);
     visit(s.elastic, b.between.elastic);
+    visit(s.pull_off, b.between.pull_off);
   } else if constexpr (stage == Stage::DAMPING) {
     visit(s.gn, b.between.gn);
     visit(s.gt, b.between.gt);
     visit(s.normal_force, b.between.normal_force);
+    visit(s.critical_force, b.between.critical_force);
   }
 }
 
@@ -198,7 +209,9 @@ TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s
   visit_written<Stage::DAMPING>(s, b, load);
   load(s.delayed_force, b.between.delayed_force);
   s.force = load_vector<Real>(b.force, k);
+  if (stage == Stage::TANGENTIAL) return;
   s.moment = load_vector<Real>(b.moment, k);
+  s.twisting_torque = load_vector<Real>(b.twisting_torque, k);
 }
 
 template <Stage stage, class Real>
@@ -209,7 +222,8 @@ TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
     store_vector(b.force, k, s.force);
   if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)
     store_vector(b.moment, k, s.moment);
-  if constexpr (stage == Stage::TWISTING) store_vector(b.twisting_torque, k, s.twisting_torque);
+  if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING || stage == Stage::TWISTING)
+    store_vector(b.twisting_torque, k, s.twisting_torque);
 }
 
 template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;
@@ -281,6 +295,11 @@ double stored_energy(const ContactLanes<double> &s, const double *c, const doubl
   return L::stored(s, row_of<L>(c), history);
 }
 
+template <class L> double reach_by(const double *c, double effective_radius)
+{
+  return L::reach(row_of<L>(c), effective_radius);
+}
+
 template <class L> constexpr Law make_law()
 {
   constexpr int n = num_coefficients_of<L>();
@@ -304,6 +323,10 @@ template <class L> constexpr Law make_law()
   law.holds = L::holds;
   law.delayed = L::delayed;
   law.exponent = L::exponent;
+  law.lever_arms = L::lever_arms;
+  law.cohesive = L::cohesive;
+  law.allows_cohesion = L::allows_cohesion;
+  law.lasts_beyond_contact = L::lasts_beyond_contact;
   law.like_stock = L::like_stock;
   law.takes_no_kt = L::takes_no_kt;
   law.needs_gt = L::needs_gt;
@@ -314,6 +337,7 @@ template <class L> constexpr Law make_law()
   law.mix = mix_row<L>;
   law.stored = stored_energy<L>;
   if constexpr (L::stage == Stage::NORMAL) {
+    if constexpr (L::lasts_beyond_contact) law.reach = reach_by<L>;
     law.delay = run_delay<L>;
     law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {
       find_delayed_force<L>(s);

@@ -6,30 +6,40 @@
 #include "laws/cohesion/dmt.h"
 #include "laws/cohesion/none.h"
 #include "laws/cohesion/perko.h"
+#include "laws/damping/coeff_restitution.h"
 #include "laws/damping/flores.h"
 #include "laws/damping/flores_material.h"
 #include "laws/damping/mass_velocity.h"
+#include "laws/damping/none.h"
 #include "laws/damping/plaincoulomb.h"
 #include "laws/damping/restitution.h"
+#include "laws/damping/tsuji.h"
+#include "laws/damping/velocity.h"
 #include "laws/damping/viscoelastic.h"
+#include "laws/normal/dmt.h"
 #include "laws/normal/flores.h"
 #include "laws/normal/flores_material.h"
 #include "laws/normal/hertz.h"
 #include "laws/normal/hertz_material.h"
 #include "laws/normal/hooke.h"
 #include "laws/normal/hooke_material.h"
+#include "laws/normal/jkr.h"
 #include "laws/normal/plaincoulomb.h"
 #include "laws/normal/plaincoulomb_material.h"
 #include "laws/rolling/delayed.h"
 #include "laws/rolling/holding.h"
 #include "laws/rolling/none.h"
+#include "laws/rolling/sds.h"
 #include "laws/tangential/dashpot.h"
+#include "laws/tangential/granular.h"
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
 #include "laws/tangential/tanh.h"
 #include "laws/twisting/delayed.h"
+#include "laws/twisting/marshall.h"
 #include "laws/twisting/none.h"
+#include "laws/twisting/sds.h"
 #include "laws/twisting/stopping.h"
 
 #include <array>
@@ -47,6 +57,8 @@ const Law *const all_laws[] = {
     &law<HertzMaterial>,
     &law<FloresMaterial>,
     &law<PlainCoulombMaterial>,
+    &law<Dmt>,
+    &law<Jkr>,
 
     &law<MassVelocity>,
     &law<Viscoelastic>,
@@ -54,6 +66,10 @@ const Law *const all_laws[] = {
     &law<PlainCoulombDamping>,
     &law<RestitutionDamping>,
     &law<FloresMaterialDamping>,
+    &law<NoDamping>,
+    &law<VelocityDamping>,
+    &law<Tsuji>,
+    &law<CoeffRestitution>,
 
     &law<TangentialNone>,
     &law<Dashpot>,
@@ -63,14 +79,26 @@ const Law *const all_laws[] = {
     &law<Multistep<false, true>>,
     &law<Multistep<true, true>>,
     &law<Tanh>,
+    &law<LinearNoHistory>,
+    &law<LinearHistory>,
+    &law<LinearHistoryClassic>,
+    &law<Mindlin>,
+    &law<MindlinForce>,
+    &law<MindlinRescale>,
+    &law<MindlinRescaleForce>,
+    &law<MindlinClassic>,
+    &law<ClassicOfFeb2025>,
 
     &law<RollingNone>,
     &law<HoldingRolling>,
     &law<DelayedRolling>,
+    &law<SdsRolling>,
 
     &law<TwistingNone>,
     &law<StoppingTwist>,
     &law<DelayedTwist>,
+    &law<MarshallTwist>,
+    &law<SdsTwist>,
 
     &law<CohesionNone>,
     &law<ConstantAdhesion>,

@@ -36,6 +36,11 @@ ContactCoefficients LawBook::coefficients(int i, int j) const
   return contact_coefficients(spec(i, i), spec(j, j), mix);
 }
 
+double LawBook::reach(int i, int j, double radius_i, double radius_j) const
+{
+  return reach_of(law(i, j), coefficients(i, j), radius_i, radius_j);
+}
+
 LawTable LawBook::table() const
 {
   int any_i = 1, any_j = 1;
@@ -97,7 +102,8 @@ std::string LawBook::describe(const LawTable &table) const
   if (lines > most) text += "  ... " + std::to_string(lines - most) + " more pairs of types\n";
 
   std::string left_out;
-  if (!table.has_resistance()) left_out += ", torques of resistance (no rolling or spinning resistance)";
+  if (!table.has_resistance())
+    left_out += ", torques of resistance (no rolling or spinning resistance)";
   if (!table.has_impact()) left_out += ", impact velocity and age of contacts (no law reads them)";
   if (!table.has_history()) left_out += ", contact history (no multistep law)";
   if (!table.has_friction()) left_out += ", angular velocities and torques (no friction)";

@@ -36,6 +36,8 @@ class LawBook {
 
   const ContactLaw &law(int i, int j) const;
   ContactCoefficients coefficients(int i, int j) const;
+  /// How far a contact of particles with these radii lasts beyond zero overlap (length).
+  double reach(int i, int j, double radius_i, double radius_j) const;
 
   /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
   std::string describe_pair(int i, int j) const;

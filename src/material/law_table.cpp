@@ -65,7 +65,17 @@ bool LawTable::has_impact() const
 
 bool LawTable::has_resistance() const
 {
-  return any([](const ContactLaw &law) { return law.resists(); });
+  return any([](const ContactLaw &law) { return law.twists(); });
+}
+
+bool LawTable::lasts_beyond_contact() const
+{
+  return any([](const ContactLaw &law) { return law.normal().lasts_beyond_contact; });
+}
+
+double LawTable::reach(int row, double radius_i, double radius_j) const
+{
+  return reach_of(laws[row], rows[row], radius_i, radius_j);
 }
 
 }    // namespace Talus

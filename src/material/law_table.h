@@ -44,6 +44,9 @@ class LawTable {
   bool has_history() const;
   bool has_impact() const;
   bool has_resistance() const;
+  bool lasts_beyond_contact() const;
+  /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
+  double reach(int row, double radius_i, double radius_j) const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;

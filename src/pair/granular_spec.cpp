@@ -65,8 +65,8 @@ const Law *law_of(const GranSubMod &sub_model, Stage stage)
 
 /* In releases that have it. */
 
-template <class AnyModel> auto is_synchronized(const AnyModel *model)
-    -> decltype(model->synchronized_verlet != 0)
+template <class AnyModel>
+auto is_synchronized(const AnyModel *model) -> decltype(model->synchronized_verlet != 0)
 {
   return model->synchronized_verlet != 0;
 }

@@ -148,10 +148,10 @@ double PairGranPenalty::memory_usage()
 
 double PairGranPenalty::atom2cut(int i)
 {
-  return 2.0 * atom->radius[i];
+  return radii2cut(atom->radius[i], atom->radius[i]);
 }
 
 double PairGranPenalty::radii2cut(double r1, double r2)
 {
-  return r1 + r2;
+  return r1 + r2 + system->largest_reach();
 }

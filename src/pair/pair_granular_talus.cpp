@@ -40,8 +40,7 @@ std::string PairGranularTalus::stock_history() const
 {
   const std::optional<std::vector<int>> places = stock_history_of(all_models());
   std::string words;
-  for (const int place : places.value())
-    words += place < 0 ? " -" : " " + std::to_string(place);
+  for (const int place : places.value()) words += place < 0 ? " -" : " " + std::to_string(place);
   return words;
 }
 
@@ -90,8 +89,9 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   const double twist = dot(opposite, n);
   const Vector fr = s.inverse_radius * cross(opposite - twist * n, n);
   const Vector dx = pair->distance * n;
-  const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)), fr.x, fr.y, fr.z,
-                        std::sqrt(dot(fr, fr)), twist, dx.x, dx.y, dx.z};
+  const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)),
+                        fr.x,  fr.y, fr.z, std::sqrt(dot(fr, fr)),
+                        twist, dx.x, dx.y, dx.z};
   std::copy(std::begin(all), std::end(all), svector);
 }
 

@@ -47,7 +47,10 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   const Talus::LawTable &laws = system->law_table();
   const double ri = atom->radius[i], rj = atom->radius[j];
-  if (rsq >= (ri + rj) * (ri + rj) || rsq == 0.0) return {};
+  const auto remembered = system->remembered_of(i, j);
+  const int row_of_types = laws.row(itype, jtype);
+  const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
+  if (rsq >= touch * touch || rsq == 0.0) return {};
 
   const double r = std::sqrt(rsq);
   Talus::ContactState<double> s;
@@ -60,17 +63,13 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = Talus::circle_of_intersection(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
+  s.arm_loss = s.overlap / (ri + rj);
+  s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
 
-  Talus::ContactImpact<double> impact;
-  const Talus::TangentialHistory<double> history = system->history_of(i, j, impact);
-  const int row_of_types = laws.row(itype, jtype);
-  const Vector &d = history.displacement;
-  return SinglePair{
-      Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types), s,
-                            this->update->dt,
-                            {{d.x, d.y, d.z, history.sliding, impact.speed, impact.age,
-                              impact.begun}}),
-      r, ri, rj};
+  return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
+                                          s, this->update->dt,
+                                          remembered.value_or(Talus::RememberedValues{})),
+                    r, ri, rj};
 }
 
 template <class Base>
@@ -83,8 +82,8 @@ void PairOfSystem<Base>::describe_pair(const std::optional<SinglePair> &pair, do
   const Vector vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector ft = s.tangential;
   const double depth = s.overlap / std::min(pair->radius_i, pair->radius_j);
-  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z,
-                          vt.x, vt.y, vt.z, depth};
+  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z, vt.x,
+                          vt.y, vt.z, depth};
   static_assert(std::size(found) == num_extra);
   std::copy(std::begin(found), std::end(found), extra);
 }

@@ -106,6 +106,26 @@ void GranularSystem::init_pair_style()
   laws_current = false;    // init_one() will mix what is not set
 }
 
+/* Of the largest particles; the reach grows with both radii. */
+
+double GranularSystem::reach(int i, int j) const
+{
+  return book.known(i, j) ? book.reach(i, j, radii.largest(i), radii.largest(j)) : 0.0;
+}
+
+double GranularSystem::cutoff(int i, int j) const
+{
+  return radii.cutoff(i, j) + reach(std::min(i, j), std::max(i, j));
+}
+
+double GranularSystem::largest_reach() const
+{
+  double largest = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) largest = std::max(largest, reach(i, j));
+  return largest;
+}
+
 void GranularSystem::create_store()
 {
   const char *expected = store ? store_id : placeholder_id;

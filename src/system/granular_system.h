@@ -92,8 +92,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string reason_of_pair_style() const;
   /// In init_style(), before it: "", or what of the settings of LAMMPS would make forces wrong.
   std::string unsupported_settings() const;
-  /// Of types i and j, after init_pair_style() (length).
-  double cutoff(int i, int j) const { return radii.cutoff(i, j); }
+  /// Of types i and j, after init_pair_style() (length): at which particles may touch, or part.
+  double cutoff(int i, int j) const;
+  /// How far contacts of all types last beyond zero overlap (length).
+  double largest_reach() const;
   /// As of init_pair_style().
   const LAMMPS_NS::LargestRadii &largest_radii() const { return radii; }
 
@@ -196,8 +198,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   HistoryStore &histories();
   /// It has been read from a restart file.
   bool histories_were_read() const;
-  /// History and impact of a pair of host's indices as i sees it, in a run or between two.
-  TangentialHistory<double> history_of(int i, int j, ContactImpact<double> &impact);
+  /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
+  /// do not touch.
+  std::optional<RememberedValues> remembered_of(int i, int j);
   /// Laws and coefficients as the kernels have them.
   const LawTable &law_table();
   /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
@@ -224,6 +227,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
 
  private:
+  double reach(int i, int j) const;
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();

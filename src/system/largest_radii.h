@@ -8,6 +8,7 @@
 
 #include "pointers.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -22,6 +23,7 @@ class LargestRadii : protected Pointers {
   /// Distance at which particles of types i and j can touch.
   double cutoff(int i, int j) const;
   double largest() const;
+  double largest(int type) const { return std::max(free[type], frozen[type]); }
   /// Of one type (length).
   double of_free(int type) const { return free[type]; }
   double of_frozen(int type) const { return frozen[type]; }

@@ -42,7 +42,7 @@ void NeighborSource::init(Pair *pair)
   said = line;
 }
 
-NeighborView NeighborSource::find(const NeighList *list)
+NeighborView NeighborSource::find(const NeighList *list, double reach)
 {
   if (!own) {
     const double *scale = force->special_lj;
@@ -56,11 +56,11 @@ NeighborView NeighborSource::find(const NeighList *list)
   }
   const int total = atom->nlocal + atom->nghost;
   try {
-    search.find({atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin},
-                comm->nthreads,
-                neighbor->nex_type || neighbor->nex_group
-                    ? [this](int i, int j) { return excludes(i, j); }
-                    : std::function<bool(int, int)>());
+    search.find(
+        {atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin + reach},
+        comm->nthreads,
+        neighbor->nex_type || neighbor->nex_group ? [this](int i, int j) { return excludes(i, j); }
+                                                  : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
                GranularSystem::of(lmp)->style_name(), problem.what());

@@ -22,8 +22,9 @@ class NeighborSource : protected Pointers {
   /// and says in the log who finds the neighbors if it is not the one of the last run.
   void init(class Pair *pair);
 
-  /// At a rebuild. `list`: the pair style's, not read if the search is ours. Valid until release().
-  Talus::NeighborView find(const class NeighList *list);
+  /// At a rebuild. `list`: the pair style's, not read if the search is ours. `reach`: how far
+  /// contacts last beyond zero overlap. Valid until release().
+  Talus::NeighborView find(const class NeighList *list, double reach);
   void release() { search.clear(); }
 
   double memory_usage() const { return search.memory_usage(); }

@@ -43,18 +43,12 @@ bool GranularSystem::histories_were_read() const
 
 /* Between two runs histories are with the store. */
 
-TangentialHistory<double> GranularSystem::history_of(int i, int j, ContactImpact<double> &impact)
+std::optional<RememberedValues> GranularSystem::remembered_of(int i, int j)
 {
-  if (pipeline->has_pairs()) {
-    impact = pipeline->impact_of(i, j);
-    return pipeline->history_of(i, j);
-  }
+  if (pipeline->has_pairs()) return pipeline->remembered_of(i, j);
   const FoundHistory found = store->histories().find_of_atoms(i, j);
-  if (!found.known) return {};
-  const Record h = found.seen_by_a();
-  const auto &o = found.impact->c;
-  impact = {o[0], o[1], o[2]};
-  return {{h.c[0], h.c[1], h.c[2]}, h.c[3]};
+  if (!found.known) return std::nullopt;
+  return remembered_values(found.seen_by_a(), *found.impact);
 }
 
 double GranularSystem::share_without_proxies() const

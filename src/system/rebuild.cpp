@@ -51,7 +51,7 @@ void GranularSystem::renumber_pairs()
   pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
     pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type},
-                        neighbors.find(pair->list));
+                        neighbors.find(pair->list, largest_reach()));
     neighbors.release();
     pipeline->start_pairs(store->histories());
   } catch (const std::length_error &problem) {

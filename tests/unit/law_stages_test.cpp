@@ -69,7 +69,7 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
     }
     EXPECT_EQ(find_law(stage, "no such law"), nullptr);
   }
-  EXPECT_EQ(count, 32);
+  EXPECT_EQ(count, 50);
 }
 
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)

@@ -143,8 +143,8 @@ class TestRank {
       return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
                               particle.begin());
     };
-    const auto h = pipeline.history_of(number(i), number(j));
-    return {{h.displacement.x, h.displacement.y, h.displacement.z, h.sliding}};
+    const auto h = pipeline.remembered_of(number(i), number(j)).value_or(Talus::RememberedValues{});
+    return {{h.value[0], h.value[1], h.value[2], h.value[3]}};
   }
 
  private:

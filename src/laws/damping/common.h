@@ -21,11 +21,15 @@ template <class Real> struct DampingRow {
 /// The least normal force of a contact.
 double least_force(const Mixing &m);
 
-/// From gn to the normal force.
+/// From gn to the normal force. Friction is limited to mu times its magnitude; with adhesion of the
+/// normal law to mu |F_e + 2 pull-off force|, without damping: Marshall 2009 (J. Comput. Phys. 228,
+/// 1541), as LAMMPS' pair granular has it.
 template <class Real> TALUS_INLINE void finish_normal_force(Real floor, ContactLanes<Real> &s)
 {
   const Real elastic_damped = s.elastic - s.gn * s.normal_velocity;
   s.normal_force = select(elastic_damped < floor, floor, elastic_damped);
+  s.critical_force = magnitude(
+      select(s.pull_off > splat<Real>(0.0), s.elastic + 2.0 * s.pull_off, s.normal_force));
   s.force = s.normal_force * s.normal;
 }
 

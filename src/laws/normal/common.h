@@ -54,6 +54,18 @@ inline void read_material(LawReader &r, const char *damping)
   r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, damping));
 }
 
+/// E, eta, nu, gamma of the words; eta is the damping coefficient, viscoelastic unless another
+/// damping is asked for.
+inline void read_adhesive(LawReader &r)
+{
+  GivenNumbers &given = r.spec.given;
+  given["E"] = r.words.positive("Young's modulus E") * r.pressure_unit;
+  given["gn"] = r.words.not_negative("damping coefficient eta");
+  given["nu"] = r.words.between("Poisson's ratio nu", -1.0, 0.5, true);
+  r.set_not_negative("gamma");
+  r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "viscoelastic"));
+}
+
 inline double mixed_young(const Mixing &m)
 {
   const GivenNumbers &a = m.a.given, &b = m.b.given;

@@ -22,7 +22,7 @@ struct Hooke : SpringsByNumber<LinearLaw> {
   {
     s.kn = s.tangent_n = c.kn;
     s.kt = s.tangent_t = c.kt;
-    s.contact_radius = splat<Real>(0.0);
+    s.contact_radius = square_root(s.overlap * s.radius);
     s.elastic = s.kn * s.overlap;
   }
 };

@@ -35,7 +35,7 @@ struct HookeMaterial : LinearLaw {
     const Real scale = (16.0 / 15.0) * square_root(s.radius) * c.young;
     s.kn = scale * fifth_root(s.mass * speed * speed / scale);
     s.kt = s.tangent_n = s.tangent_t = s.kn;
-    s.contact_radius = splat<Real>(0.0);
+    s.contact_radius = square_root(s.overlap * s.radius);
     s.elastic = s.kn * s.overlap;
   }
 };

@@ -33,6 +33,16 @@ TALUS_INLINE void add_tangential(ContactLanes<Real> &s, const Vector3<Real> &for
   s.moment = cross(s.normal, force);
 }
 
+/// The same for laws whose lever arms end in the middle of the overlap, r - overlap/2: what moment,
+/// which is multiplied by the radii, lacks on unlike spheres is in twisting_torque.
+template <class Real>
+TALUS_INLINE void add_tangential_in_overlap(ContactLanes<Real> &s, const Vector3<Real> &force)
+{
+  add_tangential(s, force);
+  s.twisting_torque = s.arm_difference * s.moment;
+  s.moment = (splat<Real>(1.0) - s.arm_loss) * s.moment;
+}
+
 template <class Real> struct FrictionRow {
   Real mu;
 };

@@ -19,7 +19,7 @@ struct Dashpot : FrictionLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    add_tangential(s, capped(-s.gt * surface_velocity(s), c.mu * magnitude(s.normal_force)));
+    add_tangential(s, capped(-s.gt * surface_velocity(s), c.mu * s.critical_force));
   }
 };
 

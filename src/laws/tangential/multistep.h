@@ -68,7 +68,7 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   {
     const Real zero = splat<Real>(0.0);
     TangentialHistory<Real> history{{h[0], h[1], h[2]}, h[3]};
-    SlidingInput<Real> in{s.kt, s.gt, surface_velocity(s), c.mu * magnitude(s.normal_force),
+    SlidingInput<Real> in{s.kt, s.gt, surface_velocity(s), c.mu * s.critical_force,
                           splat<Real>(dt)};
     Vector3<Real> d = history.displacement;
     if constexpr (advance && midpoint) {

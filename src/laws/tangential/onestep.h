@@ -20,7 +20,7 @@ struct Onestep : FrictionLaw {
                                    double dt)
   {
     const Vector3<Real> trial = -(s.kt * splat<Real>(dt) + s.gt) * surface_velocity(s);
-    add_tangential(s, capped(trial, c.mu * magnitude(s.normal_force)));
+    add_tangential(s, capped(trial, c.mu * s.critical_force));
   }
 };
 

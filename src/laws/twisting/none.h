@@ -14,11 +14,9 @@ struct TwistingNone : TwistingLaw {
   static constexpr bool acts = false;
 
   template <bool advance, class Real>
-  TALUS_INLINE static void compute(const Row<Real> & /*c*/, ContactLanes<Real> &s,
-                                   Real * /*history*/, double /*dt*/)
+  static void compute(const Row<Real> & /*c*/, ContactLanes<Real> & /*s*/, Real * /*history*/,
+                      double /*dt*/)
   {
-    const Real zero = splat<Real>(0.0);
-    s.twisting_torque = {zero, zero, zero};
   }
 };
 

@@ -35,7 +35,8 @@ struct StoppingTwist : TwistingLaw {
     const Real wanted = c.mu * s.circle * presses / speed;
     const Real most = stopping_share / (turns * s.inverse_radius * s.inverse_radius);
     const Real twisting_torque = -select(wanted < most, wanted, most) * dot(w, s.normal);
-    s.twisting_torque = select(twists & (turns > zero), twisting_torque, zero) * s.normal;
+    s.twisting_torque =
+        s.twisting_torque + select(twists & (turns > zero), twisting_torque, zero) * s.normal;
   }
 };
 

@@ -1,0 +1,65 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Spring, dashpot and slider of rolling, as LAMMPS' pair granular has them (Luding 2008, Granular
+// Matter 10, 235; rolling velocity of Wang et al. 2015, Particuology 23, 49): a pseudo-force
+// F_r = -(k xi + gamma v_r), v_r = R (omega_1 - omega_2) x n with the effective radius R, not longer
+// than mu times critical_force. xi turns with the contact and is set back at the limit like the
+// displacement of friction, see granular.h. Torque R n x F_r on body 1, its opposite on body 2.
+// k force/length, gamma force/velocity. While a run is set up xi stays as it is.
+
+#ifndef TALUS_LAWS_ROLLING_SDS_H
+#define TALUS_LAWS_ROLLING_SDS_H
+
+#include "laws/tangential/granular.h"
+
+namespace Talus {
+
+struct SdsRolling : RollingLaw {
+  static constexpr const char *name = "sds", *label = "rolling sds";
+  static constexpr bool needs_radius = true;
+  static constexpr int even_history = 3;    // v_r is the same for both bodies
+  template <class Real> struct Row {
+    Real k, gamma, mu;
+  };
+  static constexpr CoefficientName coefficients[] = {{"k_roll"}, {"gamma_roll"}, {"mu_roll"}};
+
+  static void read(LawReader &r)
+  {
+    for (const char *number : {"k_roll", "gamma_roll", "mu_roll"}) r.set_not_negative(number);
+  }
+  static Row<double> mix(const Mixing &m)
+  {
+    return {m.geometric("k_roll"), m.geometric("gamma_roll"), m.geometric("mu_roll")};
+  }
+  static double stored(const ContactLanes<double> & /*s*/, const Row<double> &c, const double *h)
+  {
+    return 0.5 * c.k * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+  }
+
+  template <bool advance, class Real>
+  TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
+  {
+    const Real zero = splat<Real>(0.0);
+    const SlidingInput<Real> in{c.k, c.gamma, s.radius * cross(s.relative_omega, s.normal),
+                                c.mu * s.critical_force, splat<Real>(dt)};
+    Vector3<Real> xi{h[0], h[1], h[2]}, force;
+    if (advance && dt > 0.0) {
+      const auto leaves = magnitude(dot(xi, s.normal)) * in.kt > 1.0e-10 * in.limit;
+      xi = select(leaves, turned(xi, s.normal), xi);
+      xi = xi + in.dt * in.velocity;
+      TangentialHistory<Real> history = granular_history(xi);
+      force = limited_force<advance, false>(in, xi, splat<Real>(dt) > zero, history);
+      h[0] = history.displacement.x;
+      h[1] = history.displacement.y;
+      h[2] = history.displacement.z;
+    } else {
+      TangentialHistory<Real> history = granular_history(xi);
+      force = limited_force<false, false>(in, xi, dot(xi, xi) > zero, history);
+    }
+    s.twisting_torque = s.twisting_torque + s.radius * cross(s.normal, force);
+  }
+};
+
+}    // namespace Talus
+
+#endif

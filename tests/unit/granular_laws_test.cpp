@@ -1,0 +1,304 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The laws of LAMMPS' pair granular, all combinations drawn at random: what one trajectory needs to the last bit, that
+// forces are those of the stored energies, and what is known of JKR. (That the numbers are those of LAMMPS is shown by
+// the scripts in tests/style.)
+
+#include "laws/circle_of_intersection.h"
+#include "laws/contact_energy.h"
+#include "laws/contact_kernel.h"
+#include "laws/law_list.h"
+#include "material/contact_spec.h"
+#include "random_source.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+using namespace Talus;
+
+namespace {
+
+constexpr double dt = 2e-5, pi = 3.14159265358979323846;
+constexpr int width = ContactBatch::width;
+
+struct Drawn {
+  ContactSpec spec;
+  ContactCoefficients row;
+  ContactState<double> state;
+  RememberedValues memory;
+};
+
+const char *one_of(RandomSource &random, std::initializer_list<const char *> names)
+{
+  return names.begin()[random.below(static_cast<int>(names.size()))];
+}
+
+ContactSpec random_law(RandomSource &random)
+{
+  ContactSpec s;
+  const auto choose = [&](Stage stage, std::initializer_list<const char *> names) {
+    s.law.choose(stage, find_law(stage, one_of(random, names)));
+  };
+  choose(Stage::NORMAL, {"hooke", "hertz", "dmt", "jkr"});
+  if (s.law.normal().cohesive)
+    choose(Stage::DAMPING, {"none", "velocity", "mass_velocity", "viscoelastic"});
+  else
+    choose(Stage::DAMPING, {"none", "velocity", "mass_velocity", "viscoelastic", "tsuji", "coeff_restitution"});
+  choose(Stage::TANGENTIAL, {"linear_nohistory", "linear_history", "linear_history_classic", "mindlin",
+                             "mindlin/force", "mindlin_rescale", "mindlin_rescale/force", "mindlin_classic"});
+  choose(Stage::ROLLING, {"none", "sds"});
+  choose(Stage::TWISTING, {"none", "marshall", "sds"});
+  auto &given = s.given;
+  given["kn"] = random.decade(4.0, 6.0);
+  given["E_eff"] = random.decade(5.0, 7.0);
+  given["gamma"] = random.chance(0.1) ? 0.0 : random.decade(-1.0, 1.0);
+  given["gn"] = random.decade(0.0, 2.0);
+  given["eta"] = random.uniform(0.1, 1.0);
+  given["kt"] = random.chance(0.1) ? 0.0 : random.decade(4.0, 6.0);
+  for (const char *name : {"xt", "mu", "mu_roll", "mu_twist"}) given[name] = random.uniform(0.0, 1.0);
+  for (const char *name : {"k_roll", "k_twist"}) given[name] = random.decade(3.0, 5.0);
+  for (const char *name : {"gamma_roll", "gamma_twist"}) given[name] = random.decade(0.0, 2.0);
+  if (!s.law.normal().cohesive && random.chance(0.3)) given["limit_damping"] = 1.0;
+  return s;
+}
+
+/// Of two spheres, 1 to 10 cm; `swapped`: the other one first.
+ContactState<double> state_of(const double (&r)[2], const Vector3<double> &n, double overlap,
+                              const Vector3<double> (&v)[2], const Vector3<double> (&w)[2], bool swapped)
+{
+  const int a = swapped ? 1 : 0, b = 1 - a;
+  ContactState<double> s;
+  s.normal = swapped ? -1.0 * n : n;
+  s.overlap = overlap;
+  s.velocity = v[a] - v[b];
+  s.surface_rotation = swapped ? r[1] * w[1] + r[0] * w[0] : r[0] * w[0] + r[1] * w[1];
+  s.relative_omega = w[a] - w[b];
+  s.inverse_mass = 1.0 / (r[0] * r[0] * r[0]) + 1.0 / (r[1] * r[1] * r[1]);
+  s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
+  s.inverse_distance = 1.0 / (r[0] + r[1] - overlap);
+  s.circle = circle_of_intersection(r[a], r[b], overlap);
+  s.arm_loss = overlap / (r[0] + r[1]);
+  s.arm_difference = 0.5 * s.arm_loss * (r[b] - r[a]);
+  return s;
+}
+
+Vector3<double> random_vector(RandomSource &random, double half)
+{
+  const auto v = random.in_cube(half);
+  return {v[0], v[1], v[2]};
+}
+
+class GranularLaws : public testing::Test {
+ protected:
+  GranularLaws() { batch.clear(); }
+
+  void next()
+  {
+    drawn.spec = random_law(random);
+    drawn.row = contact_coefficients(drawn.spec, drawn.spec, FrictionMix::MINIMUM);
+    const double smaller = random.uniform(0.01, 0.05), r[2] = {smaller, smaller * random.uniform(1.0, 10.0)};
+    const auto n = random.unit_vector();
+    const Vector3<double> normal{n[0], n[1], n[2]};
+    const Vector3<double> v[2] = {random_vector(random, 0.5), random_vector(random, 0.5)};
+    const Vector3<double> w[2] = {random_vector(random, 20.0), random_vector(random, 20.0)};
+    const double reach = reach_of(drawn.spec.law, drawn.row, r[0], r[1]);
+    const double overlap = random.chance(0.3) ? -0.9 * reach : smaller * random.decade(-5.0, -1.0);
+    if (overlap <= 0.0 && reach == 0.0) return next();
+    drawn.state = state_of(r, normal, overlap, v, w, false);
+    other = state_of(r, normal, overlap, v, w, true);
+    for (double &value : drawn.memory.value) value = 0.0;
+    if (random.chance(0.8)) {
+      const double scale = random.decade(-7.0, -3.0);
+      for (double &value : drawn.memory.value) value = scale * random.uniform(-1.0, 1.0);
+      drawn.memory.value[3] = std::fabs(drawn.memory.value[3]) * 100.0;
+    }
+  }
+
+  void put(int lane, const ContactState<double> &s, const RememberedValues &memory)
+  {
+    const auto set = [lane](double (&to)[3][width], const Vector3<double> &v) {
+      to[0][lane] = v.x;
+      to[1][lane] = v.y;
+      to[2][lane] = v.z;
+    };
+    set(batch.normal, s.normal);
+    set(batch.velocity, s.velocity);
+    set(batch.surface_rotation, s.surface_rotation);
+    set(batch.relative_omega, s.relative_omega);
+    batch.overlap[lane] = s.overlap;
+    batch.inverse_mass[lane] = s.inverse_mass;
+    batch.inverse_radius[lane] = s.inverse_radius;
+    batch.circle[lane] = s.circle;
+    batch.inverse_distance[lane] = s.inverse_distance;
+    batch.arm_loss[lane] = s.arm_loss;
+    batch.arm_difference[lane] = s.arm_difference;
+    batch.coefficients[lane] = 0;
+    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][lane] = memory.value[n];
+  }
+
+  struct Result {
+    double force[3], moment[3], torque[3], history[ContactBatch::history_size];
+  };
+  Result run(int lane, const ContactState<double> &s, const RememberedValues &memory, bool uniform, bool advance)
+  {
+    put(lane, s, memory);
+    const int begin = lane / lanes * lanes;
+    for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
+    contact_kernel(drawn.spec.law, uniform, advance)(batch, begin, begin + lanes, &drawn.row, dt);
+    Result r;
+    for (int d = 0; d < 3; d++) {
+      r.force[d] = batch.force[d][lane];
+      r.moment[d] = batch.moment[d][lane];
+      r.torque[d] = batch.twisting_torque[d][lane];
+    }
+    for (int n = 0; n < ContactBatch::history_size; n++) r.history[n] = batch.history[n][lane];
+    return r;
+  }
+  std::string title() const { return describe_law(drawn.spec.law); }
+
+  RandomSource random{22};
+  ContactBatch batch;
+  Drawn drawn;
+  ContactState<double> other;
+};
+
+TEST_F(GranularLaws, DoNotDependOnLaneKernelOrPath)
+{
+  for (int n = 0; n < 3000; n++) {
+    next();
+    const Result first = run(0, drawn.state, drawn.memory, true, true);
+    for (int lane = 1; lane < width; lane += 7) {
+      const Result again = run(lane, drawn.state, drawn.memory, lane % 2 == 0, true);
+      ASSERT_EQ(std::memcmp(&first, &again, sizeof first), 0) << title();
+    }
+    const Result read = run(5, drawn.state, drawn.memory, true, false);
+    const ContactLanes<double> query = single_contact(drawn.spec.law, drawn.row, drawn.state, dt, drawn.memory);
+    const Vector3<double> *const found[] = {&query.force, &query.moment, &query.twisting_torque};
+    const double *const expected[] = {read.force, read.moment, read.torque};
+    for (int v = 0; v < 3; v++) {
+      ASSERT_EQ(found[v]->x, expected[v][0]) << title();
+      ASSERT_EQ(found[v]->y, expected[v][1]) << title();
+      ASSERT_EQ(found[v]->z, expected[v][2]) << title();
+    }
+  }
+}
+
+// A run that stops and starts again computes the force of its last step from what is stored.
+TEST_F(GranularLaws, ForceIsReproducedFromTheStoredHistory)
+{
+  int with_history = 0;
+  for (int n = 0; n < 20000; n++) {
+    next();
+    const Result before = run(n % width, drawn.state, drawn.memory, true, true);
+    RememberedValues stored;
+    std::memcpy(stored.value, before.history, sizeof stored.value);
+    with_history += drawn.spec.law.has_history();
+    const Result after = run((n + 3) % width, drawn.state, stored, false, false);
+    ASSERT_EQ(std::memcmp(&before, &after, sizeof before), 0)
+        << title() << " " << n << ": torque " << before.torque[0] << " " << after.torque[0] << ", force "
+        << before.force[0] << " " << after.force[0] << ", moment " << before.moment[0] << " " << after.moment[0];
+  }
+  EXPECT_GT(with_history, 10000);
+}
+
+TEST_F(GranularLaws, SwappingTheBodiesNegatesForceAndTorqueExactly)
+{
+  for (int n = 0; n < 20000; n++) {
+    next();
+    RememberedValues mirrored = drawn.memory;
+    for (int d = 0; d < 3; d++) mirrored.value[d] = -mirrored.value[d];
+    const Result a = run(n % width, drawn.state, drawn.memory, true, true);
+    const Result b = run((n + 11) % width, other, mirrored, true, true);
+    for (int d = 0; d < 3; d++) {
+      ASSERT_EQ(a.force[d], -b.force[d]) << title();
+      ASSERT_EQ(a.moment[d], b.moment[d]) << title();
+      ASSERT_EQ(a.torque[d], -b.torque[d]) << title();
+      ASSERT_EQ(a.history[d], -b.history[d]) << title();
+    }
+    for (int k = 3; k < ContactBatch::history_size; k++) ASSERT_EQ(a.history[k], b.history[k]) << title();
+  }
+}
+
+// Lever arms: the torques on both bodies are those of the force at the middle of the overlap.
+TEST_F(GranularLaws, FrictionActsInTheMiddleOfTheOverlap)
+{
+  for (int n = 0; n < 5000; n++) {
+    next();
+    drawn.spec.law.choose(Stage::ROLLING, find_law(Stage::ROLLING, "none"));
+    drawn.spec.law.choose(Stage::TWISTING, find_law(Stage::TWISTING, "none"));
+    drawn.row = contact_coefficients(drawn.spec, drawn.spec, FrictionMix::MINIMUM);
+    const ContactState<double> &s = drawn.state;
+    const ContactLanes<double> out = single_contact(drawn.spec.law, drawn.row, s, dt, drawn.memory);
+    const double sum = 1.0 / s.inverse_distance + s.overlap;
+    const double r1 = 0.5 * (sum - s.arm_difference / (0.5 * s.arm_loss)), r2 = sum - r1;
+    const Vector3<double> moment = cross(s.normal, out.tangential);
+    const Vector3<double> on_first = -r1 * out.moment + out.twisting_torque,
+                          on_second = -r2 * out.moment - out.twisting_torque;
+    const Vector3<double> errors[] = {on_first + (r1 - 0.5 * s.overlap) * moment,
+                                      on_second + (r2 - 0.5 * s.overlap) * moment};
+    const double size = std::sqrt(dot(moment, moment)) * sum;
+    for (const auto &error : errors) ASSERT_LE(std::sqrt(dot(error, error)), 1e-11 * size) << title();
+  }
+}
+
+/// Energy of the normal law at an overlap, and its elastic force.
+ContactLanes<double> at_overlap(const ContactSpec &spec, const ContactCoefficients &row, double radius, double overlap)
+{
+  ContactState<double> s;
+  s.normal = {1.0, 0.0, 0.0};
+  s.overlap = overlap;
+  s.inverse_mass = 1.0;
+  s.inverse_radius = 1.0 / radius;
+  return single_contact(spec.law, row, s, 0.0);
+}
+
+TEST_F(GranularLaws, NormalForceAndStiffnessAreDerivativesOfTheEnergy)
+{
+  for (const char *name : {"hooke", "hertz", "dmt", "jkr"})
+    for (int n = 0; n < 300; n++) {
+      ContactSpec spec = random_law(random);
+      spec.law.choose(Stage::NORMAL, find_law(Stage::NORMAL, name));
+      spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "none"));
+      const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
+      const double radius = 0.02, reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
+      const double overlap = random.uniform(-0.9 * reach, 0.1 * radius), h = 1e-5 * (overlap + reach);
+      if (overlap - h <= 0.0 && reach == 0.0) continue;
+      const auto energy = [&](double d) {
+        const ContactLanes<double> s = at_overlap(spec, row, radius, d);
+        return spec.law.normal().stored(s, spec.law.coefficients(Stage::NORMAL, row), nullptr);
+      };
+      const auto force = [&](double d) { return at_overlap(spec, row, radius, d).elastic; };
+      const ContactLanes<double> s = at_overlap(spec, row, radius, overlap);
+      const double scale = std::fabs(s.elastic) + s.kn * (std::fabs(overlap) + reach);
+      ASSERT_NEAR((energy(overlap + h) - energy(overlap - h)) / (2.0 * h), s.elastic, 2e-5 * scale) << name;
+      const double slope = (force(overlap + h) - force(overlap - h)) / (2.0 * h);
+      ASSERT_NEAR(s.tangent_n, slope, 1e-4 * std::fabs(slope) + 1e-4 * s.kn) << name << " " << overlap << " " << reach;
+    }
+}
+
+// Johnson, Kendall and Roberts: the strongest pull is 3 pi gamma R, at reach(), where the bodies separate; at overlap
+// zero it is 8/9 of that.
+TEST_F(GranularLaws, JkrPullsOffWith3PiGammaR)
+{
+  for (int n = 0; n < 100; n++) {
+    ContactSpec spec;
+    spec.law.choose(Stage::NORMAL, find_law(Stage::NORMAL, "jkr"));
+    spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "none"));
+    spec.given["E_eff"] = random.decade(5.0, 9.0);
+    const double gamma = spec.given["gamma"] = random.decade(-2.0, 1.0);
+    const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
+    const double radius = random.decade(-4.0, -1.0), reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
+    const double pull_off = 3.0 * pi * gamma * radius;
+    double strongest = 0.0;
+    for (int k = 0; k <= 20000; k++)
+      strongest = std::min(strongest, at_overlap(spec, row, radius, (k / 20000.0 - 1.0) * reach).elastic);
+    EXPECT_NEAR(-strongest, pull_off, 1e-7 * pull_off);
+    EXPECT_NEAR(-at_overlap(spec, row, radius, 0.0).elastic, 8.0 / 9.0 * pull_off, 1e-12 * pull_off);
+    EXPECT_NEAR(-at_overlap(spec, row, radius, -reach).elastic, pull_off, 1e-7 * pull_off);
+  }
+}
+
+}    // namespace
