@@ -84,7 +84,7 @@ void give_normal(const Model &model, GivenNumbers &given)
   if (const auto *hertz = dynamic_cast<GranSubModNormalHertz *>(normal))
     given["kn"] = hertz->*pointer_to(HertzStiffness{});
   if (const auto *dmt = dynamic_cast<GranSubModNormalDMT *>(normal)) {
-    given["kn"] = dmt->*pointer_to(DmtStiffness{});
+    given["E_eff"] = 0.75 * (dmt->*pointer_to(DmtStiffness{}));
     given["gamma"] = dmt->coeffs[3];
   }
   if (const auto *jkr = dynamic_cast<GranSubModNormalJKR *>(normal)) {

@@ -28,10 +28,14 @@ std::vector<const Model *> PairGranularTalus::all_models() const
 
 std::string PairGranularTalus::reason_of_models() const
 {
+  const std::string lists = system->reason_for_lists_of_host();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      const std::string its = setflag[i][j] ? reason_of_model(model_of(i, j)) : "";
+      if (!setflag[i][j]) continue;
+      const std::string its = reason_of_model(model_of(i, j));
       if (!its.empty()) return its;
+      if (model_of(i, j).beyond_contact && !lists.empty())
+        return "contacts last longer than pairs are in the neighbor lists of LAMMPS: " + lists;
     }
   return stock_history_of(all_models()) ? "" : "the models keep their histories in different ways";
 }
