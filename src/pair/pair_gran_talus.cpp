@@ -31,8 +31,7 @@ constexpr StockLaw law_of<PairGranHertzHistory> = {"gran/hertz/history", "hertz"
 }    // namespace
 
 template <class Stock>
-PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) :
-    AcceleratedPair<Stock>(lmp, law_of<Stock>.style)
+PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : AcceleratedPair<Stock>(lmp, law_of<Stock>.style)
 {
 }
 

@@ -28,10 +28,14 @@ std::vector<const Model *> PairGranularTalus::all_models() const
 
 std::string PairGranularTalus::reason_of_models() const
 {
+  const std::string lists = system->reason_for_lists_of_host();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      const std::string its = setflag[i][j] ? reason_of_model(model_of(i, j)) : "";
+      if (!setflag[i][j]) continue;
+      const std::string its = reason_of_model(model_of(i, j));
       if (!its.empty()) return its;
+      if (model_of(i, j).beyond_contact && !lists.empty())
+        return "contacts last longer than pairs are in the neighbor lists of LAMMPS: " + lists;
     }
   return stock_history_of(all_models()) ? "" : "the models keep their histories in different ways";
 }
@@ -40,8 +44,7 @@ std::string PairGranularTalus::stock_history() const
 {
   const std::optional<std::vector<int>> places = stock_history_of(all_models());
   std::string words;
-  for (const int place : places.value())
-    words += place < 0 ? " -" : " " + std::to_string(place);
+  for (const int place : places.value()) words += place < 0 ? " -" : " " + std::to_string(place);
   return words;
 }
 
@@ -76,7 +79,8 @@ double PairGranularTalus::init_pair_of_types(int i, int j)
 /* ---------------------------------------------------------------------- */
 
 /* Friction, rolling "force" (see the documentation of the stock style), their lengths, twisting
-   torque, and separation. The couple is R_eff n x f_r + M_t n. */
+   torque, and separation. What is opposite on both particles is R_eff n x f_r + M_t n, and what
+   lever arms that end in the middle of the overlap add to friction. */
 
 void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
 {
@@ -85,11 +89,13 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   using Vector = Vector3<double>;
   const ContactLanes<double> &s = pair->contact;
   const Vector n = s.normal, fs = s.tangential;
-  const double twist = dot(s.twisting_torque, n);
-  const Vector fr = s.inverse_radius * cross(s.twisting_torque - twist * n, n);
+  const Vector opposite = s.twisting_torque - s.arm_difference * cross(n, fs);
+  const double twist = dot(opposite, n);
+  const Vector fr = s.inverse_radius * cross(opposite - twist * n, n);
   const Vector dx = pair->distance * n;
-  const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)), fr.x, fr.y, fr.z,
-                        std::sqrt(dot(fr, fr)), twist, dx.x, dx.y, dx.z};
+  const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)),
+                        fr.x,  fr.y, fr.z, std::sqrt(dot(fr, fr)),
+                        twist, dx.x, dx.y, dx.z};
   std::copy(std::begin(all), std::end(all), svector);
 }
 

@@ -66,10 +66,10 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
 
-  return SinglePair{
-      Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types), s,
-                            this->update->dt, remembered.value_or(Talus::RememberedValues{})),
-      r, ri, rj};
+  return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
+                                          s, this->update->dt,
+                                          remembered.value_or(Talus::RememberedValues{})),
+                    r, ri, rj};
 }
 
 template <class Base>
@@ -82,8 +82,8 @@ void PairOfSystem<Base>::describe_pair(const std::optional<SinglePair> &pair, do
   const Vector vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
   const Vector ft = s.tangential;
   const double depth = s.overlap / std::min(pair->radius_i, pair->radius_j);
-  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z,
-                          vt.x, vt.y, vt.z, depth};
+  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z, vt.x,
+                          vt.y, vt.z, depth};
   static_assert(std::size(found) == num_extra);
   std::copy(std::begin(found), std::end(found), extra);
 }

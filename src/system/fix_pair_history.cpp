@@ -34,8 +34,8 @@ FixPairHistory::FixPairHistory(LAMMPS *lmp, int narg, char **arg) :
   if (narg < 4 || !utils::strmatch(id, "^NEIGH_HISTORY_"))
     error->all(FLERR, "Fix TALUS_PAIR_HISTORY is internal to the pair styles of Talus");
   for (int n = 3; n < narg; n++)
-    place_of_value.push_back(arg[n] == std::string("-") ? -1
-                                                        : utils::inumeric(FLERR, arg[n], true, lmp));
+    place_of_value.push_back(
+        arg[n] == std::string("-") ? -1 : utils::inumeric(FLERR, arg[n], true, lmp));
   restart_peratom = 1;
   atom->add_callback(Atom::RESTART);
 }

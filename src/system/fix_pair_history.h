@@ -56,8 +56,8 @@ class FixPairHistory : public Fix {
   void take_even_values_of(int partner, tagint tag, double *values);
 
   std::shared_ptr<Talus::GranularSystem> system;
-  std::vector<int> place_of_value;    // of the stock style; -1: not used
-  std::vector<double> list, other;    // of one particle, as HistoryStore has it
+  std::vector<int> place_of_value;                // of the stock style; -1: not used
+  std::vector<double> list, other;                // of one particle, as HistoryStore has it
   std::unordered_map<tagint, int> read_before;    // particles of a restart file
 };
 
