@@ -58,7 +58,9 @@ template <class Stock> class AcceleratedPair : public PairOfSystem<Stock> {
   std::string reason_of_fixes() const;
   std::string reason_that_came_later() const;
 
-  std::string plain, history_id;
+  void keep_stock_history(const std::string &values);
+
+  std::string plain, history_id, kept_values;
   bool attached;
   std::optional<std::string> stock_reason;    // from the first init_style() on
 };

@@ -37,7 +37,7 @@ AcceleratedPair<Stock>::AcceleratedPair(LAMMPS *lmp, const char *plain_style) :
 
 template <class Stock> void AcceleratedPair<Stock>::leave_system()
 {
-  if (in_system() && this->modify->get_fix_by_id(history_id)) this->modify->delete_fix(history_id);
+  keep_stock_history("");
   this->system->detach(this);
 }
 
@@ -60,9 +60,17 @@ template <class Stock> void AcceleratedPair<Stock>::init_style()
 
   set_laws();
   this->system->init_pair_style();
-  const std::string history = stock_history();
-  if (!history.empty() && !this->modify->get_fix_by_id(history_id))
-    this->modify->add_fix(history_id + " all TALUS_PAIR_HISTORY" + history);
+  keep_stock_history(stock_history());
+}
+
+/* In restart files; anew if models have changed. */
+
+template <class Stock> void AcceleratedPair<Stock>::keep_stock_history(const std::string &values)
+{
+  if (values == kept_values) return;
+  if (!kept_values.empty()) this->modify->delete_fix(history_id);
+  if (!values.empty()) this->modify->add_fix(history_id + " all TALUS_PAIR_HISTORY" + values);
+  kept_values = values;
 }
 
 template <class Stock> void AcceleratedPair<Stock>::decide()
