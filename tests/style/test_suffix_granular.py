@@ -137,6 +137,8 @@ class TestModels(Case):
         a, b, touching = self.compare_pairs(stock, ours)
         friction = max(length(a[k][2:6]) for k in touching)
         for first, last in (1, 2), (2, 6), (6, 10), (10, 11), (11, 14):
+            if (first, last) in self.undefined:
+                continue
             scale = max(friction, *(length(a[k][first:last]) for k in touching))
             worst = max((length([p - q for p, q in zip(a[k][first:last], b[k][first:last])]), k) for k in touching)
             few = [k for k in touching if length([p - q for p, q in zip(a[k][first:last], b[k][first:last])]) > 1e-9 * scale]
@@ -193,6 +195,9 @@ class TestModels(Case):
             # a new list may have the other particle of a pair first, and then the stock style turns what is remembered of
             # rolling and twisting around
             resists = any(set(c[3:]) != {"none"} for c in (combination, other or combination))
+            # memory that the stock style has not written
+            self.undefined = {columns for place, columns in ((3, (6, 10)), (4, (10, 11)))
+                              if "none" in (combination[place], (other or combination)[place])}
             newton = "off" if resists else ("on", "off")[n % 2]
             with self.subTest(n=n, models=combination, other=other, types=types, sizes=sizes, newton=newton):
                 for name in "stock", "ours", "again":
