@@ -45,6 +45,7 @@ class UndampedFriction : protected Pointers {
   struct Case {
     std::string who;
     double mu = 0.0, mu_roll = 0.0;
+    bool granular = false;    ///< a law of pair granular, which has other words
   };
   Case worst_step, worst_spring;    ///< with the largest mu; mu = 0: none
 };

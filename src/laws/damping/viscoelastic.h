@@ -11,6 +11,9 @@ namespace Talus {
 
 struct Viscoelastic : DampingByNumber {
   static constexpr const char *name = "viscoelastic";
+  static constexpr bool needs_radius = true;
+
+  static void read(LawReader & /*r*/) {}
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

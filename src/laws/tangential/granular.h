@@ -49,6 +49,7 @@ struct GranularFriction : TangentialLaw {
 
 struct LinearNoHistory : GranularFriction {
   static constexpr const char *name = "linear_nohistory", *label = name;
+  static constexpr CoefficientName coefficients[] = {{"kt", Shown::NEVER}, {"xt"}, {"mu"}};
 
   static void read(LawReader &r) { read_granular_friction(r, false, false); }
 
@@ -84,6 +85,9 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
   static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
   static constexpr int odd_history = 3, even_history = rescaled == Rescaled::YES ? 1 : 0;
   static constexpr bool of_force = kept == Kept::FORCE;
+  /// Only a force that shrinks with the contact radius leaves no energy to gain.
+  static constexpr bool stiffens =
+      scaled == Scaled::YES && !(of_force && rescaled == Rescaled::YES);
 
   static GranularRow<double> mix(const Mixing &m)
   {
@@ -167,6 +171,7 @@ enum class SetBack : bool { BY_STIFFNESS, BY_COEFFICIENT };
 template <Scaled scaled, SetBack set_back = SetBack::BY_STIFFNESS>
 struct GranularClassic : GranularFriction {
   static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
+  static constexpr bool stiffens = scaled == Scaled::YES;
   static constexpr int odd_history = 3;
 
   static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
