@@ -79,6 +79,6 @@ void UndampedFriction::warn(double fraction) const
                    worst_spring.mu_roll > 0.0
                        ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
                        : "",
-                   worst_spring.granular ? "or use mindlin_rescale/force, " : "",
+                   worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "",
                    gripping_friction, strong_resistance);
 }

@@ -82,12 +82,12 @@ template <class Real> TALUS_INLINE TangentialHistory<Real> granular_history(cons
 }
 
 template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : GranularFriction {
-  static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
+  static constexpr bool needs_radius = scaled == Scaled::YES;
+  /// One that shrinks with the contact radius loses a good part of its energy.
+  static constexpr bool has_spring = rescaled == Rescaled::NO;
+  static constexpr bool stiffens = scaled == Scaled::YES && has_spring;
   static constexpr int odd_history = 3, even_history = rescaled == Rescaled::YES ? 1 : 0;
   static constexpr bool of_force = kept == Kept::FORCE;
-  /// Only a force that shrinks with the contact radius leaves no energy to gain.
-  static constexpr bool stiffens =
-      scaled == Scaled::YES && !(of_force && rescaled == Rescaled::YES);
 
   static GranularRow<double> mix(const Mixing &m)
   {
