@@ -218,7 +218,7 @@ class Errors(SceneCase):
                               "pair_coeff gran/penalty: " + message, word)
         for words, word in SURPLUS:
             self.assert_error(f"{box()}{STYLE}pair_coeff * * {words}", "pair_coeff gran/penalty: "
-                              f"unknown word '{word}', expected tangential, rolling, spinning", word)
+                              f"unknown word '{word}', expected tangential, damping, rolling, spinning", word)
 
     def test_contact_of_large_body(self):
         for words, message, word in CONTACT[:3] + CONTACT[11:13] + CONTACT[-3:]:
