@@ -74,7 +74,7 @@ struct Law {
   bool needs_radius;       ///< reads the effective radius, or what follows from it
   bool reads_impact;       ///< impact speed or age; kept if the tangential law remembers
   bool reads_stiffness;    ///< tangential: kt or gt
-  bool has_spring;         ///< tangential: remembers a displacement that gives back what it stores, or more
+  bool has_spring;         ///< tangential: remembers a displacement, gives back its energy or more
   bool stiffens;           ///< tangential: a stretched spring of its own may gain from the overlap
   bool is_midpoint;        ///< tangential: second order in the time step
   bool holds;              ///< rolling: a body at rest is held

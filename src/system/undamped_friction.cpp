@@ -70,15 +70,16 @@ void UndampedFriction::warn(double fraction) const
                    worst_step.granular ? "" : "the word midpoint, or ",
                    harmless_fraction(worst_step.mu));
   if (worst_spring.mu > 0.0)
-    error->warning(FLERR,
-                   "Pair style {}: contacts of {} have a coefficient of friction of "
-                   "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
-                   "their tangential spring stiffens while it is stretched: add damping, {}or use a "
-                   "coefficient of friction of at most {} and rolling resistance of at most {}",
-                   GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
-                   worst_spring.mu_roll > 0.0
-                       ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
-                       : "",
-                   worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "",
-                   gripping_friction, strong_resistance);
+    error->warning(
+        FLERR,
+        "Pair style {}: contacts of {} have a coefficient of friction of "
+        "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
+        "their tangential spring stiffens while it is stretched: add damping, {}or use a "
+        "coefficient of friction of at most {} and rolling resistance of at most {}",
+        GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
+        worst_spring.mu_roll > 0.0
+            ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
+            : "",
+        worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "",
+        gripping_friction, strong_resistance);
 }

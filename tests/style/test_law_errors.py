@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600
+# ctest: timeout=900
 """Every refusal of the words of a contact law, in pair_coeff gran/penalty and in fix large/body, and of the computes
 that go with them: its text and the word it points at, on 1 and 2 ranks."""
 
@@ -273,6 +273,7 @@ class LawErrors(SceneCase):
     def test_contact_of_a_large_body(self):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
+        cases = [case for case in cases if case[1] or "jkr" not in case[0]]    # which is refused itself
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
                              message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping", word)

@@ -32,7 +32,8 @@ void MarshallTwist::read(LawReader &r)
 {
   r.check_later(r.words.index() - 1, [](const ContactLaw &whole) -> std::string {
     if (whole.tangential().lever_arms) return "";
-    return "twisting marshall takes its coefficients from the tangential law: add 'tangential' with "
+    return "twisting marshall takes its coefficients from the tangential law: add 'tangential' "
+           "with "
            "one of linear_nohistory, linear_history, linear_history_classic or mindlin*";
   });
 }
