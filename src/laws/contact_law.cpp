@@ -111,9 +111,12 @@ std::string describe_law(const ContactLaw &law)
 {
   std::string text, last;
   for (int s = 0; s < num_stages; s++) {
-    const char *label = law[static_cast<Stage>(s)].label;
-    if (!label || last == label) continue;
-    text += (text.empty() ? "" : " + ") + std::string(label);
+    const Law &one = law[static_cast<Stage>(s)];
+    std::string label = one.label ? one.label : "";
+    if (one.stage == Stage::DAMPING && std::strcmp(one.name, law.normal().damping) != 0)
+      label = std::string("damping ") + one.name;
+    if (label.empty() || last == label) continue;
+    text += (text.empty() ? "" : " + ") + label;
     last = label;
   }
   return text;

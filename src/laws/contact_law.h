@@ -49,6 +49,11 @@ class ContactLaw {
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
   bool has_friction() const { return tangential().acts || resists(); }
+  /// The tangential spring changes with the overlap while it is stretched.
+  bool stiffens() const
+  {
+    return tangential().reads_stiffness ? normal().exponent > 1.0 : tangential().stiffens;
+  }
   /// Something is remembered of a contact.
   bool has_history() const { return history().size > 0; }
   /// More than four values are: a second record is needed.

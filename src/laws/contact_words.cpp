@@ -21,6 +21,7 @@ class Parser {
     read_law(Stage::NORMAL, words.choice("normal law", words_of(Stage::NORMAL)));
     while (keyword()) {
     }
+    reader.finish();
     if (!spec.law.history().fits)
       words.fail(1, "these laws together remember more of a contact than there is room for");
     if (spec.law.num_coefficients() > ContactCoefficients::size)
@@ -42,15 +43,16 @@ class Parser {
     using Method = void (Parser::*)();
     static const std::vector<std::pair<std::string, Method>> known = {
         {"tangential", &Parser::tangential},
+        {"damping", &Parser::damping},
         {"rolling", &Parser::rolling},
         {"spinning", &Parser::spinning},
+        {"twisting", &Parser::twisting},
         {"adhesion", &Parser::adhesion},
         {"vmin", &Parser::vmin},
         {"limit_damping", &Parser::limit_damping}};
     for (const auto &[word, read] : known) {
       if (!words.is_next(word)) continue;
-      if (std::find(seen.begin(), seen.end(), word) != seen.end())
-        words.fail(0, "keyword '" + word + "' given twice");
+      if (was_seen(word)) words.fail(0, "keyword '" + word + "' given twice");
       seen.push_back(word);
       words.skip(1);
       (this->*read)();
@@ -59,28 +61,64 @@ class Parser {
     return false;
   }
 
+  bool was_seen(const std::string &keyword) const
+  {
+    return std::find(seen.begin(), seen.end(), keyword) != seen.end();
+  }
+
+  /// Error at the keyword that has just been read.
+  [[noreturn]] void refuse_own(const std::string &what)
+  {
+    words.fail(1, std::string("'") + spec.law.normal().name + "' has " + what +
+                      " of its own: remove '" + seen.back() + "'");
+  }
+
   void tangential()
   {
-    if (spec.law.tangential().acts)
-      words.fail(1, std::string("'") + spec.law.normal().name +
-                        "' has a tangential force of its own: remove 'tangential'");
+    if (spec.law.tangential().acts) refuse_own("a tangential force");
     read_law(Stage::TANGENTIAL, words.choice("tangential law", words_of(Stage::TANGENTIAL)));
   }
 
-  /// A name, or the arguments of the first law that has any.
-  void named_or_first(Stage stage)
+  void damping()
   {
-    const std::vector<std::string> known = words_of(stage);
-    const auto found = std::find(known.begin(), known.end(), words.peek());
-    if (found == known.end()) return read_law(stage, 0);
-    words.skip(1);
-    read_law(stage, static_cast<int>(found - known.begin()));
+    if (reader.damping_at < 0) refuse_own("a damping");
+    read_law(Stage::DAMPING, words.choice("damping", words_of(Stage::DAMPING)));
+    const std::string name = spec.law.damping().name;
+    if (spec.law.normal().cohesive && !spec.law.damping().allows_cohesion)
+      words.fail(1, "cannot use damping " + name + " with a cohesive normal law, " +
+                        spec.law.normal().name + ": use another damping");
   }
-  void rolling() { named_or_first(Stage::ROLLING); }
-  void spinning() { named_or_first(Stage::TWISTING); }
+
+  /// A name, or the arguments of the first law.
+  void rolling()
+  {
+    const std::vector<std::string> known = words_of(Stage::ROLLING);
+    const auto found = std::find(known.begin(), known.end(), words.peek());
+    if (found == known.end()) return read_law(Stage::ROLLING, 0);
+    words.skip(1);
+    read_law(Stage::ROLLING, static_cast<int>(found - known.begin()));
+  }
+
+  /// Two words for one stage.
+  void refuse_both(const std::string &other)
+  {
+    if (was_seen(other))
+      words.fail(1, "'spinning' and 'twisting' are two words for one torque: remove one");
+  }
+  void spinning()
+  {
+    refuse_both("twisting");
+    read_law(Stage::TWISTING, 0);
+  }
+  void twisting()
+  {
+    refuse_both("spinning");
+    read_law(Stage::TWISTING, words.choice("twisting law", words_of(Stage::TWISTING)));
+  }
 
   void adhesion()
   {
+    if (spec.law.normal().cohesive) refuse_own("adhesion");
     read_law(Stage::COHESION, words.choice("adhesion", words_of(Stage::COHESION)));
   }
 
@@ -91,7 +129,13 @@ class Parser {
     spec.given["twist_min"] = words.not_negative("spin speed");
   }
 
-  void limit_damping() { spec.given["limit_damping"] = 1.0; }
+  void limit_damping()
+  {
+    if (spec.law.normal().cohesive)
+      words.fail(1, std::string("cannot limit damping with a cohesive normal law, ") +
+                        spec.law.normal().name + ": remove 'limit_damping'");
+    spec.given["limit_damping"] = 1.0;
+  }
 
   Words &words;
   ContactSpec spec;

@@ -4,8 +4,8 @@
 // contact`:
 //
 //   NORMAL args
-//   [tangential NAME args] [rolling [NAME] args] [spinning [NAME] args] [adhesion NAME args]
-//   [vmin slip roll spin] [limit_damping]
+//   [tangential NAME args] [damping NAME] [rolling [NAME] args] [spinning mu | twisting NAME args]
+//   [adhesion NAME args] [vmin slip roll spin] [limit_damping]
 //
 // Which names there are, and their args, the laws know themselves (laws/law_list.cpp).
 
@@ -24,7 +24,7 @@ ContactSpec parse_contact(Words &words, double pressure_unit);
 
 /// The keywords that parse_contact() knows, for messages about others.
 inline constexpr const char *contact_keywords =
-    "tangential, rolling, spinning, adhesion, vmin or limit_damping";
+    "tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping";
 
 }    // namespace Talus
 

@@ -44,6 +44,19 @@ bool Mixing::limits_damping() const
   return a.given.has("limit_damping") || b.given.has("limit_damping");
 }
 
+void LawReader::finish()
+{
+  if (damping_at >= 0) {
+    const int end = words.index();
+    words.skip(damping_at - end);
+    spec.law.damping().read_coefficient(*this);
+    words.skip(end - words.index());
+  }
+  for (const LateCheck &one : checks)
+    if (const std::string wrong = one.check(spec.law); !wrong.empty())
+      words.fail(words.index() - one.index, wrong);
+}
+
 double least_force(const Mixing &m)
 {
   return m.limits_damping() ? 0.0 : -std::numeric_limits<double>::infinity();

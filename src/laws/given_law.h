@@ -9,8 +9,10 @@
 #include "base/words.h"
 #include "laws/contact_law.h"
 
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Talus {
 
@@ -18,6 +20,7 @@ namespace Talus {
 class GivenNumbers {
  public:
   double &operator[](const std::string &name) { return numbers[name]; }
+  void erase(const std::string &name) { numbers.erase(name); }
   bool has(const std::string &name) const { return numbers.count(name) > 0; }
   /// 0, or what is given here, if the number was not given.
   double value(const std::string &name, double otherwise = 0.0) const
@@ -59,13 +62,31 @@ struct Mixing {
   bool limits_damping() const;
 };
 
-/// For laws that read their words: the words, and what has been read so far.
+/// For laws that read their words: the words, and what has been read so far. Keywords come in any
+/// order: what depends on two of them is looked at when all have been read.
 struct LawReader {
   Words &words;
   ContactSpec &spec;
   double pressure_unit;    ///< the caller's unit of pressure in terms of force and length
 
+  /// Index of the word of the normal law that is the coefficient of whatever damping there will be,
+  /// -1: the normal law has a damping of its own, and has read it.
+  int damping_at = -1;
+
   void set_not_negative(const char *name) { spec.given[name] = words.not_negative(name); }
+
+  /// What is wrong with the whole law at the word of this index, "" if nothing is.
+  using Check = std::function<std::string(const ContactLaw &)>;
+  void check_later(int index, Check check) { checks.push_back({index, std::move(check)}); }
+
+  /// Once, after the last keyword: reads the damping coefficient, and makes the checks.
+  void finish();
+
+  struct LateCheck {
+    int index;
+    Check check;
+  };
+  std::vector<LateCheck> checks = {};
 };
 
 }    // namespace Talus

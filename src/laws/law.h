@@ -74,7 +74,8 @@ struct Law {
   bool needs_radius;       ///< reads the effective radius, or what follows from it
   bool reads_impact;       ///< impact speed or age; kept if the tangential law remembers
   bool reads_stiffness;    ///< tangential: kt or gt
-  bool has_spring;         ///< tangential: remembers a displacement that stores energy
+  bool has_spring;         ///< tangential: remembers a displacement, gives back its energy or more
+  bool stiffens;           ///< tangential: a stretched spring of its own may gain from the overlap
   bool is_midpoint;        ///< tangential: second order in the time step
   bool holds;              ///< rolling: a body at rest is held
   bool delayed;            ///< rolling, twisting: reads delayed_force
@@ -85,8 +86,9 @@ struct Law {
   bool
       lasts_beyond_contact;    ///< normal: a contact ends when the bodies have come apart, at reach
   bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
-  const char *takes_no_kt,
-      *needs_gt;    ///< normal, damping: why kt or gt has to be, or not be, NULL
+  /// Why kt (normal) or gt (damping) has to be NULL, or a number.
+  const char *takes_no_kt, *takes_no_gt, *needs_gt;
+  const char *damping;    ///< normal: name of the damping law that it has unless asked for another
 
   StageFunction reading, advancing;    ///< history only read; or advanced by this step
   OneContact one;
@@ -96,6 +98,8 @@ struct Law {
   /// Reads words behind the name; nullptr: the law is not chosen by a word of its own but by
   /// another law's.
   void (*read)(LawReader &reader);
+  /// Damping: reads its coefficient, which is a word of the normal law.
+  void (*read_coefficient)(LawReader &reader);
   /// Coefficients of a contact of two materials to c[0 ... num_coefficients-1].
   void (*mix)(const Mixing &materials, double *c);
   /// Energy stored in a contact whose stages have all been computed.

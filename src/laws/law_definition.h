@@ -43,11 +43,11 @@ struct LawBase {
   }
 
   static constexpr bool acts = true, needs_radius = false, reads_impact = false;
-  static constexpr bool reads_stiffness = false, has_spring = false, is_midpoint = false;
-  static constexpr bool holds = false, delayed = false, like_stock = false;
+  static constexpr bool reads_stiffness = false, has_spring = false, stiffens = false;
+  static constexpr bool is_midpoint = false, holds = false, delayed = false, like_stock = false;
   static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
   static constexpr bool lasts_beyond_contact = false;
-  static constexpr const char *takes_no_kt = nullptr, *needs_gt = nullptr;
+  static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
   static constexpr double exponent = 1.0;
 };
@@ -55,6 +55,7 @@ struct LawBase {
 /// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own pull_off.
 struct NormalLaw : LawBase {
   static constexpr Stage stage = Stage::NORMAL;
+  static constexpr const char *damping = "mass_velocity";
 
   /// kn and gn without their dependence on the overlap, as Chrono's rule for the collision time of
   /// delayed resistance takes them.
@@ -70,7 +71,9 @@ struct NormalLaw : LawBase {
 /// Finds gn, gt, normal_force and force; see finish_normal_force().
 struct DampingLaw : LawBase {
   static constexpr Stage stage = Stage::DAMPING;
-  static constexpr const char *label = nullptr;    // the normal law says it
+  static constexpr const char *label = nullptr;    // descriptions name it if it was asked for
+
+  static void read_coefficient(LawReader &r) { r.set_not_negative("gn"); }
 };
 
 /// Finds tangential and moment, and twisting_torque if it has lever_arms, and adds to force.
@@ -319,6 +322,7 @@ template <class L> constexpr Law make_law()
   law.reads_impact = L::reads_impact;
   law.reads_stiffness = L::reads_stiffness;
   law.has_spring = L::has_spring;
+  law.stiffens = L::stiffens;
   law.is_midpoint = L::is_midpoint;
   law.holds = L::holds;
   law.delayed = L::delayed;
@@ -329,6 +333,7 @@ template <class L> constexpr Law make_law()
   law.lasts_beyond_contact = L::lasts_beyond_contact;
   law.like_stock = L::like_stock;
   law.takes_no_kt = L::takes_no_kt;
+  law.takes_no_gt = L::takes_no_gt;
   law.needs_gt = L::needs_gt;
   law.reading = run_stage<L, false>;
   law.advancing = run_stage<L, remembers>;
@@ -336,7 +341,9 @@ template <class L> constexpr Law make_law()
   law.read = L::read;
   law.mix = mix_row<L>;
   law.stored = stored_energy<L>;
+  if constexpr (L::stage == Stage::DAMPING) law.read_coefficient = L::read_coefficient;
   if constexpr (L::stage == Stage::NORMAL) {
+    law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) law.reach = reach_by<L>;
     law.delay = run_delay<L>;
     law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {

@@ -49,9 +49,10 @@ ContactCoefficients LargeBody::coefficients_of(int type)
         "'pair_style gran/penalty' and 'pair_coeff {} {}' with a material law",
         fix->id, body.law.normal().name, type, type, type);
   ContactSpec particle = body;
-  for (const char *name : {"E", "nu", "e", "mu", "limit_damping"})
+  for (const char *name : {"E", "nu", "e", "eta", "gamma", "mu", "limit_damping"})
     if (own->given.has(name)) particle.given[name] = own->given.value(name);
-  if (own->law.resists())
+  if (body.law.normal().cohesive) particle.given.erase("limit_damping");
+  if (own->given.has("mu_r") || own->given.has("mu_s"))
     for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
   return contact_coefficients(body, particle, system.laws().mix);
 }

@@ -47,15 +47,16 @@ void UndampedFriction::consider(const std::string &who, const ContactLaw &law,
   const double mu_roll = law.coefficient(Stage::ROLLING, "mu_r", c);
   const double resistance = law.rolling().holds ? mu_roll : 0.0;
   const bool hides = damping >= outweighing(mu) || resistance >= braking_resistance * mu;
+  const bool granular = !law.tangential().reads_stiffness;
   if (!law.tangential().is_midpoint && mu > strong_friction && !hides && mu > worst_step.mu)
-    worst_step = {who, mu, mu_roll};
+    worst_step = {who, mu, mu_roll, granular};
 
   const double held = std::min(mu, resistance);
   const double enough = held >= 1.0 ? moderate_damping : weak_damping;
   const bool grips = mu > gripping_friction && damping < weak_damping;
   const bool holds = held > strong_resistance && damping < enough;
-  if (law.normal().exponent > 1.0 && (grips || holds) && mu > worst_spring.mu)
-    worst_spring = {who, mu, mu_roll};
+  if (law.stiffens() && (grips || holds) && mu > worst_spring.mu)
+    worst_spring = {who, mu, mu_roll, granular};
 }
 
 void UndampedFriction::warn(double fraction) const
@@ -64,19 +65,21 @@ void UndampedFriction::warn(double fraction) const
     error->warning(FLERR,
                    "Pair style {}: contacts of {} have a coefficient of friction of "
                    "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
-                   "impacts gain energy: add the word midpoint, or damping, or use at most {:.2g} "
-                   "of it",
+                   "impacts gain energy: add {}damping, or use at most {:.2g} of it",
                    GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction,
+                   worst_step.granular ? "" : "the word midpoint, or ",
                    harmless_fraction(worst_step.mu));
   if (worst_spring.mu > 0.0)
-    error->warning(FLERR,
-                   "Pair style {}: contacts of {} have a coefficient of friction of "
-                   "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
-                   "their tangential spring stiffens while it is stretched: add damping, or use a "
-                   "coefficient of friction of at most {} and rolling resistance of at most {}",
-                   GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
-                   worst_spring.mu_roll > 0.0
-                       ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
-                       : "",
-                   gripping_friction, strong_resistance);
+    error->warning(
+        FLERR,
+        "Pair style {}: contacts of {} have a coefficient of friction of "
+        "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
+        "their tangential spring stiffens while it is stretched: add damping, {}or use a "
+        "coefficient of friction of at most {} and rolling resistance of at most {}",
+        GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
+        worst_spring.mu_roll > 0.0
+            ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
+            : "",
+        worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "",
+        gripping_friction, strong_resistance);
 }

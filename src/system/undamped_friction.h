@@ -12,7 +12,7 @@
 //               impact kt s ds adds up to -1/2 s^2 dkt, and the particles receive 1/2 s^2 dkt.
 //               Slip and rotation hide it, unless the coefficient of friction is above 10, or
 //               rolling resistance above .2 keeps the particle from turning. No time step is
-//               small enough.
+//               small enough. mindlin_rescale and mindlin_rescale/force lose energy instead.
 
 #ifndef TALUS_SYSTEM_UNDAMPED_FRICTION_H
 #define TALUS_SYSTEM_UNDAMPED_FRICTION_H
@@ -45,6 +45,7 @@ class UndampedFriction : protected Pointers {
   struct Case {
     std::string who;
     double mu = 0.0, mu_roll = 0.0;
+    bool granular = false;    ///< a law of pair granular, which has other words
   };
   Case worst_step, worst_spring;    ///< with the largest mu; mu = 0: none
 };

@@ -21,8 +21,7 @@ struct Stiffening : LinearLaw {
   {
     r.spec.given["k"] = r.words.positive("k");
     r.spec.given["vs"] = r.words.positive("speed vs");
-    r.set_not_negative("gn");
-    r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "mass_velocity"));
+    read_damping(r, Damping::ANY);
   }
   static Row<double> mix(const Mixing &m) { return {m.mean("k"), m.smallest("vs")}; }
 
@@ -33,7 +32,7 @@ struct Stiffening : LinearLaw {
     const Real met = select(history[1] > zero, history[0], magnitude(s.normal_velocity));
     s.kn = s.tangent_n = c.k * (one + met / c.speed);
     s.kt = s.tangent_t = (2.0 / 7.0) * s.kn;
-    s.contact_radius = zero;
+    s.contact_radius = square_root(s.overlap * s.radius);
     s.elastic = s.kn * s.overlap;
     if (!advance) return;
     history[0] = met;

@@ -96,6 +96,17 @@ class ElasticImpacts(SceneCase):
             self.impacts(law(name, 0.999), 0.199, steps=1)
             self.assertIsNotNone(self.said(), f"{name}: so little damping takes away less than the time step may add")
 
+    def test_laws_of_pair_granular(self):
+        """Friction without a spring is a share of the damping: of none. Contacts of jkr tear apart with a loss."""
+        material = f"{YOUNG!r} 0.0 0.3"
+        for words, expected in ((f"hertz/material {material} damping none tangential linear_nohistory 1.0 0.5", True),
+                                (f"hertz/material {material} damping none tangential mindlin NULL 0.0 0.5", False),
+                                (f"hertz/material {material} damping none tangential mindlin 0.0 1.0 0.5", True),
+                                (f"hertz/material {YOUNG!r} 0.99 0.3 damping tsuji", False),
+                                (f"dmt {material} 0.0", True), (f"jkr {material} 0.0", True), (f"jkr {material} 1.0", False)):
+            self.impacts(words, 0.199, steps=1)
+            self.assertEqual(self.said() is not None, expected, words)
+
     def test_all_contacts_of_the_scene_count(self):
         """Energy that one kind of contact loses is not kept by the others; types without particles do not touch."""
         pairs = f"pair_coeff 1 1 {law('Hertz')}\npair_coeff 1 2 {law('Hertz')}\npair_coeff 2 2 {law('Hertz', 0.5)}"

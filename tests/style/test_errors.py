@@ -70,10 +70,10 @@ CONTACT = [    # words of a contact law, message, marked word
     ("hooke inf 1", *number("kn", "inf")),
     ("hooke 1 -2", *number("gn", "-2")),
     ("hertz 1 tangential", *number("gn", "tangential")),
-    ("hooke 1 1 tangential", "missing tangential law: none, dashpot, onestep or multistep",
+    ("hooke 1 1 tangential", "missing tangential law: none, dashpot, onestep, multistep, linear_nohistory",
      "tangential"),
-    ("hooke 1 1 tangential mindlin", "unknown tangential law 'mindlin', expected none, dashpot, "
-     "onestep or multistep", "mindlin"),
+    ("hooke 1 1 tangential hertz", "unknown tangential law 'hertz', expected none, dashpot, "
+     "onestep, multistep, linear_nohistory", "hertz"),
     ("hooke 1 1 tangential dashpot", "missing gt (a number >= 0)", "dashpot"),
     ("hooke 1 1 tangential dashpot z 0.5", *number("gt", "z")),
     ("hooke 1 1 tangential dashpot 22", "missing mu (a number >= 0)", "22"),
@@ -218,7 +218,7 @@ class Errors(SceneCase):
                               "pair_coeff gran/penalty: " + message, word)
         for words, word in SURPLUS:
             self.assert_error(f"{box()}{STYLE}pair_coeff * * {words}", "pair_coeff gran/penalty: "
-                              f"unknown word '{word}', expected tangential, rolling, spinning", word)
+                              f"unknown word '{word}', expected tangential, damping, rolling, spinning", word)
 
     def test_contact_of_large_body(self):
         for words, message, word in CONTACT[:3] + CONTACT[11:13] + CONTACT[-3:]:

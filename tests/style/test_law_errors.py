@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600
+# ctest: timeout=900
 """Every refusal of the words of a contact law, in pair_coeff gran/penalty and in fix large/body, and of the computes
 that go with them: its text and the word it points at, on 1 and 2 ranks."""
 
@@ -28,8 +28,13 @@ pair_style gran/penalty
 """
 PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
 GOOD = "hertz/material 1e6 0.5 0.3"
-LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material or plaincoulomb/material"
-KEYWORDS = "expected tangential, rolling, spinning, adhesion, vmin or limit_damping"
+LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, " \
+       "plaincoulomb/material, dmt or jkr"
+KEYWORDS = "expected tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping"
+TANGENTIAL = "none, dashpot, onestep, multistep, linear_nohistory, linear_history, linear_history_classic, mindlin, " \
+             "mindlin/force, mindlin_rescale, mindlin_rescale/force or mindlin_classic"
+DAMPING = "mass_velocity, viscoelastic, none, velocity, tsuji or coeff_restitution"
+TWISTING = "stopping, marshall or sds"
 
 NOT_NEGATIVE, POSITIVE, UNIT = r"\(a number >= 0\)", r"\(a number > 0\)", r"\(a number from 0 to 1\)"
 POISSON = r"\(a number above -1, up to 0.5\)"
@@ -41,18 +46,28 @@ NU = ("Poisson's ratio nu", POISSON, "0.3", ("-1", "0.51", "x"))
 VCHAR = ("characteristic speed vchar", POSITIVE, "1.0", ("0", "-1", "x"))
 KN = ("kn", NOT_NEGATIVE, "1e3", ("-1", "x", "inf"))
 GN = ("gn", NOT_NEGATIVE, "2.0", ("-1", "x"))
+GAMMA = ("gamma", NOT_NEGATIVE, "0.1", ("-0.5", "x"))
 MU = ("mu", NOT_NEGATIVE, "0.5", ("-0.5", "x"))
 ARGUMENTS = {
     "hooke": (KN, GN), "hertz": (KN, GN), "flores": (KN, GN), "plaincoulomb": (KN, GN, MU),
     "hooke/material": (E, RESTITUTION, NU, VCHAR), "hertz/material": (E, RESTITUTION, NU),
     "flores/material": (E, RESTITUTION, NU, VCHAR), "plaincoulomb/material": (E, RESTITUTION, NU, MU),
+    "dmt": (E, GN, NU, GAMMA), "jkr": (E, GN, NU, GAMMA),
 }
 KT = ("kt", NOT_NEGATIVE, "1e3", ("-1", "x"))
 GT = ("gt", NOT_NEGATIVE, "2.0", ("-1", "x"))
+KT_OR_NULL, XT = ("kt", NOT_NEGATIVE, "NULL", ("-1", "x")), ("xt", NOT_NEGATIVE, "1.0", ("-1", "NULL"))
+SDS = ("k", "gamma", "mu")
 KEYWORD_ARGUMENTS = {
     "tangential dashpot": (GT, MU), "tangential onestep": (KT, GT, MU), "tangential multistep": (KT, GT, MU),
     "rolling": (("mu_r", NOT_NEGATIVE, "0.1", ("-0.1", "delayed")),),
     "spinning": (("mu_s", NOT_NEGATIVE, "0.1", ("-0.1", "NULL")),),
+    "tangential linear_nohistory": (XT, MU), "tangential linear_history": (KT, XT, MU),
+    "tangential linear_history_classic": (KT, XT, MU), "tangential mindlin": (KT_OR_NULL, XT, MU),
+    "tangential mindlin_rescale/force": (KT_OR_NULL, XT, MU),
+    "rolling sds": tuple((f"{name}_roll", NOT_NEGATIVE, "1.0", ("-1", "x")) for name in SDS),
+    "twisting sds": tuple((f"{name}_twist", NOT_NEGATIVE, "1.0", ("-1", "x")) for name in SDS),
+    "twisting stopping": (("mu_s", NOT_NEGATIVE, "0.1", ("-0.1",)),),
     "adhesion constant": (("adhesive force F", NOT_NEGATIVE, "1.0", ("-1", "x")),),
     "adhesion dmt": (("adhesion W", NOT_NEGATIVE, "1.0", ("-1",)),),
     "adhesion perko": (("adhesion S", NOT_NEGATIVE, "1.0", ("-1",)),),
@@ -82,9 +97,8 @@ def law_cases():
     for words, arguments in KEYWORD_ARGUMENTS.items():
         for case in argument_cases(f"{GOOD} {words}", arguments):
             yield case
-    yield f"{GOOD} tangential", "missing tangential law: none, dashpot, onestep or multistep", "tangential"
-    yield (f"{GOOD} tangential mindlin", "unknown tangential law 'mindlin', expected none, dashpot, onestep or "
-           "multistep", "mindlin")
+    yield f"{GOOD} tangential", f"missing tangential law: {TANGENTIAL}", "tangential"
+    yield f"{GOOD} tangential hertz", f"unknown tangential law 'hertz', expected {TANGENTIAL}", "hertz"
     yield f"{GOOD} tangential tanh 0.5", "unknown tangential law 'tanh'", "tanh"
     yield f"{GOOD} tangential none 0.5", None, "0.5"
     yield "hooke 1e3 2.0 tangential multistep 1e3", "missing gt", "1e3"
@@ -118,10 +132,53 @@ def law_cases():
     yield f"{GOOD} adhesion", "missing adhesion: constant, dmt or perko", "adhesion"
     yield (f"{GOOD} adhesion jkr 1.0", "unknown adhesion 'jkr', expected constant, dmt or perko", "jkr")
     yield f"{GOOD} adhesion 1.0", "unknown adhesion '1.0', expected constant, dmt or perko", "1.0"
+    yield from granular_cases()
     yield f"{GOOD} delayed", None, "delayed"
     yield f"{GOOD} rolling 0.1 delayed delayed", None, "delayed"
     yield f"{GOOD} limit_damping yes", None, "yes"
     yield f"{GOOD} foo", None, "foo"
+
+
+def granular_cases():
+    """Of the words of LAMMPS' pair granular."""
+    yield f"{GOOD} damping", f"missing damping: {DAMPING}", "damping"
+    for word in "restitution", "flores":
+        yield f"{GOOD} damping {word}", f"unknown damping '{word}', expected {DAMPING}", word
+    yield f"{GOOD} twisting", f"missing twisting law: {TWISTING}", "twisting"
+    yield f"{GOOD} twisting 0.1", f"unknown twisting law '0.1', expected {TWISTING}", "0.1"
+    yield f"{GOOD} spinning sds", r"expected mu_s \(a number >= 0\) instead of 'sds'", "sds"
+    # the second number, read when the damping is known
+    yield "hertz/material 1e6 1.5 0.3 damping tsuji", f"expected restitution eta {UNIT} instead of '1.5'", "1.5"
+    yield ("hertz/material 1e6 1.5 0.3 tangential none damping coeff_restitution",
+           f"expected restitution eta {UNIT} instead of '1.5'", "1.5")
+    yield "hooke 1e6 1.5 damping tsuji", f"expected restitution eta {UNIT} instead of '1.5'", "1.5"
+    yield "hertz/material 1e6 1.5 0.3 tangential none", f"expected restitution e {UNIT} instead of '1.5'", "1.5"
+    yield "hertz/material 1e6 1.5 0.3 foo", f"expected restitution e {UNIT} instead of '1.5'", "1.5"
+    for arguments in "flores 1e3 2.0", "plaincoulomb 1e3 2.0 0.5", "flores/material 1e6 0.5 0.3 1.0", \
+                     "plaincoulomb/material 1e6 0.5 0.3 0.5":
+        yield (f"{arguments} damping none", f"'{arguments.split()[0]}' has a damping of its own: remove 'damping'", "damping")
+    for name, why in ("none", "damping none has no tangential"), ("tsuji", "it is half of the normal"), \
+                     ("coeff_restitution", "it is half of the normal"):
+        yield (f"{GOOD} tangential multistep NULL 7.5 0.4 damping {name}", f"expected NULL for gt: .*{why}", "7.5")
+        yield f"{GOOD} damping {name} tangential dashpot 7.5 0.4", f"expected NULL for gt: .*{why}", "7.5"
+    for name in "linear_history", "linear_history_classic":
+        yield f"{GOOD} tangential {name} NULL 1.0 0.5", "expected a number for kt instead of NULL", "NULL"
+    yield ("hertz 1e6 2.0 tangential mindlin NULL 1.0 0.5",
+           "expected a number for kt instead of NULL: hertz has no material to take it from", "NULL")
+    marshall = "twisting marshall takes its coefficients from the tangential law: add 'tangential' with one of"
+    yield f"{GOOD} twisting marshall", marshall, "marshall"
+    yield f"{GOOD} twisting marshall tangential multistep NULL NULL 0.5", marshall, "marshall"
+    both = "'spinning' and 'twisting' are two words for one torque: remove one"
+    yield f"{GOOD} twisting sds 1 2 3 spinning 0.1", both, "spinning"
+    yield f"{GOOD} spinning 0.1 twisting sds 1 2 3", both, "twisting"
+    for law in "dmt 1e6 2.0 0.3 0.1", "jkr 1e6 2.0 0.3 0.1":
+        name = law.split()[0]
+        for damping in "tsuji", "coeff_restitution":
+            yield (f"{law} damping {damping}", f"cannot use damping {damping} with a cohesive normal law, {name}", damping)
+        yield f"{law} limit_damping", f"cannot limit damping with a cohesive normal law, {name}", "limit_damping"
+        yield f"{law} adhesion dmt 1.0", f"'{name}' has adhesion of its own: remove 'adhesion'", "adhesion"
+    yield ("hooke/material 1e6 0.5 0.3 1.0 tangential mindlin NULL 1.0 0.5 rolling 0.1 delayed twisting marshall "
+           "damping velocity foo", None, "foo")
 
 
 PAIR = f"pair_coeff * * {GOOD}\n"
@@ -150,6 +207,8 @@ OTHERS = [
     (f"{PAIR}{PLANE} contact types 2 {GOOD}", "no contact law for particles of type 1", None),
     (f"{PAIR}{PLANE} contact types", "missing types", "types"),
     (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
+    (f"{PAIR}{PLANE} contact jkr 1e6 2.0 0.3 0.1", "fix large/body contact: contacts of jkr last beyond zero overlap, "
+     "which those of large bodies do not: use dmt", "jkr"),
     # computes
     (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
     (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),
@@ -162,6 +221,12 @@ OTHERS = [
 
 ACCEPTED = [
     *(" ".join([law, *(a[2] for a in arguments)]) for law, arguments in ARGUMENTS.items()),
+    *(f"{GOOD} damping {name} tangential multistep NULL NULL 0.5"
+      for name in ("none", "velocity", "mass_velocity", "viscoelastic", "tsuji", "coeff_restitution")),
+    "hertz/material 1e6 50.0 0.3 damping velocity tangential multistep NULL 3.0 0.5",
+    "hooke 1e3 0 damping coeff_restitution", "hooke 1e3 1 damping tsuji limit_damping adhesion dmt 1.0",
+    "dmt 1e6 2.0 0.3 0.1 twisting marshall rolling sds 1 2 3 tangential mindlin_rescale NULL 1.0 0.5 damping mass_velocity",
+    f"{GOOD} spinning 0.1 rolling sds 1 2 3", f"{GOOD} rolling 0.1 twisting marshall tangential linear_nohistory 1.0 0.5",
     *(" ".join([GOOD, words, *(a[2] for a in arguments)]) for words, arguments in KEYWORD_ARGUMENTS.items()),
     "hertz/material 1e6 0 0.5", "hertz/material 1e6 1 0", "hertz/material 1e6 1 -0.99",
     "flores/material 1e6 0 0.3 1e-9", "hooke 0 0", "hooke 0.0 0.0 tangential dashpot 1.0 0.5",
@@ -208,9 +273,10 @@ class LawErrors(SceneCase):
     def test_contact_of_a_large_body(self):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
+        cases = [case for case in cases if case[1] or "jkr" not in case[0]]    # which is refused itself
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
                              message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
-                             "tangential, rolling, spinning, adhesion, vmin or limit_damping", word)
+                             "tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping", word)
                             for words, message, word in cases), "fix large/body")
 
     def test_under_pair_hybrid(self):
@@ -227,7 +293,8 @@ class LawErrors(SceneCase):
     def test_accepted(self):
         for words in ACCEPTED:
             with self.subTest(words):
-                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
+                of_body = words.replace("jkr", "dmt")
+                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {of_body}\n"
                                 "fix step all nve/sphere/symplectic\n"
                                 "compute s all penalty/stats\ncompute t all timestep/gran\n"
                                 "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")

@@ -82,6 +82,17 @@ class UndampedFriction(SceneCase):
             if e == 1.0:
                 self.assertGreater(gain, 1e-3, "a warning without reason")
 
+    def test_laws_of_pair_granular(self):
+        """They gain as multistep does, unless the spring shrinks with the contact radius; midpoint is no word of theirs."""
+        for law, mu, expected in (("mindlin", 5, "step"), ("mindlin/force", 1000, "step spring"), ("mindlin", 1000, "step spring"),
+                                  ("mindlin_rescale", 1000, ""), ("mindlin_rescale/force", 1000, "")):
+            gain, said = self.said(f"hertz/material {YOUNG!r} 1.0 0.3 tangential {law} NULL 0.0 {mu}", 0.19)
+            print(f"{law}, mu {mu}: gain {gain:+.1e}, warned about {said or 'nothing'}")
+            self.assertEqual(said, expected)
+            self.assertEqual(gain > 1e-3, bool(expected))
+            self.assertNotIn("midpoint", self.log)
+            self.assertEqual("use mindlin_rescale or" in self.log, "spring" in expected)
+
     def test_where_it_is_not(self):
         for mu, e, words, fraction in ((10, 1.0, "midpoint", 0.19), (10, 1.0, "", 0.05), (10, 0.8, "", 0.19), (2, 0.97, "", 0.19),
                                        (0.5, 1.0, "", 0.19), (0.5, 0.5, "rolling 0.1", 0.19), (1, 1.0, "rolling 0.01", 0.199),

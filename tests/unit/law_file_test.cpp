@@ -42,6 +42,10 @@ const char *const examples[] = {
     "limit_damping",
     "plaincoulomb 2e4 5.0 0.5 vmin 0.01 0.02 0.03 adhesion perko 8.0",
     "hooke/material 1e5 0.6 0.3 2.0 tangential dashpot NULL 0.5 spinning 0.1 adhesion constant 0.0",
+    "jkr 1e5 50.0 0.3 20.0 tangential mindlin_rescale/force NULL 1.0 0.5 rolling sds 2e3 20.0 0.2 "
+    "twisting marshall damping velocity",
+    "dmt 1e5 50.0 0.3 20.0 tangential linear_history 1e4 1.0 0.5 twisting sds 30.0 0.5 0.02",
+    "hooke 1e4 0.6 tangential linear_nohistory 1.0 0.5 damping tsuji limit_damping rolling 0.1",
 };
 
 TEST(LawFile, BringsBackLawsAndNumbers)
@@ -122,8 +126,61 @@ TEST(Words, BringBothKindsOfResistance)
   EXPECT_THROW(read("hooke 1 1 spinning 0.1 delayed rolling 0.1"), std::invalid_argument);
 }
 
+std::string names_of(const std::string &words)
+{
+  return describe_law(read(words).law);
+}
+
+TEST(Words, MayComeInAnyOrder)
+{
+  EXPECT_EQ(names_of("jkr 1e5 2.0 0.3 1.0 twisting marshall damping velocity rolling sds 1 2 3 "
+                     "tangential mindlin NULL 1.0 0.5"),
+            "jkr + damping velocity + mindlin + rolling sds + twisting marshall");
+  EXPECT_EQ(names_of("hooke 1 1 damping mass_velocity"), "hooke + none");    // as without
+  EXPECT_EQ(names_of("hooke 1 1 rolling 0.1 twisting sds 1 2 3"),
+            names_of("hooke 1 1 twisting sds 1 2 3 rolling 0.1"));
+  EXPECT_EQ(names_of("hooke 1 1 rolling sds 1 2 3 spinning 0.1"),
+            names_of("hooke 1 1 spinning 0.1 rolling sds 1 2 3"));
+  EXPECT_EQ(names_of("hooke 1 1 twisting stopping 0.1"), names_of("hooke 1 1 spinning 0.1"));
+  EXPECT_THROW(read("hooke 1 1 twisting marshall"), std::invalid_argument);
+  EXPECT_THROW(read("hooke 1 1 spinning 0.1 twisting sds 1 2 3"), std::invalid_argument);
+}
+
+TEST(Words, TheSecondNumberIsThatOfTheDamping)
+{
+  EXPECT_EQ(read("hertz/material 1 0.5 0.2").given.value("e"), 0.5);
+  EXPECT_EQ(read("hertz/material 1 0.5 0.2 damping tsuji").given.value("eta"), 0.5);
+  EXPECT_EQ(read("hertz/material 1 1.5 0.2 damping velocity").given.value("gn"), 1.5);
+  EXPECT_EQ(read("hooke 1 0.5 damping coeff_restitution").given.value("eta"), 0.5);
+  EXPECT_EQ(read("dmt 1 0.5 0.2 1").given.value("gn"), 0.5);
+  EXPECT_FALSE(read("hertz/material 1 0.5 0.2 damping tsuji").given.has("e"));
+  for (const char *damping : {"", " damping tsuji", " damping coeff_restitution"})
+    EXPECT_THROW(read(std::string("hertz/material 1 1.5 0.2") + damping), std::invalid_argument);
+}
+
+TEST(Words, GranularCoefficientsMixGeometrically)
+{
+  const std::string words = " 0.3 8 tangential mindlin 9 0.25 0.5 rolling sds 1 2 3 twisting sds 1 4 9";
+  const ContactSpec a = read("dmt 5 2" + words), b = read("dmt 5 4 0.3 2 tangential mindlin 4 1.0 0.5 "
+                                                          "rolling sds 4 2 3 twisting sds 4 4 1");
+  const ContactCoefficients row = contact_coefficients(a, b, FrictionMix::MINIMUM);
+  const auto found = [&](Stage stage, const char *name) {
+    return a.law.coefficient(stage, name, row);
+  };
+  EXPECT_DOUBLE_EQ(found(Stage::NORMAL, "gamma"), 4.0);
+  EXPECT_DOUBLE_EQ(found(Stage::DAMPING, "gn"), 3.0);    // arithmetic
+  EXPECT_DOUBLE_EQ(found(Stage::TANGENTIAL, "kt"), 6.0);
+  EXPECT_DOUBLE_EQ(found(Stage::TANGENTIAL, "xt"), 0.5);
+  EXPECT_DOUBLE_EQ(found(Stage::ROLLING, "k_roll"), 2.0);
+  EXPECT_DOUBLE_EQ(found(Stage::TWISTING, "mu_twist"), 3.0);
+}
+
 TEST(Words, ConvertPressures)
 {
+  EXPECT_EQ(read("dmt 3 1 0.2 5", 10.0).given.value("E"), 30.0);
+  EXPECT_EQ(read("dmt 3 1 0.2 5", 10.0).given.value("gamma"), 5.0);
+  EXPECT_EQ(read("hooke 3 1 tangential mindlin 2 1 0.5", 10.0).given.value("kt"), 20.0);
+  EXPECT_EQ(read("hertz 3 1 tangential linear_history 2 1 0.5", 10.0).given.value("kt"), 2.0);
   EXPECT_EQ(read("hooke 3 1 tangential multistep 2 1 0.5", 10.0).given.value("kn"), 3.0);
   EXPECT_EQ(read("hooke 3 1 tangential multistep 2 1 0.5", 10.0).given.value("kt"), 2.0);
   EXPECT_EQ(read("hertz 3 1 tangential multistep 2 1 0.5", 10.0).given.value("kn"), 30.0);

@@ -22,6 +22,10 @@ struct FloresMaterialDamping : DampingLaw {
                                                      {"floor", Shown::NEVER},
                                                      {"vchar", Shown::NEVER}};
 
+  static void read_coefficient(LawReader &r)
+  {
+    r.spec.given["e"] = r.words.between("restitution e", 0.0, 1.0);
+  }
   static Row<double> mix(const Mixing &m)
   {
     const double e = m.smallest("e");

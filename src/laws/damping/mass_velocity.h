@@ -12,6 +12,8 @@ namespace Talus {
 struct MassVelocity : DampingByNumber {
   static constexpr const char *name = "mass_velocity";
 
+  static void read(LawReader & /*r*/) {}
+
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)

@@ -11,6 +11,7 @@ namespace Talus {
 
 struct NoDamping : DampingLaw {
   static constexpr const char *name = "none";
+  static constexpr const char *takes_no_gt = "damping none has no tangential damping either";
   template <class Real> struct Row {
     Real floor;
   };

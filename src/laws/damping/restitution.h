@@ -17,6 +17,10 @@ struct RestitutionDamping : DampingLaw {
   static constexpr CoefficientName coefficients[] = {
       {"damping"}, {"tangential damping", Shown::WITH_SPRING}, {"floor", Shown::NEVER}};
 
+  static void read_coefficient(LawReader &r)
+  {
+    r.spec.given["e"] = r.words.between("restitution e", 0.0, 1.0);
+  }
   static DampingRow<double> mix(const Mixing &m)
   {
     const double f = factor(m);

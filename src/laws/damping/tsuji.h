@@ -14,12 +14,18 @@ namespace Talus {
 /// gn = f sqrt(m kn); gt = gt_share gn.
 struct StiffnessDamping : DampingLaw {
   static constexpr bool allows_cohesion = false;
+  static constexpr const char *takes_no_gt =
+      "with damping tsuji and coeff_restitution it is half of the normal damping";
   template <class Real> struct Row {
     Real factor, floor;
   };
   static constexpr CoefficientName coefficients[] = {{"damping"}, {"floor", Shown::NEVER}};
 
   static void read(LawReader & /*r*/) {}
+  static void read_coefficient(LawReader &r)
+  {
+    r.spec.given["eta"] = r.words.between("restitution eta", 0.0, 1.0);
+  }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

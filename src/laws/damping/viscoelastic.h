@@ -13,6 +13,8 @@ struct Viscoelastic : DampingByNumber {
   static constexpr const char *name = "viscoelastic";
   static constexpr bool needs_radius = true;    // for the contact radius of the normal law
 
+  static void read(LawReader & /*r*/) {}
+
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)

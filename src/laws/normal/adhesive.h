@@ -19,8 +19,16 @@ template <class Real> struct AdhesiveRow {
 
 struct AdhesiveLaw : HertzianLaw {
   static constexpr bool cohesive = true;
+  static constexpr const char *damping = "viscoelastic";
   template <class Real> using Row = AdhesiveRow<Real>;
   static constexpr CoefficientName coefficients[] = {{"E_eff"}, {"gamma"}};
+
+  /// E, damping coefficient, nu, gamma.
+  static void read(LawReader &r)
+  {
+    read_material(r, Damping::ANY);
+    r.set_not_negative("gamma");
+  }
 
   /// E_eff is given itself, or follows from E and nu.
   static AdhesiveRow<double> mix(const Mixing &m)

@@ -15,6 +15,8 @@
 #include "laws/law_list.h"
 #include "laws/restitution.h"
 
+#include <cmath>
+
 namespace Talus {
 
 /// Spring constants. By number: arithmetic means; kt that was not given is 2/7 kn, as in the stock
@@ -36,34 +38,35 @@ template <class Law> struct SpringsByNumber : Law {
   }
 };
 
-/// kn, gn of the words; `damping` is the law that takes gn.
-inline void read_numbers(LawReader &r, const char *damping)
+/// The damping coefficient of the words: of any damping law, or only of that of the normal law.
+enum class Damping : bool { ANY, OWN };
+inline void read_damping(LawReader &r, Damping damping)
+{
+  const Law *its = find_law(Stage::DAMPING, r.spec.law.normal().damping);
+  r.spec.law.choose(Stage::DAMPING, its);
+  if (damping == Damping::ANY) r.damping_at = r.words.index();
+  // a bad number is one for all
+  const double number = parse_number(r.words.peek());
+  if (damping == Damping::ANY && std::isfinite(number) && number >= 0.0)
+    r.words.skip(1);
+  else
+    its->read_coefficient(r);
+}
+
+/// kn, gn of the words.
+inline void read_numbers(LawReader &r, Damping damping)
 {
   r.set_not_negative("kn");
-  r.set_not_negative("gn");
-  r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, damping));
+  read_damping(r, damping);
 }
 
 /// E, e, nu of the words.
-inline void read_material(LawReader &r, const char *damping)
+inline void read_material(LawReader &r, Damping damping)
 {
   GivenNumbers &given = r.spec.given;
   given["E"] = r.words.positive("Young's modulus E") * r.pressure_unit;
-  given["e"] = r.words.between("restitution e", 0.0, 1.0);
+  read_damping(r, damping);
   given["nu"] = r.words.between("Poisson's ratio nu", -1.0, 0.5, true);
-  r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, damping));
-}
-
-/// E, eta, nu, gamma of the words; eta is the damping coefficient, viscoelastic unless another
-/// damping is asked for.
-inline void read_adhesive(LawReader &r)
-{
-  GivenNumbers &given = r.spec.given;
-  given["E"] = r.words.positive("Young's modulus E") * r.pressure_unit;
-  given["gn"] = r.words.not_negative("damping coefficient eta");
-  given["nu"] = r.words.between("Poisson's ratio nu", -1.0, 0.5, true);
-  r.set_not_negative("gamma");
-  r.spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "viscoelastic"));
 }
 
 inline double mixed_young(const Mixing &m)

@@ -13,7 +13,6 @@ namespace Talus {
 struct Dmt : AdhesiveLaw {
   static constexpr const char *name = "dmt", *label = name;
 
-  static void read(LawReader &r) { read_adhesive(r); }
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)
   {

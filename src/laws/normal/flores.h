@@ -12,11 +12,12 @@ namespace Talus {
 
 struct Flores : Hertz {
   static constexpr const char *name = "flores", *label = name;
+  static constexpr const char *damping = "flores";
   static constexpr bool like_stock = false;
 
   static void read(LawReader &r)
   {
-    read_numbers(r, "flores");
+    read_numbers(r, Damping::OWN);
     r.spec.given["kn"] *= r.pressure_unit;
   }
   template <class Real> static void reduce(Real overlap, Real &k, Real &g)

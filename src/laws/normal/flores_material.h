@@ -13,6 +13,7 @@ namespace Talus {
 
 struct FloresMaterial : HertzianLaw {
   static constexpr const char *name = "flores/material", *label = name;
+  static constexpr const char *damping = "flores/material";
   template <class Real> struct Row {
     Real young, shear;
   };
@@ -20,7 +21,7 @@ struct FloresMaterial : HertzianLaw {
 
   static void read(LawReader &r)
   {
-    read_material(r, "flores/material");
+    read_material(r, Damping::OWN);
     r.spec.given["vchar"] = r.words.positive("characteristic speed vchar");
   }
   /// A kt that was given by number stands for 16/3 G.

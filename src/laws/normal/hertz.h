@@ -13,11 +13,12 @@ namespace Talus {
 
 struct Hertz : SpringsByNumber<HertzianLaw> {
   static constexpr const char *name = "hertz", *label = name;
+  static constexpr const char *damping = "viscoelastic";
   static constexpr bool like_stock = true;
 
   static void read(LawReader &r)
   {
-    read_numbers(r, "viscoelastic");
+    read_numbers(r, Damping::ANY);
     r.spec.given["kn"] *= r.pressure_unit;
   }
   static double modulus(const Row<double> &c) { return 0.75 * c.kn; }

@@ -12,12 +12,13 @@ namespace Talus {
 
 struct HertzMaterial : HertzianLaw {
   static constexpr const char *name = "hertz/material", *label = name;
+  static constexpr const char *damping = "restitution";
   template <class Real> struct Row {
     Real young, shear;
   };
   static constexpr CoefficientName coefficients[] = {{"E_eff"}, {"G_eff", Shown::WITH_SPRING}};
 
-  static void read(LawReader &r) { read_material(r, "restitution"); }
+  static void read(LawReader &r) { read_material(r, Damping::ANY); }
   /// A kt that was given by number stands for 8 G.
   static Row<double> mix(const Mixing &m) { return {mixed_young(m), mixed_shear(m, 1.0 / 8.0)}; }
   static double modulus(const Row<double> &c) { return c.young; }

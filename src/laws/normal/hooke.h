@@ -14,7 +14,7 @@ struct Hooke : SpringsByNumber<LinearLaw> {
   static constexpr const char *name = "hooke", *label = name;
   static constexpr bool like_stock = true;
 
-  static void read(LawReader &r) { read_numbers(r, "mass_velocity"); }
+  static void read(LawReader &r) { read_numbers(r, Damping::ANY); }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

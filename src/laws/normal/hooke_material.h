@@ -13,6 +13,7 @@ namespace Talus {
 
 struct HookeMaterial : LinearLaw {
   static constexpr const char *name = "hooke/material", *label = name;
+  static constexpr const char *damping = "restitution";
   static constexpr bool needs_radius = true, reads_impact = true;
   static constexpr const char *takes_no_kt = "hooke/material takes kt = kn from the material";
   template <class Real> struct Row {
@@ -22,7 +23,7 @@ struct HookeMaterial : LinearLaw {
 
   static void read(LawReader &r)
   {
-    read_material(r, "restitution");
+    read_material(r, Damping::ANY);
     r.spec.given["vchar"] = r.words.positive("characteristic speed vchar");
   }
   static Row<double> mix(const Mixing &m) { return {mixed_young(m), m.largest("vchar")}; }

@@ -22,8 +22,6 @@ struct Jkr : AdhesiveLaw {
   static constexpr const char *name = "jkr", *label = name;
   static constexpr bool lasts_beyond_contact = true;
 
-  static void read(LawReader &r) { read_adhesive(r); }
-
   /// (3 pi^2/16 R gamma^2/E^2)^(1/3)
   static double reach(const Row<double> &c, double effective_radius)
   {

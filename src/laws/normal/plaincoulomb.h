@@ -13,6 +13,7 @@ namespace Talus {
 
 struct PlainCoulomb : HertzianLaw {
   static constexpr const char *name = "plaincoulomb", *label = name;
+  static constexpr const char *damping = "plaincoulomb";
   static constexpr bool needs_radius = false;
   template <class Real> struct Row {
     Real kn;
@@ -21,7 +22,7 @@ struct PlainCoulomb : HertzianLaw {
 
   static void read(LawReader &r)
   {
-    read_numbers(r, "plaincoulomb");
+    read_numbers(r, Damping::OWN);
     r.spec.given["kn"] *= r.pressure_unit;
     r.set_not_negative("mu");
     r.spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, "tanh"));

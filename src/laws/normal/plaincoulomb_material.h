@@ -12,6 +12,7 @@ namespace Talus {
 
 struct PlainCoulombMaterial : HertzianLaw {
   static constexpr const char *name = "plaincoulomb/material", *label = name;
+  static constexpr const char *damping = "restitution";
   static constexpr bool needs_radius = false;
   template <class Real> struct Row {
     Real young;
@@ -20,7 +21,7 @@ struct PlainCoulombMaterial : HertzianLaw {
 
   static void read(LawReader &r)
   {
-    read_material(r, "restitution");
+    read_material(r, Damping::OWN);
     r.set_not_negative("mu");
     r.spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, "tanh"));
   }

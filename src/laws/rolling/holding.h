@@ -20,7 +20,7 @@ struct HoldingRolling : RollingLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"mu_r"}, {"roll_min", Shown::NEVER}};
 
-  static void read(LawReader &r) { read_resistance(r, "mu_r"); }
+  static void read(LawReader &r) { read_resistance(r, stage); }
   static Row<double> mix(const Mixing &m) { return {m.friction("mu_r"), m.largest("roll_min")}; }
 
   template <bool advance, class Real>

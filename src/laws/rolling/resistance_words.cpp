@@ -7,16 +7,19 @@
 
 namespace Talus {
 
-void read_resistance(LawReader &r, const char *mu)
+void read_resistance(LawReader &r, Stage stage)
 {
   GivenNumbers &given = r.spec.given;
   ContactLaw &law = r.spec.law;
-  r.set_not_negative(mu);
+  const bool rolls = stage == Stage::ROLLING;
+  r.set_not_negative(rolls ? "mu_r" : "mu_s");
   const bool delayed = r.words.take("delayed");
   if (given.has("mu_r") && given.has("mu_s") && delayed != law.delayed())
     r.words.fail(1, "rolling and spinning must both be delayed, or both not");
-  law.choose(Stage::ROLLING, find_law(Stage::ROLLING, delayed ? "delayed" : "holding"));
-  law.choose(Stage::TWISTING, find_law(Stage::TWISTING, delayed ? "delayed" : "stopping"));
+  if (rolls || !law.rolling().acts)
+    law.choose(Stage::ROLLING, find_law(Stage::ROLLING, delayed ? "delayed" : "holding"));
+  if (!rolls || !law.twisting().acts)
+    law.choose(Stage::TWISTING, find_law(Stage::TWISTING, delayed ? "delayed" : "stopping"));
 }
 
 }    // namespace Talus

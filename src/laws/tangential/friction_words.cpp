@@ -24,9 +24,14 @@ void read_friction(LawReader &r, bool with_kt, bool needs_spring)
   const auto complain = [&words](int at, const std::string &what) {
     words.fail(words.index() - at, what);
   };
-  if (!has_gt && law.damping().needs_gt)
-    complain(at_gt,
-             std::string("expected a number for gt instead of NULL: ") + law.damping().needs_gt);
+  r.check_later(at_gt, [has_gt](const ContactLaw &whole) -> std::string {
+    const Law &damping = whole.damping();
+    if (!has_gt && damping.needs_gt)
+      return std::string("expected a number for gt instead of NULL: ") + damping.needs_gt;
+    if (has_gt && damping.takes_no_gt)
+      return std::string("expected NULL for gt: ") + damping.takes_no_gt;
+    return "";
+  });
   if (has_kt && law.normal().takes_no_kt)
     complain(at_kt, std::string("expected NULL for kt: ") + law.normal().takes_no_kt);
   // a spring of a linear law is not a pressure

@@ -49,6 +49,7 @@ struct GranularFriction : TangentialLaw {
 
 struct LinearNoHistory : GranularFriction {
   static constexpr const char *name = "linear_nohistory", *label = name;
+  static constexpr CoefficientName coefficients[] = {{"kt", Shown::NEVER}, {"xt"}, {"mu"}};
 
   static void read(LawReader &r) { read_granular_friction(r, false, false); }
 
@@ -81,7 +82,10 @@ template <class Real> TALUS_INLINE TangentialHistory<Real> granular_history(cons
 }
 
 template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : GranularFriction {
-  static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
+  static constexpr bool needs_radius = scaled == Scaled::YES;
+  /// One that shrinks with the contact radius loses a good part of its energy.
+  static constexpr bool has_spring = rescaled == Rescaled::NO;
+  static constexpr bool stiffens = scaled == Scaled::YES && has_spring;
   static constexpr int odd_history = 3, even_history = rescaled == Rescaled::YES ? 1 : 0;
   static constexpr bool of_force = kept == Kept::FORCE;
 
@@ -167,6 +171,7 @@ enum class SetBack : bool { BY_STIFFNESS, BY_COEFFICIENT };
 template <Scaled scaled, SetBack set_back = SetBack::BY_STIFFNESS>
 struct GranularClassic : GranularFriction {
   static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
+  static constexpr bool stiffens = scaled == Scaled::YES;
   static constexpr int odd_history = 3;
 
   static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)

@@ -30,9 +30,12 @@ void read_granular_friction(LawReader &r, bool with_kt, bool null_allowed)
 
 void MarshallTwist::read(LawReader &r)
 {
-  if (!r.spec.law.tangential().lever_arms)
-    r.words.fail(1, "twisting marshall takes its coefficients from the tangential law: put one of "
-                    "linear_* or mindlin* before it");
+  r.check_later(r.words.index() - 1, [](const ContactLaw &whole) -> std::string {
+    if (whole.tangential().lever_arms) return "";
+    return "twisting marshall takes its coefficients from the tangential law: add 'tangential' "
+           "with "
+           "one of linear_nohistory, linear_history, linear_history_classic or mindlin*";
+  });
 }
 
 }    // namespace Talus

@@ -20,7 +20,7 @@ struct StoppingTwist : TwistingLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"mu_s"}, {"twist_min", Shown::NEVER}};
 
-  static void read(LawReader &r) { read_resistance(r, "mu_s"); }
+  static void read(LawReader &r) { read_resistance(r, stage); }
   static Row<double> mix(const Mixing &m) { return {m.friction("mu_s"), m.largest("twist_min")}; }
 
   template <bool advance, class Real>
