@@ -131,10 +131,11 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   if (scene.with_impact) gather_impacts(end);
   finish_geometry(end, friction);
   if (scene.with_twisting) gather_for_twisting(step.particles, end, scene.with_resistance);
+  if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(end);
   if (scene.with_impact && step.advance) keep_impacts(end);
-  transpose_results<friction>(end, scene.with_twisting);
+  transpose_results<friction>(end, scene);
   if (pairs.weighted()) apply_weights(end);
   if (!pairs.is_late()) {
     add_up<friction>(step, block, count);
@@ -202,6 +203,8 @@ void ContactChunk::run_kernels(const Step &step)
       clear_lanes(batch.moment, range.begin, range.end);
     if (step.scene.with_twisting && !law.twists())
       clear_lanes(batch.twisting_torque, range.begin, range.end);
+    if (step.scene.with_heat && !law.conducts_heat())
+      std::fill(batch.heat_flow + range.begin, batch.heat_flow + range.end, 0.0);
   }
 }
 

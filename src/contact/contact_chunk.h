@@ -40,6 +40,7 @@ struct ContactScene {
   bool with_friction = false, with_history = false, with_impact = false;
   bool with_twisting = false;      ///< twisting torques arise
   bool with_resistance = false;    ///< of rolling or twisting
+  bool with_heat = false;          ///< is conducted
   bool beyond_contact = false;     ///< contacts of some laws last beyond zero overlap
   std::vector<int> slot_type;      ///< types in canonical order; empty if laws are uniform
 
@@ -63,6 +64,7 @@ struct ContactStep {
   const std::function<void()> *meanwhile = nullptr;
   const std::function<void(int thread, int begin, int end)> *add_more = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
+  const double *temperature = nullptr;    ///< by host's index, in scenes that conduct heat
 };
 
 class ContactChunk {
@@ -131,13 +133,14 @@ class ContactChunk {
   void gather(const ParticleRecords &particles, int end);
   void gather_for_twisting(const ParticleRecords &particles, int end, bool resistance);
   void gather_impacts(int end);
+  void gather_temperatures(const double *temperature, int end);
   void finish_geometry(int end, bool radii_known);
   void run_kernels(const Step &step);
   void keep_history(int end);
   void keep_impacts(int end);
   void to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth, int end,
                     Record *records);
-  template <bool friction> void transpose_results(int end, bool with_twisting);
+  template <bool friction> void transpose_results(int end, const ContactScene &scene);
   void apply_weights(int end);
   template <bool friction, bool one_law, bool weights>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);

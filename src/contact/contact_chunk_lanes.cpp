@@ -89,6 +89,18 @@ void ContactChunk::gather_impacts(int end)
   }
 }
 
+/* Of the particles themselves, not of copies: no step is taken in the records. */
+
+void ContactChunk::gather_temperatures(const double *temperature, int end)
+{
+  const std::vector<int> &atom = pairs.order().atom_of_slot;
+  for (int k = 0; k < end; k++) {
+    const std::uint32_t pair = pair_of_lane[k];
+    batch.temperature_difference[k] =
+        temperature[atom[pairs.second[pair]]] - temperature[atom[pairs.first[pair]]];
+  }
+}
+
 /* From separation and sum of radii to normal and overlap. Without omega records the lanes of the
    inverse radius still hold the product of the radii. */
 
@@ -166,22 +178,23 @@ void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], c
             [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
 }
 
-template <bool friction> void ContactChunk::transpose_results(int end, bool with_twisting)
+template <bool friction> void ContactChunk::transpose_results(int end, const ContactScene &scene)
 {
-  const auto rows_of = [](const Lane *vector, int k, Record *records) {
-    to_rows(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
+  const auto rows_of = [](const Lane *vector, const double *fourth, int k, Record *records) {
+    to_rows(vector, fourth, k, [=](int q) -> Record & { return records[k + q]; });
   };
+  const double *heat = scene.with_heat ? batch.heat_flow : nullptr;
   for (int k = 0; k < end; k += 4) {
-    rows_of(batch.force, k, force_of_lane);
-    if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
-    if (with_twisting) rows_of(batch.twisting_torque, k, twisting_of_lane);
+    rows_of(batch.force, nullptr, k, force_of_lane);
+    if constexpr (friction) rows_of(batch.moment, nullptr, k, moment_of_lane);
+    if (scene.with_twisting) rows_of(batch.twisting_torque, heat, k, twisting_of_lane);
   }
 }
 
 template void ContactChunk::gather<true, true>(const ParticleRecords &, int);
 template void ContactChunk::gather<true, false>(const ParticleRecords &, int);
 template void ContactChunk::gather<false, false>(const ParticleRecords &, int);
-template void ContactChunk::transpose_results<true>(int, bool);
-template void ContactChunk::transpose_results<false>(int, bool);
+template void ContactChunk::transpose_results<true>(int, const ContactScene &);
+template void ContactChunk::transpose_results<false>(int, const ContactScene &);
 
 }    // namespace Talus

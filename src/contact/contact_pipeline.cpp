@@ -14,6 +14,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_impact = table.has_impact();
   scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
+  scene.with_heat = table.conducts_heat();
   scene.beyond_contact = table.lasts_beyond_contact();
 }
 

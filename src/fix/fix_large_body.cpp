@@ -117,6 +117,9 @@ void FixLargeBody::parse_contact_words(Words &words)
     words.fail(words.index() - at_normal,
                std::string("contacts of ") + parsed.law.normal().name +
                    " last beyond zero overlap, which those of large bodies do not: use dmt");
+  if (parsed.law.conducts_heat())
+    words.fail(words.index() - at_normal,
+               "large bodies have no temperature: remove 'heat', or use fix wall/gran granular");
   for (int type = lo; type <= hi; type++) body.set_law(type, parsed);
 }
 

@@ -6,7 +6,7 @@
 // the same contact law compute the contacts: the numbers are those of the stock class but for
 // rounding.
 //
-// Where the stock class needs the arrays in every step (heat, rigid bodies) its own methods are
+// Where the stock class needs the arrays in every step (rigid bodies) its own methods are
 // used.
 
 #ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
@@ -23,10 +23,12 @@
 #include "gran_sub_mod.h"
 #include "granular_model.h"
 #include "group.h"
+#include "input.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 #include "utils.h"
+#include "variable.h"
 
 #include <memory>
 #include <string>
@@ -79,6 +81,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   std::string needs_host_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
+    if (this->heat_flag) return "it conducts heat";
     if (!system->turns_particles())
       return "it exerts torques and the contacts between particles do not";
     return what_reads_arrays();
@@ -113,27 +116,41 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   }
   bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
-  /// Row of a particle in the output by particle: force and contact point.
-  void keep_contact(int i, const double *force, const double *separation)
+  /// The temperature of the wall in this step, if it conducts heat.
+  void find_wall_temperature()
   {
-    double *row = this->array_atom[i];
-    row[0] = 1.0;
-    for (int d = 0; d < 3; d++) {
-      row[1 + d] = force[d];
-      row[4 + d] = this->atom->x[i][d] - separation[d];
-    }
-    row[7] = this->atom->radius[i];
+    if (this->heat_flag && this->tstr)
+      this->Twall = this->input->variable->compute_equal(this->tvar);
   }
+  double temperature_difference(const WallParticles &particles, int i) const
+  {
+    return this->heat_flag ? this->Twall - particles.temperature(i) : 0.0;
+  }
+
   void deliver(WallBatch &batch, const WallParticles &particles)
   {
     const bool keeps = keeps_contacts();
-    batch.compute([&](int i, const double *force, const double *torque, const double *separation) {
-      particles.add(i, force, torque);
-      if (keeps) keep_contact(i, force, separation);
+    batch.compute([&](const WallBatch::Result &its) {
+      particles.add(its.atom, its.force, its.torque);
+      if (this->heat_flag) particles.add_heat(its.atom, its.heat_flow);
+      if (keeps) keep_contact(its);
     });
   }
 
  private:
+  /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
+  void keep_contact(const WallBatch::Result &its)
+  {
+    double *row = this->array_atom[its.atom];
+    row[0] = 1.0;
+    for (int d = 0; d < 3; d++) {
+      row[1 + d] = its.force[d];
+      row[4 + d] = this->atom->x[its.atom][d] - its.separation[d];
+    }
+    row[7] = this->atom->radius[its.atom];
+    if (this->heat_flag) row[8] = its.heat_flow;
+  }
+
   const char *plain_style;
   std::string stock_reason;
 

@@ -80,6 +80,7 @@ void FixWallGranRegionTalus::begin_step()
     if (bounded) pose = RegionPose(*region);
   }
   std::fill(velocity, velocity + 3, 0.0);
+  find_wall_temperature();
   batch.begin_step(wall_law, histories_advance() ? dt : 0.0);
 }
 
@@ -154,6 +155,7 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   if (dynamic) region->velocity_contact(velocity, x, ic);
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
   batch.add({i, separation, contact.r, radius, atom->rmass[i], contact.radius,
-             particles.velocity(i), velocity, particles.omega(i), history});
+             particles.velocity(i), velocity, particles.omega(i),
+             temperature_difference(particles, i), history});
   if (batch.is_full()) deliver(batch, particles);
 }

@@ -136,6 +136,7 @@ void FixWallGranTalus::add_contacts()
   if (candidates.are_stale(moved, std::abs(displacement() - listed_at), atom->nlocal))
     find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
+  find_wall_temperature();
   const WallParticles particles(*system, *atom);
   const int threads =
       std::clamp(candidates.size() / worth_a_thread, 1, static_cast<int>(batches.size()));
@@ -166,7 +167,8 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
     batch.add({i, g.d, std::sqrt(squared), radius, atom->rmass[i], g.radius, particles.velocity(i),
-               velocity, particles.omega(i), use_history ? history_one[i] : nullptr});
+               velocity, particles.omega(i), temperature_difference(particles, i),
+               use_history ? history_one[i] : nullptr});
     if (batch.is_full()) deliver(batch, particles);
   }
   deliver(batch, particles);

@@ -47,6 +47,7 @@ void WallBatch::add(const Contact &c)
   batch.inverse_mass[k] = 1.0 / c.mass;
   batch.inverse_radius[k] = 1.0 / c.radius;
   if (c.wall_radius != 0.0) batch.inverse_radius[k] += 1.0 / c.wall_radius;
+  batch.temperature_difference[k] = c.temperature_difference;
   if (!c.history) return;
   for (std::size_t n = 0; n < law->places.size(); n++)
     if (law->places[n] >= 0) batch.history[law->places[n]][k] = c.history[n];
@@ -67,6 +68,8 @@ void WallBatch::run()
 WallBatch::Result WallBatch::result(int k) const
 {
   Result its;
+  its.atom = atoms[k];
+  its.heat_flow = law->law.conducts_heat() ? batch.heat_flow[k] : 0.0;
   for (int d = 0; d < 3; d++) {
     its.force[d] = batch.force[d][k];
     its.torque[d] = -radii[k] * batch.moment[d][k];

@@ -38,6 +38,7 @@ class WallBatch {
     double radius, mass;
     double wall_radius;    ///< 0: flat, < 0: the particle is inside of the curvature
     const double *velocity, *wall_velocity, *omega;
+    double temperature_difference;    ///< of the wall over the particle; 0 if no heat is conducted
     double *history;    ///< as LAMMPS keeps it, or nullptr; must stay until the batch is computed
   };
 
@@ -51,21 +52,19 @@ class WallBatch {
   }
   void add(const Contact &contact);
   bool is_full() const { return filled == ContactBatch::width; }
-  /// Computes all and begins anew: deliver(atom, force, torque, separation) for each.
+  struct Result {
+    int atom;
+    double force[3], torque[3], separation[3], heat_flow;
+  };
+  /// Computes all and begins anew: deliver(result) for each.
   template <class Deliver> void compute(Deliver deliver)
   {
     run();
-    for (int k = 0; k < filled; k++) {
-      const Result its = result(k);
-      deliver(atoms[k], its.force, its.torque, its.separation);
-    }
+    for (int k = 0; k < filled; k++) deliver(result(k));
     filled = 0;
   }
 
  private:
-  struct Result {
-    double force[3], torque[3], separation[3];
-  };
   void run();
   Result result(int lane) const;
 

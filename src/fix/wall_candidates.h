@@ -46,6 +46,8 @@ class WallParticles {
       t[d] += torque[d];
     }
   }
+  double temperature(int i) const { return atom.temperature[i]; }
+  void add_heat(int i, double power) const { atom.heatflow[i] += power; }
   /// Calls what is needed of one particle into the cache; a hint.
   void prefetch(int i) const
   {

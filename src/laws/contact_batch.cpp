@@ -16,6 +16,8 @@ void ContactBatch::clear()
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
   std::fill(std::begin(circle), std::end(circle), 0.0);
+  std::fill(std::begin(temperature_difference), std::end(temperature_difference), 0.0);
+  std::fill(std::begin(heat_flow), std::end(heat_flow), 0.0);
   std::fill(std::begin(arm_loss), std::end(arm_loss), 0.0);
   std::fill(std::begin(arm_difference), std::end(arm_difference), 0.0);
   std::fill(std::begin(inverse_mass), std::end(inverse_mass), 1.0);

@@ -26,6 +26,7 @@ struct ContactBatch {
   alignas(64) double circle[width];
   alignas(64) double inverse_distance[width];
   alignas(64) double arm_loss[width], arm_difference[width];
+  alignas(64) double temperature_difference[width];
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
   /// Input and output, as seen from the first body: which law remembers what here, see
@@ -36,6 +37,7 @@ struct ContactBatch {
   alignas(64) double force[3][width];
   alignas(64) double moment[3][width];
   alignas(64) double twisting_torque[3][width];
+  alignas(64) double heat_flow[width];    ///< only of laws that conduct heat
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {

@@ -44,7 +44,7 @@ template <bool with_radius> StageFunction approach_function(bool impact, bool ad
 template <class Visit> void for_each_stage(const ContactLaw &law, Visit visit)
 {
   for (Stage stage : {Stage::NORMAL, Stage::DAMPING, Stage::TANGENTIAL, Stage::ROLLING,
-                      Stage::TWISTING, Stage::COHESION}) {
+                      Stage::TWISTING, Stage::COHESION, Stage::HEAT}) {
     const bool turns = stage == Stage::TANGENTIAL && law.has_friction();
     if (law[stage].acts || turns) visit(stage, law[stage]);
   }

@@ -25,6 +25,7 @@ template <class Real> struct ContactState {
   // Only for laws whose lever arms end in the middle of the overlap, and 0 against a large body,
   // where they do not: overlap/(r_1 + r_2), and overlap/2 (r_2 - r_1)/(r_1 + r_2).
   Real arm_loss{}, arm_difference{};
+  Real temperature_difference{};    ///< T_2 - T_1; only for laws that conduct heat
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
@@ -55,6 +56,7 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Vector3<Real> tangential{};         ///< the tangential part of it
   Vector3<Real> moment{};             ///< normal x tangential, and rolling resistance
   Vector3<Real> twisting_torque{};    ///< spinning resistance, and what else is opposite on both
+  Real heat_flow{};                   ///< power that the first body receives from the second
 };
 
 }    // namespace Talus

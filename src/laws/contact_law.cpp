@@ -87,7 +87,7 @@ int ContactLaw::first_coefficient(Stage stage) const
 
 int ContactLaw::num_coefficients() const
 {
-  return first_coefficient(Stage::COHESION) + cohesion().num_coefficients;
+  return first_coefficient(Stage::HEAT) + heat().num_coefficients;
 }
 
 double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoefficients &row) const

@@ -37,18 +37,21 @@ class ContactLaw {
   const Law &rolling() const { return (*this)[Stage::ROLLING]; }
   const Law &twisting() const { return (*this)[Stage::TWISTING]; }
   const Law &cohesion() const { return (*this)[Stage::COHESION]; }
+  const Law &heat() const { return (*this)[Stage::HEAT]; }
 
   bool operator==(const ContactLaw &o) const { return laws == o.laws; }
   bool operator!=(const ContactLaw &o) const { return laws != o.laws; }
 
   /// There is rolling or spinning resistance.
   bool resists() const { return rolling().acts || twisting().acts; }
+  bool conducts_heat() const { return heat().acts; }
   /// Torques arise that are not the moment of a force on both surfaces: twisting_torque is written.
-  bool twists() const { return resists() || tangential().lever_arms; }
+  /// Heat goes with them.
+  bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
   bool adheres() const { return cohesion().acts; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
-  bool has_friction() const { return tangential().acts || resists(); }
+  bool has_friction() const { return tangential().acts || twists(); }
   /// The tangential spring changes with the overlap while it is stretched.
   bool stiffens() const
   {

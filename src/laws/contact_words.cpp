@@ -48,6 +48,7 @@ class Parser {
         {"spinning", &Parser::spinning},
         {"twisting", &Parser::twisting},
         {"adhesion", &Parser::adhesion},
+        {"heat", &Parser::heat},
         {"vmin", &Parser::vmin},
         {"limit_damping", &Parser::limit_damping}};
     for (const auto &[word, read] : known) {
@@ -121,6 +122,8 @@ class Parser {
     if (spec.law.normal().cohesive) refuse_own("adhesion");
     read_law(Stage::COHESION, words.choice("adhesion", words_of(Stage::COHESION)));
   }
+
+  void heat() { read_law(Stage::HEAT, words.choice("heat", words_of(Stage::HEAT))); }
 
   void vmin()
   {

@@ -2,7 +2,7 @@
 //
 // What other code knows of a law. A contact goes through stages,
 //
-//   normal -> damping -> tangential -> rolling -> twisting -> cohesion,
+//   normal -> damping -> tangential -> rolling -> twisting -> cohesion -> heat,
 //
 // and a pair of materials names one law for each. A law is one file in the folder of its stage: a
 // struct with its equation, its words, the mixing of two materials, and what it remembers, stores
@@ -18,8 +18,8 @@
 
 namespace Talus {
 
-enum class Stage : int { NORMAL, DAMPING, TANGENTIAL, ROLLING, TWISTING, COHESION };
-inline constexpr int num_stages = 6;
+enum class Stage : int { NORMAL, DAMPING, TANGENTIAL, ROLLING, TWISTING, COHESION, HEAT };
+inline constexpr int num_stages = 7;
 
 struct LawReader;
 struct Mixing;

@@ -98,6 +98,12 @@ struct CohesionLaw : LawBase {
   static constexpr bool needs_radius = true;
 };
 
+/// Finds heat_flow.
+struct HeatLaw : LawBase {
+  static constexpr Stage stage = Stage::HEAT;
+  static constexpr bool needs_radius = true;    // for the contact radius of the normal law
+};
+
 // ---- from a struct to a Law
 // ----------------------------------------------------------------------
 
@@ -167,6 +173,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.inverse_distance = In::load(&b.inverse_distance[k]);
   s.arm_loss = In::load(&b.arm_loss[k]);
   s.arm_difference = In::load(&b.arm_difference[k]);
+  s.temperature_difference = In::load(&b.temperature_difference[k]);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -221,6 +228,7 @@ template <Stage stage, class Real>
 TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
 {
   visit_written<stage>(s, b, [k](Real value, double *to) { Memory<Real>::store(to + k, value); });
+  if constexpr (stage == Stage::HEAT) Memory<Real>::store(&b.heat_flow[k], s.heat_flow);
   if constexpr (stage == Stage::DAMPING || stage == Stage::TANGENTIAL || stage == Stage::COHESION)
     store_vector(b.force, k, s.force);
   if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)

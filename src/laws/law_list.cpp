@@ -16,6 +16,9 @@
 #include "laws/damping/tsuji.h"
 #include "laws/damping/velocity.h"
 #include "laws/damping/viscoelastic.h"
+#include "laws/heat/area.h"
+#include "laws/heat/none.h"
+#include "laws/heat/radius.h"
 #include "laws/normal/dmt.h"
 #include "laws/normal/flores.h"
 #include "laws/normal/flores_material.h"
@@ -104,6 +107,10 @@ const Law *const all_laws[] = {
     &law<ConstantAdhesion>,
     &law<DmtAdhesion>,
     &law<PerkoAdhesion>,
+
+    &law<HeatNone>,
+    &law<HeatRadius>,
+    &law<HeatArea>,
 };
 
 using LawsByStage = std::array<std::vector<const Law *>, num_stages>;
@@ -135,8 +142,8 @@ const Law *find_law(Stage stage, const std::string &name)
 
 const char *name_of(Stage stage)
 {
-  static const char *const names[num_stages] = {"normal",  "damping",  "tangential",
-                                                "rolling", "twisting", "cohesion"};
+  static const char *const names[num_stages] = {"normal",   "damping",  "tangential", "rolling",
+                                                "twisting", "cohesion", "heat"};
   return names[static_cast<int>(stage)];
 }
 

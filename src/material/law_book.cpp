@@ -85,7 +85,7 @@ std::string LawBook::describe_pair(int i, int j) const
   always({Stage::NORMAL, Stage::DAMPING});
   if (its.tangential().reads_stiffness)
     for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
-  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION});
+  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION, Stage::HEAT});
   const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
   const ContactSpec &b = is_set(i, j) ? a : spec(j, j);
   return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");

@@ -14,7 +14,7 @@
 namespace Talus {
 
 /// First number of what a pair style writes. `mark` tells it from files of before versions existed.
-inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 1;
+inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 2;
 
 /// What is wrong with the first two numbers of a file and what to do about it; "" if nothing is.
 std::string complaint_about_law_file(std::int32_t mark, std::int32_t version);

@@ -73,6 +73,11 @@ bool LawTable::has_twisting_torques() const
   return any([](const ContactLaw &law) { return law.twists(); });
 }
 
+bool LawTable::conducts_heat() const
+{
+  return any([](const ContactLaw &law) { return law.conducts_heat(); });
+}
+
 bool LawTable::lasts_beyond_contact() const
 {
   return any([](const ContactLaw &law) { return law.normal().lasts_beyond_contact; });

@@ -47,6 +47,7 @@ class LawTable {
   /// Torques that are not the moment of a force on both surfaces.
   bool has_twisting_torques() const;
   bool lasts_beyond_contact() const;
+  bool conducts_heat() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
   double reach(int row, double radius_i, double radius_j) const;
 

@@ -82,11 +82,23 @@ void PairGranPenalty::check_host()
   if (lmp->kokkos)
     error->all(FLERR, "Pair style gran/penalty does not run with the KOKKOS package: "
                       "start LAMMPS without '-k on'");
+  if (conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
+    error->all(FLERR, "Pair style gran/penalty: heat is conducted between particles that have a "
+                      "temperature: add 'fix ID all property/atom temperature heatflow'");
   const std::string problem = system->unsupported_settings();
   if (!problem.empty())
     error->all(FLERR,
                "Pair style gran/penalty: {}: use bonds that last, and no 'comm_modify group'",
                problem);
+}
+
+bool PairGranPenalty::conducts_heat() const
+{
+  const LawBook &book = system->laws();
+  for (int i = 1; i <= book.num_types(); i++)
+    for (int j = i; j <= book.num_types(); j++)
+      if (book.is_set(i, j) && book.spec(i, j).law.conducts_heat()) return true;
+  return false;
 }
 
 double PairGranPenalty::init_one(int i, int j)

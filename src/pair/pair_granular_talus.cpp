@@ -37,7 +37,17 @@ std::string PairGranularTalus::reason_of_models() const
       if (model_of(i, j).beyond_contact && !lists.empty())
         return "contacts last longer than pairs are in the neighbor lists of LAMMPS: " + lists;
     }
+  if (conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
+    return "particles have no temperature";    // the stock style says how to have one
   return stock_history_of(all_models()) ? "" : "the models keep their histories in different ways";
+}
+
+bool PairGranularTalus::conducts_heat() const
+{
+  const std::vector<const Model *> models = all_models();
+  return std::any_of(models.begin(), models.end(), [](const Model *model) {
+    return model->sub_models[Granular_NS::HEAT]->name != "none";
+  });
 }
 
 std::string PairGranularTalus::stock_history() const
@@ -58,6 +68,10 @@ void PairGranularTalus::set_laws()
     for (int j = i; j <= atom->ntypes; j++)
       if (setflag[i][j]) laws.set(i, j, spec_of_model(model_of(i, j)));
   system->laws_have_changed();
+  if (!conducts_heat() || single_extra > stock_extra) return;
+  single_extra = stock_extra + 1;    // and the heat flow
+  delete[] svector;
+  svector = new double[single_extra];
 }
 
 /* The stock style may have a larger cutoff: a user's, or that of contacts that last beyond an
@@ -96,7 +110,9 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)),
                         fr.x,  fr.y, fr.z, std::sqrt(dot(fr, fr)),
                         twist, dx.x, dx.y, dx.z};
+  static_assert(std::size(all) == stock_extra);
   std::copy(std::begin(all), std::end(all), svector);
+  if (single_extra > stock_extra) svector[stock_extra] = s.heat_flow;
 }
 
 /* Fix GRANULAR/MDR looks for the pair style by its name without a suffix. */

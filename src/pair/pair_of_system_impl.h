@@ -65,6 +65,8 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.inverse_distance = 1.0 / r;
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
+  if (atom->temperature_flag)
+    s.temperature_difference = atom->temperature[j] - atom->temperature[i];
 
   return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
                                           s, this->update->dt,

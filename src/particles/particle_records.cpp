@@ -83,6 +83,7 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
     if (!order.is_owned(a)) continue;
     add_to_row(host.f + 3L * a, load4(load[stride * s]));
     if (rotation) add_to_row(host.torque + 3L * a, torque(s));
+    if (host.heat_flow) host.heat_flow[a] += twisting_torque[s].c[3];
   }
 }
 

@@ -29,6 +29,7 @@ struct ParticleView {
   const double
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   double *f, *torque;    ///< added to; torque may be nullptr like omega
+  double *heat_flow = nullptr;    ///< added to, if given: scalars, of owned particles
 };
 
 /// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),

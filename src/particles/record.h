@@ -9,7 +9,8 @@
 //   history record   { dx, dy, dz, at limit }            length, 0 or 1; see TangentialHistory
 //   impact record     { speed, age, begun, unused }       see ContactImpact
 //   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::add_torque()
-//   moment, twisting torque   { x, y, z, unused }
+//   moment           { x, y, z, unused }
+//   twisting torque  { x, y, z, heat flow }              of scenes that conduct heat
 //
 // The fourth entries of the first three are chosen such that the sum of two records gives what a
 // pair needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.

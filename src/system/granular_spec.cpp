@@ -52,7 +52,8 @@ constexpr StageOfModel stages[] = {{NORMAL, Stage::NORMAL, "normal"},
                                    {DAMPING, Stage::DAMPING, "damping"},
                                    {TANGENTIAL, Stage::TANGENTIAL, "tangential"},
                                    {ROLLING, Stage::ROLLING, "rolling"},
-                                   {TWISTING, Stage::TWISTING, "twisting"}};
+                                   {TWISTING, Stage::TWISTING, "twisting"},
+                                   {HEAT, Stage::HEAT, "heat"}};
 
 const Law *law_of(const GranSubMod &sub_model, Stage stage)
 {
@@ -118,7 +119,6 @@ std::string reason_of_model(const Model &model)
     const GranSubMod &sub_model = *model.sub_models[its.type];
     if (!law_of(sub_model, its.stage)) return std::string(its.word) + " model " + sub_model.name;
   }
-  if (model.sub_models[HEAT]->name != "none") return "contacts conduct heat";
   if (is_synchronized(&model)) return "synchronized_verlet";
   return "";
 }
@@ -132,6 +132,7 @@ ContactSpec spec_of_model(const Model &model)
   give_tangential(model, spec.given);
   give_resistance(*model.rolling_model, {"k_roll", "gamma_roll", "mu_roll"}, spec.given);
   give_resistance(*model.twisting_model, {"k_twist", "gamma_twist", "mu_twist"}, spec.given);
+  if (spec.law.conducts_heat()) spec.given["heat"] = model.sub_models[HEAT]->coeffs[0];
   if (model.limit_damping) spec.given["limit_damping"] = 1.0;
   return spec;
 }

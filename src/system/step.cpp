@@ -111,6 +111,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
+  if (law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
   const std::size_t joined = bodies_that_join();
@@ -184,7 +185,7 @@ std::size_t GranularSystem::bodies_that_join()
   return joined;
 }
 
-ParticleView GranularSystem::view() const
+ParticleView GranularSystem::view()
 {
   const bool any = atom->nlocal + atom->nghost > 0;
   return {any ? atom->x[0] : nullptr,
@@ -194,7 +195,8 @@ ParticleView GranularSystem::view() const
           atom->rmass,
           masses.override_or_null(),
           any ? atom->f[0] : nullptr,
-          any ? atom->torque[0] : nullptr};
+          any ? atom->torque[0] : nullptr,
+          law_table().conducts_heat() ? atom->heatflow : nullptr};
 }
 
 }    // namespace Talus

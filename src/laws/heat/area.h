@@ -1,0 +1,34 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Conduction in proportion to the area of contact, as LAMMPS' pair granular has it: with the contact
+// radius a the first body receives h pi a^2 (T_2 - T_1). h power/(length^2 temperature).
+
+#ifndef TALUS_LAWS_HEAT_AREA_H
+#define TALUS_LAWS_HEAT_AREA_H
+
+#include "laws/law_definition.h"
+
+namespace Talus {
+
+struct HeatArea : HeatLaw {
+  static constexpr const char *name = "area", *label = "heat area";
+  template <class Real> struct Row {
+    Real heat;
+  };
+  static constexpr CoefficientName coefficients[] = {{"heat"}};
+
+  static void read(LawReader &r) { r.set_not_negative("heat"); }
+  static Row<double> mix(const Mixing &m) { return {m.geometric("heat")}; }
+
+  template <bool advance, class Real>
+  TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
+                                   double /*dt*/)
+  {
+    s.heat_flow = (3.14159265358979323846 * c.heat) * s.contact_radius * s.contact_radius *
+                  s.temperature_difference;
+  }
+};
+
+}    // namespace Talus
+
+#endif

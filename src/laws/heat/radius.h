@@ -1,0 +1,34 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Conduction in proportion to the contact radius a, as LAMMPS' pair granular has it (Vargas and McCarthy
+// 2001, AIChE J. 47, 1052): the first body receives 2 conductivity a (T_2 - T_1). conductivity
+// power/(length temperature).
+
+#ifndef TALUS_LAWS_HEAT_RADIUS_H
+#define TALUS_LAWS_HEAT_RADIUS_H
+
+#include "laws/law_definition.h"
+
+namespace Talus {
+
+struct HeatRadius : HeatLaw {
+  static constexpr const char *name = "radius", *label = "heat radius";
+  template <class Real> struct Row {
+    Real heat;
+  };
+  static constexpr CoefficientName coefficients[] = {{"heat"}};
+
+  static void read(LawReader &r) { r.set_not_negative("heat"); }
+  static Row<double> mix(const Mixing &m) { return {m.geometric("heat")}; }
+
+  template <bool advance, class Real>
+  TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
+                                   double /*dt*/)
+  {
+    s.heat_flow = 2.0 * c.heat * s.contact_radius * s.temperature_difference;
+  }
+};
+
+}    // namespace Talus
+
+#endif
