@@ -176,6 +176,8 @@ talus_look_into_host(TALUS_HOST_HAS_RUN_PLUGINS PLUGIN/plugin.cpp "== \"run\"")
 talus_look_into_host(TALUS_HOST_TELLS_FORMULAS variable.h "std::string get_info\\(int")
 talus_look_into_host(TALUS_HOST_HAS_WALL_CYLINDER GRANULAR/fix_wall_gran.h "cylradius")
 talus_look_into_host(TALUS_HOST_DRAWS_GRAN_WALLS GRANULAR/fix_wall_gran.h "imgparms")
+talus_look_into_host(TALUS_HOST_SCALES_CLASSIC_SLIP GRANULAR/gran_sub_mod_tangential.cpp
+  "-1.0 / \\(k \\* contact_radius\\), history")
 
 set(TALUS_HOST_HAS_GRANULAR 0)
 set(talus_granular_headers "")
@@ -198,6 +200,7 @@ target_compile_definitions(lammps_host INTERFACE
   TALUS_HOST_TELLS_FORMULAS=${TALUS_HOST_TELLS_FORMULAS}
   TALUS_HOST_HAS_WALL_CYLINDER=${TALUS_HOST_HAS_WALL_CYLINDER}
   TALUS_HOST_DRAWS_GRAN_WALLS=${TALUS_HOST_DRAWS_GRAN_WALLS}
+  TALUS_HOST_SCALES_CLASSIC_SLIP=${TALUS_HOST_SCALES_CLASSIC_SLIP}
   LAMMPS_${talus_sizes_upper}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX
   ${MPI_CXX_COMPILE_DEFINITIONS})

@@ -18,14 +18,10 @@ endfunction()
 talus_glob(talus_core_sources ${talus_core_folders})
 talus_glob(talus_exchange_sources exchange)
 talus_glob(talus_style_sources ${talus_style_folders})
-if(NOT TALUS_HOST_HAS_GRANULAR)  # these derive from styles that the host does not have
-  list(FILTER talus_style_sources EXCLUDE REGEX "/(fix_wall_gran_|wall_models)[^/]*$")
-endif()
-
 # What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
 # talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
 if(NOT TALUS_HOST_HAS_GRANULAR)
-  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model)")
+  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_batch)")
   foreach(source IN LISTS talus_style_sources)
     string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
     set(found "")

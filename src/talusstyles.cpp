@@ -14,6 +14,7 @@
 #include "pair/pair_gran_penalty.h"
 #if TALUS_HOST_HAS_GRANULAR
 #include "pair/pair_gran_talus.h"
+#include "pair/pair_granular_talus.h"
 #endif
 #include "run/verlet_proxy.h"
 #include "system/exchange_switch.h"
@@ -132,6 +133,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
                                            "Talus pair style gran/hooke/history/talus");
   registry.pair<PairGranHertzHistoryTalus>("gran/hertz/history/talus",
                                            "Talus pair style gran/hertz/history/talus");
+  registry.pair<PairGranularTalus>("granular/talus", "Talus pair style granular/talus");
 #endif
   registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");

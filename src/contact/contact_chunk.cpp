@@ -130,15 +130,15 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   gather<friction, history_kept>(step.particles, end);
   if (scene.with_impact) gather_impacts(end);
   finish_geometry(end, friction);
-  if (scene.with_resistance) gather_resistance(step.particles, end);
+  if (scene.with_twisting) gather_for_twisting(step.particles, end, scene.with_resistance);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(end);
   if (scene.with_impact && step.advance) keep_impacts(end);
-  transpose_results<friction>(end, scene.with_resistance);
+  transpose_results<friction>(end, scene.with_twisting);
   if (pairs.weighted()) apply_weights(end);
   if (!pairs.is_late()) {
     add_up<friction>(step, block, count);
-    if (scene.with_resistance) add_twisting_torques(step.particles, block, count);
+    if (scene.with_twisting) add_twisting_torques(step.particles, block, count);
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
@@ -200,7 +200,7 @@ void ContactChunk::run_kernels(const Step &step)
     const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())
       clear_lanes(batch.moment, range.begin, range.end);
-    if (step.scene.with_resistance && !law.twists())
+    if (step.scene.with_twisting && !law.twists())
       clear_lanes(batch.twisting_torque, range.begin, range.end);
   }
 }

@@ -37,9 +37,11 @@ struct ReportedContact {
 /// What all chunks of a rank share.
 struct ContactScene {
   LawTable laws;
-  bool with_friction = false, with_history = false, with_impact = false, with_resistance = false;
-  bool beyond_contact = false;    ///< contacts of some laws last beyond zero overlap
-  std::vector<int> slot_type;     ///< types in canonical order; empty if laws are uniform
+  bool with_friction = false, with_history = false, with_impact = false;
+  bool with_twisting = false;      ///< twisting torques arise
+  bool with_resistance = false;    ///< of rolling or twisting
+  bool beyond_contact = false;     ///< contacts of some laws last beyond zero overlap
+  std::vector<int> slot_type;      ///< types in canonical order; empty if laws are uniform
 
   int row_of(int slot_a, int slot_b) const
   {
@@ -127,7 +129,7 @@ class ContactChunk {
   void give_lane(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history_kept>
   void gather(const ParticleRecords &particles, int end);
-  void gather_resistance(const ParticleRecords &particles, int end);
+  void gather_for_twisting(const ParticleRecords &particles, int end, bool resistance);
   void gather_impacts(int end);
   void finish_geometry(int end, bool radii_known);
   void run_kernels(const Step &step);
@@ -135,7 +137,7 @@ class ContactChunk {
   void keep_impacts(int end);
   void to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth, int end,
                     Record *records);
-  template <bool friction> void transpose_results(int end, bool with_resistance);
+  template <bool friction> void transpose_results(int end, bool with_twisting);
   void apply_weights(int end);
   template <bool friction, bool one_law, bool weights>
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
@@ -167,7 +169,7 @@ class ContactChunk {
   AlignedVector<LawRange> ranges;
   Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
       twisting_of_lane[ContactBatch::width];
-  alignas(64) double second_radius[ContactBatch::width];
+  alignas(64) double first_radius[ContactBatch::width], second_radius[ContactBatch::width];
 };
 
 }    // namespace Talus

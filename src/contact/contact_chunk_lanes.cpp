@@ -113,31 +113,35 @@ void ContactChunk::finish_geometry(int end, bool radii_known)
   }
 }
 
-/* What only laws read that write twisting torques: omega_i - omega_j, the circle in which the
-   surfaces intersect, and how lever arms that end in the middle of the overlap differ from radii. */
+/* What only laws read that write twisting torques: how lever arms that end in the middle of the
+   overlap differ from radii; with resistance also omega_i - omega_j and the circle in which the
+   surfaces intersect. */
 
-void ContactChunk::gather_resistance(const ParticleRecords &particles, int end)
+void ContactChunk::gather_for_twisting(const ParticleRecords &particles, int end, bool resistance)
 {
   const Record *x = particles.position.data();
-  const int *first = pairs.state_of_first();
+  const int *first = pairs.state_of_first(), *second = pairs.second.data();
+  for (int k = 0; k < end; k++) {
+    const std::uint32_t pair = pair_of_lane[k];
+    first_radius[k] = x[first[pair]].c[3];
+    second_radius[k] = x[second[pair]].c[3];
+  }
+  for (int k = 0; k < end; k += lanes) {
+    const Vec8 ri = load8(&first_radius[k]), rj = load8(&second_radius[k]),
+               overlap = load8(&batch.overlap[k]), loss = overlap / (ri + rj);
+    store(&batch.arm_loss[k], loss);
+    store(&batch.arm_difference[k], 0.5 * loss * (rj - ri));
+    if (resistance) store(&batch.circle[k], circle_of_intersection(ri, rj, overlap));
+  }
+  if (!resistance) return;
   const auto relative_omega = [&](int lane) {
     const std::uint32_t pair = pair_of_lane[lane];
-    const int i = first[pair], j = pairs.second[pair];
-    batch.circle[lane] = x[i].c[3];
-    second_radius[lane] = x[j].c[3];
-    return load4(particles.omega(i)) - load4(particles.omega(j));
+    return load4(particles.omega(first[pair])) - load4(particles.omega(second[pair]));
   };
   for (int k = 0; k < end; k += 4) {
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
     to_lanes(row, batch.relative_omega, nullptr, k);
-  }
-  for (int k = 0; k < end; k += lanes) {
-    const Vec8 ri = load8(&batch.circle[k]), rj = load8(&second_radius[k]),
-               overlap = load8(&batch.overlap[k]), loss = overlap / (ri + rj);
-    store(&batch.circle[k], circle_of_intersection(ri, rj, overlap));
-    store(&batch.arm_loss[k], loss);
-    store(&batch.arm_difference[k], 0.5 * loss * (rj - ri));
   }
 }
 
@@ -162,7 +166,7 @@ void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], c
             [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
 }
 
-template <bool friction> void ContactChunk::transpose_results(int end, bool with_resistance)
+template <bool friction> void ContactChunk::transpose_results(int end, bool with_twisting)
 {
   const auto rows_of = [](const Lane *vector, int k, Record *records) {
     to_rows(vector, nullptr, k, [=](int q) -> Record & { return records[k + q]; });
@@ -170,7 +174,7 @@ template <bool friction> void ContactChunk::transpose_results(int end, bool with
   for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, k, force_of_lane);
     if constexpr (friction) rows_of(batch.moment, k, moment_of_lane);
-    if (with_resistance) rows_of(batch.twisting_torque, k, twisting_of_lane);
+    if (with_twisting) rows_of(batch.twisting_torque, k, twisting_of_lane);
   }
 }
 

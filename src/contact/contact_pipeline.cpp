@@ -12,6 +12,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_friction = table.has_friction();
   scene.with_history = table.has_history();
   scene.with_impact = table.has_impact();
+  scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
   scene.beyond_contact = table.lasts_beyond_contact();
 }
@@ -83,7 +84,7 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
 
 void ContactPipeline::make_room()
 {
-  particles.resize(order.size(), scene.with_friction, scene.with_resistance,
+  particles.resize(order.size(), scene.with_friction, scene.with_twisting,
                    shared_owned.size() + shared_ghosts.size());
   deferred.make_room(particles);
 }

@@ -2,8 +2,9 @@
 //
 // What the accelerated variants of fix wall/gran and fix wall/gran/region share. They are the stock
 // classes (command line, histories, restart data, output), but look only at the particles near the
-// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The contact
-// model of LAMMPS computes each contact, so that the numbers are those of the stock class.
+// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The kernels of
+// the same contact law compute the contacts: the numbers are those of the stock class but for
+// rounding.
 //
 // Where the stock class needs the arrays in every step (heat, rigid bodies) its own methods are
 // used.
@@ -12,6 +13,7 @@
 #define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 
 #include "fix/plain_style.h"
+#include "fix/wall_batch.h"
 #include "fix/wall_candidates.h"
 #include "system/granular_system.h"
 
@@ -53,7 +55,9 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     Stock::init();
     candidates.forget();
     stock_reason = find_reason_for_stock();
-    if (stock_reason.empty()) begin_run();
+    if (!stock_reason.empty()) return;
+    wall_law.take(*this->model);
+    begin_run();
   }
 
   void setup_post_neighbor() override { candidates.forget(); }
@@ -83,6 +87,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
  protected:
   std::shared_ptr<GranularSystem> system;
   WallCandidates candidates;
+  WallLaw wall_law;
 
   /// In init(), if the run is accelerated.
   virtual void begin_run() = 0;
@@ -108,17 +113,24 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   }
   bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
-  /// Row of a particle in the output by particle: force, contact point, and details of the model.
-  void keep_contact(int i, const LAMMPS_NS::Granular_NS::GranularModel &its)
+  /// Row of a particle in the output by particle: force and contact point.
+  void keep_contact(int i, const double *force, const double *separation)
   {
     double *row = this->array_atom[i];
     row[0] = 1.0;
     for (int d = 0; d < 3; d++) {
-      row[1 + d] = its.forces[d];
-      row[4 + d] = this->atom->x[i][d] - its.dx[d];
+      row[1 + d] = force[d];
+      row[4 + d] = this->atom->x[i][d] - separation[d];
     }
     row[7] = this->atom->radius[i];
-    for (int n = 0; n < its.nsvector; n++) row[8 + n] = its.svector[n];
+  }
+  void deliver(WallBatch &batch, const WallParticles &particles)
+  {
+    const bool keeps = keeps_contacts();
+    batch.compute([&](int i, const double *force, const double *torque, const double *separation) {
+      particles.add(i, force, torque);
+      if (keeps) keep_contact(i, force, separation);
+    });
   }
 
  private:
@@ -130,12 +142,10 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (!system->has_pair_style()) return system->reason_of_pair_style();
     if (!LAMMPS_NS::utils::strmatch(this->update->integrate_style, "^verlet"))
       return "run_style is not verlet";
-    if (this->heat_flag) return "it conducts heat";
     if (this->fix_rigid) return std::string("fix ") + this->fix_rigid->id + " moves rigid bodies";
     if (this->group->dynamic[this->igroup]) return "its group is dynamic";
-    if (this->model->sub_models[LAMMPS_NS::Granular_NS::NORMAL]->name == "mdr")
-      return "normal model mdr";
-    return what_only_stock_does();
+    const std::string its = reason_of_model(*this->model);
+    return its.empty() ? what_only_stock_does() : its;
   }
 };
 

@@ -80,11 +80,7 @@ void FixWallGranRegionTalus::begin_step()
     if (bounded) pose = RegionPose(*region);
   }
   std::fill(velocity, velocity + 3, 0.0);
-  model->history_update = histories_advance() ? 1 : 0;
-  model->calculate_svector = keeps_contacts() ? 1 : 0;
-  model->radj = 0.0;
-  model->omegaj = no_omega;
-  model->vj = velocity;
+  batch.begin_step(wall_law, histories_advance() ? dt : 0.0);
 }
 
 void FixWallGranRegionTalus::add_contacts()
@@ -99,6 +95,7 @@ void FixWallGranRegionTalus::add_contacts()
     if (c + ahead < candidates.size()) particles.prefetch(candidates.atoms[c + ahead]);
     add_contacts_of(candidates.atoms[c], particles);
   }
+  deliver(batch, particles);
 }
 
 void FixWallGranRegionTalus::add_contacts_of(int i, const WallParticles &particles)
@@ -143,16 +140,10 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   const Region::Contact &contact = region->contact[ic];
   double *history = use_history ? history_many[i][c2r[ic]] : nullptr;
   const bool beyond = touches_beyond_contact();
-  model->dx[0] = contact.delx;
-  model->dx[1] = contact.dely;
-  model->dx[2] = contact.delz;
-  model->radi = particles.radius(i);
-  model->radj = contact.radius;
-  model->r = contact.r;
-  model->i = i;
-  model->j = ic;
-  if (beyond) model->touch = history[0] != 0.0;
-  if (!model->check_contact()) {
+  const double radius = particles.radius(i);
+  double touch = radius;
+  if (beyond && history[0] != 0.0) touch += wall_law.reach(radius, contact.radius);
+  if (!(contact.r * contact.r < touch * touch)) {
     if (history) std::fill(history, history + size_history, 0.0);
     return;
   }
@@ -161,11 +152,8 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   double x[3];
   std::copy_n(particles.position(i), 3, x);
   if (dynamic) region->velocity_contact(velocity, x, ic);
-  model->meff = atom->rmass[i];
-  model->vi = particles.velocity(i);
-  model->omegai = particles.omega(i);
-  if (history) model->history = history;
-  model->calculate_forces();
-  particles.add(i, model->forces, model->torquesi);
-  if (keeps_contacts()) keep_contact(i, *model);
+  const double separation[3] = {contact.delx, contact.dely, contact.delz};
+  batch.add({i, separation, contact.r, radius, atom->rmass[i], contact.radius,
+             particles.velocity(i), velocity, particles.omega(i), history});
+  if (batch.is_full()) deliver(batch, particles);
 }

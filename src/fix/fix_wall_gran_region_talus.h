@@ -39,7 +39,8 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   bool bounded = false;    // distances from it are known
   Talus::RegionPose pose, listed_pose;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch
-  double velocity[3] = {0.0, 0.0, 0.0}, no_omega[3] = {0.0, 0.0, 0.0};
+  Talus::WallBatch batch;
+  double velocity[3] = {0.0, 0.0, 0.0};
 };
 
 }    // namespace LAMMPS_NS

@@ -29,7 +29,7 @@ std::string FixWallGranTalus::what_only_stock_does() const
 
 void FixWallGranTalus::begin_run()
 {
-  models.init(lmp, *model, comm->nthreads);
+  batches.resize(comm->nthreads);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -136,20 +136,19 @@ void FixWallGranTalus::add_contacts()
   if (candidates.are_stale(moved, std::abs(displacement() - listed_at), atom->nlocal))
     find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
-  models.begin_step(dt, histories_advance(), keeps_contacts(), velocity);
-
   const WallParticles particles(*system, *atom);
-  const int threads = std::clamp(candidates.size() / worth_a_thread, 1, models.threads());
+  const int threads =
+      std::clamp(candidates.size() / worth_a_thread, 1, static_cast<int>(batches.size()));
   in_ranges(candidates.size(), threads, [&](int thread, int begin, int end) {
-    add_contacts_of(thread, particles, begin, end);
+    batches[thread].begin_step(wall_law, histories_advance() ? dt : 0.0);
+    add_contacts_of(batches[thread], particles, begin, end);
   });
 }
 
-void FixWallGranTalus::add_contacts_of(int thread, const WallParticles &particles, int begin,
+void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &particles, int begin,
                                        int end)
 {
-  Model &its = models.of(thread);
-  const bool beyond = touches_beyond_contact(), keeps = keeps_contacts();
+  const bool beyond = touches_beyond_contact();
   constexpr int ahead = 8;
   for (int c = begin; c < end; c++) {
     if (c + ahead < end) particles.prefetch(candidates.atoms[c + ahead]);
@@ -157,29 +156,20 @@ void FixWallGranTalus::add_contacts_of(int thread, const WallParticles &particle
     const double radius = particles.radius(i);
     const Gap g = gap(particles.position(i), radius);
     const double squared = g.d[0] * g.d[0] + g.d[1] * g.d[1] + g.d[2] * g.d[2];
-    bool touches = beyond || squared < radius * radius;    // the rest is seen without the model
-    if (touches) {
-      std::copy(g.d, g.d + 3, its.dx);
-      its.radi = radius;
-      its.radj = g.radius;
-      if (beyond) its.touch = history_one[i][0] != 0.0;
-      touches = its.check_contact();
-    }
-    if (!touches) {
+    double touch = radius;
+    if (beyond && history_one[i][0] != 0.0) touch += wall_law.reach(radius, g.radius);
+    if (!(squared < touch * touch)) {
       if (candidates.touched[c]) clear_history(i);
       candidates.touched[c] = 0;
       continue;
     }
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
-    its.meff = atom->rmass[i];
-    its.vi = particles.velocity(i);
-    its.omegai = particles.omega(i);
-    if (use_history) its.history = history_one[i];
-    its.calculate_forces();
-    particles.add(i, its.forces, its.torquesi);
-    if (keeps) keep_contact(i, its);
+    batch.add({i, g.d, std::sqrt(squared), radius, atom->rmass[i], g.radius, particles.velocity(i),
+               velocity, particles.omega(i), use_history ? history_one[i] : nullptr});
+    if (batch.is_full()) deliver(batch, particles);
   }
+  deliver(batch, particles);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -7,7 +7,6 @@
 #define LMP_FIX_WALL_GRAN_TALUS_H
 
 #include "fix/fix_wall_gran_accelerated.h"
-#include "fix/wall_models.h"
 #include "system/lammps_compat.h"
 
 #include "fix_wall_gran.h"
@@ -51,10 +50,11 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
   void place();
   void find_candidates(double moved);
   void clear_history(int i);
-  void add_contacts_of(int thread, const Talus::WallParticles &particles, int begin, int end);
+  void add_contacts_of(Talus::WallBatch &batch, const Talus::WallParticles &particles, int begin,
+                       int end);
 
-  Talus::WallModels models;
-  double now[2] = {0.0, 0.0};    // planes at lo and hi in this step
+  std::vector<Talus::WallBatch> batches;    // by thread
+  double now[2] = {0.0, 0.0};               // planes at lo and hi in this step
   double velocity[3] = {0.0, 0.0, 0.0};
   double listed_at = 0.0;    // displacement() when candidates were found
 };

@@ -14,9 +14,8 @@ using namespace Talus;
 
 /* One pass over the particles serves both checks, as long as the first one still looks. */
 
-std::vector<RunMonitor::Check>
-LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst, bool moves,
-                         const std::string &id)
+std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst,
+                                                        bool moves, const std::string &id)
 {
   using Finding = RunMonitor::Finding;
   look = std::move(find_worst);

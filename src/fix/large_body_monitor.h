@@ -29,8 +29,8 @@ class LargeBodyMonitor : protected Pointers {
 
   /// `find_worst`: of the particles of this rank; `moves`: the body does. This object must live as
   /// long as the checks.
-  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst,
-                                        bool moves, const std::string &id);
+  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst, bool moves,
+                                        const std::string &id);
 
  private:
   RunMonitor::Finding finding(double value, int particle) const;

@@ -84,6 +84,18 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
   return kernel;
 }
 
+/// Of tangential, rolling and twisting laws.
+static HistoryPlaces places_one_behind_the_other(const ContactLaw &law)
+{
+  const HistoryLayout history = law.history();
+  HistoryPlaces places{};
+  int next = 0;
+  for (const Stage stage : {Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING})
+    for (int n = 0; n < law[stage].odd_history + law[stage].even_history; n++)
+      places[next++] = history.of_stage[static_cast<int>(stage)][n];
+  return places;
+}
+
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   const StageFunction fused =
@@ -91,7 +103,7 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
-  kernel.add(fused, 0, law.history().of_stage[static_cast<int>(Stage::TANGENTIAL)]);
+  kernel.add(fused, 0, places_one_behind_the_other(law));
   return kernel;
 }
 

@@ -3,16 +3,24 @@
 #include "laws/fused_kernels.h"
 
 #include "laws/approach.h"
+#include "laws/damping/coeff_restitution.h"
 #include "laws/damping/mass_velocity.h"
 #include "laws/damping/restitution.h"
+#include "laws/damping/tsuji.h"
 #include "laws/damping/viscoelastic.h"
 #include "laws/law_list.h"
 #include "laws/normal/hertz.h"
 #include "laws/normal/hertz_material.h"
 #include "laws/normal/hooke.h"
+#include "laws/normal/jkr.h"
+#include "laws/rolling/none.h"
+#include "laws/rolling/sds.h"
+#include "laws/tangential/granular.h"
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
+#include "laws/twisting/marshall.h"
+#include "laws/twisting/none.h"
 
 #include <algorithm>
 
@@ -28,21 +36,32 @@ using Wide = Vec8;
 #endif
 constexpr int wide_lanes = sizeof(Wide) / sizeof(double);
 
-template <class Normal, class Damping, class Tangential> struct Fused {
-  static constexpr int remembered = history_size_of<Tangential>;
-  static constexpr int first_of_damping = num_coefficients_of<Normal>();
-  static constexpr int first_of_tangential = first_of_damping + num_coefficients_of<Damping>();
+template <class... Laws>
+inline constexpr int coefficients_of = (0 + ... + num_coefficients_of<Laws>());
+template <class... Laws> inline constexpr int values_of = (0 + ... + history_size_of<Laws>);
+
+template <class Normal, class Damping, class Tangential, class Rolling, class Twisting>
+struct Fused {
+  static constexpr int remembered = values_of<Tangential, Rolling, Twisting>;
+  static constexpr bool with_radius = Normal::needs_radius || Damping::needs_radius ||
+                                      Tangential::needs_radius || Rolling::needs_radius ||
+                                      Twisting::needs_radius;
+  static constexpr bool twists = Tangential::lever_arms || Rolling::acts || Twisting::acts;
 
   template <class Real> struct Rows {
     typename Normal::template Row<Real> normal;
     typename Damping::template Row<Real> damping;
     typename Tangential::template Row<Real> tangential;
+    typename Rolling::template Row<Real> rolling;
+    typename Twisting::template Row<Real> twisting;
   };
 
   template <class Real> TALUS_INLINE static Rows<Real> rows(const double *c)
   {
-    return {spread<Normal, Real>(c), spread<Damping, Real>(c + first_of_damping),
-            spread<Tangential, Real>(c + first_of_tangential)};
+    return {spread<Normal, Real>(c), spread<Damping, Real>(c + coefficients_of<Normal>),
+            spread<Tangential, Real>(c + coefficients_of<Normal, Damping>),
+            spread<Rolling, Real>(c + coefficients_of<Normal, Damping, Tangential>),
+            spread<Twisting, Real>(c + coefficients_of<Normal, Damping, Tangential, Rolling>)};
   }
 
   /// The contacts from lane k on, as many as a Real is wide.
@@ -52,7 +71,7 @@ template <class Normal, class Damping, class Tangential> struct Fused {
   {
     ContactLanes<Real> s;
     load_state(b, k, s);
-    approach<Normal::needs_radius>(s);
+    approach<with_radius>(s);
     Real history[remembered + 1];    // none has no length 0
     for (int n = 0; n < remembered; n++)
       history[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
@@ -60,7 +79,12 @@ template <class Normal, class Damping, class Tangential> struct Fused {
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
       Tangential::template compute<true>(c.tangential, s, history, in.dt);
+      Real *const of_rolling = history + values_of<Tangential>;
+      if constexpr (Rolling::acts) Rolling::template compute<true>(c.rolling, s, of_rolling, in.dt);
+      if constexpr (Twisting::acts)
+        Twisting::template compute<true>(c.twisting, s, of_rolling + values_of<Rolling>, in.dt);
       store_vector(b.moment, k, s.moment);
+      if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
     for (int n = 0; n < remembered; n++)
@@ -79,13 +103,17 @@ template <class Normal, class Damping, class Tangential> struct Fused {
 
 /// Laws by their names: what is in law_list.cpp is not compiled here once more.
 struct Entry {
-  const char *normal, *damping, *tangential;
+  const char *normal, *damping, *tangential, *rolling, *twisting;
   StageFunction function;
 };
 
-template <class Normal, class Damping, class Tangential> constexpr Entry entry()
+template <class Normal, class Damping, class Tangential, class Rolling = RollingNone,
+          class Twisting = TwistingNone>
+constexpr Entry entry()
 {
-  return {Normal::name, Damping::name, Tangential::name, Fused<Normal, Damping, Tangential>::run};
+  return {Normal::name,     Damping::name,
+          Tangential::name, Rolling::name,
+          Twisting::name,   Fused<Normal, Damping, Tangential, Rolling, Twisting>::run};
 }
 
 constexpr Entry entries[] = {
@@ -97,6 +125,11 @@ constexpr Entry entries[] = {
     entry<HertzMaterial, RestitutionDamping, Onestep>(),
     entry<HertzMaterial, RestitutionDamping, MultistepStock>(),
     entry<HertzMaterial, RestitutionDamping, Multistep<false, true>>(),
+    entry<Hertz, Viscoelastic, Mindlin>(),
+    entry<Hertz, Tsuji, Mindlin>(),
+    entry<Hertz, CoeffRestitution, Mindlin>(),
+    entry<Hertz, Tsuji, Mindlin, SdsRolling, MarshallTwist>(),
+    entry<Jkr, Viscoelastic, Mindlin>(),
 };
 
 }    // namespace
@@ -116,6 +149,8 @@ std::vector<ContactLaw> fused_laws()
     its.choose(Stage::NORMAL, find_law(Stage::NORMAL, e.normal));
     its.choose(Stage::DAMPING, find_law(Stage::DAMPING, e.damping));
     its.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, e.tangential));
+    its.choose(Stage::ROLLING, find_law(Stage::ROLLING, e.rolling));
+    its.choose(Stage::TWISTING, find_law(Stage::TWISTING, e.twisting));
     laws.push_back(its);
   }
   return laws;

@@ -65,6 +65,11 @@ bool LawTable::has_impact() const
 
 bool LawTable::has_resistance() const
 {
+  return any([](const ContactLaw &law) { return law.resists(); });
+}
+
+bool LawTable::has_twisting_torques() const
+{
   return any([](const ContactLaw &law) { return law.twists(); });
 }
 

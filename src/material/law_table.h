@@ -44,6 +44,8 @@ class LawTable {
   bool has_history() const;
   bool has_impact() const;
   bool has_resistance() const;
+  /// Torques that are not the moment of a force on both surfaces.
+  bool has_twisting_torques() const;
   bool lasts_beyond_contact() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
   double reach(int row, double radius_i, double radius_j) const;

@@ -123,7 +123,9 @@ void PairGranPenalty::compute(int eflag, int vflag)
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,
                                double &fforce)
 {
-  fforce = force_of_pair(i, j, itype, jtype, rsq, svector);
+  const std::optional<SinglePair> pair = look_at_pair(i, j, itype, jtype, rsq);
+  fforce = pair ? pair->force_over_distance() : 0.0;
+  describe_pair(pair, svector);
   return 0.0;
 }
 

@@ -5,16 +5,9 @@
 #include "pair/pair_gran_talus.h"
 
 #include "laws/law_list.h"
-#include "pair/pair_of_system_impl.h"
+#include "pair/accelerated_pair_impl.h"
 
-#include "atom.h"
-#include "comm.h"
-#include "error.h"
-#include "fix.h"
-#include "force.h"
-#include "modify.h"
-
-#include <string>
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -37,87 +30,14 @@ constexpr StockLaw law_of<PairGranHertzHistory> = {"gran/hertz/history", "hertz"
 
 }    // namespace
 
-/* ---------------------------------------------------------------------- */
-
-template <class Stock> PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : PairOfSystem<Stock>(lmp)
+template <class Stock>
+PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : AcceleratedPair<Stock>(lmp, law_of<Stock>.style)
 {
-  this->no_virial_fdotr_compute = 1;    // ghosts have no forces
-  attached = this->system->attach(this, {law_of<Stock>.style, true, true});
 }
 
 template <class Stock> PairGranTalus<Stock>::~PairGranTalus()
 {
-  if (this->copymode) return;
-  if (this->modify->get_fix_by_id(history_id()) && in_system())
-    this->modify->delete_fix(history_id());
-  this->system->detach(this);
-}
-
-template <class Stock> std::string PairGranTalus<Stock>::plain_style() const
-{
-  return law_of<Stock>.style;
-}
-
-/* That of the stock style, which restart files know. */
-
-template <class Stock> std::string PairGranTalus<Stock>::history_id() const
-{
-  return "NEIGH_HISTORY_HH" + std::to_string(this->instance_me);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class Stock> void PairGranTalus<Stock>::init_style()
-{
-  const Atom *atom = this->atom;
-  const bool complete = atom->radius_flag && atom->rmass_flag && atom->omega_flag &&
-                        atom->torque_flag && this->comm->ghost_velocity;
-  if (!complete) return Stock::init_style();    // which says what is missing
-  if (!stock_reason) decide();
-  if (!in_system()) return Stock::init_style();
-  const std::string later = this->system->unsupported_settings();
-  if (!later.empty())
-    this->error->all(FLERR,
-                     "Pair style {}: {}: it was accelerated in the last run, so use 'suffix off' "
-                     "before pair_style, or set this before the first run",
-                     plain_style(), later);
-
-  set_laws();
-  this->system->init_pair_style();
-  if (this->history && !this->modify->get_fix_by_id(history_id()))
-    this->modify->add_fix(history_id() + " all TALUS_PAIR_HISTORY");
-}
-
-template <class Stock> void PairGranTalus<Stock>::decide()
-{
-  stock_reason = find_reason_for_stock();
-  if (!in_system()) this->system->detach(this);
-}
-
-template <class Stock> std::string PairGranTalus<Stock>::find_reason_for_stock()
-{
-  if (!attached)
-    return "one pair style is accelerated, and " + this->system->style_name() + " is it";
-  if (this->lmp->kokkos) return "the KOKKOS package is in use";
-  if (!this->atom->tag_enable) return "particles have no IDs (atom_modify id no)";
-  if (this->force->ftm2v != 1.0)
-    return "the unit of force is not that of mass times acceleration in these units";
-  for (const std::string &its : {this->system->unsupported_settings(), reason_of_fixes()})
-    if (!its.empty()) return its;
-  return this->history ? this->system->reason_against_history() : "";
-}
-
-/* Histories and canonical keys have to be put aside before a fix moves particles between ranks. */
-
-template <class Stock> std::string PairGranTalus<Stock>::reason_of_fixes() const
-{
-  for (const auto &fix : this->modify->get_fix_list()) {
-    if (fix->pre_exchange_migrate)
-      return std::string("fix ") + fix->id + " (" + fix->style +
-             "), which migrates atoms, is defined before the pair style";
-    if (utils::strmatch(fix->id, "^TALUS_CONTACTS")) break;
-  }
-  return "";
+  if (!this->copymode) this->leave_system();
 }
 
 /* The same for all pairs of types. The stock style has converted units and NULL. */
@@ -143,50 +63,12 @@ template <class Stock> void PairGranTalus<Stock>::set_laws()
   this->system->laws_have_changed();
 }
 
-template <class Stock> double PairGranTalus<Stock>::init_one(int i, int j)
-{
-  return in_system() ? this->system->cutoff(i, j) : Stock::init_one(i, j);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class Stock> void PairGranTalus<Stock>::compute(int eflag, int vflag)
-{
-  if (in_system())
-    this->compute_contacts(eflag, vflag);
-  else
-    Stock::compute(eflag, vflag);
-}
-
 template <class Stock>
-double PairGranTalus<Stock>::single(int i, int j, int itype, int jtype, double rsq,
-                                    double factor_coul, double factor_lj, double &fforce)
+void PairGranTalus<Stock>::report_single(const std::optional<SinglePair> &pair)
 {
-  if (!in_system()) return Stock::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   double extra[PairOfSystem<Stock>::num_extra];
-  fforce = this->force_of_pair(i, j, itype, jtype, rsq, extra);
+  this->describe_pair(pair, extra);
   std::copy(extra, extra + this->single_extra, this->svector);
-  return 0.0;
-}
-
-template <class Stock>
-int PairGranTalus<Stock>::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc)
-{
-  return in_system() ? this->pack_masses(n, list, buf)
-                     : Stock::pack_forward_comm(n, list, buf, pbc_flag, pbc);
-}
-
-template <class Stock> void PairGranTalus<Stock>::unpack_forward_comm(int n, int first, double *buf)
-{
-  if (in_system())
-    this->unpack_masses(n, first, buf);
-  else
-    Stock::unpack_forward_comm(n, first, buf);
-}
-
-template <class Stock> double PairGranTalus<Stock>::memory_usage()
-{
-  return in_system() ? this->system->memory_usage() : Stock::memory_usage();
 }
 
 template class LAMMPS_NS::PairGranTalus<PairGranHooke>;

@@ -7,13 +7,29 @@
 #ifndef LMP_PAIR_OF_SYSTEM_H
 #define LMP_PAIR_OF_SYSTEM_H
 
-#include "pair.h"
+#include "laws/contact_lanes.h"
 #include "system/granular_system.h"
 #include "system/system_pair.h"
 
+#include "pair.h"
+
 #include <memory>
+#include <optional>
 
 namespace LAMMPS_NS {
+
+/// Two particles that touch, as single() of a pair style is asked about them: their state, what
+/// their laws make of it, and distance and radii (length).
+struct SinglePair {
+  Talus::ContactLanes<double> contact;
+  double distance, radius_i, radius_j;
+
+  /// What the host wants of single(): of the normal force, adhesion included.
+  double force_over_distance() const
+  {
+    return dot(contact.force - contact.tangential, contact.normal) / distance;
+  }
+};
 
 template <class Base> class PairOfSystem : public Base, public Talus::SystemPair {
  protected:
@@ -22,12 +38,14 @@ template <class Base> class PairOfSystem : public Base, public Talus::SystemPair
   /// In the place of compute().
   void compute_contacts(int eflag, int vflag);
 
-  /// In the place of single(): forces of a pair at squared distance rsq that touches or not,
-  /// history as stored. Returns what the host wants of single(): force over distance. `extra`:
-  /// friction (vector and length), normal and tangential velocity as the stock styles have them,
-  /// and then overlap over the smaller radius.
+  /// For single(): particles at squared distance rsq, history as stored; nothing if they do not
+  /// touch.
+  std::optional<SinglePair> look_at_pair(int i, int j, int itype, int jtype, double rsq);
+
+  /// Of a pair or of none: friction (vector and length), normal and tangential velocity as the
+  /// stock styles gran/* have them, and then overlap over the smaller radius.
   static constexpr int num_extra = 11;
-  double force_of_pair(int i, int j, int itype, int jtype, double rsq, double *extra);
+  static void describe_pair(const std::optional<SinglePair> &pair, double *extra);
 
   /// Masses that contacts feel, for ghosts: pack_forward_comm() and the like.
   int pack_masses(int n, const int *send, double *buf) const;

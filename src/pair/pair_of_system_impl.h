@@ -38,20 +38,19 @@ template <class Base> void PairOfSystem<Base>::tally(const Talus::ReportedContac
 }
 
 template <class Base>
-double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, double rsq,
-                                         double *extra)
+std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int itype, int jtype,
+                                                           double rsq)
 {
   using Vector = Talus::Vector3<double>;
   const auto row = [](const double *p) { return Vector{p[0], p[1], p[2]}; };
   const Atom *atom = this->atom;
 
   const Talus::LawTable &laws = system->law_table();
-  std::fill(extra, extra + num_extra, 0.0);
   const double ri = atom->radius[i], rj = atom->radius[j];
   const auto remembered = system->remembered_of(i, j);
   const int row_of_types = laws.row(itype, jtype);
   const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
-  if (rsq >= touch * touch || rsq == 0.0) return 0.0;
+  if (rsq >= touch * touch || rsq == 0.0) return {};
 
   const double r = std::sqrt(rsq);
   Talus::ContactState<double> s;
@@ -67,17 +66,26 @@ double PairOfSystem<Base>::force_of_pair(int i, int j, int itype, int jtype, dou
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
 
-  const Talus::ContactLanes<double> out =
-      Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types), s,
-                            this->update->dt, remembered.value_or(Talus::RememberedValues{}));
+  return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
+                                          s, this->update->dt,
+                                          remembered.value_or(Talus::RememberedValues{})),
+                    r, ri, rj};
+}
 
+template <class Base>
+void PairOfSystem<Base>::describe_pair(const std::optional<SinglePair> &pair, double *extra)
+{
+  std::fill(extra, extra + num_extra, 0.0);
+  if (!pair) return;
+  using Vector = Talus::Vector3<double>;
+  const Talus::ContactLanes<double> &s = pair->contact;
   const Vector vn = dot(s.velocity, s.normal) * s.normal, vt = s.velocity - vn;
-  const Vector ft = out.tangential;
-  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)),      vn.x, vn.y, vn.z,
-                          vt.x, vt.y, vt.z, s.overlap / std::min(ri, rj)};
+  const Vector ft = s.tangential;
+  const double depth = s.overlap / std::min(pair->radius_i, pair->radius_j);
+  const double found[] = {ft.x, ft.y, ft.z, std::sqrt(dot(ft, ft)), vn.x, vn.y, vn.z, vt.x,
+                          vt.y, vt.z, depth};
   static_assert(std::size(found) == num_extra);
   std::copy(std::begin(found), std::end(found), extra);
-  return dot(out.force - out.tangential, s.normal) / r;    // with adhesion
 }
 
 template <class Base> int PairOfSystem<Base>::pack_masses(int n, const int *send, double *buf) const

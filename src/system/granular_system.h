@@ -92,10 +92,14 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string reason_of_pair_style() const;
   /// In init_style(), before it: "", or what of the settings of LAMMPS would make forces wrong.
   std::string unsupported_settings() const;
+  /// "" if neighbors are found here, else why neighbor lists are those of LAMMPS.
+  std::string reason_for_lists_of_host() const { return neighbors.reason_for_host(); }
   /// Of types i and j, after init_pair_style() (length): at which particles may touch, or part.
   double cutoff(int i, int j) const;
   /// How far contacts of all types last beyond zero overlap (length).
   double largest_reach() const;
+  /// As of init_pair_style().
+  const LAMMPS_NS::LargestRadii &largest_radii() const { return radii; }
 
   Talus::LawBook &laws() { return book; }
   const Talus::LawBook &laws() const { return book; }

@@ -41,6 +41,14 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_GRANULAR"
 #endif
 
+// TALUS_HOST_SCALES_CLASSIC_SLIP, set by the build: where the classic tangential models of pair
+// granular slip, the displacement is set back by the stiffness that the contact has; and only that
+// of mindlin_classic is scaled with the contact radius. Before, both are scaled, and what is set back
+// is not.
+#if !defined(TALUS_HOST_SCALES_CLASSIC_SLIP)
+#error "link the CMake target lammps_host: it defines TALUS_HOST_SCALES_CLASSIC_SLIP"
+#endif
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

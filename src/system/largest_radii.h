@@ -23,7 +23,10 @@ class LargestRadii : protected Pointers {
   /// Distance at which particles of types i and j can touch.
   double cutoff(int i, int j) const;
   double largest() const;
+  /// Of one type (length).
   double largest(int type) const { return std::max(free[type], frozen[type]); }
+  double of_free(int type) const { return free[type]; }
+  double of_frozen(int type) const { return frozen[type]; }
 
  private:
   void add_future(std::vector<double> &radius) const;

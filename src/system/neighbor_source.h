@@ -27,10 +27,11 @@ class NeighborSource : protected Pointers {
   Talus::NeighborView find(const class NeighList *list, double reach);
   void release() { search.clear(); }
 
+  /// "" if neighbors are found here, else why the lists are those of the host.
+  std::string reason_for_host() const;
   double memory_usage() const { return search.memory_usage(); }
 
  private:
-  std::string reason_for_host() const;
   bool excludes(int i, int j) const;
 
   Talus::NeighborSearch search;

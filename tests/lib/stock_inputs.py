@@ -114,34 +114,36 @@ fix 4 enforce2d                   stock: no accelerated variant
 run verlet                        accelerated
 steps without output              through the arrays of LAMMPS: fix 2 (gravity): a fix moves rigid bodies
 """, steps=10000, every=1000, long_steps=25000, bench_steps=25000),
+    # later LAMMPS turns histories of rolling around where new neighbor lists turn a pair around
     StockInput("examples/granular/in.pour.drum", """
-pair granular                     stock: no accelerated variant
-fix 1 nve/sphere                  stock: the pair style is not accelerated
-fix grav gravity                  stock: the pair style is not accelerated
-fix 3 wall/gran/region            stock: the pair style is not accelerated
-fix 4 wall/gran/region            stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+pair granular                     accelerated
+fix 1 nve/sphere                  accelerated
+fix grav gravity                  accelerated
+fix 3 wall/gran/region            accelerated
+fix 4 wall/gran/region            accelerated
+run verlet                        accelerated
+steps without output              in the records
 
-pair granular                     stock: no accelerated variant
-fix 1 nve/sphere                  stock: the pair style is not accelerated
-fix 3 wall/gran/region            stock: the pair style is not accelerated
-fix 4 wall/gran/region            stock: the pair style is not accelerated
-fix 5 wall/gran/region            stock: the pair style is not accelerated
-fix grav gravity                  stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
-""", steps=500, every=100, long_steps=2000, bench_steps=1000),
+pair granular                     accelerated
+fix 1 nve/sphere                  accelerated
+fix 3 wall/gran/region            accelerated
+fix 4 wall/gran/region            accelerated
+fix 5 wall/gran/region            accelerated
+fix grav gravity                  accelerated
+run verlet                        accelerated
+steps without output              in the records
+""", steps=100, every=50, long_steps=100, bench_steps=1000,
+               rubs="never"),
     StockInput("examples/granular/in.pour.flatwall", """
-pair granular                     stock: no accelerated variant
-fix 1 nve/sphere                  stock: the pair style is not accelerated
-fix grav gravity                  stock: the pair style is not accelerated
-fix 3 wall/gran                   stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+pair granular                     accelerated
+fix 1 nve/sphere                  accelerated
+fix grav gravity                  accelerated
+fix 3 wall/gran                   accelerated
+run verlet                        accelerated
+steps without output              in the records
 """, steps=2000, every=500, long_steps=5000, bench_steps=5000),
     StockInput("examples/granular/in.pour.heat", """
-pair granular                     stock: no accelerated variant
+pair granular                     stock: contacts conduct heat
 fix 2 nve/sphere                  stock: the pair style is not accelerated
 fix 3 heat/flow                   stock: no accelerated variant
 fix grav gravity                  stock: the pair style is not accelerated
@@ -151,13 +153,13 @@ run verlet                        stock: the pair style is not accelerated
 steps without output              through the arrays of LAMMPS: the pair style is not accelerated
 """, steps=4000, every=500, long_steps=10000, bench_steps=10000),
     StockInput("examples/granular/in.restitution", """
-pair granular                     stock: no accelerated variant
-fix 1 nve/sphere                  stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+pair granular                     accelerated
+fix 1 nve/sphere                  accelerated
+run verlet                        accelerated
+steps without output              in the records
 """, steps=200000, every=50000, long_steps=1000000, bench_steps=1000000, rubs="never"),
     StockInput("examples/granular/in.sync_verlet", """
-pair granular                     stock: no accelerated variant
+pair granular                     stock: synchronized_verlet
 fix frz freeze                    accelerated
 fix g gravity                     stock: the pair style is not accelerated
 fix 1 nve/sphere                  stock: the pair style is not accelerated
@@ -166,7 +168,7 @@ run verlet                        stock: the pair style is not accelerated
 steps without output              through the arrays of LAMMPS: the pair style is not accelerated
 """, steps=100000, every=20000, long_steps=300000, bench_steps=300000, since=20260704),
     StockInput("examples/granular/in.tableting.200", """
-pair granular                     stock: no accelerated variant
+pair granular                     stock: normal model mdr
 fix lowerPunch wall/gran/region   stock: the pair style is not accelerated
 fix upperPunch wall/gran/region   stock: the pair style is not accelerated
 fix die wall/gran/region          stock: the pair style is not accelerated
@@ -177,7 +179,7 @@ steps without output              through the arrays of LAMMPS: the pair style i
 """, steps=1000, every=250, long_steps=5000, bench_steps=3000,
                error={20260704: "Cannot find fix storing granular history"}),
     StockInput("examples/granular/in.triaxial.compaction.12", """
-pair granular                     stock: no accelerated variant
+pair granular                     stock: normal model mdr
 fix integr nve/sphere             stock: the pair style is not accelerated
 fix plane_yz_pos wall/gran/region  stock: the pair style is not accelerated
 fix plane_yz_neg wall/gran/region  stock: the pair style is not accelerated

@@ -102,6 +102,9 @@ REGIONS = {
 }
 
 
+TOLERANCE = 2e-8    # of the largest number; 4e-9 was seen after 900 steps of collisions
+
+
 class Walls(SceneCase):
 
     def setUp(self):
@@ -116,6 +119,14 @@ class Walls(SceneCase):
                          read=read), **options)
         return read_dump(self.path(dump)), result.log
 
+    def assert_same_numbers(self, frame, other):
+        """But for rounding, which collisions of grains make larger: relative to the largest vector or tensor."""
+        self.assertEqual(sorted(frame.atoms), sorted(other.atoms))
+        for key in frame.columns:
+            alike = [column for column in frame.columns if column[:2] == key[:2] or {column, key} <= {"x", "y", "z"}]
+            scale = max(abs(value) for column in alike for value in frame.column(column).values())
+            self.assertLessEqual(max_difference(frame, other, [key]), TOLERANCE * scale, f"{key} at step {frame.step}")
+
     def assert_same(self, walls, in_records=True, **options):
         stock, log = self.run_scene(walls, False, **options)
         self.assertRegex(log, HOST)
@@ -124,7 +135,7 @@ class Walls(SceneCase):
         self.assertGreater(len(stock), 3)
         self.assertEqual(len(stock), len(ours))
         for frame, other in zip(stock, ours):
-            self.assert_same_bits(frame, other)
+            self.assert_same_numbers(frame, other)
         return ours, log
 
     def test_planes(self):
@@ -201,7 +212,7 @@ class Walls(SceneCase):
                     ours, log = self.run_scene(walls, True, region=region, read="read_restart mid")
                     self.assertRegex(log, r"fix style: wall/gran(/region)?, fix ID: (zw|w)\n")
                     for frame, other in zip(stock, ours):
-                        self.assert_same_bits(frame, other)
+                        self.assert_same_numbers(frame, other)
 
     def test_walls_that_come_and_go(self):
         run = ("run 400\nunfix zw\nrun 100\nfix zw all {wall} {law} zplane -0.3 NULL\nrun 200\n"
@@ -219,7 +230,7 @@ class Walls(SceneCase):
             frames.append(self.run_scene(walls, bool(suffix), region=region,
                                          run=run.format(wall=style + suffix, law=HOOKE_HISTORY))[0])
         for frame, other in zip(*frames, strict=True):
-            self.assert_same_bits(frame, other)
+            self.assert_same_numbers(frame, other)
 
     def test_between_bodies(self):
         """A large body behind a wall adds its forces behind it."""

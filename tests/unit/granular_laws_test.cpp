@@ -7,6 +7,7 @@
 #include "laws/circle_of_intersection.h"
 #include "laws/contact_energy.h"
 #include "laws/contact_kernel.h"
+#include "laws/fused_kernels.h"
 #include "laws/law_list.h"
 #include "material/contact_spec.h"
 #include "random_source.h"
@@ -184,6 +185,35 @@ TEST_F(GranularLaws, DoNotDependOnLaneKernelOrPath)
       ASSERT_EQ(found[v]->z, expected[v][2]) << title();
     }
   }
+}
+
+TEST_F(GranularLaws, FusedKernelsAreTheirStages)
+{
+  int fused = 0;
+  for (const ContactLaw &law : fused_laws()) {
+    if (!law.tangential().lever_arms) continue;
+    fused++;
+    ASSERT_FALSE(contact_kernel(law, true, true) == staged_kernel(law, true, true));
+    for (int n = 0; n < 2000; n++) {
+      const ContactSpec numbers = random_law(random);
+      ContactSpec spec{law, numbers.given};
+      const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
+      for (int lane = 0; lane < width; lane++) {
+        next();
+        if (!law.normal().lasts_beyond_contact) drawn.state.overlap = std::fabs(drawn.state.overlap);
+        put(lane, drawn.state, drawn.memory);
+      }
+      ContactBatch staged = batch;
+      const int end = lanes * (1 + n % (width / lanes));
+      contact_kernel(law, true, true)(batch, 0, end, &row, dt);
+      staged_kernel(law, true, true)(staged, 0, end, &row, dt);
+      ASSERT_EQ(std::memcmp(batch.force, staged.force, sizeof batch.force), 0) << describe_law(law);
+      ASSERT_EQ(std::memcmp(batch.moment, staged.moment, sizeof batch.moment), 0) << describe_law(law);
+      ASSERT_EQ(std::memcmp(batch.twisting_torque, staged.twisting_torque, sizeof batch.moment), 0);
+      ASSERT_EQ(std::memcmp(batch.history, staged.history, sizeof batch.history), 0) << describe_law(law);
+    }
+  }
+  EXPECT_EQ(fused, 5);
 }
 
 // A run that stops and starts again computes the force of its last step from what is stored.

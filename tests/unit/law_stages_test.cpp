@@ -27,10 +27,11 @@ template <class Array> bool same_bits(const Array &a, const Array &b)
 TEST(FusedKernels, AreTheirStages)
 {
   const std::vector<ContactLaw> laws = fused_laws();
-  EXPECT_EQ(laws.size(), 8U);
+  EXPECT_EQ(laws.size(), 13U);
   RandomSource random(12);
   ContactBatch fused, staged;
   for (const ContactLaw &law : laws) {
+    if (law.tangential().lever_arms) continue;    // granular_laws_test
     NamedLaw its = named_law(law);
     ASSERT_EQ(its.law(), law);
     ASSERT_FALSE(contact_kernel(law, true, true) == staged_kernel(law, true, true)) << title(its);

@@ -11,7 +11,7 @@ namespace Talus {
 
 struct Viscoelastic : DampingByNumber {
   static constexpr const char *name = "viscoelastic";
-  static constexpr bool needs_radius = true;
+  static constexpr bool needs_radius = true;    // for the contact radius of the normal law
 
   static void read(LawReader & /*r*/) {}
 

@@ -1,0 +1,109 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "pair/pair_granular_talus.h"
+
+#include "pair/accelerated_pair_impl.h"
+
+#include "gran_sub_mod.h"
+#include "granular_model.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+PairGranularTalus::PairGranularTalus(LAMMPS *lmp) : AcceleratedPair(lmp, "granular") {}
+
+PairGranularTalus::~PairGranularTalus()
+{
+  if (!copymode) leave_system();
+}
+
+/* Also those that no pair of types uses any more: the stock style counts their values as well. */
+
+std::vector<const Model *> PairGranularTalus::all_models() const
+{
+  return {models_list, models_list + nmodels};
+}
+
+std::string PairGranularTalus::reason_of_models() const
+{
+  const std::string lists = system->reason_for_lists_of_host();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (!setflag[i][j]) continue;
+      const std::string its = reason_of_model(model_of(i, j));
+      if (!its.empty()) return its;
+      if (model_of(i, j).beyond_contact && !lists.empty())
+        return "contacts last longer than pairs are in the neighbor lists of LAMMPS: " + lists;
+    }
+  return stock_history_of(all_models()) ? "" : "the models keep their histories in different ways";
+}
+
+std::string PairGranularTalus::stock_history() const
+{
+  const std::optional<std::vector<int>> places = stock_history_of(all_models());
+  std::string words;
+  for (const int place : places.value()) words += place < 0 ? " -" : " " + std::to_string(place);
+  return words;
+}
+
+/* The others are set in init_one(), where the stock style mixes them. */
+
+void PairGranularTalus::set_laws()
+{
+  LawBook &laws = system->laws();
+  laws.resize(atom->ntypes);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (setflag[i][j]) laws.set(i, j, spec_of_model(model_of(i, j)));
+  system->laws_have_changed();
+}
+
+/* The stock style may have a larger cutoff: a user's, or that of contacts that last beyond an
+   overlap. */
+
+double PairGranularTalus::init_pair_of_types(int i, int j)
+{
+  const LargestRadii &radii = system->largest_radii();
+  for (const int type : {i, j}) {
+    maxrad_dynamic[type] = radii.of_free(type);
+    maxrad_frozen[type] = radii.of_frozen(type);
+  }
+  const double stock = PairGranular::init_one(i, j);
+  system->laws().set(i, j, spec_of_model(model_of(i, j)));
+  system->laws_have_changed();
+  return std::max(stock, system->cutoff(i, j));
+}
+
+/* ---------------------------------------------------------------------- */
+
+/* Friction, rolling "force" (see the documentation of the stock style), their lengths, twisting
+   torque, and separation. What is opposite on both particles is R_eff n x f_r + M_t n, and what
+   lever arms that end in the middle of the overlap add to friction. */
+
+void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
+{
+  std::fill(svector, svector + single_extra, 0.0);
+  if (!pair) return;
+  using Vector = Vector3<double>;
+  const ContactLanes<double> &s = pair->contact;
+  const Vector n = s.normal, fs = s.tangential;
+  const Vector opposite = s.twisting_torque - s.arm_difference * cross(n, fs);
+  const double twist = dot(opposite, n);
+  const Vector fr = s.inverse_radius * cross(opposite - twist * n, n);
+  const Vector dx = pair->distance * n;
+  const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)),
+                        fr.x,  fr.y, fr.z, std::sqrt(dot(fr, fr)),
+                        twist, dx.x, dx.y, dx.z};
+  std::copy(std::begin(all), std::end(all), svector);
+}
+
+/* Fix GRANULAR/MDR looks for the pair style by its name without a suffix. */
+
+void PairGranularTalus::become_stock()
+{
+  if (force->pair != this) return;
+  delete[] force->pair_style;
+  force->pair_style = utils::strdup(plain_style());
+}

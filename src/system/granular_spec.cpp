@@ -1,0 +1,168 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/granular_spec.h"
+
+#include "laws/law_list.h"
+#include "system/lammps_compat.h"
+#include "system/private_member.h"
+
+#include "gran_sub_mod_normal.h"
+#include "gran_sub_mod_rolling.h"
+#include "gran_sub_mod_tangential.h"
+#include "gran_sub_mod_twisting.h"
+#include "granular_model.h"
+
+#include <algorithm>
+#include <array>
+
+using namespace LAMMPS_NS::Granular_NS;
+
+namespace Talus {
+
+// Stiffnesses after mixing, which no other member tells.
+struct HookeStiffness {
+  using Type = double GranSubModNormalHooke::*;
+  friend Type pointer_to(HookeStiffness);
+};
+template struct PrivateMember<HookeStiffness, &GranSubModNormalHooke::k>;
+struct HertzStiffness {
+  using Type = double GranSubModNormalHertz::*;
+  friend Type pointer_to(HertzStiffness);
+};
+template struct PrivateMember<HertzStiffness, &GranSubModNormalHertz::k>;
+struct DmtStiffness {
+  using Type = double GranSubModNormalDMT::*;
+  friend Type pointer_to(DmtStiffness);
+};
+template struct PrivateMember<DmtStiffness, &GranSubModNormalDMT::k>;
+struct JkrModulus {
+  using Type = double GranSubModNormalJKR::*;
+  friend Type pointer_to(JkrModulus);
+};
+template struct PrivateMember<JkrModulus, &GranSubModNormalJKR::Emix>;
+
+namespace {
+
+struct StageOfModel {
+  SubModelType type;
+  Stage stage;
+  const char *word;
+};
+constexpr StageOfModel stages[] = {{NORMAL, Stage::NORMAL, "normal"},
+                                   {DAMPING, Stage::DAMPING, "damping"},
+                                   {TANGENTIAL, Stage::TANGENTIAL, "tangential"},
+                                   {ROLLING, Stage::ROLLING, "rolling"},
+                                   {TWISTING, Stage::TWISTING, "twisting"}};
+
+const Law *law_of(const GranSubMod &sub_model, Stage stage)
+{
+  const std::string &name = sub_model.name;
+  if (stage == Stage::NORMAL && name == "hertz/material") return find_law(stage, "hertz");
+  const bool classic = name == "linear_history_classic" || name == "mindlin_classic";
+  if (classic && !TALUS_HOST_SCALES_CLASSIC_SLIP) return find_law(stage, "classic of 4 Feb 2025");
+  return find_law(stage, name);
+}
+
+/* In releases that have it. */
+
+template <class AnyModel>
+auto is_synchronized(const AnyModel *model) -> decltype(model->synchronized_verlet != 0)
+{
+  return model->synchronized_verlet != 0;
+}
+[[maybe_unused]] bool is_synchronized(const void *)
+{
+  return false;
+}
+
+void give_normal(const Model &model, GivenNumbers &given)
+{
+  GranSubModNormal *normal = model.normal_model;
+  given["gn"] = given["eta"] = normal->get_damp();
+  if (const auto *hooke = dynamic_cast<GranSubModNormalHooke *>(normal))
+    given["kn"] = hooke->*pointer_to(HookeStiffness{});
+  if (const auto *hertz = dynamic_cast<GranSubModNormalHertz *>(normal))
+    given["kn"] = hertz->*pointer_to(HertzStiffness{});
+  if (const auto *dmt = dynamic_cast<GranSubModNormalDMT *>(normal)) {
+    given["E_eff"] = 0.75 * (dmt->*pointer_to(DmtStiffness{}));
+    given["gamma"] = dmt->coeffs[3];
+  }
+  if (const auto *jkr = dynamic_cast<GranSubModNormalJKR *>(normal)) {
+    given["E_eff"] = jkr->*pointer_to(JkrModulus{});
+    given["gamma"] = jkr->coeffs[3];
+  }
+}
+
+/* The last two coefficients of all tangential models are xt and mu; k is 0 without a spring. */
+
+void give_tangential(const Model &model, GivenNumbers &given)
+{
+  const GranSubModTangential &tangential = *model.tangential_model;
+  given["kt"] = tangential.get_k();
+  given["xt"] = tangential.coeffs[tangential.num_coeffs - 2];
+  given["mu"] = tangential.get_mu();
+}
+
+void give_resistance(const GranSubMod &sub_model, const std::array<const char *, 3> &names,
+                     GivenNumbers &given)
+{
+  if (sub_model.num_coeffs != static_cast<int>(names.size())) return;
+  for (std::size_t n = 0; n < names.size(); n++) given[names[n]] = sub_model.coeffs[n];
+}
+
+}    // namespace
+
+std::string reason_of_model(const Model &model)
+{
+  for (const StageOfModel &its : stages) {
+    const GranSubMod &sub_model = *model.sub_models[its.type];
+    if (!law_of(sub_model, its.stage)) return std::string(its.word) + " model " + sub_model.name;
+  }
+  if (model.sub_models[HEAT]->name != "none") return "contacts conduct heat";
+  if (is_synchronized(&model)) return "synchronized_verlet";
+  return "";
+}
+
+ContactSpec spec_of_model(const Model &model)
+{
+  ContactSpec spec;
+  for (const StageOfModel &its : stages)
+    spec.law.choose(its.stage, law_of(*model.sub_models[its.type], its.stage));
+  give_normal(model, spec.given);
+  give_tangential(model, spec.given);
+  give_resistance(*model.rolling_model, {"k_roll", "gamma_roll", "mu_roll"}, spec.given);
+  give_resistance(*model.twisting_model, {"k_twist", "gamma_twist", "mu_twist"}, spec.given);
+  if (model.limit_damping) spec.given["limit_damping"] = 1.0;
+  return spec;
+}
+
+std::optional<std::vector<int>> stock_history_of(const std::vector<const Model *> &models)
+{
+  std::array<std::vector<int>, NSUBMODELS> values;
+  bool beyond_contact = false;
+  for (const Model *model : models) {
+    beyond_contact = beyond_contact || model->beyond_contact;
+    for (int type = 0; type < NSUBMODELS; type++) {
+      const std::size_t size = model->sub_models[type]->size_history;
+      if (size > values[type].size()) values[type].resize(size, -1);
+    }
+    if (!reason_of_model(*model).empty()) continue;
+    const ContactLaw law = spec_of_model(*model).law;
+    const HistoryLayout layout = law.history();
+    for (const StageOfModel &its : stages) {
+      const int kept = law[its.stage].odd_history + law[its.stage].even_history;
+      for (int n = 0; n < kept; n++) {
+        const int place = layout.of_stage[static_cast<int>(its.stage)][n];
+        int &known = values[its.type].at(n);
+        if (known >= 0 && known != place) return {};
+        known = place;
+      }
+    }
+  }
+  std::vector<int> all;
+  for (const std::vector<int> &its : values) all.insert(all.end(), its.begin(), its.end());
+  if (all.empty() && beyond_contact) all.push_back(-1);    // that the particles touch
+  return all;
+}
+
+}    // namespace Talus
