@@ -35,8 +35,8 @@ template <class Real> inline Real response(Real inverse_mass, double dt)
 /// Below which delayed resistance does not act, Chrono's; resistance that holds a body needs none.
 inline constexpr double delayed_threshold = 1.0e-4;
 
-/// Reads mu [delayed] of a stage, rolling or twisting, and sets its law, and that of the other stage
-/// unless it has one.
+/// Reads mu [delayed] of a stage, rolling or twisting, and sets its law, and that of the other
+/// stage unless it has one.
 void read_resistance(LawReader &r, Stage stage);
 
 }    // namespace Talus
