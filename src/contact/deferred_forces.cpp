@@ -119,9 +119,10 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
   store(sums[0], force);
   if constexpr (rotation) store(sums[1], moment);
   if (twisting_torque.empty()) return;
+  constexpr Vec4 all_opposite[2] = {{1.0, 1.0, 1.0, 1.0}, {-1.0, -1.0, -1.0, -1.0}};    // with heat
   Vec4 sum = kept_if(!row.has_all, load4(particles.twisting_torque[row.slot]));
   for (const Entry *e = begin; e < end; e++)
-    sum = sum + sign_of[e->of_second] * kept_if(touches(*e), load4(twisting_torque[e->place]));
+    sum = sum + all_opposite[e->of_second] * kept_if(touches(*e), load4(twisting_torque[e->place]));
   store(particles.twisting_torque[row.slot], sum);
 }
 

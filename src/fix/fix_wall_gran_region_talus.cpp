@@ -136,6 +136,23 @@ bool FixWallGranRegionTalus::match_history(int i, int nc)
   return true;
 }
 
+/* LAMMPS computes the point of contact only if the region turns, but reads it if the region changes
+   its shape. */
+
+void FixWallGranRegionTalus::find_wall_velocity(const double *position, int ic)
+{
+  double x[3];
+  std::copy_n(position, 3, x);
+  const int varies = region->varshape;
+  if (!region->rotateflag) region->varshape = 0;
+  region->velocity_contact(velocity, x, ic);
+  region->varshape = varies;
+  const Region::Contact &contact = region->contact[ic];
+  if (region->rotateflag || !varies || !contact.varflag) return;
+  double point[3] = {x[0] - contact.delx, x[1] - contact.dely, x[2] - contact.delz};
+  region->velocity_contact_shape(velocity, point);
+}
+
 void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &particles)
 {
   const Region::Contact &contact = region->contact[ic];
@@ -150,9 +167,7 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   }
   if (beyond) history[0] = 1;
 
-  double x[3];
-  std::copy_n(particles.position(i), 3, x);
-  if (dynamic) region->velocity_contact(velocity, x, ic);
+  if (dynamic) find_wall_velocity(particles.position(i), ic);
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
   batch.add({i, separation, contact.r, radius, atom->rmass[i], contact.radius,
              particles.velocity(i), velocity, particles.omega(i),

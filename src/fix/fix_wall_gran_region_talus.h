@@ -32,6 +32,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void begin_step();
   void add_contacts_of(int i, const Talus::WallParticles &particles);
   void add_contact(int i, int ic, const Talus::WallParticles &particles);
+  void find_wall_velocity(const double *position, int ic);
   void clear_history(int i);
   bool match_history(int i, int nc);
 

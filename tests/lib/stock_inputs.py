@@ -143,14 +143,14 @@ run verlet                        accelerated
 steps without output              in the records
 """, steps=2000, every=500, long_steps=5000, bench_steps=5000),
     StockInput("examples/granular/in.pour.heat", """
-pair granular                     stock: contacts conduct heat
-fix 2 nve/sphere                  stock: the pair style is not accelerated
+pair granular                     accelerated
+fix 2 nve/sphere                  accelerated
 fix 3 heat/flow                   stock: no accelerated variant
-fix grav gravity                  stock: the pair style is not accelerated
-fix 4 wall/gran/region            stock: the pair style is not accelerated
-fix 5 wall/gran/region            stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+fix grav gravity                  accelerated
+fix 4 wall/gran/region            accelerated
+fix 5 wall/gran/region            accelerated
+run verlet                        accelerated
+steps without output              through the arrays of LAMMPS: contacts conduct heat
 """, steps=4000, every=500, long_steps=10000, bench_steps=10000),
     StockInput("examples/granular/in.restitution", """
 pair granular                     accelerated

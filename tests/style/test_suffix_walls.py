@@ -94,7 +94,8 @@ REGIONS = {
     "shaken box": SHAKE + "region w block 0 9.5 0 7.2 0 9 move v_dx NULL v_dz\n",
     "moved and turned": SHAKE + TURN + "region w block 3 6 2 5 -1 1.5 side out move v_dx NULL v_dz "
                         "rotate v_turn 4.5 3.5 0 0 0 1\n",
-    "swelling ball": SWELL + "region w sphere 4.7 3.5 0.0 v_radius side out\n",
+    # LAMMPS reads the point of contact of a region that swells, but computes it only if it turns
+    "swelling ball": SWELL + TURN + "region w sphere 4.7 3.5 0.0 v_radius side out rotate v_turn 4.7 3.5 0 0 0 1\n",
     "union": "region a sphere 2.0 2.0 0.5 1.3\nregion b block 5 8 2 5 -1 1.2\nregion w union 2 a b side out\n",
     "inside of a union": "region a cylinder z 3 3.6 4.5 0 9\nregion b block 4 10 0 7 0.5 8\nregion w union 2 a b\n",
     "intersection": "region a block -0.2 9.7 -0.2 7.4 0 9\nregion b sphere 4.7 3.5 0.5 1.5 side out\n"
@@ -169,6 +170,14 @@ class Walls(SceneCase):
         for name, region in REGIONS.items():
             with self.subTest(region=name):
                 self.assert_same(region + "fix w all {wall} {law} region w\n", region=True)
+
+    def test_swelling_pushes_like_swelling_and_turning(self):
+        """A ball that does not turn has the velocities of its surface all the same."""
+        still = SWELL + "variable turn equal 0.0\n" + "region w sphere 4.7 3.5 0.0 v_radius side out"
+        frames = [self.run_scene(region + "\nfix w all {wall} {law} region w\n", True, region=True)[0]
+                  for region in (still, still + " rotate v_turn 4.7 3.5 0 0 0 1")]
+        for one, other in zip(*frames, strict=True):
+            self.assert_same_numbers(one, other)
 
     def test_old_lists(self):
         """Nobody looks how far particles have gone."""

@@ -69,7 +69,7 @@ TEST(LawFile, NamesTheLawThatIsMissing)
     FAIL();
   } catch (const std::runtime_error &problem) {
     EXPECT_NE(std::string(problem.what())
-                  .find("normal law 'hurts' (version 1), which this Talus does not have"),
+                  .find("normal law 'hurts' (version 2), which this Talus does not have"),
               std::string::npos);
   }
 }
@@ -93,10 +93,10 @@ TEST(LawFile, RefusesOtherVersions)
 {
   EXPECT_EQ(complaint_about_law_file(law_file_mark, law_file_version), "");
   EXPECT_NE(complaint_about_law_file(0, 0).find(
-                "before they had versions, this Talus reads version 1: write a data file"),
+                "before they had versions, this Talus reads version 2: write a data file"),
             std::string::npos);
   EXPECT_NE(
-      complaint_about_law_file(law_file_mark, 7).find("of version 7, this Talus reads version 1"),
+      complaint_about_law_file(law_file_mark, 7).find("of version 7, this Talus reads version 2"),
       std::string::npos);
 }
 
