@@ -24,7 +24,7 @@ ContactSpec parse_contact(Words &words, double pressure_unit);
 
 /// The keywords that parse_contact() knows, for messages about others.
 inline constexpr const char *contact_keywords =
-    "tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping";
+    "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping";
 
 }    // namespace Talus
 

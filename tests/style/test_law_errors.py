@@ -30,7 +30,7 @@ PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
 GOOD = "hertz/material 1e6 0.5 0.3"
 LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, " \
        "plaincoulomb/material, dmt or jkr"
-KEYWORDS = "expected tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping"
+KEYWORDS = "expected tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping"
 TANGENTIAL = "none, dashpot, onestep, multistep, linear_nohistory, linear_history, linear_history_classic, mindlin, " \
              "mindlin/force, mindlin_rescale, mindlin_rescale/force or mindlin_classic"
 DAMPING = "mass_velocity, viscoelastic, none, velocity, tsuji or coeff_restitution"
@@ -70,6 +70,7 @@ KEYWORD_ARGUMENTS = {
     "twisting stopping": (("mu_s", NOT_NEGATIVE, "0.1", ("-0.1",)),),
     "adhesion constant": (("adhesive force F", NOT_NEGATIVE, "1.0", ("-1", "x")),),
     "adhesion dmt": (("adhesion W", NOT_NEGATIVE, "1.0", ("-1",)),),
+    "heat radius": (("heat", NOT_NEGATIVE, "1.0", ("-1", "x")),), "heat area": (("heat", NOT_NEGATIVE, "1.0", ("-1",)),),
     "adhesion perko": (("adhesion S", NOT_NEGATIVE, "1.0", ("-1",)),),
     "vmin": (("slip speed", NOT_NEGATIVE, "1e-4", ("-1", "x")), ("roll speed", NOT_NEGATIVE, "1e-4", ("-1",)),
              ("spin speed", NOT_NEGATIVE, "1e-4", ("-1", "limit_damping"))),
@@ -121,7 +122,7 @@ def law_cases():
         for mode in "multistep NULL NULL 0.5", "none":
             yield (f"{law} tangential {mode}",
                    f"'{name}' has a tangential force of its own: remove 'tangential'", "tangential")
-    for keyword in ("tangential none", "rolling 0.1", "spinning 0.1", "adhesion dmt 1.0", "vmin 0 0 0",
+    for keyword in ("tangential none", "rolling 0.1", "spinning 0.1", "adhesion dmt 1.0", "heat area 1.0", "vmin 0 0 0",
                     "limit_damping"):
         word = keyword.split()[0]
         yield f"{GOOD} {keyword} {keyword}", f"'{word}' given twice", word
@@ -130,6 +131,7 @@ def law_cases():
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 delayed spinning 0.1", both, "0.1"
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.1 delayed", both, "delayed"
     yield f"{GOOD} adhesion", "missing adhesion: constant, dmt or perko", "adhesion"
+    yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius or area", "volume"
     yield (f"{GOOD} adhesion jkr 1.0", "unknown adhesion 'jkr', expected constant, dmt or perko", "jkr")
     yield f"{GOOD} adhesion 1.0", "unknown adhesion '1.0', expected constant, dmt or perko", "1.0"
     yield from granular_cases()
@@ -197,6 +199,8 @@ OTHERS = [
      "have different laws: add 'pair_coeff 1 2 ...'", None),
     ("pair_coeff 1 1 hooke 1e3 2.0 adhesion constant 1.0\npair_coeff 2 2 hooke 1e3 2.0\nrun 0",
      "have different laws: add 'pair_coeff 1 2 ...'", None),
+    ("pair_coeff * * hooke 1e3 2.0 heat area 1.0\nrun 0", "heat is conducted between particles that have a "
+     "temperature: add 'fix ID all property/atom temperature heatflow'", None),
     # large/body
     (f"pair_coeff * * hooke 1e3 2.0\n{PLANE} contact {GOOD}\nrun 0",
      "Fix large/body floor: the material law hertz/material needs the material of particles of type 1", None),
@@ -207,6 +211,8 @@ OTHERS = [
     (f"{PAIR}{PLANE} contact types 2 {GOOD}", "no contact law for particles of type 1", None),
     (f"{PAIR}{PLANE} contact types", "missing types", "types"),
     (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0", "fix large/body contact: large bodies have no temperature: "
+     "remove 'heat', or use fix wall/gran granular", "hertz"),
     (f"{PAIR}{PLANE} contact jkr 1e6 2.0 0.3 0.1", "fix large/body contact: contacts of jkr last beyond zero overlap, "
      "which those of large bodies do not: use dmt", "jkr"),
     # computes
@@ -227,7 +233,7 @@ ACCEPTED = [
     "hooke 1e3 0 damping coeff_restitution", "hooke 1e3 1 damping tsuji limit_damping adhesion dmt 1.0",
     "dmt 1e6 2.0 0.3 0.1 twisting marshall rolling sds 1 2 3 tangential mindlin_rescale NULL 1.0 0.5 damping mass_velocity",
     f"{GOOD} spinning 0.1 rolling sds 1 2 3", f"{GOOD} rolling 0.1 twisting marshall tangential linear_nohistory 1.0 0.5",
-    *(" ".join([GOOD, words, *(a[2] for a in arguments)]) for words, arguments in KEYWORD_ARGUMENTS.items()),
+    *(" ".join([GOOD, words, *(a[2] for a in arguments)]) for words, arguments in KEYWORD_ARGUMENTS.items() if not words.startswith("heat")),
     "hertz/material 1e6 0 0.5", "hertz/material 1e6 1 0", "hertz/material 1e6 1 -0.99",
     "flores/material 1e6 0 0.3 1e-9", "hooke 0 0", "hooke 0.0 0.0 tangential dashpot 1.0 0.5",
     "hertz/material 1e6 0.5 0.3 tangential multistep 1e6 0.5 0.5",
@@ -276,7 +282,7 @@ class LawErrors(SceneCase):
         cases = [case for case in cases if case[1] or "jkr" not in case[0]]    # which is refused itself
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
                              message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
-                             "tangential, damping, rolling, spinning, twisting, adhesion, vmin or limit_damping", word)
+                             "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
                             for words, message, word in cases), "fix large/body")
 
     def test_under_pair_hybrid(self):
