@@ -5,7 +5,8 @@
 // The stock check asks all ranks in the step itself and waits for their answers. Asked one step
 // ahead, the answers have a step's time to arrive; the price is that the motion until then has to
 // be estimated from above: that the list may have to be made anew is known slightly earlier. A list
-// that is kept is kept until the next check, N steps later (`neigh_modify every N`): it serves in N steps.
+// that is kept is kept until the next check, N steps later (`neigh_modify every N`): it serves in N
+// steps.
 //
 // Estimate: particle i has moved d_i, at most D, and moved s_i = dt |v_i| in the last step
 // (exactly, when the integrator moves x by dt v), at most S, where D and S are the largest of all

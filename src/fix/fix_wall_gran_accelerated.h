@@ -2,8 +2,8 @@
 //
 // What the accelerated variants of fix wall/gran and fix wall/gran/region share. They are the stock
 // classes (command line, histories, restart data, output), but look only at the particles near the
-// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The kernels of
-// the same contact law compute the contacts: the numbers are those of the stock class but for
+// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The kernels
+// of the same contact law compute the contacts: the numbers are those of the stock class but for
 // rounding.
 //
 // Where the stock class needs the arrays in every step (rigid bodies) its own methods are

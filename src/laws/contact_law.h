@@ -79,8 +79,8 @@ class ContactLaw {
   std::array<const Law *, num_stages> laws;
 };
 
-/// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a radius
-/// is.
+/// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a
+/// radius is.
 double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                 double radius_j);
 

@@ -105,7 +105,7 @@ std::string LawBook::describe(const LawTable &table) const
   if (!table.has_resistance())
     left_out += ", torques of resistance (no rolling or spinning resistance)";
   if (!table.has_impact()) left_out += ", impact velocity and age of contacts (no law reads them)";
-  if (!table.has_history()) left_out += ", contact history (no multistep law)";
+  if (!table.has_history()) left_out += ", contact history (no law with a spring)";
   if (!table.has_friction()) left_out += ", angular velocities and torques (no friction)";
   if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
   return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";

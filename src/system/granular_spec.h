@@ -27,8 +27,8 @@ std::string reason_of_model(const Model &model);
 ContactSpec spec_of_model(const Model &model);
 
 /// What restart files of LAMMPS hold of a contact of any of the models: its values, and the places
-/// of these with us, see HistoryLayout; -1: the value is not used. nullopt: the laws keep a value of
-/// a stage at different places. Empty: nothing is kept. Models without a law have no places.
+/// of these with us, see HistoryLayout; -1: the value is not used. nullopt: the laws keep a value
+/// of a stage at different places. Empty: nothing is kept. Models without a law have no places.
 std::optional<std::vector<int>> stock_history_of(const std::vector<const Model *> &models);
 
 }    // namespace Talus

@@ -43,8 +43,8 @@
 
 // TALUS_HOST_SCALES_CLASSIC_SLIP, set by the build: where the classic tangential models of pair
 // granular slip, the displacement is set back by the stiffness that the contact has; and only that
-// of mindlin_classic is scaled with the contact radius. Before, both are scaled, and what is set back
-// is not.
+// of mindlin_classic is scaled with the contact radius. Before, both are scaled, and what is set
+// back is not.
 #if !defined(TALUS_HOST_SCALES_CLASSIC_SLIP)
 #error "link the CMake target lammps_host: it defines TALUS_HOST_SCALES_CLASSIC_SLIP"
 #endif

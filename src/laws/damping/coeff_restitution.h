@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Damping that gives the coefficient of restitution eta, as LAMMPS' pair granular has it (Brilliantov
-// et al. 1996): gn = f sqrt(m kn) with kn = F_e/overlap, f = -2 ln eta/sqrt(pi^2 + ln^2 eta) of a
-// linear law and -sqrt(5) ln eta/sqrt(pi^2 + ln^2 eta) of a Hertzian one. Between 1e-300 and 1: no
-// finite damping gives eta = 0.
+// Damping that gives the coefficient of restitution eta, as LAMMPS' pair granular has it
+// (Brilliantov et al. 1996): gn = f sqrt(m kn) with kn = F_e/overlap, f = -2 ln eta/sqrt(pi^2 +
+// ln^2 eta) of a linear law and -sqrt(5) ln eta/sqrt(pi^2 + ln^2 eta) of a Hertzian one. Between
+// 1e-300 and 1: no finite damping gives eta = 0.
 
 #ifndef TALUS_LAWS_DAMPING_COEFF_RESTITUTION_H
 #define TALUS_LAWS_DAMPING_COEFF_RESTITUTION_H

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Damping of Tsuji, Tanaka and Ishida (1992, Powder Technology 71, 239), as LAMMPS' pair granular has
-// it: gn = f sqrt(m kn) with kn = F_e/overlap, and f a polynomial of the coefficient eta, which is
-// the restitution of a Hertzian contact. gt of laws that read it is half of gn.
+// Damping of Tsuji, Tanaka and Ishida (1992, Powder Technology 71, 239), as LAMMPS' pair granular
+// has it: gn = f sqrt(m kn) with kn = F_e/overlap, and f a polynomial of the coefficient eta, which
+// is the restitution of a Hertzian contact. gt of laws that read it is half of gn.
 
 #ifndef TALUS_LAWS_DAMPING_TSUJI_H
 #define TALUS_LAWS_DAMPING_TSUJI_H

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Conduction in proportion to the area of contact, as LAMMPS' pair granular has it: with the contact
-// radius a the first body receives h pi a^2 (T_2 - T_1). h power/(length^2 temperature).
+// Conduction in proportion to the area of contact, as LAMMPS' pair granular has it: with the
+// contact radius a the first body receives h pi a^2 (T_2 - T_1). h power/(length^2 temperature).
 
 #ifndef TALUS_LAWS_HEAT_AREA_H
 #define TALUS_LAWS_HEAT_AREA_H

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Conduction in proportion to the contact radius a, as LAMMPS' pair granular has it (Vargas and McCarthy
-// 2001, AIChE J. 47, 1052): the first body receives 2 conductivity a (T_2 - T_1). conductivity
-// power/(length temperature).
+// Conduction in proportion to the contact radius a, as LAMMPS' pair granular has it (Vargas and
+// McCarthy 2001, AIChE J. 47, 1052): the first body receives 2 conductivity a (T_2 - T_1).
+// conductivity power/(length temperature).
 
 #ifndef TALUS_LAWS_HEAT_RADIUS_H
 #define TALUS_LAWS_HEAT_RADIUS_H

@@ -4,9 +4,9 @@
 //
 //   overlap = a^2/R - 2 sqrt(pi gamma a/E),   F_e = 4/3 E a^3/R - 4 a^(3/2) sqrt(pi gamma E)
 //
-// with E = E_eff and the contact radius a, the largest root (Parteli et al. 2014, Sci. Rep. 4, 6227,
-// has it in closed form). The bodies separate at the force -3 pi gamma R. A contact begins at overlap
-// zero and lasts until the bodies are apart by the distance reach().
+// with E = E_eff and the contact radius a, the largest root (Parteli et al. 2014, Sci. Rep. 4,
+// 6227, has it in closed form). The bodies separate at the force -3 pi gamma R. A contact begins at
+// overlap zero and lasts until the bodies are apart by the distance reach().
 
 #ifndef TALUS_LAWS_NORMAL_JKR_H
 #define TALUS_LAWS_NORMAL_JKR_H

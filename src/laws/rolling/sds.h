@@ -1,11 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Spring, dashpot and slider of rolling, as LAMMPS' pair granular has them (Luding 2008, Granular
-// Matter 10, 235; rolling velocity of Wang et al. 2015, Particuology 23, 49): a pseudo-force
-// F_r = -(k xi + gamma v_r), v_r = R (omega_1 - omega_2) x n with the effective radius R, not longer
-// than mu times critical_force. xi turns with the contact and is set back at the limit like the
-// displacement of friction, see granular.h. Torque R n x F_r on body 1, its opposite on body 2.
-// k force/length, gamma force/velocity. While a run is set up xi stays as it is.
+// Matter 10, 235; rolling velocity of Wang et al. 2015, Particuology 23, 49): a pseudo-force F_r =
+// -(k xi + gamma v_r), v_r = R (omega_1 - omega_2) x n with the effective radius R, not longer than
+// mu times critical_force. xi turns with the contact and is set back at the limit like the
+// displacement of friction, see granular.h. Torque R n x F_r on body 1, its opposite on body 2. k
+// force/length, gamma force/velocity. While a run is set up xi stays as it is.
 
 #ifndef TALUS_LAWS_ROLLING_SDS_H
 #define TALUS_LAWS_ROLLING_SDS_H

@@ -5,15 +5,15 @@
 // longer than L = mu times critical_force, by the rule "stock" of sliding.h. Lever arms end in the
 // middle of the overlap. What is kept is
 //
-//   the displacement d, which every step turns into the tangent plane with its length, if it has left
-//   it by more than 1e-10 of the limit (Luding 2008, Granular Matter 10, 235, equation 17), and then
-//   lengthens by dt v_t;
+//   the displacement d, which every step turns into the tangent plane with its length, if it has
+//   left it by more than 1e-10 of the limit (Luding 2008, Granular Matter 10, 235, equation 17),
+//   and then lengthens by dt v_t;
 //
-//   or (.../force) the elastic force, which every step changes by -k dt v_t: so that it stays when k
-//   changes with the overlap (Thornton, Cummins and Cleary 2013, Powder Technology 233, 30);
+//   or (.../force) the elastic force, which every step changes by -k dt v_t: so that it stays when
+//   k changes with the overlap (Thornton, Cummins and Cleary 2013, Powder Technology 233, 30);
 //
-//   and with mindlin_rescale* also the contact radius of the last step: both shrink with the contact
-//   radius when a contact is unloaded.
+//   and with mindlin_rescale* also the contact radius of the last step: both shrink with the
+//   contact radius when a contact is unloaded.
 //
 // The classic ones lengthen first and then take away the part along the normal, as gran/*/history.
 // A step with dt = 0 is how LAMMPS sets up a run: only the limit acts.

@@ -10,7 +10,8 @@
 //   slider   spring and dashpot in parallel, both in series with a slider: the dashpot sees only
 //            the rate of d_t. Backward Euler of gt d_t' = F - kt d_t, which is
 //            d_t <- (dt F + gt d_0)/(dt kt + gt) with d_0 from before the step.
-//            F d_t' = gt d_t'^2 + rate of kt d_t^2/2, and the slip takes the rest of F v_t: no energy can be gained at
+//            F d_t' = gt d_t'^2 + rate of kt d_t^2/2, and the slip takes the rest of F v_t: no
+//            energy can be gained at
 //            constant kt, however large gt is. (Return mapping of viscoplasticity: Simo and Hughes
 //            1998, Computational Inelasticity, chapter 1; the body is Bingham's.) Equal to stock if
 //            gt = 0.

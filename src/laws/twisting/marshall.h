@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Twisting from the friction of pair granular (Marshall 2009, J. Comput. Phys. 228, 1541, equations 30
-// to 44): with the contact radius a, k = kt a^2/2, damping xt gn a^2/2, limit 2/3 a mu times
+// Twisting from the friction of pair granular (Marshall 2009, J. Comput. Phys. 228, 1541, equations
+// 30 to 44): with the contact radius a, k = kt a^2/2, damping xt gn a^2/2, limit 2/3 a mu times
 // critical_force; see spring.h. kt is that of the tangential law before it is scaled by a, as in
 // LAMMPS.
 

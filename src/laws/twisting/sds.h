@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Twisting with coefficients of its own: k torque, gamma torque time, limit mu times critical_force,
-// mu length; see spring.h.
+// Twisting with coefficients of its own: k torque, gamma torque time, limit mu times
+// critical_force, mu length; see spring.h.
 
 #ifndef TALUS_LAWS_TWISTING_SDS_H
 #define TALUS_LAWS_TWISTING_SDS_H

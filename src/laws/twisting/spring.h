@@ -2,8 +2,8 @@
 //
 // Spring, dashpot and slider of twisting, as LAMMPS' pair granular has them: torque M n on body 1,
 // -M n on body 2 with M = -(k xi + g w), w = (omega_1 - omega_2).n, xi the integral of w; where |M|
-// exceeds the limit L, M = -L sign(w) and xi is set back to (L sign(w) - g w)/k. What is computed at
-// the limit is the torque of the xi that is stored, so that a set-up reproduces it.
+// exceeds the limit L, M = -L sign(w) and xi is set back to (L sign(w) - g w)/k. What is computed
+// at the limit is the torque of the xi that is stored, so that a set-up reproduces it.
 
 #ifndef TALUS_LAWS_TWISTING_SPRING_H
 #define TALUS_LAWS_TWISTING_SPRING_H
