@@ -148,7 +148,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
       row[4 + d] = this->atom->x[its.atom][d] - its.separation[d];
     }
     row[7] = this->atom->radius[its.atom];
-    if (this->heat_flag) row[8] = its.heat_flow;
+    if (this->size_peratom_cols > 8) row[8] = its.heat_flow;
   }
 
   const char *plain_style;

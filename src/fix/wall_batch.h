@@ -49,6 +49,7 @@ class WallBatch {
   {
     law = &its;
     dt = time_step;
+    filled = 0;    // an error may have left some
   }
   void add(const Contact &contact);
   bool is_full() const { return filled == ContactBatch::width; }

@@ -48,7 +48,6 @@ class ContactLaw {
   /// Torques arise that are not the moment of a force on both surfaces: twisting_torque is written.
   /// Heat goes with them.
   bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
-  bool adheres() const { return cohesion().acts; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
   bool has_friction() const { return tangential().acts || twists(); }

@@ -5,7 +5,7 @@
 //
 //   NORMAL args
 //   [tangential NAME args] [damping NAME] [rolling [NAME] args] [spinning mu | twisting NAME args]
-//   [adhesion NAME args] [vmin slip roll spin] [limit_damping]
+//   [adhesion NAME args] [heat NAME args] [vmin slip roll spin] [limit_damping]
 //
 // Which names there are, and their args, the laws know themselves (laws/law_list.cpp).
 

@@ -4,6 +4,7 @@
 
 #include "base/simd.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <initializer_list>
 
@@ -34,6 +35,12 @@ ContactCoefficients LawBook::coefficients(int i, int j) const
 {
   if (is_set(i, j)) return contact_coefficients(spec(i, j), spec(i, j), mix);
   return contact_coefficients(spec(i, i), spec(j, j), mix);
+}
+
+bool LawBook::conducts_heat() const
+{
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const Entry &one) { return one.set && one.spec.law.conducts_heat(); });
 }
 
 double LawBook::reach(int i, int j, double radius_i, double radius_j) const

@@ -36,6 +36,8 @@ class LawBook {
 
   const ContactLaw &law(int i, int j) const;
   ContactCoefficients coefficients(int i, int j) const;
+  /// Any pair that is set conducts heat.
+  bool conducts_heat() const;
   /// How far a contact of particles with these radii lasts beyond zero overlap (length).
   double reach(int i, int j, double radius_i, double radius_j) const;
 

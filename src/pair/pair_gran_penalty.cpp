@@ -9,6 +9,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "neighbor.h"
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -67,6 +68,12 @@ void PairGranPenalty::init_style()
 {
   check_host();
   system->init_pair_style();
+  const std::string lists = system->reason_for_lists_of_host();
+  if (!lists.empty() && system->largest_reach() > neighbor->skin)
+    error->all(FLERR,
+               "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
+               "which are used because of {}: use a skin of at least {:g} in the neighbor command",
+               lists, system->largest_reach());
 }
 
 void PairGranPenalty::check_host()
@@ -82,23 +89,14 @@ void PairGranPenalty::check_host()
   if (lmp->kokkos)
     error->all(FLERR, "Pair style gran/penalty does not run with the KOKKOS package: "
                       "start LAMMPS without '-k on'");
-  if (conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
+  if (system->laws().conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
     error->all(FLERR, "Pair style gran/penalty: heat is conducted between particles that have a "
-                      "temperature: add 'fix ID all property/atom temperature heatflow'");
+                      "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'");
   const std::string problem = system->unsupported_settings();
   if (!problem.empty())
     error->all(FLERR,
                "Pair style gran/penalty: {}: use bonds that last, and no 'comm_modify group'",
                problem);
-}
-
-bool PairGranPenalty::conducts_heat() const
-{
-  const LawBook &book = system->laws();
-  for (int i = 1; i <= book.num_types(); i++)
-    for (int j = i; j <= book.num_types(); j++)
-      if (book.is_set(i, j) && book.spec(i, j).law.conducts_heat()) return true;
-  return false;
 }
 
 double PairGranPenalty::init_one(int i, int j)

@@ -44,7 +44,6 @@ class PairGranPenalty : public PairOfSystem<Pair> {
  private:
   void allocate();
   void check_host();
-  bool conducts_heat() const;
   std::int32_t read_number(FILE *fp);
 };
 

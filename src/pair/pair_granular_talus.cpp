@@ -115,6 +115,18 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   if (single_extra > stock_extra) svector[stock_extra] = s.heat_flow;
 }
 
+#if TALUS_HOST_HAS_ATOM2CUT
+double PairGranularTalus::atom2cut(int i)
+{
+  return radii2cut(atom->radius[i], atom->radius[i]);
+}
+
+double PairGranularTalus::radii2cut(double r1, double r2)
+{
+  return in_system() ? r1 + r2 + system->largest_reach() : PairGranular::radii2cut(r1, r2);
+}
+#endif
+
 /* Fix GRANULAR/MDR looks for the pair style by its name without a suffix. */
 
 void PairGranularTalus::become_stock()

@@ -31,6 +31,11 @@ class PairGranularTalus : public AcceleratedPair<PairGranular> {
   void become_stock() override;
 
  private:
+  /// Of collections of sizes; the stock style knows in its init_style() how far contacts last.
+#if TALUS_HOST_HAS_ATOM2CUT
+  double atom2cut(int) override;
+  double radii2cut(double, double) override;
+#endif
   static constexpr int stock_extra = 12;    // numbers of single() without heat
   const Talus::Model &model_of(int i, int j) const { return *models_list[types_indices[i][j]]; }
   std::vector<const Talus::Model *> all_models() const;

@@ -235,7 +235,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void prepare_laws();
   std::string small_period() const;
 
-  ParticleView view();
+  ParticleView view() const;
   void update_gravity();
   void find_weightless();
   int mover_of(int i) const;

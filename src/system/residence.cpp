@@ -65,7 +65,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!run_style) return std::string("run style ") + update->integrate_style;
-  if (law_table().conducts_heat()) return "contacts conduct heat";
+  if (book.conducts_heat()) return "contacts conduct heat";
   if (keeps_account) return "energies of contacts are accounted for";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
   if (atom->molecular != Atom::ATOMIC || force->kspace)

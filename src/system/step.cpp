@@ -111,7 +111,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
-  if (law_table().conducts_heat()) step.temperature = atom->temperature;
+  if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
   const std::size_t joined = bodies_that_join();
@@ -185,7 +185,7 @@ std::size_t GranularSystem::bodies_that_join()
   return joined;
 }
 
-ParticleView GranularSystem::view()
+ParticleView GranularSystem::view() const
 {
   const bool any = atom->nlocal + atom->nghost > 0;
   return {any ? atom->x[0] : nullptr,
@@ -196,7 +196,7 @@ ParticleView GranularSystem::view()
           masses.override_or_null(),
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
-          law_table().conducts_heat() ? atom->heatflow : nullptr};
+          pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr};
 }
 
 }    // namespace Talus

@@ -200,7 +200,7 @@ OTHERS = [
     ("pair_coeff 1 1 hooke 1e3 2.0 adhesion constant 1.0\npair_coeff 2 2 hooke 1e3 2.0\nrun 0",
      "have different laws: add 'pair_coeff 1 2 ...'", None),
     ("pair_coeff * * hooke 1e3 2.0 heat area 1.0\nrun 0", "heat is conducted between particles that have a "
-     "temperature: add 'fix ID all property/atom temperature heatflow'", None),
+     "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'", None),
     # large/body
     (f"pair_coeff * * hooke 1e3 2.0\n{PLANE} contact {GOOD}\nrun 0",
      "Fix large/body floor: the material law hertz/material needs the material of particles of type 1", None),

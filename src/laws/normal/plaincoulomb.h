@@ -35,7 +35,8 @@ struct PlainCoulomb : HertzianLaw {
   {
     s.kn = c.kn * square_root(s.overlap);
     s.tangent_n = 1.5 * s.kn;
-    s.kt = s.tangent_t = s.contact_radius = splat<Real>(0.0);
+    s.kt = s.tangent_t = splat<Real>(0.0);
+    s.contact_radius = square_root(s.overlap * s.radius);
     s.elastic = s.kn * s.overlap;
   }
 };

@@ -33,7 +33,8 @@ struct PlainCoulombMaterial : HertzianLaw {
   {
     s.tangent_n = 2.0 * c.young * square_root(s.overlap);
     s.kn = (2.0 / 3.0) * s.tangent_n;
-    s.kt = s.tangent_t = s.contact_radius = splat<Real>(0.0);
+    s.kt = s.tangent_t = splat<Real>(0.0);
+    s.contact_radius = square_root(s.overlap * s.radius);
     s.elastic = s.kn * s.overlap;
   }
 };

@@ -39,7 +39,7 @@ template <class Real> struct TangentialHistory {
 template <class Real> struct SlidingInput {
   Real kt, gt;
   Vector3<Real> velocity;    ///< v_t
-  Real limit;                ///< mu |F_n|
+  Real limit;                ///< mu critical_force
   Real dt;                   ///< what the contact has lasted of the step
 };
 
