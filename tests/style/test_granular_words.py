@@ -90,7 +90,8 @@ class LikePairGranular(SceneCase):
         print("\nlargest difference of force and torque from pair granular, of that of the particle, after 1 and 120 steps")
         for words in LAWS:
             found = []
-            for steps, limit in (1, 5e-13), (STEPS, 1e-9):
+            # what the closed form of the contact radius of jkr loses in LAMMPS depends on its compiler
+            for steps, limit in (1, 3e-12 if "jkr" in words[0] else 5e-13), (STEPS, 1e-9):
                 if steps > 1 and "classic" in words[0]:
                     continue    # LAMMPS of 4 Feb 2025 keeps another length of a contact that has slid
                 reference, frame = (self.end(style, words[which], steps)
