@@ -103,7 +103,8 @@ REGIONS = {
 }
 
 
-TOLERANCE = 2e-8    # of the largest number; 4e-9 was seen after 900 steps of collisions
+# of the largest number: until grains have met a wall a few times, and after 900 steps of collisions, where 4e-9 was seen
+EARLY, TOLERANCE = 1e-12, 2e-8
 
 
 class Walls(SceneCase):
@@ -126,7 +127,8 @@ class Walls(SceneCase):
         for key in frame.columns:
             alike = [column for column in frame.columns if column[:2] == key[:2] or {column, key} <= {"x", "y", "z"}]
             scale = max(abs(value) for column in alike for value in frame.column(column).values())
-            self.assertLessEqual(max_difference(frame, other, [key]), TOLERANCE * scale, f"{key} at step {frame.step}")
+            limit = EARLY if frame.step <= 160 else TOLERANCE
+            self.assertLessEqual(max_difference(frame, other, [key]), limit * scale, f"{key} at step {frame.step}")
 
     def assert_same(self, walls, in_records=True, **options):
         stock, log = self.run_scene(walls, False, **options)
