@@ -6,19 +6,12 @@
 #ifndef TALUS_LAWS_HEAT_AREA_H
 #define TALUS_LAWS_HEAT_AREA_H
 
-#include "laws/law_definition.h"
+#include "laws/heat/common.h"
 
 namespace Talus {
 
-struct HeatArea : HeatLaw {
+struct HeatArea : Conduction {
   static constexpr const char *name = "area", *label = "heat area";
-  template <class Real> struct Row {
-    Real heat;
-  };
-  static constexpr CoefficientName coefficients[] = {{"heat"}};
-
-  static void read(LawReader &r) { r.set_not_negative("heat"); }
-  static Row<double> mix(const Mixing &m) { return {m.geometric("heat")}; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
