@@ -37,7 +37,10 @@ class PairGranularTalus : public AcceleratedPair<PairGranular> {
   double radii2cut(double, double) override;
 #endif
   static constexpr int stock_extra = 12;    // numbers of single() without heat
-  const Talus::Model &model_of(int i, int j) const { return *models_list[types_indices[i][j]]; }
+  const Talus::Model &model_of(int i, int j) const
+  {
+    return *models_list[types_indices[i][j]];
+  }
   std::vector<const Talus::Model *> all_models() const;
   bool conducts_heat() const;
 };
