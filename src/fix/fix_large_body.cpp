@@ -43,6 +43,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   motion.finish(body.shape().reference_point());
   body.set_frame(&motion.frame(), motion.moves());
   if (surface->records()) body.set_touched(surface->touched());
+  body.set_picture([this] { return surface->picture(motion.frame()); });
   body.keep_history();
   offer_output();
   keep_history();
