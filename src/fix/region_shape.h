@@ -21,7 +21,6 @@ class RegionShape : public Talus::LargeBodyShape {
   /// Regions may be deleted and defined anew between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
   void replace(Region *now);
-  Region &its_region() const { return *region; }
 
   /// Why a region cannot be a body, or "". `moves`: the body has a motion of its own.
   static std::string refusal(Region &region, bool moves);
