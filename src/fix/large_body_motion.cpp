@@ -2,6 +2,8 @@
 
 #include "fix/large_body_motion.h"
 
+#include "system/time_formula.h"
+
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -188,9 +190,11 @@ void LargeBodyMotion::init()
 
 bool LargeBodyMotion::asks_variables() const
 {
-  const auto named = [](const Quantity &q) { return !q.name.empty(); };
-  return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), named)) ||
-         (has_load && std::any_of(std::begin(given_load), std::end(given_load), named));
+  const auto asks = [this](const Quantity &q) {
+    return !q.name.empty() && !reads_only_time(lmp, q.name);
+  };
+  return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), asks)) ||
+         (has_load && std::any_of(std::begin(given_load), std::end(given_load), asks));
 }
 
 double LargeBodyMotion::evaluate(const Quantity &q)

@@ -3,6 +3,7 @@
 """fix large/body: refusals of shapes, meshes and motions; pictures, files for ParaView, loads of triangles; a shape of
 one's own; regions of the host."""
 
+import collections
 import math
 import os
 import re
@@ -227,6 +228,9 @@ run 10
                     red = [k // 3 for k in range(0, len(data), 3) if data[k] > data[k + 1] + 15]
                     self.assertGreater(len(red), 100)
                     places.append((sum(k % 120 for k in red) / len(red), sum(k // 120 for k in red) / len(red)))
+                if name == "box":    # light comes from above: no face is brighter than the upper one
+                    faces = collections.Counter(data[0::3])
+                    self.assertGreater(max(red for red, count in faces.items() if count > 50), 215)
                 moved = math.dist(*places)
                 self.assertEqual(moved > 2.0, bool(more), f"moved by {moved} pixels")
 
