@@ -39,18 +39,28 @@ struct RegionTransform {
   using Type = void (Region::*)(double &, double &, double &);
   friend Type pointer_to(RegionTransform);
 };
+struct RegionPoint {
+  using Type = double (Region::*)[3];
+  friend Type pointer_to(RegionPoint);
+};
+struct RegionAxis {
+  using Type = double (Region::*)[3];
+  friend Type pointer_to(RegionAxis);
+};
+template struct PrivateMember<RegionPoint, &Region::point>;
+template struct PrivateMember<RegionAxis, &Region::runit>;
 template struct PrivateMember<RegionMoveX, &Region::xstr>;
 template struct PrivateMember<RegionMoveY, &Region::ystr>;
 template struct PrivateMember<RegionMoveZ, &Region::zstr>;
 template struct PrivateMember<RegionAngle, &Region::tstr>;
 template struct PrivateMember<RegionTransform, &Region::forward_transform>;
 
-namespace {
-
 bool is_composite(const Region &region)
 {
   return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
 }
+
+namespace {
 
 /* Contacts of these lie on the surface, and there is one if it is nearer than the cutoff. Region
    ellipsoid is none of them: near its inner surface it finds only some. */
@@ -123,6 +133,18 @@ double RegionPose::largest_displacement(const RegionPose &then, const AxisBox &b
         std::max(largest, std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]));
   }
   return largest;
+}
+
+RegionTurn::RegionTurn(const Region &region)
+{
+  if (region.moveflag) {
+    const double its[3] = {region.dx, region.dy, region.dz};
+    std::copy_n(its, 3, displacement);
+  }
+  if (!region.rotateflag) return;
+  angle = region.theta;
+  std::copy_n(region.*pointer_to(RegionPoint{}), 3, point);
+  std::copy_n(region.*pointer_to(RegionAxis{}), 3, axis);
 }
 
 /* ---------------------------------------------------------------------- */

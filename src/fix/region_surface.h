@@ -51,6 +51,19 @@ class RegionPose {
 /// particle may touch the surface in every step.
 bool has_distance(const LAMMPS_NS::Region &region);
 
+/// How a simple region that moves or turns stands, in the words of its command: x = point + turned
+/// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
+struct RegionTurn {
+  double point[3] = {0.0, 0.0, 0.0}, axis[3] = {0.0, 0.0, 1.0};
+  double displacement[3] = {0.0, 0.0, 0.0}, angle = 0.0;
+
+  /// Now, after Region::prematch().
+  explicit RegionTurn(const LAMMPS_NS::Region &region);
+};
+
+/// Made of other regions.
+bool is_composite(const LAMMPS_NS::Region &region);
+
 /// "" if the variables that move a region, or shape it, depend on the time alone; else the name of
 /// one that may depend on particles. Of a region that changes its shape all variables of the script
 /// are asked.
