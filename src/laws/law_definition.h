@@ -74,6 +74,9 @@ struct DampingLaw : LawBase {
   static constexpr const char *label = nullptr;    // descriptions name it if it was asked for
 
   static void read_coefficient(LawReader &r) { r.set_not_negative("gn"); }
+  /// gn and gt ~ overlap^p with an elastic force ~ overlap^elastic: p = 0, 1/4 or 1/2; below 0 if
+  /// it is not so. Needed for second order.
+  static double damping_exponent(double /*elastic*/) { return -1.0; }
 };
 
 /// Finds tangential and moment, and twisting_torque if it has lever_arms, and adds to force.
@@ -174,6 +177,9 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.arm_loss = In::load(&b.arm_loss[k]);
   s.arm_difference = In::load(&b.arm_difference[k]);
   s.temperature_difference = In::load(&b.temperature_difference[k]);
+  s.lag = splat<Real>(b.lag);
+  s.velocity_change = load_vector<Real>(b.velocity_change, k);
+  s.rotation_change = load_vector<Real>(b.rotation_change, k);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -349,7 +355,10 @@ template <class L> constexpr Law make_law()
   law.read = L::read;
   law.mix = mix_row<L>;
   law.stored = stored_energy<L>;
-  if constexpr (L::stage == Stage::DAMPING) law.read_coefficient = L::read_coefficient;
+  if constexpr (L::stage == Stage::DAMPING) {
+    law.read_coefficient = L::read_coefficient;
+    law.damping_exponent = L::damping_exponent;
+  }
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) law.reach = reach_by<L>;

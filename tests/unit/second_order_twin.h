@@ -103,8 +103,9 @@ struct Law {
 
 struct Measures {
   bool damping = true, implicit = true, midpoint = true, ends = true, slip = true, rolling = true;
+  bool after = true;    // ends: forces that end with a jump or a kink as well
 
-  static Measures none() { return {false, false, false, false, false, false}; }
+  static Measures none() { return {false, false, false, false, false, false, false}; }
 };
 
 struct Particle {
@@ -122,8 +123,7 @@ struct Plane {
 
 struct Contact {
   bool touches = false;
-  double force = 0.0;    // normal one of the last step, as it was applied
-  double pure = 0.0;     // the same without the corrections of beginning and end
+  double force = 0.0;    // normal one of the last step, without the correction of its beginning
   Vec s;                 // tangential displacement
 };
 
@@ -164,6 +164,7 @@ class System {
     lag = 0.0;
     for (int n = 0; n < steps; n++) {
       find_forces();
+      if (n == 0) contacts.assign(contacts.size(), Contact{});    // a set-up remembers nothing
       for (Particle &p : particles) {
         p.v = p.v + (lag + 0.5 * dt) * p.a;
         p.w = p.w + (lag + 0.5 * dt) * p.alpha;
@@ -243,7 +244,7 @@ class System {
   void part(const Pair &p, Contact &c)
   {
     const double speed = dot(p.v, p.n), apart = -p.d;
-    if (with.ends && speed * dt > apart) {
+    if (with.ends && with.after && speed * dt > apart) {
       const double theta = 1.0 - apart / (speed * dt), reach = speed * dt;
       const Coefficients most = coefficients(law, reach, p.mass, p.radius);
       double error = -law.adhesion * zeta(0.0, theta);
@@ -266,7 +267,7 @@ class System {
 
     // normal
     const double forward = with.damping ? lag : 0.0;
-    const double own = with.implicit ? c.force / p.mass : 0.0;
+    const double own = with.implicit && c.touches ? (c.force - law.adhesion) / p.mass : 0.0;
     const double v_p =
         vn + forward * (dot(p.a, p.n) - own - (with.implicit ? law.adhesion / p.mass : 0.0));
     double pure = now.kn * p.d - now.gn * v_p;
@@ -297,8 +298,7 @@ class System {
     if (law.mu_s > 0.0) twist = spinning(p, std::max(force, 0.0), forward);
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
-    c.force = force - pull;
-    c.pure = pure;
+    c.force = pure;
   }
 
   static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }
@@ -349,7 +349,7 @@ class System {
     const Coefficients old = coefficients(law, d0, p.mass, p.radius);
     const Coefficients mid = coefficients(law, 0.5 * (d0 + p.d), p.mass, p.radius);
     const Vec u_old = turned(surface_velocity(p.v - lag * p.a, p.spin - lag * p.alpha, old_n), p.n);
-    const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.pure));
+    const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
     const Vec u_mid = (1.0 / time) * slip;
     const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
     // g = f/kt: at its limit half way along `along`

@@ -18,6 +18,7 @@ struct NoDamping : DampingLaw {
   static constexpr CoefficientName coefficients[] = {{"floor", Shown::NEVER}};
 
   static void read(LawReader & /*r*/) {}
+  static double damping_exponent(double /*elastic*/) { return 0.0; }
   static Row<double> mix(const Mixing &m) { return {least_force(m)}; }
 
   template <bool advance, class Real>

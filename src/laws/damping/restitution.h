@@ -21,6 +21,7 @@ struct RestitutionDamping : DampingLaw {
   {
     r.spec.given["e"] = r.words.between("restitution e", 0.0, 1.0);
   }
+  static double damping_exponent(double elastic) { return 0.5 * (elastic - 1.0); }
   static DampingRow<double> mix(const Mixing &m)
   {
     const double f = factor(m);

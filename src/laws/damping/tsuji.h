@@ -26,6 +26,7 @@ struct StiffnessDamping : DampingLaw {
   {
     r.spec.given["eta"] = r.words.between("restitution eta", 0.0, 1.0);
   }
+  static double damping_exponent(double elastic) { return 0.5 * (elastic - 1.0); }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

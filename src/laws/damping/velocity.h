@@ -14,6 +14,7 @@ struct VelocityDamping : DampingByNumber {
   static constexpr const char *name = "velocity";
 
   static void read(LawReader & /*r*/) {}
+  static double damping_exponent(double /*elastic*/) { return 0.0; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

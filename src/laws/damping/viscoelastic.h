@@ -14,6 +14,7 @@ struct Viscoelastic : DampingByNumber {
   static constexpr bool needs_radius = true;    // for the contact radius of the normal law
 
   static void read(LawReader & /*r*/) {}
+  static double damping_exponent(double /*elastic*/) { return 0.5; }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
