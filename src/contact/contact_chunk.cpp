@@ -129,6 +129,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const int end = arrange(scene, block, count);
   gather<friction, history_kept>(step.particles, end);
   if (scene.with_impact) gather_impacts(end);
+  if (scene.second_order) gather_changes(step.particles, end);
   finish_geometry(end, friction);
   if (scene.with_twisting) gather_for_twisting(step.particles, end, scene.with_resistance);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
@@ -194,6 +195,7 @@ void clear_lanes(double (&vector)[3][ContactBatch::width], int begin, int end)
 void ContactChunk::run_kernels(const Step &step)
 {
   const LawTable &laws = step.scene.laws;
+  batch.lag = step.lag;
   for (const LawRange &range : ranges) {
     laws.kernel(range.law, step.advance)(batch, range.begin, range.end, laws.coefficients(),
                                          step.dt);

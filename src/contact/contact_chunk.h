@@ -41,6 +41,7 @@ struct ContactScene {
   bool with_twisting = false;      ///< twisting torques arise
   bool with_resistance = false;    ///< of rolling or twisting
   bool with_heat = false;          ///< is conducted
+  bool second_order = false;       ///< changes of velocities are read
   bool beyond_contact = false;     ///< contacts of some laws last beyond zero overlap
   std::vector<int> slot_type;      ///< types in canonical order; empty if laws are uniform
 
@@ -65,6 +66,7 @@ struct ContactStep {
   const std::function<void(int thread, int begin, int end)> *add_more = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
   const double *temperature = nullptr;    ///< by host's index, in scenes that conduct heat
+  double lag = 0.0;    ///< time by which velocities are behind positions; for second order
 };
 
 class ContactChunk {
@@ -133,6 +135,7 @@ class ContactChunk {
   void gather(const ParticleRecords &particles, int end);
   void gather_for_twisting(const ParticleRecords &particles, int end, bool resistance);
   void gather_impacts(int end);
+  void gather_changes(const ParticleRecords &particles, int end);
   void gather_temperatures(const double *temperature, int end);
   void finish_geometry(int end, bool radii_known);
   void run_kernels(const Step &step);

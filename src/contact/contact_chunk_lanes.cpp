@@ -89,6 +89,25 @@ void ContactChunk::gather_impacts(int end)
   }
 }
 
+void ContactChunk::gather_changes(const ParticleRecords &particles, int end)
+{
+  const Record *x = particles.position.data(), *change = particles.change.data();
+  const int *first = pairs.state_of_first(), *second = pairs.second.data();
+  for (int k = 0; k < end; k += 4) {
+    Vec4 v[4], turn[4];
+    for (int q = 0; q < 4; q++) {
+      const std::uint32_t pair = pair_of_lane[k + q];
+      const int i = first[pair], j = second[pair];
+      const Record *ci = change + 2L * i, *cj = change + 2L * j;
+      v[q] = load4(ci[0]) - load4(cj[0]);
+      turn[q] = surface_velocity(load4(x[i]), load4(ci[1])) +
+          surface_velocity(load4(x[j]), load4(cj[1]));
+    }
+    to_lanes(v, batch.velocity_change, nullptr, k);
+    to_lanes(turn, batch.rotation_change, nullptr, k);
+  }
+}
+
 /* Of the particles themselves, not of copies: no step is taken in the records. */
 
 void ContactChunk::gather_temperatures(const double *temperature, int end)

@@ -16,6 +16,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_resistance = table.has_resistance();
   scene.with_heat = table.conducts_heat();
   scene.beyond_contact = table.lasts_beyond_contact();
+  scene.second_order = table.second_order();
 }
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)
@@ -86,7 +87,7 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,
-                   shared_owned.size() + shared_ghosts.size());
+                   shared_owned.size() + shared_ghosts.size(), scene.second_order);
   deferred.make_room(particles);
 }
 

@@ -131,6 +131,11 @@ class ContactPipeline {
   /// Positions, velocities and angular velocities of some owned particles, for those who only read
   /// them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
+  /// The same of the changes of velocities, rows of six, if they are kept: of all owned particles,
+  /// or some.
+  bool keeps_changes() const { return scene.second_order; }
+  void write_changes(double *changes) const;
+  void show_changes(const std::vector<int> &atoms, double *changes) const;
 
   /// For energies: after the integrator has moved velocities, before particles are renumbered.
   void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;

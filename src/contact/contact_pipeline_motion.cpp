@@ -53,6 +53,7 @@ void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
 void ContactPipeline::advance(const std::vector<RecordStep> &steps)
 {
   move = steps;
+  particles.extrapolation = steps[0].extrapolation;
   move_pending = true;
   travels.assign(travels.size(), RecordTravel{});
   if (moved_at_once.empty()) return;
@@ -107,6 +108,20 @@ void ContactPipeline::write_state(double *x, double *v, double *omega) const
     for (int a = begin; a < end; a++)
       particles.write_state(order.slot_of_atom[a], x + 3L * a, v + 3L * a, omega + 3L * a);
   });
+}
+
+void ContactPipeline::write_changes(double *changes) const
+{
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++)
+      particles.write_change(order.slot_of_atom[a], changes + 6L * a);
+  });
+}
+
+void ContactPipeline::show_changes(const std::vector<int> &atoms, double *changes) const
+{
+  for (const int atom : atoms)
+    particles.write_change(order.slot_of_atom[atom], changes + 6L * atom);
 }
 
 void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,

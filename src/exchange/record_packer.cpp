@@ -138,9 +138,12 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
     Vec4 x = with_fourth_of(load_anywhere(in), load4(position));
     for (const Record &step : steps) x = x + load4(step);
     store(position, x);
-    if (rotation) store(moves[0], with_fourth_of(load_anywhere(in + 3), load4(moves[0])));
+    const Vec4 before[2] = {load4(moves[0]), load4(moves[rotation])};
+    if (rotation) store(moves[0], with_fourth_of(load_anywhere(in + 3), before[0]));
     Record &last =
         rotation ? moves[1] : moves[0];    // one number earlier: it ends with the message
     store(last, last_three_with_fourth_of(load_anywhere(in + width - 4), load4(last)));
+    if (!rotation || !records->keep_changes()) continue;
+    for (int n = 0; n < 2; n++) records->follow_change(s, n, before[n], load4(moves[n]));
   }
 }

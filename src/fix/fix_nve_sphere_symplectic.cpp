@@ -51,6 +51,12 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
     words.about("");
   }
 
+  const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
+  if (its_order == 2 && says_start && !half_start)
+    error->all(FLERR, "Fix nve/sphere/symplectic order 2: velocities of 'start plain' have an error "
+                      "of first order: use 'start half', or leave 'start' out");
+  if (its_order == 2) half_start = true;
+
   if (gravity.given()) {
     scalar_flag = 1;
     extscalar = 1;
@@ -65,11 +71,13 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
 
 void FixNVESphereSymplectic::parse_keyword(Words &words)
 {
-  static const std::vector<std::string> keywords = {"start", "gravity", "orientation", "disc"};
+  static const std::vector<std::string> keywords = {"start", "order", "gravity", "orientation", "disc"};
   const std::string keyword = keywords[words.choice("keyword", keywords)];
   words.about(keyword);
   if (keyword == "start") {
     half_start = words.choice("value", {"half", "plain"}) == 0;
+  } else if (keyword == "order") {
+    its_order = 1 + words.choice("value", {"1", "2"});
   } else if (keyword == "gravity") {
     gravity.parse(words);
   } else if (keyword == "orientation") {
@@ -107,10 +115,30 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
+  if (its_order == 2) check_order();
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())
       if (fix != this) check_fix(fix);
+}
+
+/* ----------------------------------------------------------------------
+   proxies find the changes of velocities from those that they receive: all particles
+   must have theirs from this fix
+------------------------------------------------------------------------- */
+
+void FixNVESphereSymplectic::check_order()
+{
+  for (auto &fix : modify->get_fix_list())
+    if (fix != this && fix->time_integrate)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix nve/sphere/symplectic order 2: fix {} ({}) moves particles as well: use order "
+                 "1, or one fix nve/sphere/symplectic alone",
+                 fix->id, fix->style);
+  const std::string reason = system->reason_against_second_order();
+  if (!reason.empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix nve/sphere/symplectic order 2: {}; or use order 1", reason);
 }
 
 /* ----------------------------------------------------------------------
@@ -172,7 +200,8 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
   if (system->residence() == Talus::Residence::RECORDS)
     system->advance(step);
   else
-    kick_spheres(lmp, igroup, step, frozenbits, true);
+    kick_spheres(lmp, igroup, step, frozenbits, true,
+                 its_order == 2 ? system->velocity_changes() : nullptr);
   if (rotates) rotate(dt);
 }
 
@@ -180,7 +209,9 @@ Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
 {
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
-  return {dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
+  Talus::RecordStep step{dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
+  step.extrapolation = time_behind / kick;    // time_behind is that after the step
+  return step;
 }
 
 std::string FixNVESphereSymplectic::needs_host_arrays()
@@ -196,8 +227,8 @@ std::string FixNVESphereSymplectic::needs_host_arrays()
 double FixNVESphereSymplectic::next_kick()
 {
   if (!half_start) return update->dt;
-  const double kick = lag + 0.5 * update->dt;
-  lag = 0.5 * update->dt;
+  const double kick = time_behind + 0.5 * update->dt;
+  time_behind = 0.5 * update->dt;
   return kick;
 }
 
@@ -265,7 +296,7 @@ double FixNVESphereSymplectic::compute_scalar()
 
 void FixNVESphereSymplectic::write_restart(FILE *fp)
 {
-  const double state[2] = {half_start ? 1.0 : 0.0, lag};
+  const double state[2] = {half_start ? 1.0 : 0.0, time_behind};
   const int size = sizeof(state);
   if (comm->me == 0) {
     fwrite(&size, sizeof(int), 1, fp);
@@ -280,7 +311,7 @@ void FixNVESphereSymplectic::restart(char *buf)
   const bool was_half = state[0] != 0.0;
 
   if (was_half == half_start) {
-    lag = state[1];
+    time_behind = state[1];
   } else if (comm->me == 0) {
     error->warning(FLERR,
                    "Fix nve/sphere/symplectic start {}: the restart file was written with "

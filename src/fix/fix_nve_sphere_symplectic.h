@@ -12,8 +12,10 @@
 
    All quantities are in the units of the `units` command, g as in fix gravity in
    force/mass, dt = update->dt.
-   k = dt with `start plain`. With `start half` v and omega belong to a time that lags
-   behind x by `lag`: k = lag + dt/2, then lag = dt/2, lag = 0 before the first step.
+   k = dt with `start plain`. With `start half` v and omega belong to a time that is behind
+   that of x by lag(): k = lag + dt/2, then lag = dt/2, lag = 0 before the first step.
+   With `order 2`, which is `start half`, contacts see lag k^-1 times the change of v and
+   omega as well, which GranularSystem keeps.
    g is the constant acceleration of `gravity`, zero for particles of a `fix freeze`.
 
    Called by: Verlet::run() at the start of a step through Modify::initial_integrate().
@@ -28,7 +30,8 @@
    Restart: the start word and `lag`.
    Errors: all by error->all on every rank. Constructor: words of the command, atom style.
    init(): run_style respa, minimize, members of zero radius, and with gravity another fix
-   that would apply gravity twice or cannot hold a particle against it.
+   that would apply gravity twice or cannot hold a particle against it; with `order 2` others
+   that integrate, and contacts that are not of second order.
 ------------------------------------------------------------------------- */
 
 #ifdef FIX_CLASS
@@ -61,6 +64,8 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   // SystemFix
   std::string needs_host_arrays() override;
   bool integrates() const override { return true; }
+  int order() const override { return its_order; }
+  double lag() const override { return time_behind; }
 
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -70,13 +75,15 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool half_start = false;
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
-  double lag = 0.0;        // time by which v is behind x
+  int its_order = 1;
+  double time_behind = 0.0;    // by which v is behind x
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only
 
   void parse_keyword(Talus::Words &);
 
   void check_fix(Fix *);
+  void check_order();
   bigint count_members(const std::function<bool(int)> &);
 
   int nmoving() const;

@@ -8,10 +8,12 @@
 #include "lammps.h"
 #include "particles/kick_and_drift.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
-                             bool drifts)
+                             bool drifts, double *changes)
 {
   const Atom *const atom = lmp->atom;
   const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
@@ -30,15 +32,24 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
 
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (bigint i = 0; i < n; i++) {
-    if (!(mask[i] & groupbit)) continue;
+    double *const change = changes ? changes + 6 * i : nullptr;
+    if (!(mask[i] & groupbit)) {
+      if (change) std::fill_n(change, 6, 0.0);
+      continue;
+    }
     const double per_mass = step.kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
     const double per_inertia =
         Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / step.inertia);
     const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
     for (int d = 0; d < 3; d++) {
       const bigint k = 3 * i + d;
+      const double v_old = v[k], omega_old = omega[k];
       v[k] = Talus::kicked(v[k], per_mass, f[k], falls * step.fall[d]);
       omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
+      if (change) {
+        change[d] = step.extrapolation * (v[k] - v_old);
+        change[3 + d] = step.extrapolation * (omega[k] - omega_old);
+      }
       if (drifts) x[k] = Talus::drifted(x[k], step.dt, v[k]);
     }
   }

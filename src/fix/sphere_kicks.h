@@ -17,11 +17,12 @@ class LAMMPS;
      v += kick F/m + fall, omega += kick T/(inertia m r^2), then with `drifts` x += dt v
 
    Called by integrators, at the start or the end of a step. `groupbit`: who moves;
+   `changes`: nullptr, or receives those of velocities, see ParticleRecords::change;
    `frozenbits`: groups whose members do not fall. One kick, whatever step.two_kicks says.
 ------------------------------------------------------------------------- */
 
 void kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
-                  bool drifts);
+                  bool drifts, double *changes = nullptr);
 
 }    // namespace LAMMPS_NS
 

@@ -76,6 +76,9 @@ ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coef
   s.inverse_distance = b.inverse_distance[k];
   s.arm_loss = b.arm_loss[k];
   s.arm_difference = b.arm_difference[k];
+  s.lag = b.lag;
+  s.velocity_change = lane_of(b.velocity_change, k);
+  s.rotation_change = lane_of(b.rotation_change, k);
   RememberedValues memory;
   for (int n = 0; n < ContactBatch::history_size; n++) memory.value[n] = b.history[n][k];
   return contact_energy(law, coefficients, s, dt, memory);

@@ -46,7 +46,7 @@ struct LawBase {
   static constexpr bool reads_stiffness = false, has_spring = false, stiffens = false;
   static constexpr bool is_midpoint = false, holds = false, delayed = false, like_stock = false;
   static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
-  static constexpr bool lasts_beyond_contact = false;
+  static constexpr bool lasts_beyond_contact = false, second_order = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
   static constexpr double exponent = 1.0;
@@ -345,6 +345,7 @@ template <class L> constexpr Law make_law()
   law.cohesive = L::cohesive;
   law.allows_cohesion = L::allows_cohesion;
   law.lasts_beyond_contact = L::lasts_beyond_contact;
+  law.second_order = L::second_order;
   law.like_stock = L::like_stock;
   law.takes_no_kt = L::takes_no_kt;
   law.takes_no_gt = L::takes_no_gt;

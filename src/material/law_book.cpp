@@ -3,6 +3,7 @@
 #include "material/law_book.h"
 
 #include "base/simd.h"
+#include "laws/second_order_laws.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -48,8 +49,20 @@ double LawBook::reach(int i, int j, double radius_i, double radius_j) const
   return reach_of(law(i, j), coefficients(i, j), radius_i, radius_j);
 }
 
-LawTable LawBook::table() const
+std::string LawBook::reason_against_second_order(int i, int j) const
 {
+  return Talus::reason_against_second_order(law(i, j), coefficients(i, j));
+}
+
+LawTable LawBook::table(int order) const
+{
+  if (order == 2) {
+    LawBook second = *this;
+    for (Entry &one : second.entries)
+      if (one.set) one.spec.law = second_order_law(one.spec.law);
+    return second.table();
+  }
+
   int any_i = 1, any_j = 1;
   for (int i = types; i >= 1; i--)
     for (int j = types; j >= i; j--)

@@ -41,6 +41,9 @@ class LawBook {
   /// How far a contact of particles with these radii lasts beyond zero overlap (length).
   double reach(int i, int j, double radius_i, double radius_j) const;
 
+  /// "", or why contacts of the pair are not of second order, see second_order_laws.h.
+  std::string reason_against_second_order(int i, int j) const;
+
   /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
   std::string describe_pair(int i, int j) const;
 
@@ -50,7 +53,8 @@ class LawBook {
   /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another
   /// sub-style of pair hybrid and never come up: they get the row of one that does, so that uniform
   /// laws are recognized.
-  LawTable table() const;
+  /// With the laws for integrators of this order.
+  LawTable table(int order = 1) const;
 
  private:
   struct Entry {

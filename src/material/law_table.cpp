@@ -78,6 +78,11 @@ bool LawTable::conducts_heat() const
   return any([](const ContactLaw &law) { return law.conducts_heat(); });
 }
 
+bool LawTable::second_order() const
+{
+  return any([](const ContactLaw &law) { return law.tangential().second_order; });
+}
+
 bool LawTable::lasts_beyond_contact() const
 {
   return any([](const ContactLaw &law) { return law.normal().lasts_beyond_contact; });

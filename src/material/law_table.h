@@ -48,6 +48,8 @@ class LawTable {
   bool has_twisting_torques() const;
   bool lasts_beyond_contact() const;
   bool conducts_heat() const;
+  /// Changes of velocities are read.
+  bool second_order() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
   double reach(int row, double radius_i, double radius_j) const;
 

@@ -22,11 +22,12 @@ inline void add_to_row(double *row, Vec4 value)
 }    // namespace
 
 void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques,
-                             std::size_t copies)
+                             std::size_t copies, bool changes)
 {
   stride = rotation ? 2 : 1;
   renew(position, n + copies);
   renew(motion, stride * (n + copies));
+  renew(change, changes ? 2 * (n + copies) : 0);
   renew(load, stride * n);
   renew(twisting_torque, twisting_torques ? n : 0);
 }
@@ -63,6 +64,11 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
     store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
     store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
     if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
+    if (keep_changes()) {
+      const double *its = host.change + 2 * a;
+      store(change[2 * s], record_of(its, 0.0));
+      store(change[2 * s + 1], record_of(its + 3, 0.0));
+    }
     begin_sums(s, load4(motion[stride * s]));
   }
 }
@@ -89,7 +95,7 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
 
 double ParticleRecords::memory_usage() const
 {
-  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
+  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() + change.capacity() +
                                                load.capacity() + twisting_torque.capacity()));
 }
 

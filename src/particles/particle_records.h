@@ -30,6 +30,8 @@ struct ParticleView {
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   double *f, *torque;    ///< added to; torque may be nullptr like omega
   double *heat_flow = nullptr;    ///< added to, if given: scalars, of owned particles
+  /// Rows of six, see ParticleRecords::change; if these are kept.
+  const double *change = nullptr;
 };
 
 /// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),
@@ -41,6 +43,9 @@ struct RecordStep {
   /// Two for velocity Verlet: with the forces of the last step the kick that ends it, and the one
   /// that begins this step.
   bool two_kicks = false;
+  /// Where changes are kept: the time by which velocities are behind positions after the step, over
+  /// the time of the kick.
+  double extrapolation = 0.0;
 };
 
 /// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
@@ -101,8 +106,10 @@ class ParticleRecords {
   /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
   /// in scenes without friction: omega records and moments are then neither read nor kept.
   /// `twisting_torques`: laws with resistance occur. `copies`: of the states of some particles,
-  /// behind those of all.
-  void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0);
+  /// behind those of all. `changes`: they are kept, which takes `rotation`.
+  void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0,
+              bool changes = false);
+  bool keep_changes() const { return !change.empty(); }
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
   /// of what they need without sums, and allocating memory anew takes time.
@@ -138,6 +145,14 @@ class ParticleRecords {
   /// Sets the host's row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
+  /// Writes the changes of a slot to a row of six.
+  void write_change(int slot, double *row) const;
+  /// Of a proxy whose record of velocities is followed by `now` in a step: what its owner finds.
+  void follow_change(std::size_t slot, bool of_omega, Vec4 before, Vec4 now)
+  {
+    store(change[2 * slot + of_omega], extrapolation * (now - before));
+  }
+
   /// Moves the particles of some slots and begins their sums anew. `role` of each slot: a ghost, at
   /// rest, or MOVES + n for the ones that the step n moves; empty: all are moved by the first step.
   /// `held`: position records when lists were made, or nullptr if the travel is not needed.
@@ -154,6 +169,8 @@ class ParticleRecords {
     stream(position[to], load4(position[from]));
     for (std::size_t n = 0; n < stride; n++)
       stream(motion[stride * to + n], load4(motion[stride * from + n]));
+    if (!keep_changes()) return;
+    for (std::size_t n = 0; n < 2; n++) stream(change[2 * to + n], load4(change[2 * from + n]));
   }
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added
@@ -209,6 +226,11 @@ class ParticleRecords {
 
   std::size_t stride = 1;    ///< records per particle in motion and load: 2 with angular velocities
   AlignedVector<Record> position, motion, load, twisting_torque;    ///< see record.h
+  /// For laws of second order: changes of velocity and angular velocity in the time by which they
+  /// are behind positions, by the accelerations of the last step; two records per particle, or
+  /// none. The fourth places are 0.
+  AlignedVector<Record> change;
+  double extrapolation = 0.0;    ///< of the step that moves particles, see RecordStep
 
  private:
   void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
@@ -217,8 +239,8 @@ class ParticleRecords {
   struct Moved {
     Vec4 x, v;    // position and velocity records
   };
-  template <bool rotation> Moved kick(const Kick &with, std::size_t slot);
-  template <bool rotation>
+  template <bool rotation, bool changes> Moved kick(const Kick &with, std::size_t slot);
+  template <bool rotation, bool changes>
   RecordTravel advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                            const Record *held, const SlotChoice &slots);
   /// The sums of a slot with this velocity record, before anything is added.

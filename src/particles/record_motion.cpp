@@ -48,6 +48,12 @@ void ParticleRecords::write_state(int slot, double *x, double *v, double *omega)
   if (stride == 2) std::copy(moves[1].c, moves[1].c + 3, omega);
 }
 
+void ParticleRecords::write_change(int slot, double *row) const
+{
+  const Record *its = &change[2 * static_cast<std::size_t>(slot)];
+  for (int n = 0; n < 2; n++) std::copy(its[n].c, its[n].c + 3, row + 3L * n);
+}
+
 void ParticleRecords::write_forces(int slot, double *f, double *torque_row) const
 {
   const Record &force = load[stride * slot];
@@ -73,7 +79,7 @@ struct ParticleRecords::Kick {
   bool twice;
 };
 
-template <bool rotation>
+template <bool rotation, bool changes>
 inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_t s)
 {
   constexpr std::size_t stride = rotation ? 2 : 1;
@@ -90,14 +96,16 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
     Vec4 w_new = turned(w, per_inertia, torque);
     if (with.twice) w_new = turned(w_new, per_inertia, torque);
     store(moves[1], w_new);
+    if constexpr (changes) store(change[2 * s + 1], extrapolation * (w_new - w));
   }
   const Vec4 x_new = drifted(x, with.dt, v_new);
   store(moves[0], v_new);
+  if constexpr (changes) store(change[2 * s], extrapolation * (v_new - v));
   store(position[s], x_new);
   return {x_new, v_new};
 }
 
-template <bool rotation>
+template <bool rotation, bool changes>
 RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
                                           const std::vector<Role> &role, const Record *held,
                                           const SlotChoice &slots)
@@ -113,8 +121,10 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    const Moved now = its == MOVES  ? kick<rotation>(first, s)
-                      : its > MOVES ? kick<rotation>(others[its - MOVES - 1], s)
+    if (changes && its == RESTS)
+      for (std::size_t n = 0; n < 2; n++) store(change[2 * s + n], Vec4{});
+    const Moved now = its == MOVES  ? kick<rotation, changes>(first, s)
+                      : its > MOVES ? kick<rotation, changes>(others[its - MOVES - 1], s)
                                     : Moved{load4(position[s]), load4(motion[its_stride * s])};
     begin_sums(s, now.v);
     if (!held || its == GHOST) return;
@@ -128,8 +138,9 @@ RecordTravel ParticleRecords::advance(const std::vector<RecordStep> &steps,
                                       const std::vector<Role> &role, const Record *held,
                                       const SlotChoice &slots)
 {
-  return stride == 2 ? advance_all<true>(steps, role, held, slots)
-                     : advance_all<false>(steps, role, held, slots);
+  if (keep_changes()) return advance_all<true, true>(steps, role, held, slots);
+  return stride == 2 ? advance_all<true, false>(steps, role, held, slots)
+                     : advance_all<false, false>(steps, role, held, slots);
 }
 
 void ParticleRecords::clear(int begin, int end)

@@ -38,7 +38,8 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
   create_attribute = 1;
   maxexchange_dynamic = 1;
   set_maxexchange(0);
-  comm_border = 1 + HistoryStore::size_origin + 1;
+  comm_border = size_border;
+  comm_forward = size_change;
   force_reneighbor = 1;
   next_reneighbor = next_refresh(update->ntimestep);
 
@@ -77,6 +78,7 @@ void FixContactStore::init()
                  Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
+  keep_changes(Talus::GranularSystem::of(lmp)->order() == 2);
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
   int mine = store.largest_list(atom->nlocal), largest = 0;    // from a restart file
@@ -223,11 +225,22 @@ void FixContactStore::agree_with_other_ranks()
   set_maxexchange(largest);
 }
 
-/* Key and position, and what the store packs. */
+/* What a restart file has brought stays. */
+
+void FixContactStore::keep_changes(bool yes)
+{
+  if (yes)
+    changes.resize(keys.size() * size_change, 0.0);
+  else
+    changes = {};
+  comm_border = size_border + (yes ? size_change : 0);
+}
+
+/* Key, position and changes, and what the store packs. */
 
 void FixContactStore::set_maxexchange(int largest_list)
 {
-  maxexchange = 1 + 3 + HistoryStore::size_origin + largest_list;
+  maxexchange = 1 + 3 + size_change + HistoryStore::size_origin + largest_list;
 }
 
 void FixContactStore::refresh_key(int i)
@@ -260,6 +273,6 @@ void FixContactStore::put_positions_back()
 double FixContactStore::memory_usage()
 {
   return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
-                             positions.capacity() * sizeof(double)) +
+                             (positions.capacity() + changes.capacity()) * sizeof(double)) +
          store.memory_usage();
 }

@@ -6,6 +6,8 @@
 //     files;
 //   * the contact history whenever pairs are renumbered, and between runs (see
 //     history/history_store.h); in restart files by the names of particles;
+//   * with an integrator of second order the changes of its velocities, see ParticleRecords::change,
+//     to other ranks, to ghosts and into restart files;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
 //     and back for that, which moves every particle by a rounding error. The positions are put
 //     back, so that load balancing does not change the trajectory.
@@ -50,6 +52,8 @@ class FixContactStore : public Fix {
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
   Talus::HistoryStore &histories() { return store; }
+  /// Changes of velocities, rows of six, of owned particles and ghosts; nullptr if none are kept.
+  double *all_changes() { return changes.empty() ? nullptr : changes.data(); }
 
   int setmask() override;
   void init() override;
@@ -67,6 +71,8 @@ class FixContactStore : public Fix {
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   int pack_border(int, int *, double *) override;
   int unpack_border(int, int, double *) override;
   int pack_exchange(int, double *) override;
@@ -82,12 +88,16 @@ class FixContactStore : public Fix {
   /// Steps between two refreshes of the keys, at multiples of it: a property of the trajectory.
   static constexpr int refresh_interval = 1000;
 
+  /// Doubles of a message: of each ghost, and those of the changes.
+  static constexpr int size_border = 1 + Talus::HistoryStore::size_origin + 1, size_change = 6;
+
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
   void store_histories(Occasion occasion);
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;
+  void keep_changes(bool yes);
   bool pairs_stay_after_run() const;
   void refresh_key(int i);
   void take_over_sorting();
@@ -101,6 +111,7 @@ class FixContactStore : public Fix {
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
+  std::vector<double> changes;    // empty: none are kept
   std::vector<double> scratch;    // a list whose size is asked for
   Talus::HistoryStore store;
   Talus::SparseExchange exchange;

@@ -40,6 +40,7 @@ template <class Integer> Integer from_double(double bits)
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
+  if (!changes.empty()) changes.resize(static_cast<std::size_t>(nmax) * size_change, 0.0);
   if (guards_positions) positions.resize(3 * nmax);
   store.resize(nmax);
 }
@@ -47,6 +48,7 @@ void FixContactStore::grow_arrays(int nmax)
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
+  if (double *all = all_changes()) std::copy_n(all + 6L * i, 6, all + 6L * j);
   if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   store.copy(i, j);
 }
@@ -55,7 +57,22 @@ void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+  if (double *all = all_changes()) std::fill_n(all + 6L * i, 6, 0.0);
   store.forget(i);
+}
+
+/* Of the host's own proxies: those of the records find theirs on their own. */
+
+int FixContactStore::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
+                                       int * /*pbc*/)
+{
+  for (int k = 0; k < n; k++) std::copy_n(&changes[6L * list[k]], 6, buf + 6L * k);
+  return 6 * n;
+}
+
+void FixContactStore::unpack_forward_comm(int n, int first, double *buf)
+{
+  std::copy_n(buf, 6L * n, &changes[6L * first]);
 }
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
@@ -67,6 +84,7 @@ int FixContactStore::pack_border(int n, int *list, double *buf)
     buf[0] = as_double(keys[i]);
     HistoryStore::write(store.origin(i), buf + 1);
     buf[1 + HistoryStore::size_origin] = as_double(owner);
+    if (const double *all = all_changes()) std::copy_n(all + 6L * i, 6, buf + size_border);
   }
   return comm_border * n;
 }
@@ -78,6 +96,7 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
     store.set_ghost(
         atom->nlocal, first + k, HistoryStore::read(buf + 1),
         static_cast<int>(from_double<std::int64_t>(buf[1 + HistoryStore::size_origin])));
+    if (double *all = all_changes()) std::copy_n(buf + size_border, 6, all + 6L * (first + k));
   }
   return comm_border * n;
 }
@@ -87,6 +106,7 @@ int FixContactStore::pack_exchange(int i, double *buf)
   int m = 0;
   buf[m++] = as_double(keys[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
+  if (const double *all = all_changes()) m += std::copy_n(all + 6L * i, 6, buf + m) - (buf + m);
   return m + store.pack(i, buf + m);
 }
 
@@ -95,13 +115,18 @@ int FixContactStore::unpack_exchange(int i, double *buf)
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
+  if (double *all = all_changes()) {
+    std::copy_n(buf + m, 6, all + 6L * i);
+    m += 6;
+  }
   return m + store.unpack(i, buf + m);
 }
 
 /* ---------------------------------------------------------------------- */
 
 /* What a restart file holds of this fix: for all particles the state below, for each of them the
-   number of doubles, key, name, tag, and the list of HistoryStore. The version is written as a
+   number of doubles, key, name, tag, the list of HistoryStore, and with an integrator of second
+   order the changes of velocities. The version is written as a
    negative number: a file without one begins with the size of cells, which is positive. */
 
 namespace {
@@ -146,7 +171,11 @@ void FixContactStore::restart(char *buf)
 
 int FixContactStore::pack_restart(int i, double *buf)
 {
-  const int size = restart_header + store.pack_list(i, buf + restart_header);
+  int size = restart_header + store.pack_list(i, buf + restart_header);
+  if (const double *all = all_changes()) {
+    std::copy_n(all + 6L * i, 6, buf + size);
+    size += 6;
+  }
   buf[0] = size;
   buf[1] = as_double(keys[i]);
   buf[2] = as_double(store.origin(i).name);
@@ -170,7 +199,10 @@ void FixContactStore::unpack_restart(int i, int nth)
         "run, so that contact history cannot be assigned: put 'run 0' in between",
         Talus::GranularSystem::of(lmp)->style_name());
   store.set_name(i, from_double<std::int64_t>(extra[m + 2]));
-  store.unpack_list(i, extra + m + restart_header);
+  const int read = restart_header + store.unpack_list(i, extra + m + restart_header);
+  if (static_cast<int>(extra[m]) == read) return;
+  keep_changes(true);    // init() may drop them
+  std::copy_n(extra + m + read, 6, &changes[6L * i]);
 }
 
 /* Exactly, not an upper limit: the host writes as much, and reads it as further particles. */
@@ -178,12 +210,12 @@ void FixContactStore::unpack_restart(int i, int nth)
 int FixContactStore::size_restart(int i)
 {
   scratch.resize(store.list_size(i));
-  return restart_header + store.pack_list(i, scratch.data());
+  return restart_header + store.pack_list(i, scratch.data()) + (changes.empty() ? 0 : 6);
 }
 
 int FixContactStore::maxsize_restart()
 {
-  int mine = restart_header + store.largest_list(atom->nlocal), most = 0;
+  int mine = restart_header + store.largest_list(atom->nlocal) + 6, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;
 }

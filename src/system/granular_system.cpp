@@ -153,7 +153,7 @@ const ContactSpec *GranularSystem::own_law(int type) const
 
 void GranularSystem::prepare_laws()
 {
-  const LawTable table = book.table();
+  const LawTable table = book.table(order());
   store->keep_impacts(table.has_impact());
   pipeline->set_laws(table);
   laws_current = true;

@@ -124,6 +124,19 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Waits for proxies that are under way.
   void finish_proxies();
 
+  // ---- order
+
+  /// Of the integrators of the script in the time step: 1, or 2 if one is.
+  int order() const;
+  /// "", or which contacts of the run are not of second order, and the cure, for people. In init()
+  /// of a fix, after that of the pair style.
+  std::string reason_against_second_order() const;
+  /// Where integrators of second order keep the changes of velocities of particles in the arrays
+  /// of the host, rows of six; see ParticleRecords::change.
+  double *velocity_changes();
+  /// The time by which velocities are behind positions, with an integrator of second order.
+  double lag() const;
+
   // ---- gravity
 
   /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with

@@ -127,6 +127,7 @@ BodyParticleView LargeBody::view() const
           atom->f[0],
           atom->torque[0],
           nullptr,
+          system.velocity_changes(),
           in_records ? &system.records() : nullptr,
           in_records ? system.slot_of_atom() : nullptr};
 }
@@ -145,6 +146,7 @@ BodyStep LargeBody::step_of(bool advance)
 {
   BodyStep step;
   step.dt = update->dt;
+  step.lag = system.lag();
   step.advance = advance;
   step.threads = comm->nthreads;
   step.account = keeps_account ? &account : nullptr;

@@ -89,6 +89,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// The forces of a step, unless they have been added so. `advance`: histories go on; `virial`:
   /// nullptr, or six for each owned particle, added to.
   void compute(bool advance, double *virial);
+  /// "", or why contacts with the body are not of second order, and the cure.
+  std::string reason_against_second_order();
   /// Why steps with this body cannot be made in the records; "" if they can.
   std::string needs_host_arrays() const;
 

@@ -6,6 +6,8 @@
 
 #include "system/granular_system.h"
 
+#include "laws/second_order_laws.h"
+
 #include "atom.h"
 #include "error.h"
 #include "fix.h"
@@ -26,10 +28,29 @@ void LargeBody::set_laws()
 {
   LawTable table;
   table.reset(atom->ntypes);
+  const std::vector<ContactSpec> as_given = specs;
+  if (system.order() == 2)
+    for (ContactSpec &one : specs) one.law = second_order_law(one.law);
   for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
+  specs = as_given;
   table.finish();
   contacts.set_laws(table);
+}
+
+std::string LargeBody::reason_against_second_order()
+{
+  if (moves) return "moves";
+  if (its_shape->most_contacts() > 1) return "has edges at which a particle changes its contact";
+  for (int type = 1; type <= atom->ntypes; type++) {
+    const std::string its =
+        Talus::reason_against_second_order(specs[type].law, coefficients_of(type));
+    if (!its.empty()) return its;
+    if (!specs[type].law.tangential().acts)
+      return "keeps no history without friction: add 'tangential multistep NULL NULL 0 slider "
+             "midpoint'";
+  }
+  return "";
 }
 
 /* A body given by numbers is used as given; a body given by its material is mixed with the material

@@ -188,6 +188,7 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
   if (residence() == Residence::HOST) return nullptr;
   if (next_residence == Residence::HOST || !proxies || proxies->is_checking()) {
     if (!sent.empty()) pipeline->show_state(sent, atom->x[0], atom->v[0], atom->omega[0]);
+    if (pipeline->keeps_changes()) pipeline->show_changes(sent, store->all_changes());
     return nullptr;
   }
   if (!packer_knows_plan) packer.set_plan(proxies->plan(), slot_of_atom());
@@ -202,6 +203,8 @@ void GranularSystem::return_to_host(bool with_forces)
   if (residence() == Residence::HOST) return;
   const bool between_steps = with_forces && !pipeline->is_moving();
   const bool any = atom->nlocal > 0;
+  pipeline->complete_move();
+  if (pipeline->keeps_changes()) pipeline->write_changes(store->all_changes());
   pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
                          any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,
                          any && with_forces ? atom->torque[0] : nullptr);

@@ -107,10 +107,12 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
                    !setting_up || style.limits_at_setup, report,
                    keeps_account ? &account : nullptr};
+  step.lag = lag();
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
+  if (step.read_ghosts && pipeline->keeps_changes()) comm->forward_comm(store);
   if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
@@ -123,6 +125,8 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   compute_around_proxies(step);
   if (step.deliver && !step.read && atom->nlocal)
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
+  if (step.deliver && !step.read && pipeline->keeps_changes())
+    pipeline->write_changes(store->all_changes());
   store->pairs_are_current();
   if (!setting_up) return;
   time_step.judge_start(book, *pipeline);
@@ -196,7 +200,8 @@ ParticleView GranularSystem::view() const
           masses.override_or_null(),
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
-          pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr};
+          pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
+          store->all_changes()};
 }
 
 }    // namespace Talus

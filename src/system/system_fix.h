@@ -26,6 +26,10 @@ class SystemFix {
 
   /// It moves particles.
   virtual bool integrates() const { return false; }
+  /// That moves particles, as its command says: of the time step, 1 or 2.
+  virtual int order() const { return 1; }
+  /// Of order 2: the time by which velocities are behind positions.
+  virtual double lag() const { return 0.0; }
 
   /// Particles have come back to the arrays of LAMMPS after a step in the records, with the forces
   /// of contacts, bodies and weights: does what is missing of its part of that step. Those that

@@ -198,6 +198,7 @@ void BodyBatch::flush()
   std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
   gather();
+  batch.lag = task->lag;
   task->laws.kernel(law_index, task->advance)(batch, 0, end, task->laws.coefficients(), task->dt);
   if (task->with_history && task->advance) keep_histories();
   if (task->energies) account();

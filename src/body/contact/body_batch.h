@@ -44,6 +44,7 @@ struct BodyTask {
       *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
   BodyHistory &history;
   double dt;
+  double lag;      ///< see ContactStep
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
@@ -105,6 +106,7 @@ class BodyBatch {
   void gather();
   Motion motion_in_records(const int *index, int k) const;
   Motion motion_in_arrays(const int *index, int k) const;
+  void gather_changes(const int *index, int k);
   void gather_histories(int k);
   void gather_resistance();
   void gather_coefficients();

@@ -71,10 +71,32 @@ void BodyBatch::gather()
     store(&batch.inverse_radius[k], m.inverse_radius);
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) store_at(batch.relative_omega, k, m.omega);
+    if (law.tangential().second_order) gather_changes(index, k);
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
   if (!task->laws.uniform()) gather_coefficients();
+}
+
+/* The body does not move. */
+
+void BodyBatch::gather_changes(const int *index, int k)
+{
+  for (int q = 0; q < lanes; q++) {
+    const double r = radius[k + q], *v = nullptr, *omega = nullptr;
+    if (task->view.records) {
+      const Record *its = &task->view.records->change[2L * index[q]];
+      v = its[0].c;
+      omega = its[1].c;
+    } else {
+      v = task->view.change + 6L * index[q];
+      omega = v + 3;
+    }
+    for (int d = 0; d < 3; d++) {
+      batch.velocity_change[d][k + q] = v[d];
+      batch.rotation_change[d][k + q] = r * omega[d];
+    }
+  }
 }
 
 BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const

@@ -63,6 +63,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           index.data(),
           history,
           step.dt,
+          step.lag,
           step.advance,
           step.exact != nullptr,
           step.touched != nullptr,

@@ -21,6 +21,7 @@ namespace Talus {
 /// How a step is computed.
 struct BodyStep {
   double dt = 0.0;
+  double lag = 0.0;       ///< see ContactStep
   bool advance = true;    ///< false while a run is set up: histories are then only read
   int threads = 1;
   EnergyAccount *account = nullptr;               ///< receives the energies; takes one thread

@@ -24,6 +24,7 @@ struct BodyParticleView {
   const int *type;       ///< counts from 1
   double *f, *torque;
   double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
+  const double *change = nullptr;    ///< see ParticleView
   ParticleRecords *records = nullptr;
   const int *slot_of_atom = nullptr;    ///< of the records
 

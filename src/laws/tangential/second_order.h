@@ -115,6 +115,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   static constexpr const char *name = friction ? "multistep order 2" : "none order 2";
   static constexpr const char *label = friction ? "multistep slider midpoint" : nullptr;
   static constexpr int odd_history = 3, even_history = 1;
+  static constexpr bool second_order = true;
   static constexpr bool has_spring = friction, is_midpoint = true, reads_stiffness = friction;
   template <class Real> using Row = SecondOrderRow<Real>;
   static constexpr CoefficientName coefficients[] = {
