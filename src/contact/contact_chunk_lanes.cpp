@@ -100,8 +100,8 @@ void ContactChunk::gather_changes(const ParticleRecords &particles, int end)
       const int i = first[pair], j = second[pair];
       const Record *ci = change + 2L * i, *cj = change + 2L * j;
       v[q] = load4(ci[0]) - load4(cj[0]);
-      turn[q] = surface_velocity(load4(x[i]), load4(ci[1])) +
-          surface_velocity(load4(x[j]), load4(cj[1]));
+      turn[q] =
+          surface_velocity(load4(x[i]), load4(ci[1])) + surface_velocity(load4(x[j]), load4(cj[1]));
     }
     to_lanes(v, batch.velocity_change, nullptr, k);
     to_lanes(turn, batch.rotation_change, nullptr, k);

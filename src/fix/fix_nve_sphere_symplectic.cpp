@@ -53,8 +53,9 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
 
   const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
   if (its_order == 2 && says_start && !half_start)
-    error->all(FLERR, "Fix nve/sphere/symplectic order 2: velocities of 'start plain' have an error "
-                      "of first order: use 'start half', or leave 'start' out");
+    error->all(FLERR,
+               "Fix nve/sphere/symplectic order 2: velocities of 'start plain' have an error "
+               "of first order: use 'start half', or leave 'start' out");
   if (its_order == 2) half_start = true;
 
   if (gravity.given()) {
@@ -71,7 +72,8 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
 
 void FixNVESphereSymplectic::parse_keyword(Words &words)
 {
-  static const std::vector<std::string> keywords = {"start", "order", "gravity", "orientation", "disc"};
+  static const std::vector<std::string> keywords = {"start", "order", "gravity", "orientation",
+                                                    "disc"};
   const std::string keyword = keywords[words.choice("keyword", keywords)];
   words.about(keyword);
   if (keyword == "start") {
@@ -131,14 +133,27 @@ void FixNVESphereSymplectic::check_order()
 {
   for (auto &fix : modify->get_fix_list())
     if (fix != this && fix->time_integrate)
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Fix nve/sphere/symplectic order 2: fix {} ({}) moves particles as well: use order "
-                 "1, or one fix nve/sphere/symplectic alone",
-                 fix->id, fix->style);
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "Fix nve/sphere/symplectic order 2: fix {} ({}) moves particles as well: use order "
+          "1, or one fix nve/sphere/symplectic alone",
+          fix->id, fix->style);
+  for (auto &fix : modify->get_fix_list())
+    if (utils::strmatch(fix->style, "^wall/gran"))
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "Fix nve/sphere/symplectic order 2: contacts with fix {} ({}) are of first order: use "
+          "fix large/body, or order 1",
+          fix->id, fix->style);
   const std::string reason = system->reason_against_second_order();
   if (!reason.empty())
-    error->all(FLERR, Error::NOLASTLINE,
-               "Fix nve/sphere/symplectic order 2: {}; or use order 1", reason);
+    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic order 2: {}; or use order 1",
+               reason);
+  if (comm->me == 0 && !announced)
+    utils::logmesg(
+        lmp, "Fix nve/sphere/symplectic {}: all contacts are of second order in the time step\n",
+        id);
+  announced = true;
 }
 
 /* ----------------------------------------------------------------------

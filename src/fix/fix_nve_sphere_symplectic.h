@@ -76,6 +76,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
   int its_order = 1;
+  bool announced = false;
   double time_behind = 0.0;    // by which v is behind x
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only

@@ -19,6 +19,7 @@
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
+#include "laws/tangential/second_order.h"
 #include "laws/twisting/marshall.h"
 #include "laws/twisting/none.h"
 
@@ -125,6 +126,9 @@ constexpr Entry entries[] = {
     entry<HertzMaterial, RestitutionDamping, Onestep>(),
     entry<HertzMaterial, RestitutionDamping, MultistepStock>(),
     entry<HertzMaterial, RestitutionDamping, Multistep<false, true>>(),
+    entry<Hooke, MassVelocity, SecondOrder<true>>(),
+    entry<Hertz, Viscoelastic, SecondOrder<true>>(),
+    entry<HertzMaterial, RestitutionDamping, SecondOrder<true>>(),
     entry<Hertz, Viscoelastic, Mindlin>(),
     entry<Hertz, Tsuji, Mindlin>(),
     entry<Hertz, CoeffRestitution, Mindlin>(),

@@ -85,7 +85,7 @@ struct Law {
   bool allows_cohesion;    ///< damping: may follow such a normal law
   bool
       lasts_beyond_contact;    ///< normal: a contact ends when the bodies have come apart, at reach
-  bool second_order;    ///< tangential: reads the changes of velocities, see second_order.h
+  bool second_order;           ///< tangential: reads the changes of velocities, see second_order.h
   bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
   /// Why kt (normal) or gt (damping) has to be NULL, or a number.
   const char *takes_no_kt, *takes_no_gt, *needs_gt;

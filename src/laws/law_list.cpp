@@ -38,6 +38,7 @@
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
+#include "laws/tangential/second_order.h"
 #include "laws/tangential/tanh.h"
 #include "laws/twisting/delayed.h"
 #include "laws/twisting/marshall.h"
@@ -81,6 +82,8 @@ const Law *const all_laws[] = {
     &law<Multistep<true, false>>,
     &law<Multistep<false, true>>,
     &law<Multistep<true, true>>,
+    &law<SecondOrder<false>>,
+    &law<SecondOrder<true>>,
     &law<Tanh>,
     &law<LinearNoHistory>,
     &law<LinearHistory>,

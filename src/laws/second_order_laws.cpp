@@ -2,8 +2,7 @@
 
 #include "laws/second_order_laws.h"
 
-#include "laws/tangential/none.h"
-#include "laws/tangential/second_order.h"
+#include "laws/law_list.h"
 
 #include <cmath>
 #include <cstring>
@@ -39,7 +38,7 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
   if (law.resists())
     return "has resistance to rolling or spinning, whose direction is that of half a time step ago";
   if (law.conducts_heat()) return "conducts heat";
-  if (tangential.acts && !is_named(tangential, Multistep<true, true>::name))
+  if (tangential.acts && !is_named(tangential, "multistep slider midpoint"))
     return std::string("has the tangential law ") + tangential.name +
            ": use 'tangential multistep kt gt mu slider midpoint'";
   return "";
@@ -47,8 +46,9 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
 
 ContactLaw second_order_law(ContactLaw law)
 {
-  law.choose(Stage::TANGENTIAL, law.tangential().acts ? &Talus::law<SecondOrder<true>>
-                                                      : &Talus::law<SecondOrder<false>>);
+  law.choose(
+      Stage::TANGENTIAL,
+      find_law(Stage::TANGENTIAL, law.tangential().acts ? "multistep order 2" : "none order 2"));
   return law;
 }
 

@@ -95,8 +95,9 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
 
 double ParticleRecords::memory_usage() const
 {
-  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() + change.capacity() +
-                                               load.capacity() + twisting_torque.capacity()));
+  return static_cast<double>(sizeof(Record) *
+                             (position.capacity() + motion.capacity() + change.capacity() +
+                              load.capacity() + twisting_torque.capacity()));
 }
 
 }    // namespace Talus

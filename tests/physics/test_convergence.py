@@ -32,8 +32,8 @@ read_data data
 neighbor 0.1 bin
 pair_style gran/penalty
 pair_coeff * * {law}
-fix move all nve/sphere/symplectic start {start}
-timestep {dt!r}
+fix move all nve/sphere/symplectic {start}
+{more}timestep {dt!r}
 thermo 100000
 run {steps}
 write_dump all custom end.{name} id x y z vx vy vz omegax omegay omegaz modify format float %.17g
@@ -47,9 +47,13 @@ class Convergence(SceneCase):
             Sphere((-0.505, 0, 0), (0.5, 0.4, 0), (0, 0, 1.0), density=1000.0),
             Sphere((0.505, 0, 0), (-0.5, -0.4, 0), (0, 0, 1.0), density=1000.0)])
 
+    more = ""       # lines of the script, which may name the {law}
+
     def motion(self, runs):
         """The final positions, velocities and spins of runs (law, start, k) with the time step STEP/2^k."""
-        script = "".join(SCRIPT.format(law=law, start=start, dt=STEP / 2**k, steps=round(TIME / STEP) * 2**k, name=n)
+        script = "".join(SCRIPT.format(law=law, start=start if "order" in start else f"start {start}",
+                                       more=self.more.format(law=law), dt=STEP / 2**k,
+                                       steps=round(TIME / STEP) * 2**k, name=n)
                          for n, (law, start, k) in enumerate(runs))
         self.run_lammps(script)
         ends = []
@@ -58,11 +62,12 @@ class Convergence(SceneCase):
             ends.append([frame.atoms[tag] for tag in (1, 2)])
         return ends
 
-    def order(self, law, start="half", reference=None, reference_start=None):
-        """(slope of log error of the motion over log dt, finest error) against a run with a very fine step."""
+    def order(self, law, start="half", reference=None, reference_start=None, seen=None):
+        """(slope of log error of the motion over log dt, finest error) against a run with a very fine step. `seen`:
+        only that many of the columns, 3: positions."""
         runs = [(law, start, k) for k in LEVELS] + [(reference or law, reference_start or start, REFERENCE)]
         *coarse, exact = self.motion(runs)
-        errors = [max(abs(a - b) for row, other in zip(end, exact) for a, b in zip(row[1:], other[1:]))
+        errors = [max(abs(a - b) for row, other in zip(end, exact) for a, b in list(zip(row[1:], other[1:]))[:seen])
                   for end in coarse]
         x = [-k * math.log(2) for k in LEVELS]
         y = [math.log(e) for e in errors]
@@ -105,6 +110,28 @@ class Convergence(SceneCase):
             order, finest = self.order(f"hertz {HERTZ} 150.0 {FRICTION} {MINDLIN} 75.0 0.3", start)
             self.assertGreater(order, 1.5)
             self.assertLess(finest, 5e-5)
+
+    def test_order_2(self):
+        """Impacts with damping and friction; velocities in free flight are those of any time."""
+        friction = f"{FRICTION} {MINDLIN} 75.0 0.3 slider midpoint limit_damping"
+        for law in (f"hertz {HERTZ} 150.0 limit_damping", f"hertz {HERTZ} 150.0 {friction}",
+                    "hooke 7e5 30.0 limit_damping", f"hooke 7e5 30.0 {FRICTION} 2e5 15.0 0.2 slider midpoint limit_damping",
+                    f"hertz/material 1e7 0.6 0.3 {FRICTION} NULL NULL 0.3 slider midpoint limit_damping"):
+            order, finest = self.order(law, "order 2")
+            self.assertGreater(order, 1.6)     # of one impact: where it begins within a step varies
+            _, today = self.order(law, "half", reference_start="order 2")
+            self.assertLess(finest, 0.2 * today)
+
+    def test_order_2_on_a_floor(self):
+        """Positions only: velocities under way are half a time step old."""
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, [
+            Sphere((0, 0, 0.502), (0.3, 0.1, -0.5), (0, 0, 1.0), density=1000.0),
+            Sphere((0.03, 0.02, 1.51), (0, 0, -0.7), (0, 1.0, 0), density=1000.0)])
+        self.more = "unfix move\nfix move all nve/sphere/symplectic order 2 gravity 9.81 vector 0 0 -1\n" \
+                    "fix floor all large/body plane 0 0 0  0 0 1 contact {law}\n"
+        for law in (f"hertz {HERTZ} 150.0", "hooke 7e5 30.0"):
+            order, _ = self.order(f"{law} {FRICTION} NULL NULL 0.3 slider midpoint limit_damping", "order 2", seen=3)
+            self.assertGreater(order, 1.8)
 
 
 if __name__ == "__main__":

@@ -35,11 +35,13 @@ SPHERES = "set group all diameter 1 density 1"
 
 # words after FIX, what the message says, the word it points at
 BAD_WORDS = [
-    ("foo", "unknown keyword 'foo', expected start, gravity, orientation or disc", "foo"),
+    ("foo", "unknown keyword 'foo', expected start, order, gravity, orientation or disc", "foo"),
     ("start half 0.5", "unknown keyword '0.5', expected start, ", "0.5"),
     ("start half start plain", "keyword 'start' given twice", "start"),
     ("start", "start: missing value: half or plain", "start"),
     ("start full", "start: unknown value 'full', expected half or plain", "full"),
+    ("order", "order: missing value: 1 or 2", "order"),
+    ("order 3", "order: unknown value '3', expected 1 or 2", "3"),
     ("orientation", "orientation: missing value: yes or no", "orientation"),
     ("orientation maybe", "orientation: unknown value 'maybe', expected yes or no", "maybe"),
     ("orientation yes", "orientation: expected an atom style with a quaternion or a dipole", "yes"),
@@ -85,6 +87,30 @@ REFUSED = [
      G + r"fix other \(freeze\) acts on 1 members of group all: frozen .* these move"),
     (f"{GRAVITY}\nfix other right freeze\nset group right omega 0 1e-9 0\nrun 0",
      G + r"fix other \(freeze\) acts on 1 members of group all: frozen .* these move"),
+]
+
+SECOND = f"{FIX} order 2"
+PAIR = "pair_style gran/penalty\npair_coeff * * "
+O = "Fix nve/sphere/symplectic order 2: "
+REFUSED += [
+    (f"{FIX} start plain order 2", O + "velocities of 'start plain' .* use 'start half'"),
+    (f"{SECOND}\nrun 0", O + "contacts of particles are not those of 'pair_style gran/penalty': use it"),
+    (f"{PAIR}hooke 1e4 10\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has damping that may attract.*add 'limit_damping'; or use order 1"),
+    (f"{PAIR}hooke 1e4 0 tangential multistep NULL NULL 0.5\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law multistep: use .*slider midpoint"),
+    (f"{PAIR}hertz 1e4 0 rolling 0.1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance"),
+    (f"{PAIR}hertz 1e4 0 adhesion constant 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has adhesion"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
+     O + r"fix other \(nve/sphere\) moves particles as well"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix w all wall/gran hertz/history 1e4 NULL 0 NULL 0.5 1 zplane -4 4\nrun 0",
+     O + r"contacts with fix w \(wall/gran\) are of first order: use fix large/body"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body plane 0 0 0 0 0 1 contact hertz 1e4 0\nrun 0",
+     O + "fix large/body b keeps no history without friction"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body plane 0 0 0 0 0 1 move linear 1 0 0 contact hertz 1e4 0\nrun 0",
+     O + "fix large/body b moves"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body box 0 0 0 1 1 0.2 contact hertz 1e4 0\nrun 0",
+     O + "fix large/body b has edges"),
 ]
 
 # what looks similar and is allowed

@@ -23,7 +23,7 @@ struct BodyParticleView {
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   const int *type;       ///< counts from 1
   double *f, *torque;
-  double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
+  double *virial = nullptr;          ///< nullptr, or six for each particle: xx yy zz xy xz yz
   const double *change = nullptr;    ///< see ParticleView
   ParticleRecords *records = nullptr;
   const int *slot_of_atom = nullptr;    ///< of the records
