@@ -103,13 +103,13 @@ REFUSED += [
     (f"{PAIR}hertz 1e4 0 adhesion constant 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has adhesion"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
      O + r"fix other \(nve/sphere\) moves particles as well"),
-    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix w all wall/gran hertz/history 1e4 NULL 0 NULL 0.5 1 zplane -4 4\nrun 0",
-     O + r"contacts with fix w \(wall/gran\) are of first order: use fix large/body"),
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix w all wall/gran/region hertz/history 1e4 NULL 0 NULL 0.5 1 region box\nrun 0",
+     O + r"contacts with fix w \(wall/gran/region\) are of first order: use fix large/body"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body plane 0 0 0 0 0 1 contact hertz 1e4 0\nrun 0",
      O + "fix large/body b keeps no history without friction"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body plane 0 0 0 0 0 1 move linear 1 0 0 contact hertz 1e4 0\nrun 0",
      O + "fix large/body b moves"),
-    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body box 0 0 0 1 1 0.2 contact hertz 1e4 0\nrun 0",
+    (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix b all large/body box -3 -3 -0.4 3 3 0.4 inside contact hertz 1e4 0\nrun 0",
      O + "fix large/body b has edges"),
 ]
 
