@@ -1,0 +1,91 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Order 2 keeps one trajectory: the same bits on any ranks and threads, with and without overlap, in steps through the
+arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well."""
+
+import os
+import random
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+
+SIDE = 6
+LAW = "hertz 2.0e4 50.0 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
+START = """
+units lj
+boundary {boundary}
+newton off
+atom_style sphere
+atom_modify map array
+comm_modify vel yes
+read_data data
+"""
+CONTINUE = "units lj\nnewton off\natom_style sphere\natom_modify map array\ncomm_modify vel yes\nread_restart half\n"
+PHYSICS = f"""
+neighbor 0.1 bin
+pair_style gran/penalty
+pair_coeff * * {LAW}
+fix floor all large/body plane 0 0 0  0 0 1 contact {LAW}
+fix step all nve/sphere/symplectic {{order}} gravity 2.0 vector 0.2 0 -1
+timestep 0.0005
+thermo 100
+"""
+OUTPUT = "dump all all custom {every} {name} id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz\n" \
+         "dump_modify all format float %.17g\n"
+
+
+class SecondOrder(SceneCase):
+
+    def setUp(self):
+        draw = random.Random(7)
+
+        def some(size):
+            return tuple(draw.uniform(-size, size) for _ in "xyz")
+        spheres = [Sphere(tuple(c + 0.5 + e for c, e in zip((i, j, k), some(0.05))), some(2.0), some(2.0),
+                          density=1.0, diameter=0.9) for i in range(SIDE) for j in range(SIDE) for k in range(SIDE)]
+        draw.shuffle(spheres)
+        write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 4)), spheres)
+
+    def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, **options):
+        script = (head or START.format(boundary=boundary)) + style + PHYSICS.format(order=order)
+        walls = "" if boundary.startswith("p") else "".join(
+            f"fix w{n} all large/body plane {x} contact {LAW}\n"
+            for n, x in enumerate((f"0 0 0 1 0 0", f"{SIDE} 0 0 -1 0 0", "0 0 0 0 1 0", f"0 {SIDE} 0 0 -1 0")))
+        self.run_lammps(script + walls + OUTPUT.format(every=options.pop("every", 100), name=name) + runs, np=np,
+                        name=name, **options)
+        return {frame.step: frame for frame in read_dump(self.path(name))}
+
+    def assert_same(self, frames, others):
+        self.assertIn(400, frames)
+        for step in set(frames) & set(others):
+            self.assert_same_bits(frames[step], others[step])
+
+    def test_ranks_threads_and_residence(self):
+        one = self.end("one")
+        for name, options in {
+                "ranks": {"np": 4},
+                "overlap": {"np": 4, "style": "comm_proxy yes\nrun_style verlet/proxy overlap yes\n"},
+                "arrays": {"style": "run_style verlet/stock\n"},
+                "arrays_of_ranks": {"np": 3, "style": "run_style verlet/stock\n"},
+                "often": {"np": 2, "every": 7},
+                "threads": {"arguments": ("-sf", "omp", "-pk", "omp", "2"), "env": {"OMP_NUM_THREADS": "2"}}}.items():
+            with self.subTest(name):
+                every = 100 if name != "often" else 50
+                options["every"] = every
+                self.assert_same(self.end(name, **options), one)
+
+    def test_runs_and_restart_files(self):
+        one = self.end("one", boundary="f f f")
+        self.assert_same(self.end("two", "run 150\nrun 250\n", boundary="f f f"), one)
+        self.end("first", "run 150\nwrite_restart half\n", boundary="f f f")
+        for np in (1, 4):
+            self.assert_same(self.end(f"second{np}", "run 250\n", boundary="f f f", head=CONTINUE, np=np), one)
+
+    def test_it_is_another_method(self):
+        one, other = self.end("one"), self.end("other", order="start half")
+        self.assertNotEqual(one[400].atoms, other[400].atoms)
+
+
+if __name__ == "__main__":
+    unittest.main()
