@@ -77,6 +77,8 @@ struct Law {
   bool has_spring;         ///< tangential: remembers a displacement, gives back its energy or more
   bool stiffens;           ///< tangential: a stretched spring of its own may gain from the overlap
   bool is_midpoint;        ///< tangential: second order in the time step
+  bool synchronized;    ///< tangential: all stages see the normal of half a step before; the last
+                        ///< coefficient is the time step
   bool holds;              ///< rolling: a body at rest is held
   bool delayed;            ///< rolling, twisting: reads delayed_force
   double exponent;         ///< normal: elastic force ~ overlap^exponent
