@@ -94,11 +94,15 @@ bool check_disabled()
   return value && *value && std::strcmp(value, "0") != 0;
 }
 
+// The path that the host opened may be a link, which is followed: the second file is beside the first
+// itself.
 std::string styles_path()
 {
   Dl_info info{};
   if (!dladdr(reinterpret_cast<const void *>(&OURS), &info) || !info.dli_fname) return {};
-  const std::string self = info.dli_fname;
+  char *resolved = realpath(info.dli_fname, nullptr);
+  const std::string self = resolved ? resolved : info.dli_fname;
+  std::free(resolved);
   const auto slash = self.rfind('/');
   return (slash == std::string::npos ? std::string() : self.substr(0, slash + 1)) +
          "talusstyles.so";

@@ -30,14 +30,20 @@
 #endif
 
 #include "command.h"
+#include "compute.h"
 #include "fix.h"
+#include "force.h"
+#include "input.h"
 #include "integrate.h"
 #include "lammps.h"
 #include "lammpsplugin.h"
+#include "modify.h"
 #include "pair.h"
 #include "update.h"
 #include "verlet.h"
 #include "version.h"
+
+#include <cstring>
 
 #if TALUS_HOST_HAS_GRANULAR
 #include "fix/fix_freeze_talus.h"
@@ -47,21 +53,25 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-// LAMMPS casts what a creator returns to the base class: it has to be a pointer to exactly that.
-template <typename Base, typename Style> void *create(void *lmp)
+// LAMMPS takes what a creator returns for a pointer to the base class: it has to be exactly that.
+template <typename Base, typename Style> Base *create(LAMMPS *lmp)
 {
-  return static_cast<Base *>(new Style(static_cast<LAMMPS *>(lmp)));
+  return new Style(lmp);
 }
 
-template <typename Base, typename Style> void *create(void *lmp, int narg, char **arg)
+template <typename Base, typename Style> Base *create(LAMMPS *lmp, int narg, char **arg)
 {
-  return static_cast<Base *>(new Style(static_cast<LAMMPS *>(lmp), narg, arg));
+  return new Style(lmp, narg, arg);
 }
 
+// Every style is put down twice: in LAMMPS' list of plugins, which belongs to the process, and in the
+// tables of this LAMMPS object. LAMMPS leaves out the second where a style is on the list already, and
+// then a second object in one process would have no styles of ours.
 class Registry {
  public:
   Registry(void *lmp, void *handle, void *registerfunc) :
-      lmp(lmp), register_plugin(reinterpret_cast<lammpsplugin_regfunc>(registerfunc))
+      lmp(static_cast<LAMMPS *>(lmp)),
+      register_plugin(reinterpret_cast<lammpsplugin_regfunc>(registerfunc))
   {
     entry.version = LAMMPS_VERSION;
     entry.author = "the Talus developers";
@@ -70,52 +80,56 @@ class Registry {
 
   template <typename Style> void pair(const char *name, const char *info)
   {
-    entry.creator.v1 = &create<Pair, Style>;
-    add("pair", name, info);
+    add("pair", name, info, *lmp->force->pair_map, &create<Pair, Style>);
   }
 
   template <typename Style> void compute(const char *name, const char *info)
   {
-    entry.creator.v2 = &create<Compute, Style>;
-    add("compute", name, info);
+    add("compute", name, info, *lmp->modify->compute_map, &create<Compute, Style>);
   }
 
   template <typename Style> void command(const char *name, const char *info)
   {
-    entry.creator.v1 = &create<Command, Style>;
-    add("command", name, info);
+    add("command", name, info, *lmp->input->command_map, &create<Command, Style>);
   }
 
   template <typename Style> void run_style(const char *name, const char *info)
   {
-#if TALUS_HOST_HAS_RUN_PLUGINS
-    entry.creator.v2 = &create<Integrate, Style>;
-    add("run", name, info);
-#else
-    (void) info;
-    (*static_cast<LAMMPS *>(lmp)->update->integrate_map)[name] = [](LAMMPS *host, int narg,
-                                                                    char **arg) -> Integrate * {
-      return new Style(host, narg, arg);
-    };
-#endif
+    add("run", name, info, *lmp->update->integrate_map, &create<Integrate, Style>);
   }
 
   template <typename Style> void fix(const char *name, const char *info)
   {
-    entry.creator.v2 = &create<Fix, Style>;
-    add("fix", name, info);
+    add("fix", name, info, *lmp->modify->fix_map, &create<Fix, Style>);
   }
 
  private:
-  void add(const char *style, const char *name, const char *info)
+  template <typename Table>
+  void add(const char *style, const char *name, const char *info, Table &table,
+           typename Table::mapped_type creator)
   {
-    entry.style = style;
-    entry.name = name;
-    entry.info = info;
-    register_plugin(&entry, lmp);    // copies the entry
+    if (TALUS_HOST_HAS_RUN_PLUGINS || std::strcmp(style, "run") != 0) {
+      entry.style = style;
+      entry.name = name;
+      entry.info = info;
+      set(creator);
+      register_plugin(&entry, lmp);    // copies the entry
+    }
+    table[name] = creator;
   }
 
-  void *lmp;
+  // the plain interface of plugins: LAMMPS casts back to these very types
+  template <typename Base> void set(Base *(*creator)(LAMMPS *) )
+  {
+    entry.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(creator);
+  }
+
+  template <typename Base> void set(Base *(*creator)(LAMMPS *, int, char **) )
+  {
+    entry.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(creator);
+  }
+
+  LAMMPS *lmp;
   lammpsplugin_regfunc register_plugin;
   lammpsplugin_t entry{};
 };

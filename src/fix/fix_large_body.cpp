@@ -42,12 +42,13 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   parse_keywords(words);
   motion.finish(body.shape().reference_point());
   body.set_frame(&motion.frame(), motion.moves());
+  follow_region();
   if (surface->records()) body.set_touched(surface->touched());
   body.keep_history();
   offer_output();
   keep_history();
-  system->run_monitor().add(
-      this, monitor.checks([this] { return body.find_worst(); }, motion.moves(), id));
+  system->run_monitor().add(this, monitor.checks([this] { return body.find_worst(); },
+                                                 [this] { return motion.moves(); }, id));
 }
 
 FixLargeBody::~FixLargeBody()
@@ -137,17 +138,27 @@ void FixLargeBody::init()
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   motion.init();
   system->run_monitor().start();
-  find_region();
+  follow_region();
   body.init();
 }
 
-void FixLargeBody::find_region()
+/* It may have been deleted and defined anew since the last run, and move now. */
+
+void FixLargeBody::follow_region()
 {
   auto *its = dynamic_cast<RegionShape *>(&body.shape());
   if (!its) return;
   Region *region = domain->get_region_by_id(its->region_id());
-  if (!region) error->all(FLERR, "Fix large/body {}: region '{}' is gone", id, its->region_id());
+  if (!region)
+    error->all(FLERR, "Fix large/body {}: region '{}' is gone: define it again before the run", id,
+               its->region_id());
+  const std::string refusal = RegionShape::refusal(*region, motion.has_own());
+  if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
   its->replace(region);
+  if (motion.has_own()) return;
+  motion.follow(*region, its->reference_point());
+  body.set_frame(&motion.frame(), motion.moves());
+  if (motion.moves()) restart_global = 1;
 }
 
 /* The body goes to the place of this step as the particles have just done; the load is that of the
@@ -207,8 +218,6 @@ void FixLargeBody::min_post_force(int vflag)
 std::string FixLargeBody::needs_host_arrays()
 {
   if (motion.asks_variables()) return "its variables may read particles";
-  const auto *its = dynamic_cast<const RegionShape *>(&body.shape());
-  if (its && its->moves()) return "its region may read particles";
   return body.needs_host_arrays();
 }
 

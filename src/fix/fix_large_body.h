@@ -73,7 +73,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   void parse_contact_words(Talus::Words &words);
   void offer_output();
   void keep_history();
-  void find_region();
+  void follow_region();
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::LargeBody &body;    // owned by the system

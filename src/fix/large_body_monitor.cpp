@@ -15,7 +15,8 @@ using namespace Talus;
 /* One pass over the particles serves both checks, as long as the first one still looks. */
 
 std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst,
-                                                        bool moves, const std::string &id)
+                                                        std::function<bool()> moves,
+                                                        const std::string &id)
 {
   using Finding = RunMonitor::Finding;
   look = std::move(find_worst);
@@ -33,9 +34,11 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
                      id, found.details[0], found.value, update->ntimestep);
     return true;
   };
-  const auto look_for_move = [this] {
-    if (!just_looked) worst = look();
+  const auto look_for_move = [this, moves = std::move(moves)]() -> Finding {
+    const bool looked = just_looked;
     just_looked = false;
+    if (!moves()) return {};
+    if (!looked) worst = look();
     return finding(worst.speed * update->dt, worst.fastest);
   };
   const auto say_move = [this, id](const Finding &found) {
@@ -47,9 +50,8 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
                      id, found.details[0], found.value, update->ntimestep);
     return true;
   };
-  std::vector<RunMonitor::Check> its{{largest_overlap, look_for_overlap, say_overlap}};
-  if (moves) its.push_back({largest_move, look_for_move, say_move});
-  return its;
+  return {{largest_overlap, look_for_overlap, say_overlap},
+          {largest_move, look_for_move, say_move}};
 }
 
 RunMonitor::Finding LargeBodyMonitor::finding(double value, int particle) const

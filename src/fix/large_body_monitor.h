@@ -27,10 +27,10 @@ class LargeBodyMonitor : protected Pointers {
 
   explicit LargeBodyMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// `find_worst`: of the particles of this rank; `moves`: the body does. This object must live as
+  /// `find_worst`: of the particles of this rank; `moves`: whether the body does. This object must live as
   /// long as the checks.
-  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst, bool moves,
-                                        const std::string &id);
+  std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst,
+                                        std::function<bool()> moves, const std::string &id);
 
  private:
   RunMonitor::Finding finding(double value, int particle) const;

@@ -2,11 +2,15 @@
 
 #include "fix/large_body_motion.h"
 
+#include "fix/region_surface.h"
+#include "system/time_formula.h"
+
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "input.h"
 #include "modify.h"
+#include "region.h"
 #include "update.h"
 #include "utils.h"
 #include "variable.h"
@@ -190,6 +194,7 @@ bool LargeBodyMotion::asks_variables() const
 {
   const auto named = [](const Quantity &q) { return !q.name.empty(); };
   return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), named)) ||
+         (kind == Kind::REGION && !variable_that_may_read_particles(lmp, *region).empty()) ||
          (has_load && std::any_of(std::begin(given_load), std::end(given_load), named));
 }
 
@@ -214,8 +219,48 @@ void LargeBodyMotion::evaluate_state()
   now.set(state);
 }
 
+/* Velocities are those of the way from the step before, as those of fix wall/gran/region: the
+   variables of a region tell places only. `dt`: time since the state that the body has; 0 at the
+   start of a run, where it keeps the velocities of the run before. */
+
+void LargeBodyMotion::evaluate_region(double dt)
+{
+  modify->clearstep_compute();
+  region->prematch();
+  modify->addstep_compute(update->ntimestep + 1);
+  const RegionTurn turn(*region);
+  const double *const d = turn.displacement;
+  if (!std::isfinite(d[0] + d[1] + d[2] + turn.angle))
+    error->all(FLERR, "Fix large/body: a variable that moves region '{}' is not finite",
+               region->id);
+  const Vector3<double> axis{turn.axis[0], turn.axis[1], turn.axis[2]};
+  BodyState state = now.state;
+  state.position = now.origin + Vector3<double>{d[0], d[1], d[2]};
+  state.orientation = Eigen::Quaterniond::Identity();
+  if (turn.angle != 0.0) state.orientation = Eigen::AngleAxisd(turn.angle, to_eigen(axis));
+  if (dt > 0.0) {
+    state.velocity = 1.0 / dt * (state.position - now.state.position);
+    state.omega = (turn.angle - region_angle) / dt * axis;
+  }
+  region_angle = turn.angle;
+  now.set(state);
+}
+
+void LargeBodyMotion::follow(Region &its, const Vector3<double> &reference)
+{
+  region = &its;
+  const Kind before = kind;
+  kind = its.dynamic ? Kind::REGION : Kind::NONE;
+  now.moves = moves();
+  now.origin = reference;
+  if (kind == Kind::REGION && before == kind) return;
+  initial.position = reference;
+  now.set(initial);
+}
+
 void LargeBodyMotion::place()
 {
+  if (kind == Kind::REGION) evaluate_region(0.0);
   if (kind == Kind::VARIABLE) evaluate_state();
   if (kind == Kind::PRESCRIBED) now.set(prescribed->at(clock.at(update->ntimestep), now.origin));
 }
@@ -224,6 +269,10 @@ void LargeBodyMotion::advance(const BodyLoad &load)
 {
   if (kind == Kind::NONE) return;
   if (kind == Kind::PRESCRIBED) clock.read(update->ntimestep, update->dt);
+  if (kind == Kind::REGION) {
+    evaluate_region(update->dt);
+    return;
+  }
   if (depends_on_time()) {
     place();
     return;

@@ -21,6 +21,8 @@
 
 namespace LAMMPS_NS {
 
+class Region;
+
 class LargeBodyMotion : protected Pointers {
  public:
   explicit LargeBodyMotion(LAMMPS *lmp);
@@ -29,6 +31,13 @@ class LargeBodyMotion : protected Pointers {
   bool parse(Talus::Words &words);
   /// After all words: checks that they go together. `reference`: of the shape.
   void finish(const Talus::Vector3<double> &reference);
+
+  /// Of a body whose shape is a region: it goes where the region goes, or stays if that stays. At
+  /// the beginning of each run, after init(), because regions may be defined anew. `reference`: of
+  /// the shape. Must not be called if there is a motion of its own.
+  void follow(Region &region, const Talus::Vector3<double> &reference);
+  /// Has one of the words move and servo.
+  bool has_own() const { return kind != Kind::NONE && kind != Kind::REGION; }
 
   /// The body as contacts see it; changes with place() and advance().
   const Talus::BodyFrame &frame() const { return now; }
@@ -61,7 +70,7 @@ class LargeBodyMotion : protected Pointers {
   bool from_array(const double *a);
 
  private:
-  enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO };
+  enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO, REGION };
   /// A number or an equal-style variable.
   struct Quantity {
     double value = 0.0;
@@ -76,6 +85,7 @@ class LargeBodyMotion : protected Pointers {
   void find(Quantity &q);
   double evaluate(const Quantity &q);
   void evaluate_state();
+  void evaluate_region(double dt);
   Talus::BodyState state_from(int narg, char **arg, int &steps) const;
 
   Kind kind = Kind::NONE;
@@ -84,6 +94,8 @@ class LargeBodyMotion : protected Pointers {
   std::unique_ptr<Talus::PrescribedMotion> prescribed;
   Quantity path[8];    // displacement, velocity, angle, angular velocity
   Talus::Vector3<double> angle_axis{0.0, 0.0, 1.0};
+  Region *region = nullptr;     // that the body follows
+  double region_angle = 0.0;    // at the state that `now` has
   Talus::GuidedMotion guided;
   Talus::RigidBody rigid;
   Talus::Servo servo;

@@ -228,8 +228,8 @@ LargeBodyShapes::Shape LargeBodyShapes::region()
   const std::string id = words.text("region-ID");
   Region *its = domain->get_region_by_id(id);
   if (!its) words.fail(1, "region '" + id + "' does not exist");
-  if (its->dynamic_check() || its->varshape)
-    words.fail(1, "region '" + id + "' moves or changes: use move of this fix instead");
+  const std::string refusal = RegionShape::refusal(*its, false);
+  if (!refusal.empty()) words.fail(1, refusal);
   its->init();
   its->prematch();
   return std::make_unique<RegionShape>(its, id.c_str());

@@ -2,6 +2,9 @@
 
 #include "fix/region_shape.h"
 
+#include "fix/region_surface.h"
+
+#include "fmt/format.h"
 #include "region.h"
 
 #include <algorithm>
@@ -14,17 +17,72 @@ using Talus::NearParts;
 using Talus::SurfaceContact;
 using Talus::Vector3;
 
+namespace {
+
+/// While it exists, a region answers as it was before it moved.
+class AtRest {
+ public:
+  explicit AtRest(Region &its) : region(its), dynamic(its.dynamic), turns(its.rotateflag)
+  {
+    region.dynamic = region.rotateflag = 0;
+  }
+  ~AtRest()
+  {
+    region.dynamic = dynamic;
+    region.rotateflag = turns;
+  }
+  AtRest(const AtRest &) = delete;
+  AtRest &operator=(const AtRest &) = delete;
+
+ private:
+  Region &region;
+  int dynamic, turns;
+};
+
+}    // namespace
+
 RegionShape::RegionShape(Region *r, const char *its_id) : region(r), id(its_id)
 {
-  if (region->bboxflag)
+  replace(r);
+}
+
+/* Some versions of the host move the extent with the region, others have none of one that moves. */
+
+void RegionShape::replace(Region *now)
+{
+  region = now;
+  middle = {0.0, 0.0, 0.0};
+  if (region->dynamic) {
+    const Talus::RegionTurn turn(*region);
+    middle = {turn.point[0], turn.point[1], turn.point[2]};
+  } else if (region->bboxflag) {
     middle = {0.5 * (region->extent_xlo + region->extent_xhi),
               0.5 * (region->extent_ylo + region->extent_yhi),
               0.5 * (region->extent_zlo + region->extent_zhi)};
+  }
+}
+
+std::string RegionShape::refusal(Region &region, bool moves)
+{
+  if (region.varshape)
+    return fmt::format("region '{}' changes its shape, which a large body does not: use fix "
+                       "wall/gran/region",
+                       region.id);
+  if (!region.dynamic) return "";
+  if (Talus::is_composite(region))
+    return fmt::format("parts of region '{}' move: let the body move as a whole with 'move', or "
+                       "use a body for each part",
+                       region.id);
+  if (moves)
+    return fmt::format("region '{}' moves, and the body has a motion as well: remove one of them",
+                       region.id);
+  return "";
 }
 
 int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearParts /*parts*/,
                                SurfaceContact *found) const
 {
+  const AtRest at_rest(*region);
   const int touched = region->surface(x.x, x.y, x.z, radius);
   std::vector<SurfaceContact> all;
   for (int k = 0; k < touched; k++) {
@@ -39,11 +97,6 @@ int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearPart
   return count;
 }
 
-bool RegionShape::moves() const
-{
-  return region->dynamic_check() || region->varshape;
-}
-
 bool RegionShape::touches(const Vector3<double> &center, double radius,
                           SurfaceContact &contact) const
 {
@@ -56,6 +109,7 @@ bool RegionShape::touches(const Vector3<double> &center, double radius,
 bool RegionShape::is_near(const Vector3<double> &x, double reach,
                           std::vector<NearPart> & /*parts*/) const
 {
+  const AtRest at_rest(*region);
   return region->surface(x.x, x.y, x.z, reach) > 0;
 }
 

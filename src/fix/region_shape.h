@@ -12,16 +12,18 @@ namespace LAMMPS_NS {
 class Region;
 
 /// The surface of a region of the host, seen from where its particles are, as fix wall/gran/region
-/// sees it. The region keeps its contacts in its own arrays, so one thread asks it.
+/// sees it. A region that moves is asked as if it did not: how it moves is a matter of the body. The
+/// region keeps its contacts in its own arrays, so one thread asks it.
 class RegionShape : public Talus::LargeBodyShape {
  public:
   RegionShape(Region *region, const char *id);
 
   /// Regions may be deleted and defined anew between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
-  void replace(Region *now) { region = now; }
-  /// Its place or shape follows variables.
-  bool moves() const;
+  void replace(Region *now);
+
+  /// Why a region cannot be a body, or "". `moves`: the body has a motion of its own.
+  static std::string refusal(Region &region, bool moves);
 
   bool touches(const Talus::Vector3<double> &center, double radius,
                Talus::SurfaceContact &contact) const override;

@@ -89,6 +89,72 @@ class Loading(PluginCase):
             self.assertIn("words: two words", result.stdout)
 
 
+class Objects(PluginCase):
+    """Two LAMMPS objects in one process: LAMMPS keeps one list of plugins for both."""
+
+    FALL = BOX + """
+        create_atoms 1 single 0.5 0.5 0.5 units box
+        create_atoms 1 single 0.52 0.5 0.75 units box
+        set group all diameter 0.2
+        set group all density 1.0
+        pair_style gran/penalty
+        pair_coeff * * hooke 100.0 1.0
+        fix step all nve/sphere/symplectic gravity 1.0 vector 0 0 -1
+        fix floor all large/body plane 0 0 0 0 0 1 contact hooke 100.0 1.0
+        timestep 0.001
+        thermo_style custom step ke f_floor[3]
+        run 800
+        """
+
+    DRIVER = """
+import sys
+sys.path.insert(0, {module!r})
+from lammps import lammps
+
+def new():
+    lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+    if {load!r}:
+        lmp.command("plugin load " + {load!r})
+    lmp.commands_string(scene)
+    return lmp
+
+scene = open("in.scene").read()
+first = new()
+second = new()
+for lmp in (second, first, second):    # in turn
+    lmp.command("run 100")
+first.close()
+second.command("run 100")    # after the end of the one that was first
+third = new()
+third.command("run 300")
+print("energies:", second.get_thermo("ke").hex(), third.get_thermo("ke").hex())
+"""
+
+    def run_objects(self, load, path):
+        source = os.environ["TALUS_LAMMPS_SOURCE"]
+        if not os.path.isdir(os.path.join(source, "python")):
+            source = os.path.dirname(source.rstrip("/"))
+        with open(self.path("in.scene"), "w") as file:
+            file.write(self.FALL)
+        with open(self.path("driver.py"), "w") as file:
+            file.write(self.DRIVER.replace("{module!r}", repr(os.path.join(source, "python")))
+                       .replace("{load!r}", repr(load)))
+        libraries = os.environ["TALUS_LAMMPS_BINARY"] + ":" + os.environ.get("LD_LIBRARY_PATH", "")
+        result = run_program(sys.executable, 1, ["driver.py"], cwd=self.dir,
+                             env={"LD_LIBRARY_PATH": libraries, "LAMMPS_PLUGIN_PATH": path})
+        self.assertEqual(self.complaints(result), [])
+        line, = [line for line in result.output.splitlines() if line.startswith("energies:")]
+        second, third = line.split()[1:]
+        self.assertEqual(second, third, "an object feels the others")
+        self.assertGreater(float.fromhex(third), 0.0)
+
+    def test_plugin_path(self):
+        self.run_objects("", BUILD)
+
+    def test_plugin_load(self):
+        self.run_objects(PLUGIN, "")
+
+
 class Gate(PluginCase):
     """A library that is loaded before LAMMPS answers in its place."""
 
@@ -154,6 +220,18 @@ class Gate(PluginCase):
         os.makedirs(folder)
         plugin = shutil.copy(PLUGIN, folder)
         self.assert_refused("talusstyles.so", "in one folder", plugin=plugin)
+
+    def test_link_to_the_plugin(self):
+        """The second file is beside the first itself, not beside a link to it."""
+        folder = self.path("links")
+        os.makedirs(os.path.join(folder, "deep"))
+        os.symlink(PLUGIN, os.path.join(folder, "talusplugin.so"))
+        os.symlink("../talusplugin.so", os.path.join(folder, "deep", "another-plugin.so"))
+        for path in (folder, os.path.join(folder, "deep")):
+            result = self.run_lammps("plugin list\n" + USE, env={"LAMMPS_PLUGIN_PATH": path})
+            self.assertIn("pair style plugin gran/penalty", result.log)
+        result = self.run_without_path(f'plugin load "{folder}/deep/another-plugin.so"\n' + USE)
+        self.assertEqual(self.complaints(result), [])
 
     def test_halves_of_two_builds(self):
         folder = self.path("mixed")

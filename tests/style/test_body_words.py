@@ -33,8 +33,8 @@ pair_coeff * * hooke 1e4 10
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 region well cylinder z 0 0 3 -3 3
-variable a equal 0
-region turning cylinder z 0 0 3 -3 3 rotate v_a 0 0 0 0 0 1
+variable a equal 3
+region breathing sphere 0 0 0 v_a
 variable atoms atom x
 """
 
@@ -49,7 +49,7 @@ REFUSED = [    # words of the fix, message, marked word
     ("cone 0 0 0 0 0 1 0 0 1 inside " + LAW, "cone: radii must not be negative, and one of them", "0"),
     ("cone 0 0 0 0 0 1 1 2 INF inside " + LAW, "cone: expected length l (a number > 0) instead of 'INF'", "INF"),
     ("region nowhere " + LAW, "region: region 'nowhere' does not exist", "nowhere"),
-    ("region turning " + LAW, "region 'turning' moves or changes: use move of this fix", "turning"),
+    ("region breathing " + LAW, "region 'breathing' changes its shape, which a large body does not: use fix wall/gran/region", "breathing"),
     ("mesh", "mesh: missing file", "mesh"),
     ("mesh nothing.stl " + LAW, "mesh: cannot read the file 'nothing.stl'", "nothing.stl"),
     ("mesh empty.stl " + LAW, "mesh: 'empty.stl': the file is empty", "empty.stl"),
