@@ -85,6 +85,7 @@ class ContactLaw {
 /// radius is.
 double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                 double radius_j);
+double reach_of(const ContactLaw &law, const ContactCoefficients &row, double effective_radius);
 
 /// A law in words, e.g. "hertz + multistep + resistance".
 std::string describe_law(const ContactLaw &law);

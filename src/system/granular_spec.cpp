@@ -83,6 +83,10 @@ void give_normal(const Model &model, GivenNumbers &given)
 {
   GranSubModNormal *normal = model.normal_model;
   given["gn"] = given["eta"] = normal->get_damp();
+  if (normal->get_material_properties()) {
+    given["E"] = normal->coeffs[0];
+    given["nu"] = normal->coeffs[2];
+  }
   if (const auto *hooke = dynamic_cast<GranSubModNormalHooke *>(normal))
     given["kn"] = hooke->*pointer_to(HookeStiffness{});
   if (const auto *hertz = dynamic_cast<GranSubModNormalHertz *>(normal))
