@@ -82,7 +82,9 @@ const Law *law_of(const Model &model, const StageOfModel &its)
 void give_normal(const Model &model, GivenNumbers &given)
 {
   GranSubModNormal *normal = model.normal_model;
-  given["gn"] = given["eta"] = normal->get_damp();
+  const std::string &damping = model.damping_model->name;
+  const bool restitutes = damping == "tsuji" || damping == "coeff_restitution";
+  given[restitutes ? "eta" : "gn"] = normal->get_damp();
   if (normal->get_material_properties()) {
     given["E"] = normal->coeffs[0];
     given["nu"] = normal->coeffs[2];

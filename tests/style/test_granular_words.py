@@ -192,6 +192,29 @@ class ResistanceAtABody(SceneCase):
                 self.assertEqual(found[2] == 0.0, words == "rolling 0.05")
 
 
+class MaterialOfTheSuffix(SceneCase):
+
+    def test_at_a_body(self):
+        """Of particles of pair_style granular that is accelerated, a material law of a body knows the material."""
+        write_sphere_data(self.path("one"), ((-3, 3), (-3, 3), (-3, 3)), [Sphere((0, 0, 0.49), (1.0, 0, -1.0))])
+        for particle, body in (("hertz/material 1e5 0.6 0.3 damping tsuji tangential mindlin NULL 0.5 0.4",
+                                "hertz/material 3e5 0.8 0.2 damping tsuji tangential mindlin NULL 0.5 0.6"),
+                               ("hertz/material 1e5 50.0 0.3 damping viscoelastic tangential mindlin NULL 0.5 0.4",
+                                "hertz/material 3e5 0.8 0.2 damping tsuji tangential mindlin NULL 0.5 0.6"),
+                               ("jkr 1e5 50.0 0.3 5.0 tangential mindlin NULL 0.5 0.4",
+                                "jkr 3e5 50.0 0.3 20.0 tangential mindlin NULL 0.5 0.4")):
+            forces = []
+            for style, arguments in ("granular", ["-sf", "talus"]), ("gran/penalty", []):
+                self.run_lammps(f"{SCENE}read_data one\npair_style {style}\npair_coeff * * {particle}\n"
+                                f"{PHYSICS.format(more='')}timestep 1e-5\n"
+                                f"fix floor all large/body plane 0 0 0 0 0 1 contact {body}\nrun 1\n{WRITE}", arguments=arguments)
+                frame, = read_dump(self.path("last"))
+                forces.append([frame.column(c)[1] for c in ("fx", "fy", "fz")])
+            with self.subTest(particle=particle, body=body):
+                self.assertLess(math.dist(*forces), 1e-12 * math.hypot(*forces[0]))
+                self.assertGreater(math.hypot(*forces[0]), 1.0)
+
+
 class LawsThatChange(SceneCase):
 
     def test_before_a_run_without_set_up(self):

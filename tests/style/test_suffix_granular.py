@@ -429,6 +429,31 @@ class TestMoving(Moving):
             with self.subTest(model=title):
                 self.compare(coeffs=f"pair_coeff * * {HISTORIES[title]}", run=run, every=10)
 
+    def test_radii_that_change(self):
+        for every, amplitude in (1, 0.02), (10, 0.05):
+            with self.subTest(every=every):
+                more = (f"variable factor equal 1+{amplitude}*sin(step*0.05)\ngroup two type 2\n"
+                        f"fix breathe two adapt {every} atom diameter v_factor scale yes")
+                log = self.compare(coeffs=f"pair_coeff * * {HISTORIES['cohesive']}", more=more, run="run 100",
+                                   style="atom_style sphere 1\natom_modify map yes")
+                self.assert_accelerated(log)
+
+    def test_rerun(self):
+        """Contacts that have begun in one snapshot last in the next."""
+        coeffs = f"pair_coeff * * {HISTORIES['cohesive']}"
+        self.run_suffix(False, "stock", self.scene(coeffs=coeffs, run="run 200", every=10).replace("id xu yu zu", "id x y z"))
+        frames = []
+        for suffix in False, True:
+            name = f"again-{suffix}"
+            text = self.scene(coeffs=coeffs, every=10, run="rerun ../stock/state dump x y z vx vy vz box yes")
+            self.run_suffix(suffix, name, text.replace("vx vy vz omegax omegay omegaz", "vx vy vz", 1))
+            frames.append(read_dump(self.path(f"{name}/state")))
+        self.assertEqual(len(frames[0]), 21)
+        for a, b in zip(*frames, strict=True):
+            for group in VECTORS:
+                scale = max(max(map(abs, a.column(c).values())) for c in group)
+                self.assertLessEqual(max_difference(a, b, group), 5e-13 * scale, f"{group[0]} at {a.step}")
+
     def test_models_that_change_between_runs(self):
         words = HISTORIES["mindlin and rolling"]
         log = self.compare(coeffs=f"pair_coeff * * {words}", run=f"run 20\npair_coeff 2 2 {words.replace('500.0', '900.0')}\nrun 20")
