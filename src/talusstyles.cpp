@@ -5,6 +5,7 @@
 
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
+#include "compute/compute_coarse_grid.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
 #include "dump/dump_vtk_gran.h"
@@ -175,6 +176,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
                                        "Talus fix style wall/gran/region/talus");
 #endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
+  registry.compute<ComputeCoarseGrid>("coarse/grid", "Talus compute style coarse/grid");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", "Talus contacts (internal)");
   registry.dump<DumpVtkGran>("vtk/gran");
