@@ -82,7 +82,7 @@ const Law *law_of(const Model &model, const StageOfModel &its)
 void give_normal(const Model &model, GivenNumbers &given)
 {
   GranSubModNormal *normal = model.normal_model;
-  const std::string &damping = model.damping_model->name;
+  const std::string &damping = model.sub_models[DAMPING]->name;
   const bool restitutes = damping == "tsuji" || damping == "coeff_restitution";
   given[restitutes ? "eta" : "gn"] = normal->get_damp();
   if (normal->get_material_properties()) {
