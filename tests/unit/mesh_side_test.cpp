@@ -144,6 +144,28 @@ TEST(MeshSides, TrianglesOfAnyOrientationActAsOneSurface)
   }
 }
 
+TEST(MeshSides, PartsMayGoThroughEachOther)
+{
+  // a vessel, and in it a paddle that sticks out through the wall at one end
+  std::vector<Triangle> soup = box({0, 0, 0}, {4, 4, 4}, 3);
+  for (Triangle &t : soup) std::swap(t.corner[1], t.corner[2]);
+  for (const Triangle &t : box({-0.5, 1, 0}, {1, 1.5, 4}, 1)) soup.push_back(t);
+  for (const bool turned : {false, true}) {
+    if (turned)
+      for (std::size_t t = 108; t < soup.size(); t++)
+        std::swap(soup[t].corner[1], soup[t].corner[2]);
+    MeshShape mesh(TriangleMesh(soup, true), MeshSide::BOTH);
+    mesh.set_side(mesh.side_within(true));
+    const auto at_paddle = contacts(mesh, {0.5, 1.6, 2.1}, 0.2);
+    ASSERT_EQ(at_paddle.size(), 1U);
+    EXPECT_NEAR(at_paddle[0].normal.y, 1.0, 1e-14);
+    const auto at_wall = contacts(mesh, {0.1, 3.1, 2.1}, 0.2);
+    ASSERT_EQ(at_wall.size(), 1U);
+    EXPECT_NEAR(at_wall[0].normal.x, 1.0, 1e-14);
+    EXPECT_TRUE(contacts(mesh, {-0.1, 3.1, 2.1}, 0.2).empty());
+  }
+}
+
 TEST(MeshSides, AThinPlateTouchesOnce)
 {
   // closed, a wedge whose faces are not quite parallel
