@@ -171,5 +171,58 @@ set group all density 2500"""
         self.run_lammps(self.script(setup, law, block.splitlines()[1:]))
 
 
+class Choosing(PageCase):
+    """The coefficients that the scripts of the page compute have the restitution and the overlap that were asked for."""
+
+    IMPACT = """
+create_atoms 1 single -0.001501 0 0
+create_atoms 1 single 0.001501 0 0
+set group all diameter ${d}
+set group all density ${rho}
+set atom 1 vx $(0.5*v_v)
+set atom 2 vx $(-0.5*v_v)
+"""
+    REST = """
+fix move all nve/sphere/symplectic
+compute overlap all pair/local p11
+compute deepest all reduce max c_overlap inputs local
+variable speed equal vx[2]-vx[1]
+thermo_style custom step c_deepest v_speed
+thermo 1
+run 60
+"""
+
+    def test_impacts(self):
+        head = ("units si\natom_style sphere\natom_modify map yes\ncomm_modify vel yes\nboundary f f f\n"
+                "region box block -0.01 0.01 -0.01 0.01 -0.01 0.01\ncreate_box 1 box\n")
+        found = blocks(page("choosing.md"))
+        self.assertEqual(len(found), 2)
+        for block in found:
+            variables, commands_of_talus = block.split("\npair_style")
+            log = self.run_lammps(head + variables + self.IMPACT + "pair_style" + commands_of_talus + self.REST).log
+            self.assertNotIn("WARNING", log)
+            table = thermo(log)
+            self.assertAlmostEqual(table[-1]["v_speed"], 0.8 * 0.5, delta=0.01)
+            deepest = max(abs(row["c_deepest"]) for row in table if abs(row["c_deepest"]) < 1)
+            self.assertGreater(deepest, 0.007)
+            self.assertLess(deepest, 0.0101)
+
+
+class Output(PageCase):
+
+    def test_tables(self):
+        found = [commands(lines) for _, lines in rows(page("output.md"), "what you want")]
+        self.assertGreater(len(found), 20)
+        talus = ["pair_style gran/penalty", "pair_coeff * * ${law}",
+                 "fix floor all large/body plane 0 0 0 0 0 1 contact ${law}"]
+        law = 'variable law string "hooke 1e4 20 tangential multistep NULL NULL 0.5"'
+        for lines in found:
+            with self.subTest(lines[-1]):
+                log = self.simulate([law, *talus, *lines], {"pair", "fix floor"}, steps=100)
+                self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
+                for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
+                    self.assertTrue(os.path.getsize(self.path(name)))
+
+
 if __name__ == "__main__":
     unittest.main()
