@@ -236,8 +236,8 @@ timestep 5e-4
                  (field(values="density vq"), "unknown value 'vq', expected number, density, fraction", "vq"),
                  (field(width=0.45), "the width 0.45 is less than the edge 0.5 of the cells along y", None),
                  (field(width=2.5), "the width 2.5 is more than half the period 4 along x", None)]
-        for more, message, word in cases:
-            for np in (1, 2):
+        for k, (more, message, word) in enumerate(cases):
+            for np in (1, 2) if k % 3 == 0 else (1,):
                 with self.subTest(message, np=np):
                     result = self.run_lammps(self.scene(more), np=np, expect_error=True)
                     self.assertRegex(result.log, message)
