@@ -68,6 +68,7 @@ void LargeBody::init()
 {
   if (fix->thermo_energy) keeps_account = true;
   joined = false;    // a step that an error ended may have left it
+  seen_between = {};
   masses.find_fixes();
   find_frozen();
   set_laws();
@@ -166,7 +167,10 @@ void LargeBody::compute(bool advance, double *virial)
   if (joined) {
     mine = contacts.static_load();
   } else {
-    if (contacts.is_stale(*frame, neighbor->skin)) list_particles();
+    if (contacts.is_stale(*frame, neighbor->skin)) {
+      seen_between.join(findings_now());
+      list_particles();
+    }
     BodyParticleView particles = view();
     particles.virial = virial;
     mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
@@ -178,9 +182,19 @@ void LargeBody::compute(bool advance, double *virial)
 
 /* ---------------------------------------------------------------------- */
 
-BodyFindings LargeBody::find_worst()
+BodyFindings LargeBody::findings_now() const
 {
   return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
+}
+
+/* What was seen between has the host's indices of this rebuild, which stand until the next. */
+
+BodyFindings LargeBody::find_worst()
+{
+  BodyFindings worst = findings_now();
+  worst.join(seen_between);
+  seen_between = {};
+  return worst;
 }
 
 double LargeBody::energy()

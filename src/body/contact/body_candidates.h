@@ -43,6 +43,10 @@ class BodyCandidates {
   /// How many contacts each may have at the same time; only of shapes with several.
   const std::vector<std::uint8_t> &room() const { return most_contacts; }
 
+  /// Where candidate c was when it was listed, in the frame of the body; of shapes with several
+  /// contacts.
+  const Vector3<double> &listed_at(std::size_t c) const { return listed[c].at; }
+
   /// Sorts candidates by slot, so that a step goes through the records from their beginning to
   /// their end; returns whether this changed anything. Only without parts.
   bool sort_by_slot(const int *slot_of_atom);
