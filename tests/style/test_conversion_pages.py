@@ -224,5 +224,17 @@ class Output(PageCase):
                     self.assertTrue(os.path.getsize(self.path(name)))
 
 
+class FirstPage(SceneCase):
+
+    def test_example(self):
+        """The floor carries the weight that the page says."""
+        text = page("../README.md")
+        script, = [block for block in blocks(text) if "lattice" in block]
+        weight, = re.findall(r"minus their weight, (\d+)", " ".join(text.split()))
+        log = self.run_lammps(script).log
+        self.assertEqual(re.findall("WARNING.*", log), [])
+        self.assertAlmostEqual(thermo(log)[-1]["f_floor[3]"], -float(weight), delta=8.0)
+
+
 if __name__ == "__main__":
     unittest.main()
