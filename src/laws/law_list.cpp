@@ -39,6 +39,7 @@
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
 #include "laws/tangential/second_order.h"
+#include "laws/tangential/synchronized.h"
 #include "laws/tangential/tanh.h"
 #include "laws/twisting/delayed.h"
 #include "laws/twisting/marshall.h"
@@ -94,11 +95,19 @@ const Law *const all_laws[] = {
     &law<MindlinRescaleForce>,
     &law<MindlinClassic>,
     &law<ClassicOfFeb2025>,
+    &law<SynchronizedLinear>,
+    &law<SynchronizedLinearClassic>,
+    &law<SynchronizedMindlin>,
+    &law<SynchronizedMindlinForce>,
+    &law<SynchronizedMindlinRescale>,
+    &law<SynchronizedMindlinRescaleForce>,
+    &law<SynchronizedMindlinClassic>,
 
     &law<RollingNone>,
     &law<HoldingRolling>,
     &law<DelayedRolling>,
     &law<SdsRolling>,
+    &law<SynchronizedSds>,
 
     &law<TwistingNone>,
     &law<StoppingTwist>,

@@ -68,6 +68,7 @@ void LargeBody::init()
 {
   if (fix->thermo_energy) keeps_account = true;
   joined = false;    // a step that an error ended may have left it
+  seen_between = {};
   masses.find_fixes();
   find_frozen();
   set_laws();
@@ -99,8 +100,9 @@ void LargeBody::list_particles()
   masses.update();
   const BodyParticleView particles = view();
   if (its_shape->wants_focus())
-    its_shape->focus(BodyCandidates::bounds_of_search(*frame, particles, atom->mask, group_bits(),
-                                                      neighbor->skin));
+    its_shape->focus(BodyCandidates::bounds_of_search(
+        *frame, particles, atom->mask, group_bits(), neighbor->skin,
+        contacts.largest_reach(particles, atom->mask, group_bits())));
   contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
                            comm->nthreads);
 }
@@ -168,7 +170,10 @@ void LargeBody::compute(bool advance, double *virial)
   if (joined) {
     mine = contacts.static_load();
   } else {
-    if (contacts.is_stale(*frame, neighbor->skin)) list_particles();
+    if (contacts.is_stale(*frame, neighbor->skin)) {
+      seen_between.join(findings_now());
+      list_particles();
+    }
     BodyParticleView particles = view();
     particles.virial = virial;
     mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
@@ -180,9 +185,19 @@ void LargeBody::compute(bool advance, double *virial)
 
 /* ---------------------------------------------------------------------- */
 
-BodyFindings LargeBody::find_worst()
+BodyFindings LargeBody::findings_now() const
 {
   return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
+}
+
+/* What was seen between has the host's indices of this rebuild, which stand until the next. */
+
+BodyFindings LargeBody::find_worst()
+{
+  BodyFindings worst = findings_now();
+  worst.join(seen_between);
+  seen_between = {};
+  return worst;
 }
 
 double LargeBody::energy()

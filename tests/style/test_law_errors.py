@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase
+from talus_testing import SceneCase, ranks_of_refusal
 
 BOX = """
 units si
@@ -213,8 +213,6 @@ OTHERS = [
     (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
     (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0", "fix large/body contact: large bodies have no temperature: "
      "remove 'heat', or use fix wall/gran granular", "hertz"),
-    (f"{PAIR}{PLANE} contact jkr 1e6 2.0 0.3 0.1", "fix large/body contact: contacts of jkr last beyond zero overlap, "
-     "which those of large bodies do not: use dmt", "jkr"),
     # computes
     (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
     (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),
@@ -262,7 +260,7 @@ class LawErrors(SceneCase):
     def assert_errors(self, cases, expected_start):
         """cases: (lines after the box, message, marked word); two processes at a time."""
         cases = list(cases)
-        jobs = [(case, np) for case in cases for np in (1, 2)]
+        jobs = [(case, np) for n, case in enumerate(cases) for np in ranks_of_refusal(n)]
         with concurrent.futures.ThreadPoolExecutor(3) as pool:
             logs = list(pool.map(lambda job: self.log_of(f"{BOX}{job[0][0]}\n", job[1]), jobs))
         for ((lines, message, word), np), log in zip(jobs, logs):
@@ -270,7 +268,7 @@ class LawErrors(SceneCase):
                 error, = re.findall(r"^ERROR.*", log, re.MULTILINE)
                 self.assertRegex(error, f"^ERROR: {expected_start}.*{message}")    # not "ERROR on proc"
                 self.assertEqual(marked_word(log), word)
-        print(f"\n{len(cases)} refusals on 1 and 2 ranks")
+        print(f"\n{len(cases)} refusals, {len(jobs) - len(cases)} of them on 2 ranks, too")
 
     def test_pair_coeff(self):
         self.assert_errors(((f"pair_coeff * * {words}", message or f"unknown word '{word}', {KEYWORDS}", word)
@@ -279,7 +277,6 @@ class LawErrors(SceneCase):
     def test_contact_of_a_large_body(self):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
-        cases = [case for case in cases if case[1] or "jkr" not in case[0]]    # which is refused itself
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
                              message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
@@ -299,8 +296,7 @@ class LawErrors(SceneCase):
     def test_accepted(self):
         for words in ACCEPTED:
             with self.subTest(words):
-                of_body = words.replace("jkr", "dmt")
-                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {of_body}\n"
+                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
                                 "fix step all nve/sphere/symplectic\n"
                                 "compute s all penalty/stats\ncompute t all timestep/gran\n"
                                 "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")
