@@ -107,6 +107,16 @@ template <class Real> struct Beginning {
   Real elastic, damping;
 };
 
+/// What the return of a sliding contact to its limit takes of the state.
+template <class Real> struct Slide {
+  Real kt, gt, overlap, normal_velocity, inverse_distance;
+  Real old_limit;    ///< of the last step
+  double dt;
+  bool_of<Real> known;    ///< it was there a step ago
+  Vector3<Real> normal, velocity;
+  Vector3<Real> old_velocity, old_rotation;    ///< a step ago
+};
+
 template <class Real> struct SecondOrderRow {
   Real mu, elastic_exponent, damping_exponent;
 };
@@ -150,7 +160,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     Real force = pure, theta = one;
     const bool any_begins = any(begins);
     if (any_begins) {
-      start = errors_of(c, s, approach, begins);
+      start = errors_of(c, s.overlap, approach, begins);
       theta = select(begins, s.overlap / select(begins, approach, one), one);
       force = pure - (start.elastic * s.elastic - start.damping * s.gn * s.normal_velocity);
     }
@@ -160,7 +170,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
 
     auto slides = last.slid;
     if constexpr (friction) {
-      const Vector3<Real> u = surface_velocity_of(s, s.velocity + s.velocity_change,
+      const Vector3<Real> u = surface_velocity_of(s.velocity + s.velocity_change,
                                                   s.surface_rotation + s.rotation_change, s.normal);
       Vector3<Real> d{h[0], h[1], h[2]};
       const Real limit = c.mu * pure;
@@ -201,12 +211,15 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return without_flags(select(force > least, force, least));
   }
 
+  // These two are seldom called: functions of their own, which are not given the whole state, so
+  // that it can stay in registers.
+
   template <class Real>
-  static Beginning<Real> errors_of(const Row<Real> &c, const ContactLanes<Real> &s, Real approach,
+  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, Real approach,
                                    bool_of<Real> begins)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    const Real ratio = select(begins, approach / select(begins, s.overlap, one), one);
+    const Real ratio = select(begins, approach / select(begins, overlap, one), one);
     const Real theta = one / ratio;
     const auto error = [&](Real p) {
       return select(begins, power(ratio, p) * hurwitz_zeta(p, theta), zero);
@@ -217,8 +230,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   /// v_t of these velocities, n across the surface.
   template <class Real>
   TALUS_INLINE static Vector3<Real>
-  surface_velocity_of(const ContactLanes<Real> & /*s*/, const Vector3<Real> &v,
-                      const Vector3<Real> &rotation, const Vector3<Real> &n)
+  surface_velocity_of(const Vector3<Real> &v, const Vector3<Real> &rotation, const Vector3<Real> &n)
   {
     return v - dot(v, n) * n - cross(rotation, n);
   }
@@ -235,19 +247,31 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     d = before + slip;
     const Vector3<Real> f = s.kt * d + s.gt * u;
     const auto slides = dot(f, f) > limit * limit;
-    if (any(slides))
-      d = select(slides, slide(c, s, last, before, slip, with_length(limit, f), u, dt, time), d);
+    if (any(slides)) {
+      const Slide<Real> its{s.kt,
+                            s.gt,
+                            s.overlap,
+                            s.normal_velocity,
+                            s.inverse_distance,
+                            c.mu * last.force,
+                            dt,
+                            last.known,
+                            s.normal,
+                            s.velocity,
+                            s.velocity - s.velocity_change,
+                            s.surface_rotation - s.rotation_change};
+      d = select(slides, slide(c, its, before, slip, with_length(limit, f), time), d);
+    }
     return slides;
   }
 
   /// Displacement of a sliding contact. `end`: force at its limit, by the end of the step.
   template <class Real>
-  static Vector3<Real> slide(const Row<Real> &c, const ContactLanes<Real> &s,
-                             const LastStep<Real> &last, const Vector3<Real> &before,
-                             const Vector3<Real> &slip, const Vector3<Real> &end,
-                             const Vector3<Real> & /*u*/, double dt, Real time)
+  static Vector3<Real> slide(const Row<Real> &c, const Slide<Real> &s, const Vector3<Real> &before,
+                             const Vector3<Real> &slip, const Vector3<Real> &end, Real time)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    const double dt = s.dt;
     const auto safe = [&](Real a) { return select(a > zero, a, one); };
     const Real tau = s.gt / safe(s.kt);
     const Vector3<Real> g_end = one / safe(s.kt) * end;
@@ -262,10 +286,8 @@ template <bool friction> struct SecondOrder : FrictionLaw {
 
     const Vector3<Real> n_old = with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity);
     const Vector3<Real> u_old =
-        turned(surface_velocity_of(s, s.velocity - s.velocity_change,
-                                   s.surface_rotation - s.rotation_change, n_old),
-               s.normal);
-    const Vector3<Real> f_old = limited(kt_old * before + gt_old * u_old, c.mu * last.force);
+        turned(surface_velocity_of(s.old_velocity, s.old_rotation, n_old), s.normal);
+    const Vector3<Real> f_old = limited(kt_old * before + gt_old * u_old, s.old_limit);
     const Vector3<Real> along = with_length(one, kt_mid * (before + splat<Real>(0.5) * slip) +
                                                      gt_mid * (one / safe(time) * slip));
 
@@ -278,7 +300,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Vector3<Real> half_way =
         one / (t * t + dt * t + splat<Real>(0.5 * dt * dt)) *
         (t * t * before + 0.5 * dt * t * g_old + 0.5 * dt * (t + splat<Real>(dt)) * g);
-    return select(last.known, half_way, at_once);
+    return select(s.known, half_way, at_once);
   }
 };
 
