@@ -2,6 +2,7 @@
 
 #include "laws/contact_kernel.h"
 
+#include "laws/contact_work.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
 
@@ -104,6 +105,25 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   ContactKernel kernel;
   kernel.uniform = true;
   kernel.add(fused, 0, places_one_behind_the_other(law));
+  return kernel;
+}
+
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
+{
+  ContactKernel kernel;
+  kernel.uniform = uniform;
+  if (law.has_history()) kernel.add(history_copier(law));
+  const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr;
+  if (fused)
+    kernel.add(fused, 0, places_one_behind_the_other(law));
+  else
+    kernel.add(staged_kernel(law, uniform, true));
+  kernel.add(work_finder(law));
+  const HistoryLayout history = law.history();
+  for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (its.lag)
+      kernel.add(its.lag, law.first_coefficient(stage), history.of_stage[static_cast<int>(stage)]);
+  });
   return kernel;
 }
 

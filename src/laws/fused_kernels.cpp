@@ -64,8 +64,9 @@ struct Fused {
             spread<Twisting, Real>(c + coefficients_of<Normal, Damping, Tangential, Rolling>)};
   }
 
-  /// The contacts from lane k on, as many as a Real is wide.
-  template <class Real>
+  /// The contacts from lane k on, as many as a Real is wide. `found` as well: what the stages find
+  /// for those behind them.
+  template <bool found, class Real>
   TALUS_INLINE static void compute(ContactBatch &b, int k, const Rows<Real> &c,
                                    const StageInput &in)
   {
@@ -87,33 +88,45 @@ struct Fused {
       if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
+    if constexpr (found) {
+      const auto keep = [k](Real value, double *to) { Memory<Real>::store(to + k, value); };
+      visit_approach(s, b, keep);
+      visit_written<Stage::NORMAL>(s, b, keep);
+      visit_written<Stage::DAMPING>(s, b, keep);
+    }
     for (int n = 0; n < remembered; n++)
       Memory<Real>::store(&b.history[in.places[n]][k], history[n]);
   }
 
+  template <bool found>
   static void run(ContactBatch &b, int begin, int end, const StageInput &in)
   {
     const Rows<Wide> wide = rows<Wide>(in.table[0].c);
     int k = begin;
-    for (; k + wide_lanes <= end; k += wide_lanes) compute<Wide>(b, k, wide, in);
+    for (; k + wide_lanes <= end; k += wide_lanes) compute<found, Wide>(b, k, wide, in);
     const Rows<Vec8> rest = rows<Vec8>(in.table[0].c);
-    for (; k < end; k += lanes) compute<Vec8>(b, k, rest, in);
+    for (; k < end; k += lanes) compute<found, Vec8>(b, k, rest, in);
   }
 };
 
 /// Laws by their names: what is in law_list.cpp is not compiled here once more.
 struct Entry {
   const char *normal, *damping, *tangential, *rolling, *twisting;
-  StageFunction function;
+  StageFunction function, accounting;
 };
 
 template <class Normal, class Damping, class Tangential, class Rolling = RollingNone,
           class Twisting = TwistingNone>
 constexpr Entry entry()
 {
-  return {Normal::name,     Damping::name,
-          Tangential::name, Rolling::name,
-          Twisting::name,   Fused<Normal, Damping, Tangential, Rolling, Twisting>::run};
+  using Its = Fused<Normal, Damping, Tangential, Rolling, Twisting>;
+  return {Normal::name,
+          Damping::name,
+          Tangential::name,
+          Rolling::name,
+          Twisting::name,
+          Its::template run<false>,
+          Its::template run<true>};
 }
 
 constexpr Entry entries[] = {
@@ -132,13 +145,25 @@ constexpr Entry entries[] = {
     entry<Jkr, Viscoelastic, Mindlin>(),
 };
 
+const Entry *entry_of(const ContactLaw &law)
+{
+  const std::vector<ContactLaw> laws = fused_laws();
+  const auto found = std::find(laws.begin(), laws.end(), law);
+  return found == laws.end() ? nullptr : &entries[found - laws.begin()];
+}
+
 }    // namespace
 
 StageFunction fused_function(const ContactLaw &law)
 {
-  const std::vector<ContactLaw> laws = fused_laws();
-  const auto found = std::find(laws.begin(), laws.end(), law);
-  return found == laws.end() ? nullptr : entries[found - laws.begin()].function;
+  const Entry *its = entry_of(law);
+  return its ? its->function : nullptr;
+}
+
+StageFunction fused_accounting_function(const ContactLaw &law)
+{
+  const Entry *its = entry_of(law);
+  return its ? its->accounting : nullptr;
 }
 
 std::vector<ContactLaw> fused_laws()

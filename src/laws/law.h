@@ -91,6 +91,8 @@ struct Law {
   const char *damping;    ///< normal: name of the damping law that it has unless asked for another
 
   StageFunction reading, advancing;    ///< history only read; or advanced by this step
+  StageFunction lag;    ///< takes the lag of its spring from the work, see contact_work.h; nullptr
+                        ///< of laws without one
   OneContact one;
   StageFunction delay;    ///< normal: finds delayed_force, by Chrono's rule for this law
   OneContact one_delay;

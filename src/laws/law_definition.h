@@ -12,7 +12,8 @@
 //                 `advance`. Pure and free of branches. dt in units of the caller.
 //   read(reader)  its words; left out if it comes with another law's
 //   mix(m)        its row for a contact of two materials
-//   stored(s, c, history)   its energy, if it stores some
+//   stored(s, c, history)   its energy, if it stores some; quadratic in the history, and for any
+//                 Real, of laws that have one
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
 // law_list.cpp makes it known to all.
@@ -21,6 +22,7 @@
 #define TALUS_LAWS_LAW_DEFINITION_H
 
 #include "base/simd.h"
+#include "laws/contact_work.h"
 #include "laws/given_law.h"
 #include "laws/law.h"
 
@@ -258,6 +260,27 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
+/// A spring whose displacement, or force, is remembered.
+template <class L>
+inline constexpr bool has_lag = history_size_of < L >> 0 &&
+    (L::stage == Stage::TANGENTIAL || L::stage == Stage::ROLLING || L::stage == Stage::TWISTING);
+
+template <class L> void run_lag(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  double *const work = b.work[static_cast<int>(cause_of(L::stage))];
+  auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
+  for (int k = begin; k < end; k += lanes) {
+    if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    load_found<Stage::TANGENTIAL>(b, k, s);
+    Vec8 change[history_size_of<L>];
+    for (int n = 0; n < history_size_of<L>; n++)
+      change[n] = load8(&b.history[in.places[n]][k]) - load8(&b.before[in.places[n]][k]);
+    store(work + k, load8(work + k) - L::stored(s, c, change));
+  }
+}
+
 /// 1 if resistance acts, 0 before the contact has lasted one collision time
 /// pi sqrt(m/(k (1-d^2))), d = g/(2 m sqrt(k/m)); over-damped contacts (d >= 1) resist at once.
 template <class L, class Real> TALUS_INLINE void find_delayed_force(ContactLanes<Real> &s)
@@ -345,6 +368,7 @@ template <class L> constexpr Law make_law()
   law.needs_gt = L::needs_gt;
   law.reading = run_stage<L, false>;
   law.advancing = run_stage<L, remembers>;
+  if constexpr (has_lag<L>) law.lag = run_lag<L>;
   law.one = compute_one<L>;
   law.read = L::read;
   law.mix = mix_row<L>;

@@ -59,7 +59,7 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
          MIN_POST_NEIGHBOR;
 }
 
@@ -103,11 +103,6 @@ void FixContactStore::pre_exchange()
   });
   sort_particles();
   next_reneighbor = next_refresh(update->ntimestep);
-}
-
-void FixContactStore::post_integrate()
-{
-  if (system) system->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()
@@ -184,13 +179,13 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* Something may still be to be asked about them. And in a periodic box a run that goes on without a
+/* In a periodic box a run that goes on without a
    new set-up goes on with the histories of both sides as they are, not with what the sides agree
    on: the same bits as one run. */
 
 bool FixContactStore::pairs_stay_after_run() const
 {
-  return in_periodic_box() || system->account_waits_for_move();
+  return in_periodic_box();
 }
 
 void FixContactStore::store_histories(Occasion occasion)

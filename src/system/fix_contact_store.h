@@ -53,7 +53,6 @@ class FixContactStore : public Fix {
 
   int setmask() override;
   void init() override;
-  void post_integrate() override;
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void min_pre_exchange() override;

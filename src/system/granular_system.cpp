@@ -75,9 +75,10 @@ void GranularSystem::detach(const Pair *one)
   pair = nullptr;
   store = nullptr;
   book = LawBook{};
-  laws_current = keeps_account = false;
+  laws_current = false;
   announced.clear();
-  account = EnergyAccount{};
+  account.sum = EnergyByCause{};
+  kept.reset();
   pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})
     if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);

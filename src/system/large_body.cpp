@@ -66,7 +66,8 @@ void LargeBody::keep_history()
 
 void LargeBody::init()
 {
-  if (fix->thermo_energy) keeps_account = true;
+  was_asked = is_asked || fix->thermo_energy;
+  is_asked = false;
   joined = false;    // a step that an error ended may have left it
   masses.find_fixes();
   find_frozen();
@@ -105,11 +106,6 @@ void LargeBody::list_particles()
                            comm->nthreads);
 }
 
-void LargeBody::account_for_move()
-{
-  if (account.waits_for_move()) contacts.account_for_move(*frame, view(), update->dt, account);
-}
-
 /* ---------------------------------------------------------------------- */
 
 BodyParticleView LargeBody::view() const
@@ -133,7 +129,6 @@ BodyParticleView LargeBody::view() const
 
 std::string LargeBody::needs_host_arrays() const
 {
-  if (keeps_account) return "its energies are accounted for";
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
   if (turns && !system.turns_particles())
@@ -147,7 +142,9 @@ BodyStep LargeBody::step_of(bool advance)
   step.dt = update->dt;
   step.advance = advance;
   step.threads = comm->nthreads;
-  step.account = keeps_account ? &account : nullptr;
+  account.sum = EnergyByCause{};
+  account.by_particle = system.work_lists();
+  step.account = accounts() ? &account : nullptr;
   step.exact = moves ? &exact : nullptr;
   step.touched = touched;
   return step;
@@ -165,6 +162,7 @@ void LargeBody::compute(bool advance, double *virial)
   finish_reduction();
   if (joined) {
     mine = contacts.static_load();
+    account.sum = contacts.static_work();
   } else {
     if (contacts.is_stale(*frame, neighbor->skin)) list_particles();
     BodyParticleView particles = view();
@@ -173,6 +171,10 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
+  if (advance && accounts()) {
+    dissipated += account.sum.total();
+    system.add_work(account.sum);
+  }
   if (already_frozen) clear_frozen();
 }
 
@@ -183,19 +185,23 @@ BodyFindings LargeBody::find_worst()
   return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
 }
 
+bool LargeBody::accounts() const
+{
+  return is_asked || was_asked || system.accounts_for_work();
+}
+
+void LargeBody::for_each_contact(const BodyContacts::VisitContact &visit)
+{
+  contacts.for_each_contact(*its_shape, *frame, view(), update->dt, visit);
+}
+
+/* What a spring has taken it stores, or has lost: it does not matter here. */
+
 double LargeBody::energy()
 {
-  if (!keeps_account && has_forces) {
-    keeps_account = true;
-    std::vector<double> unused(6L * atom->nlocal);
-    BodyParticleView particles = view();
-    particles.f = unused.data();
-    particles.torque = unused.data() + 3L * atom->nlocal;
-    mine = contacts.compute(*its_shape, *frame, particles, step_of(false));
-  }
-  const double here = account.elastic() + account.dissipated_normal() +
-                      account.dissipated_tangential() + account.dissipated_resistance();
-  double all;
+  is_asked = true;
+  double here = dissipated, all;
+  for_each_contact([&](const SurveyedContact &one) { here += one.stored.normal; });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

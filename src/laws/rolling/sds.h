@@ -31,7 +31,8 @@ struct SdsRolling : RollingLaw {
   {
     return {m.geometric("k_roll"), m.geometric("gamma_roll"), m.geometric("mu_roll")};
   }
-  static double stored(const ContactLanes<double> & /*s*/, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> & /*s*/, const Row<Real> &c, const Real *h)
   {
     return 0.5 * c.k * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
   }

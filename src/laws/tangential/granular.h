@@ -99,11 +99,12 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
     return row;
   }
 
-  static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
-    const double k = granular_stiffness<scaled>(c, s),
-                 square = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
-    if (of_force) return k > 0.0 ? 0.5 * square / k : 0.0;
+    const Real k = granular_stiffness<scaled>(c, s),
+               square = h[0] * h[0] + h[1] * h[1] + h[2] * h[2], zero = splat<Real>(0.0);
+    if (of_force) return select(k > zero, 0.5 * square / k, zero);
     return 0.5 * k * square;
   }
 
@@ -174,7 +175,8 @@ struct GranularClassic : GranularFriction {
   static constexpr bool stiffens = scaled == Scaled::YES;
   static constexpr int odd_history = 3;
 
-  static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
     return 0.5 * granular_stiffness<scaled>(c, s) * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
   }

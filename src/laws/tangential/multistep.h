@@ -57,9 +57,10 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   static constexpr int odd_history = 3, even_history = 1;    // see TangentialHistory
   static constexpr bool has_spring = true, is_midpoint = midpoint;
 
-  static double stored(const ContactLanes<double> &s, const Row<double> & /*c*/, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> &s, const Row<Real> & /*c*/, const Real *h)
   {
-    const Vector3<double> d{h[0], h[1], h[2]};
+    const Vector3<Real> d{h[0], h[1], h[2]};
     return 0.5 * s.kt * dot(d, d);
   }
 

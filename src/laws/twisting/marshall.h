@@ -29,7 +29,8 @@ struct MarshallTwist : TwistingLaw {
     m.a.law.tangential().mix(m, row);
     return {row[0], row[1], row[2]};
   }
-  static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
     return 0.25 * c.kt * s.contact_radius * s.contact_radius * h[0] * h[0];
   }

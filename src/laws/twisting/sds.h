@@ -26,7 +26,8 @@ struct SdsTwist : TwistingLaw {
   {
     return {m.geometric("k_twist"), m.geometric("gamma_twist"), m.geometric("mu_twist")};
   }
-  static double stored(const ContactLanes<double> & /*s*/, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> & /*s*/, const Row<Real> &c, const Real *h)
   {
     return 0.5 * c.k * h[0] * h[0];
   }
