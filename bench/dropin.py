@@ -21,7 +21,6 @@ included."""
 SUFFIX = {STOCK: [], TALUS: ["-sf", "talus"]}
 FLOOR = 0.98            # of inputs of which nothing need be accelerated
 CHUTE_FLOOR = 2.0
-BED_FLOOR, BED_FLOOR_ZEN4 = 4.0, 3.3
 LONG_CHUTE = 3000       # steps
 
 # as users of LAMMPS write it
@@ -30,20 +29,29 @@ atom_style sphere
 boundary f f f
 comm_modify vel yes
 read_data {data}
-pair_style gran/{law}
-pair_coeff * *
+pair_style {style}
+pair_coeff * * {coefficients}
 neighbor {skin} bin
 neigh_modify every 1 delay 0
 fix weight all gravity {gravity} vector 0 0 -1
 fix move all nve/sphere
-fix floor all wall/gran {law} zplane 0.0 NULL
-fix x all wall/gran {law} xplane $(xlo) $(xhi)
-fix y all wall/gran {law} yplane $(ylo) $(yhi)
+fix floor all wall/gran {wall} zplane 0.0 NULL
+fix x all wall/gran {wall} xplane $(xlo) $(xhi)
+fix y all wall/gran {wall} yplane $(ylo) $(yhi)
 timestep {dt}
 thermo 100
 thermo_modify norm no lost error
 run {steps}
 """
+
+# pair granular: case, law, floors of its ratio on Zen 5 and before
+GRANULAR_BEDS = [
+    ("bed.tsuji", "hertz/material {E} 0.5 0.3 tangential mindlin NULL 1.0 0.5 damping tsuji", (7.0, 5.0)),
+    ("bed.rolling", "hertz/material {E} 0.5 0.3 tangential mindlin NULL 1.0 0.5 damping tsuji "
+                    "rolling sds 500.0 0.01 0.1 twisting marshall", (5.0, 4.0)),
+    ("bed.jkr", "jkr {E} 50.0 0.3 0.01 tangential mindlin NULL 1.0 0.5 damping viscoelastic", (4.0, 3.0)),
+]
+POISSON = 0.3
 
 
 # ---- cases ------------------------------------------------------------------------------------
@@ -71,13 +79,26 @@ def zen4():
     return "AuthenticAMD" in head and re.search(r"cpu family\s*: 25\n", head) is not None
 
 
-def bed_case(bench):
+def laws_of_beds():
+    """Case, what it is, pair style, its coefficients, words of the walls, floors on Zen 5 and before."""
+    law = beds.STOCK_HISTORY
+    yield "bed", f"gran/{law.split()[0]}", f"gran/{law}", "", law, (4.0, 3.3)
+    # of the stiffness kn of the same bed
+    modulus = 1.5 * float(law.split()[1]) * (1 - POISSON**2)
+    for case, words, floors in GRANULAR_BEDS:
+        words = words.format(E=modulus)
+        yield case, f"granular {words}", "granular", words, f"granular {words}", floors
+
+
+def bed_cases(bench):
     count = bench.size(50000, 12500)
-    data, _ = beds.bed(bench, count)
-    text = BED.format(data=data, law=beds.STOCK_HISTORY, skin=beds.SKIN, gravity=beds.GRAVITY, dt=beds.DT,
-                      steps=bench.size(1000, 200))
-    return Case(bench, "bed", f"{count} spheres between walls, gran/hertz/history", text,
-                BED_FLOOR_ZEN4 if zen4() else BED_FLOOR)
+    for case, what, style, coefficients, wall, floors in laws_of_beds():
+        if not bench.wants(case):
+            continue
+        data, _ = beds.bed(bench, count)
+        text = BED.format(data=data, style=style, coefficients=coefficients, wall=wall, skin=beds.SKIN,
+                          gravity=beds.GRAVITY, dt=beds.DT, steps=bench.size(1000, 200))
+        yield Case(bench, case, f"{count} spheres between walls, {what}", text, floors[zen4()])
 
 
 def input_case(bench, given, steps):
@@ -93,8 +114,7 @@ def long_chute(bench, given):
 
 def cases(bench):
     """Those that are asked for and can be made."""
-    if bench.wants("bed"):
-        yield bed_case(bench)
+    yield from bed_cases(bench)
     for given in stock_inputs.INPUTS:
         if not os.path.exists(os.path.join(machine.HOST_SOURCE, given.name)):
             bench.section.text(f"Left out: {given.name}, which the source of this LAMMPS does not have.")
@@ -153,8 +173,8 @@ def measure(bench):
     bench.section.table(COLUMNS, rows)
     bench.section.text(f"""Wall time of the whole process, on one core unless said otherwise; LAMMPS runs without the plugin.
 `accelerated`: what the log says at the start of the first run. Runs are shortened, so that LAMMPS takes some seconds
-for each; `chute.long` is lengthened. Nothing else is edited. `bed`: settled, 15 diameters deep, floor and four walls. floor
-is what was aimed at on one core ({BED_FLOOR_ZEN4} for `bed` on processors of the generation before Zen 5).""")
+for each; `chute.long` is lengthened. Nothing else is edited. The beds are settled, 15 diameters deep, with floor and four
+walls. floor is what was aimed at on one core; for beds it is lower on processors of the generation before Zen 5.""")
     if rows:
         bench.section.plot("", "Ratios of run times on one core, with the range over the rounds; the bar is the floor",
                            lambda plt: draw(plt, rows))

@@ -7,6 +7,7 @@
 #include "comm/proxy_command.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
+#include "dump/dump_vtk_gran.h"
 #include "fix/fix_gravity_talus.h"
 #include "fix/fix_large_body.h"
 #include "fix/fix_nve_sphere_symplectic.h"
@@ -17,6 +18,7 @@
 #include "pair/pair_granular_talus.h"
 #endif
 #include "run/verlet_proxy.h"
+#include "system/compute_contact_list.h"
 #include "system/exchange_switch.h"
 #include "system/fix_contact_store.h"
 #include "system/fix_pair_history.h"
@@ -38,6 +40,7 @@
 #include "lammps.h"
 #include "lammpsplugin.h"
 #include "modify.h"
+#include "output.h"
 #include "pair.h"
 #include "update.h"
 #include "verlet.h"
@@ -96,6 +99,12 @@ class Registry {
   template <typename Style> void run_style(const char *name, const char *info)
   {
     add("run", name, info, *lmp->update->integrate_map, &create<Integrate, Style>);
+  }
+
+  // The host has no plugins that are dumps: its table of them is a public member.
+  template <typename Style> void dump(const char *name)
+  {
+    (*lmp->output->dump_map)[name] = &create<Dump, Style>;
   }
 
   template <typename Style> void fix(const char *name, const char *info)
@@ -167,6 +176,8 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 #endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
+  registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", "Talus contacts (internal)");
+  registry.dump<DumpVtkGran>("vtk/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
   registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", "Talus contact history (internal)");
 

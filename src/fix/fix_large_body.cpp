@@ -44,6 +44,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   body.set_frame(&motion.frame(), motion.moves());
   follow_region();
   if (surface->records()) body.set_touched(surface->touched());
+  body.set_picture([this] { return surface->picture(motion.frame()); });
   body.keep_history();
   offer_output();
   keep_history();

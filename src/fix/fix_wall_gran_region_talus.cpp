@@ -14,6 +14,7 @@ void FixWallGranRegionTalus::begin_run()
 {
   dynamic = region->dynamic_check();
   bounded = has_distance(*region) && !radii_vary();
+  pose = RegionPose();
 }
 
 std::string FixWallGranRegionTalus::what_reads_arrays()
@@ -26,7 +27,23 @@ std::string FixWallGranRegionTalus::what_reads_arrays()
 
 double FixWallGranRegionTalus::displacement() const
 {
-  return dynamic && bounded ? pose.largest_displacement(listed_pose, listed_box) : 0.0;
+  return in_frame() ? pose.largest_displacement(listed_pose, listed_box) : 0.0;
+}
+
+bool FixWallGranRegionTalus::in_frame() const
+{
+  return dynamic && bounded;
+}
+
+bool FixWallGranRegionTalus::is_inside(const double *x)
+{
+  return in_frame() ? RegionInFrame(*region, pose).match(x) : region->match(x[0], x[1], x[2]);
+}
+
+int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
+{
+  return in_frame() ? RegionInFrame(*region, pose).surface(x, reach)
+                    : region->surface(x[0], x[1], x[2], reach);
 }
 
 /* A particle that is not asked for keeps its histories, as in LAMMPS, if it is not in the region,
@@ -35,7 +52,7 @@ double FixWallGranRegionTalus::displacement() const
 void FixWallGranRegionTalus::clear_history(int i)
 {
   const double *x = WallParticles(*system, *atom).position(i);
-  if (use_history && ncontact[i] && region->match(x[0], x[1], x[2])) ncontact[i] = 0;
+  if (use_history && ncontact[i] && is_inside(x)) ncontact[i] = 0;
 }
 
 /* One thread: a region keeps the contacts that it finds. */
@@ -52,7 +69,7 @@ void FixWallGranRegionTalus::find_candidates(double moved)
   std::vector<int> others;
   double largest = 0.0;
   {
-    const ClosedSurface surface(*region);
+    const ClosedSurface surface(*region, pose);
     candidates.list(
         atom->nlocal, neighbor->skin, moved, 1,
         [&](int i, double margin) {
@@ -77,7 +94,7 @@ void FixWallGranRegionTalus::begin_step()
   if (dynamic) {
     region->prematch();
     region->set_velocity();
-    if (bounded) pose = RegionPose(*region);
+    if (in_frame()) pose = RegionPose(*region);
   }
   std::fill(velocity, velocity + 3, 0.0);
   find_wall_temperature();
@@ -103,9 +120,9 @@ void FixWallGranRegionTalus::add_contacts_of(int i, const WallParticles &particl
 {
   const double *x = particles.position(i);
   const double radius = particles.radius(i);
-  if (!region->match(x[0], x[1], x[2])) return;
+  if (!is_inside(x)) return;
   const double reach = radius + model->pulloff_distance(radius, 0.0);
-  const int nc = region->surface(x[0], x[1], x[2], reach);
+  const int nc = find_contacts(x, reach);
   if (nc > tmax) error->one(FLERR, "Too many wallgran/region contacts for one particle");
   if (use_history && !match_history(i, nc)) return;
   for (int ic = 0; ic < nc; ic++) add_contact(i, ic, particles);

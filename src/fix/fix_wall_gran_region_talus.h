@@ -28,6 +28,9 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
  private:
   double displacement() const;
+  bool in_frame() const;
+  bool is_inside(const double *x);
+  int find_contacts(const double *x, double reach);
   void find_candidates(double moved);
   void begin_step();
   void add_contacts_of(int i, const Talus::WallParticles &particles);

@@ -3,6 +3,7 @@
 #include "fix/large_body_surface.h"
 
 #include "system/lammps_compat.h"
+#include "system/present_time.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -46,6 +46,8 @@ bool LargeBodySurface::parse(Words &words)
     file = words.text("file");
     if (file.find('*') == std::string::npos)
       words.fail(1, "the name of the file needs a * for the time step");
+    if (file.size() < 4 || file.compare(file.size() - 4, 4, ".vtp") != 0)
+      words.fail(1, "the name of the file must end in .vtp");
     return true;
   }
   return false;
@@ -146,35 +148,28 @@ int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&value
   return count;
 }
 
+VtkPolyData LargeBodySurface::picture(const BodyFrame &frame)
+{
+  VtkPolyData picture(VtkCells::TRIANGLES);
+  static const char *const names[columns] = {"pressure", "shear_stress", "shear_work"};
+  if (with_loads) reduce();
+  for (int c = 0; with_loads && c < columns; c++) {
+    VtkPolyData::Array &array = picture.add_cell_data(names[c], 1);
+    for (int t = 0; comm->me == 0 && t < size(); t++) array.add(value(t, c));
+  }
+  if (comm->me) return picture;
+  for (const Triangle &t : triangles_in_space(frame))
+    for (const Vector3<double> &p : t.corner) picture.add_point(p);
+  return picture;
+}
+
 void LargeBodySurface::write_picture(const BodyFrame &frame)
 {
-  if (with_loads) reduce();
+  const VtkPolyData all = picture(frame);
   if (comm->me) return;
-  const std::string name = utils::star_subst(file, update->ntimestep, 0);
-  FILE *fp = std::fopen(name.c_str(), "w");
-  if (!fp) error->one(FLERR, "Fix large/body vtk: cannot write '{}'", name);
-  const std::vector<Triangle> triangles = triangles_in_space(frame);
-  const std::size_t n = triangles.size();
-  std::fprintf(fp, "# vtk DataFile Version 3.0\nTalus large body\nASCII\nDATASET POLYDATA\n");
-  std::fprintf(fp, "FIELD FieldData 1\nstep 1 1 double\n%.0f\n",
-               static_cast<double>(update->ntimestep));
-  std::fprintf(fp, "POINTS %zu double\n", 3 * n);
-  for (const Triangle &t : triangles)
-    for (const Vector3<double> &p : t.corner)
-      std::fprintf(fp, "%.10g %.10g %.10g\n", p.x, p.y, p.z);
-  std::fprintf(fp, "POLYGONS %zu %zu\n", n, 4 * n);
-  for (std::size_t t = 0; t < n; t++)
-    std::fprintf(fp, "3 %zu %zu %zu\n", 3 * t, 3 * t + 1, 3 * t + 2);
-  if (with_loads) {
-    static const char *const names[columns] = {"pressure", "shear_stress", "shear_work"};
-    std::fprintf(fp, "CELL_DATA %zu\n", n);
-    for (int c = 0; c < columns; c++) {
-      std::fprintf(fp, "SCALARS %s double 1\nLOOKUP_TABLE default\n", names[c]);
-      for (int t = 0; t < size(); t++) std::fprintf(fp, "%.10g\n", value(t, c));
-    }
-  }
-  const bool failed = std::ferror(fp) != 0;
-  if (std::fclose(fp) || failed) error->one(FLERR, "Fix large/body vtk: cannot write '{}'", name);
+  const std::string problem =
+      all.write(utils::star_subst(file, update->ntimestep, 0), present_time(update));
+  if (!problem.empty()) error->one(FLERR, "Fix large/body vtk: {}", problem);
 }
 
 double LargeBodySurface::memory_usage() const

@@ -10,6 +10,8 @@
 #include "body/contact/body_batch.h"
 #include "body/motion/body_state.h"
 #include "body/shape/mesh_shape.h"
+#include "vtk/poly_data.h"
+
 #include "pointers.h"
 
 #include <string>
@@ -40,7 +42,8 @@ class LargeBodySurface : protected Pointers {
 
   /// For dump image. Every rank gives its share of the triangles.
   int image(const Talus::BodyFrame &frame, int *&kinds, double **&values);
-  /// For ParaView. All ranks.
+  /// For ParaView, with the loads of the triangles. All ranks; rank 0 gets all of it.
+  Talus::VtkPolyData picture(const Talus::BodyFrame &frame);
   void write_picture(const Talus::BodyFrame &frame);
 
   /// Shear work of all ranks, for restart files; read_work() begins at values[first].

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -118,6 +119,13 @@ void RegionPose::origin_of(const double *x, double *x0) const
     x0[d] = rotation[0][d] * r[0] + rotation[1][d] * r[1] + rotation[2][d] * r[2];
 }
 
+void RegionPose::turn(double *vector) const
+{
+  const double v[3] = {vector[0], vector[1], vector[2]};
+  for (int d = 0; d < 3; d++)
+    vector[d] = rotation[d][0] * v[0] + rotation[d][1] * v[1] + rotation[d][2] * v[2];
+}
+
 /* The displacement is an affine function of the point, so its length is largest in a corner. */
 
 double RegionPose::largest_displacement(const RegionPose &then, const AxisBox &box) const
@@ -195,11 +203,43 @@ std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
 
 /* ---------------------------------------------------------------------- */
 
-ClosedSurface::ClosedSurface(Region &region)
+bool RegionInFrame::match(const double *x) const
+{
+  double x0[3];
+  pose.origin_of(x, x0);
+  const int dynamic = std::exchange(region.dynamic, 0);
+  const bool its = region.match(x0[0], x0[1], x0[2]);
+  region.dynamic = dynamic;
+  return its;
+}
+
+int RegionInFrame::surface(const double *x, double cutoff) const
+{
+  double x0[3];
+  pose.origin_of(x, x0);
+  const int dynamic = std::exchange(region.dynamic, 0);
+  const int turns = std::exchange(region.rotateflag, 0);
+  const int contacts = region.surface(x0[0], x0[1], x0[2], cutoff);
+  region.dynamic = dynamic;
+  region.rotateflag = turns;
+  for (int n = 0; turns && n < contacts; n++) {
+    Region::Contact &its = region.contact[n];
+    double separation[3] = {its.delx, its.dely, its.delz};
+    pose.turn(separation);
+    its.delx = separation[0];
+    its.dely = separation[1];
+    its.delz = separation[2];
+  }
+  return contacts;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ClosedSurface::ClosedSurface(Region &region, const RegionPose &pose) : pose(pose)
 {
   collect(region);
   for (const Part &part : parts) {
-    part.region->openflag = 0;
+    part.region->openflag = part.region->dynamic = part.region->rotateflag = 0;
     std::fill(part.region->open_faces, part.region->open_faces + 6, 0);
   }
 }
@@ -209,6 +249,8 @@ ClosedSurface::~ClosedSurface()
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {    // one may be there twice
     part->region->interior = part->interior;
     part->region->openflag = part->openflag;
+    part->region->dynamic = part->dynamic;
+    part->region->rotateflag = part->rotateflag;
     std::copy(part->open_faces, part->open_faces + 6, part->region->open_faces);
   }
 }
@@ -219,7 +261,7 @@ void ClosedSurface::collect(Region &region)
     for (int n = 0; n < region.nregion; n++) collect(*region.reglist[n]);
     return;
   }
-  Part part{&region, region.interior, region.openflag, {}};
+  Part part{&region, region.interior, region.openflag, region.dynamic, region.rotateflag, {}};
   std::copy(region.open_faces, region.open_faces + 6, part.open_faces);
   parts.push_back(part);
 }
@@ -230,7 +272,9 @@ void ClosedSurface::collect(Region &region)
 bool ClosedSurface::is_near(const double *x, double reach) const
 {
   const double aside[3] = {7.1e-4 * reach, -4.3e-4 * reach, 5.9e-4 * reach};
-  const double y[3] = {x[0] + aside[0], x[1] + aside[1], x[2] + aside[2]};
+  const double beside[3] = {x[0] + aside[0], x[1] + aside[1], x[2] + aside[2]};
+  double y[3];
+  pose.origin_of(beside, y);
   const double wide = 1.002 * reach;
   for (const Part &part : parts)
     for (const int interior : {1, 0}) {

@@ -38,10 +38,13 @@ class RegionPose {
   /// in the pose `then`.
   double largest_displacement(const RegionPose &then, const AxisBox &box) const;
 
- private:
+  /// Where a point of the region is, and which point of the region is at x.
   void place_of(const double *x0, double *x) const;
   void origin_of(const double *x, double *x0) const;
+  /// A vector of the region's frame in that of the simulation box; in place.
+  void turn(double *vector) const;
 
+ private:
   double rotation[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   double shift[3] = {0.0, 0.0, 0.0};
 };
@@ -69,11 +72,28 @@ bool is_composite(const LAMMPS_NS::Region &region);
 /// are asked.
 std::string variable_that_may_read_particles(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
 
+/// Asks a simple region in its own frame: the pose of a step is computed once, where the host does it
+/// again, with a sine and a cosine, for every question. Answers differ by rounding.
+class RegionInFrame {
+ public:
+  /// Both must exist as long as this does; `pose` that of the region, after prematch().
+  RegionInFrame(LAMMPS_NS::Region &region, const RegionPose &pose) : region(region), pose(pose) {}
+
+  /// As Region::match() and Region::surface(): contacts are in region.contact.
+  bool match(const double *x) const;
+  int surface(const double *x, double cutoff) const;
+
+ private:
+  LAMMPS_NS::Region &region;
+  const RegionPose &pose;
+};
+
 /// While it exists, a region that has_distance() is asked for its closed surface in place of its
 /// contacts: open faces count as closed, and both sides are seen.
 class ClosedSurface {
  public:
-  explicit ClosedSurface(LAMMPS_NS::Region &region);
+  /// `pose`: of the region, must exist as long as this does.
+  ClosedSurface(LAMMPS_NS::Region &region, const RegionPose &pose);
   ~ClosedSurface();
   ClosedSurface(const ClosedSurface &) = delete;
   ClosedSurface &operator=(const ClosedSurface &) = delete;
@@ -84,9 +104,10 @@ class ClosedSurface {
  private:
   struct Part {
     LAMMPS_NS::Region *region;
-    int interior, openflag, open_faces[6];
+    int interior, openflag, dynamic, rotateflag, open_faces[6];
   };
   void collect(LAMMPS_NS::Region &region);
+  const RegionPose &pose;
   std::vector<Part> parts;    // all simple regions
 };
 

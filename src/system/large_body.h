@@ -22,12 +22,15 @@
 #include "body/shape/large_body_shape.h"
 #include "laws/given_law.h"
 #include "system/effective_masses.h"
+#include "vtk/poly_data.h"
 
 #include "pointers.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -59,6 +62,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   bool has_law(int type) const { return spec_is_set[type]; }
   /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
   void set_frame(const BodyFrame *its, bool moves);
+  /// Makes the surface for ParaView; called on all ranks, rank 0 gets all of it.
+  void set_picture(std::function<VtkPolyData()> maker) { make_picture = std::move(maker); }
   /// Receives one entry for each contact of a step.
   void set_touched(std::vector<TouchedPart> *parts) { touched = parts; }
   /// After shape and laws: from now on histories are kept, if the laws have some.
@@ -106,6 +111,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
   void for_each_contact(const BodyContacts::VisitContact &visit);
   BodyFindings find_worst();
+  /// Collective, see set_picture(): the surface as it is now.
+  VtkPolyData picture() const { return make_picture(); }
   double memory_usage() const { return contacts.memory_usage(); }
 
   /// sqrt(m/k) (time) of a particle of this type, mass and radius against the body, with the
@@ -129,6 +136,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const BodyFrame *frame = nullptr;
   bool moves = false;
   std::vector<TouchedPart> *touched = nullptr;
+  std::function<VtkPolyData()> make_picture;
   std::vector<ContactSpec> specs;    ///< by type
   std::vector<bool> spec_is_set;
   bool with_history = false;

@@ -3,19 +3,41 @@
 #include "system/neighbor_source.h"
 
 #include "system/granular_system.h"
+#include "system/private_member.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "nbin.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "pair.h"
 
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
+
+namespace Talus {
+struct BinsOfNeighbor {
+  using Type = NBin **Neighbor::*;
+  friend Type pointer_to(BinsOfNeighbor);
+};
+template struct PrivateMember<BinsOfNeighbor, &Neighbor::neigh_bin>;
+}    // namespace Talus
+
+namespace {
+/// In the place of bins that no list is made from.
+class NoBins : public NBin {
+ public:
+  explicit NoBins(LAMMPS *lmp) : NBin(lmp) {}
+  void bin_atoms_setup(int /*count*/) override {}
+  void setup_bins(int /*style*/) override {}
+  void bin_atoms() override {}
+};
+}    // namespace
 
 std::string NeighborSource::reason_for_host() const
 {
@@ -34,6 +56,7 @@ void NeighborSource::init(Pair *pair)
   // pairs across ranks on both sides, whatever `newton` says
   neighbor->add_request(pair, NeighConst::REQ_SIZE |
                                   (own ? NeighConst::REQ_OCCASIONAL : NeighConst::REQ_NEWTON_OFF));
+  bins_left_out = false;
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
       (own ? ": finds neighbors itself, as often as neigh_modify says\n"
@@ -54,6 +77,7 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
             SBBITS,
             {scale[0], scale[1], scale[2], scale[3]}};
   }
+  if (!bins_left_out) leave_bins_out();
   const int total = atom->nlocal + atom->nghost;
   try {
     search.find(
@@ -66,6 +90,24 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
                GranularSystem::of(lmp)->style_name(), problem.what());
   }
   return search.view();
+}
+
+/* The host sorts all particles into bins at every rebuild, for lists that may be asked for. Ours is
+   not; where it is the only one the bins go. The host makes them anew, and init() is called, before
+   another list can be there. */
+
+void NeighborSource::leave_bins_out()
+{
+  bins_left_out = true;
+  if (neighbor->nlist != 1 || neighbor->style == Neighbor::NSQ) return;
+  NPair *builder = neighbor->lists[0]->np;
+  if (!builder || !builder->nb) return;
+  NBin *&bins = (neighbor->*pointer_to(BinsOfNeighbor{}))[0];
+  auto *none = new NoBins(lmp);
+  none->istyle = bins->istyle;
+  delete bins;
+  bins = none;
+  builder->nb = none;
 }
 
 /* `neigh_modify exclude type` and `group`, as the host's lists heed them. */

@@ -33,9 +33,10 @@ class NeighborSource : protected Pointers {
 
  private:
   bool excludes(int i, int j) const;
+  void leave_bins_out();
 
   Talus::NeighborSearch search;
-  bool own = false;
+  bool own = false, bins_left_out = false;
   std::string said;
 };
 

@@ -13,6 +13,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, marked_word, read_dump, thermo, write_sphere_data
+from vtk_files import Piece
 
 SOURCE = os.environ["TALUS_SOURCE_DIR"]
 LAW = "contact hooke 1e4 10"
@@ -82,6 +83,7 @@ REFUSED = [    # words of the fix, message, marked word
     (f"mesh good.stl {LAW} pressure maybe", "pressure: unknown value 'maybe', expected yes or no", "maybe"),
     (f"{BOX} {LAW} vtk 0 a.*", "vtk: expected interval N (a whole number >= 1) instead of '0'", "0"),
     (f"{BOX} {LAW} vtk 5 a.vtk", "vtk: the name of the file needs a * for the time step", "a.vtk"),
+    (f"{BOX} {LAW} vtk 5 a.*.vtk", "vtk: the name of the file must end in .vtp", "a.*.vtk"),
 ]
 REFUSED_AT_RUN = [
     (f"{BOX} {LAW} move variable v_no NULL NULL NULL NULL NULL", "variable 'no' does not exist"),
@@ -175,7 +177,7 @@ run 0
         write_sphere_data(self.path("grains"), ((-9, 9), (-9, 9), (-9, 9)), [Sphere((1, -0.5, 0.49949), v=(2, 0, 0))])
         commands = f"""
 fix body all large/body mesh plate.stl contact hooke 1e4 0 tangential multistep NULL NULL 0.5 &
-    move linear 0 0 0 pressure yes vtk 50 plate.*.vtk
+    move linear 0 0 0 pressure yes vtk 50 plate.*.vtp
 thermo_style custom step f_body[1] f_body[3] f_body[1][1] f_body[2][1] f_body[1][2] f_body[1][3] f_body[2][3]
 thermo 50
 thermo_modify format float %.15g
@@ -191,13 +193,11 @@ thermo_modify format float %.15g
         self.assertGreater(rows[-1]["f_body[1][3]"], rows[1]["f_body[1][3]"])
         self.assertGreater(rows[1]["f_body[1][3]"], 0.0)
         for step in (0, 50, 100):
-            with open(self.path(f"plate.{step}.vtk")) as file:
-                text = file.read()
-            self.assertIn("POINTS 6 double\n", text)
-            self.assertIn("POLYGONS 2 8\n3 0 1 2\n3 3 4 5\n", text)
-            values = text.split("SCALARS pressure double 1\nLOOKUP_TABLE default\n")[1].split()[:2]
+            plate_then = Piece(self.path(f"plate.{step}.vtp"))
+            self.assertEqual(plate_then.points, [tuple(map(float, p)) for triangle in plate for p in triangle])
+            self.assertEqual(plate_then.cells, {"Polys": [[0, 1, 2], [3, 4, 5]]})
             row = [r for r in rows if r["Step"] == step][-1]
-            self.assertAlmostEqual(float(values[0]), row["f_body[1][1]"], delta=1e-6)
+            self.assertAlmostEqual(plate_then.cell_data["pressure"][0], row["f_body[1][1]"], delta=1e-6)
         restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace(
             "read_data grains", "read_restart half")
         again = thermo(self.run_lammps(restart + commands + "run 50\n").log)

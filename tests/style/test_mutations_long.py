@@ -1,0 +1,21 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: label=slow timeout=3600 procs=2
+"""test_mutations.py with other seeds and many times as many runs. TALUS_SEED chooses another one."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import test_mutations
+
+
+class ManyMutations(test_mutations.Mutations):
+    seed, lines, files, sessions = int(os.environ.get("TALUS_SEED", "7")), 1500, 400, 400
+
+
+del test_mutations.Mutations
+
+
+if __name__ == "__main__":
+    unittest.main()
