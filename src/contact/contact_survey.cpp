@@ -84,9 +84,9 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
                                                                ? chunk.history.impact(pair)
                                                                : no_history);
   SurveyedContact found{order.atom_of_slot[i], order.atom_of_slot[j], -1, -1, order.share(i, j),
-                        s.normal, s.overlap, {}, {}, {}, {}};
+                        s.normal, s.overlap, {}, {}, {}, {}, {}};
   const int row = chunk.row_of_pair(scene, pair);
-  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, ri, dt, memory, found);
+  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, found);
   return found;
 }
 

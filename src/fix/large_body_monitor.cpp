@@ -2,6 +2,8 @@
 
 #include "fix/large_body_monitor.h"
 
+#include "system/contact_monitor.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -29,9 +31,9 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
     if (comm->me == 0)
       error->warning(FLERR,
                      "Fix large/body {}: particle {:.0f} overlaps the body by {:.3g} of its radius "
-                     "at step {}; contact laws are made for small overlaps: use a higher "
-                     "stiffness, or look for particles that overlap from the beginning",
-                     id, found.details[0], found.value, update->ntimestep);
+                     "at step {}; {}",
+                     id, found.details[0], found.value, update->ntimestep,
+                     ContactMonitor::cure_of(found.value));
     return true;
   };
   const auto look_for_move = [this, moves = std::move(moves)]() -> Finding {
@@ -50,7 +52,7 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
                      id, found.details[0], found.value, update->ntimestep);
     return true;
   };
-  return {{largest_overlap, look_for_overlap, say_overlap},
+  return {{largest_overlap, look_for_overlap, say_overlap, ContactMonitor::much_deeper},
           {largest_move, look_for_move, say_move}};
 }
 

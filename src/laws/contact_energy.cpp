@@ -30,8 +30,8 @@ ContactLanes<double> response_of(const ContactLaw &law, const ContactCoefficient
 }    // namespace
 
 void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
-                    const ContactState<double> &state, double radius, double dt,
-                    const RememberedValues &memory, SurveyedContact &to)
+                    const ContactState<double> &state, double dt, const RememberedValues &memory,
+                    SurveyedContact &to)
 {
   const ContactLanes<double> s = single_contact(law, row, state, dt, memory);
   const HistoryLayout history = law.history();
@@ -42,11 +42,12 @@ void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
     return law[stage].stored(s, law.coefficients(stage, row), values);
   };
   to.force = s.force;
-  to.torque = {0.0, 0.0, 0.0};
+  to.moment = to.twisting_torque = {0.0, 0.0, 0.0};
   to.memory = memory;
   to.stored = {stored(Stage::NORMAL) + stored(Stage::COHESION), 0.0, 0.0};
   if (!law.has_friction()) return;
-  to.torque = s.twisting_torque - radius * s.moment;
+  to.moment = s.moment;
+  to.twisting_torque = s.twisting_torque;
   to.stored.tangential = stored(Stage::TANGENTIAL);
   to.stored.resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
 }

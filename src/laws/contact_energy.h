@@ -52,16 +52,16 @@ struct SurveyedContact {
   Vector3<double> normal;     ///< from the second body to the first
   double overlap;             ///< length; negative of contacts that last beyond zero
   Vector3<double> force;      ///< on the first body
-  Vector3<double> torque;     ///< on the first body, about its center
+  Vector3<double> moment, twisting_torque;    ///< torques about the centers, see ContactLanes
   RememberedValues memory;    ///< the first three of a large body in its own frame
   EnergyByCause stored;
 };
 
-/// Of `memory` after the step: fills in force, torque (of a first body with this radius), memory
-/// and stored energy, in the frame of `state`.
+/// Of `memory` after the step: fills in force, torques, memory and stored energy, in the frame of
+/// `state`.
 void survey_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
-                    const ContactState<double> &state, double radius, double dt,
-                    const RememberedValues &memory, SurveyedContact &to);
+                    const ContactState<double> &state, double dt, const RememberedValues &memory,
+                    SurveyedContact &to);
 
 /// The state of one lane of a batch, as before its kernel has run.
 ContactState<double> state_of_lane(const ContactBatch &batch, int lane);

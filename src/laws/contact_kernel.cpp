@@ -112,12 +112,12 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
 {
   ContactKernel kernel;
   kernel.uniform = uniform;
-  if (law.has_history()) kernel.add(history_copier(law));
-  const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr;
-  if (fused)
+  if (const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr) {
     kernel.add(fused, 0, places_one_behind_the_other(law));
-  else
-    kernel.add(staged_kernel(law, uniform, true));
+    return kernel;
+  }
+  if (law.has_history()) kernel.add(history_copier(law));
+  kernel.add(staged_kernel(law, uniform, true));
   kernel.add(work_finder(law));
   const HistoryLayout history = law.history();
   for_each_stage(law, [&](Stage stage, const Law &its) {

@@ -3,6 +3,7 @@
 #include "laws/fused_kernels.h"
 
 #include "laws/approach.h"
+#include "laws/contact_work.h"
 #include "laws/damping/coeff_restitution.h"
 #include "laws/damping/mass_velocity.h"
 #include "laws/damping/restitution.h"
@@ -64,18 +65,17 @@ struct Fused {
             spread<Twisting, Real>(c + coefficients_of<Normal, Damping, Tangential, Rolling>)};
   }
 
-  /// The contacts from lane k on, as many as a Real is wide. `found` as well: what the stages find
-  /// for those behind them.
-  template <bool found, class Real>
+  /// The contacts from lane k on, as many as a Real is wide; `accounts`: and their work.
+  template <bool accounts, class Real>
   TALUS_INLINE static void compute(ContactBatch &b, int k, const Rows<Real> &c,
                                    const StageInput &in)
   {
     ContactLanes<Real> s;
     load_state(b, k, s);
     approach<with_radius>(s);
-    Real history[remembered + 1];    // none has no length 0
+    Real history[remembered + 1], before[remembered + 1];    // none has no length 0
     for (int n = 0; n < remembered; n++)
-      history[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
+      history[n] = before[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
     Normal::template compute<true>(c.normal, s, history, in.dt);
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
@@ -88,24 +88,36 @@ struct Fused {
       if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
-    if constexpr (found) {
-      const auto keep = [k](Real value, double *to) { Memory<Real>::store(to + k, value); };
-      visit_approach(s, b, keep);
-      visit_written<Stage::NORMAL>(s, b, keep);
-      visit_written<Stage::DAMPING>(s, b, keep);
-    }
+    if constexpr (accounts) account(b, k, c, s, before, history, in.dt);
     for (int n = 0; n < remembered; n++)
       Memory<Real>::store(&b.history[in.places[n]][k], history[n]);
   }
 
-  template <bool found>
+  template <class Real>
+  TALUS_INLINE static void account(ContactBatch &b, int k, const Rows<Real> &c,
+                                   const ContactLanes<Real> &s, const Real *before,
+                                   const Real *now, double dt)
+  {
+    constexpr int to_rolling = values_of<Tangential>,
+                  to_twisting = to_rolling + values_of<Rolling>;
+    ContactWork<Real> work;
+    find_work<Tangential::acts, twists>(s, dt, work);
+    if constexpr (has_lag<Tangential>) take_lag<Tangential>(s, c.tangential, before, now, dt, work);
+    if constexpr (has_lag<Rolling>)
+      take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);
+    if constexpr (has_lag<Twisting>)
+      take_lag<Twisting>(s, c.twisting, before + to_twisting, now + to_twisting, dt, work);
+    for (int n = 0; n < num_causes; n++) Memory<Real>::store(&b.work[n][k], work[n]);
+  }
+
+  template <bool accounts>
   static void run(ContactBatch &b, int begin, int end, const StageInput &in)
   {
     const Rows<Wide> wide = rows<Wide>(in.table[0].c);
     int k = begin;
-    for (; k + wide_lanes <= end; k += wide_lanes) compute<found, Wide>(b, k, wide, in);
+    for (; k + wide_lanes <= end; k += wide_lanes) compute<accounts, Wide>(b, k, wide, in);
     const Rows<Vec8> rest = rows<Vec8>(in.table[0].c);
-    for (; k < end; k += lanes) compute<found, Vec8>(b, k, rest, in);
+    for (; k < end; k += lanes) compute<accounts, Vec8>(b, k, rest, in);
   }
 };
 

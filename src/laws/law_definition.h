@@ -12,8 +12,9 @@
 //                 `advance`. Pure and free of branches. dt in units of the caller.
 //   read(reader)  its words; left out if it comes with another law's
 //   mix(m)        its row for a contact of two materials
-//   stored(s, c, history)   its energy, if it stores some; quadratic in the history, and for any
-//                 Real, of laws that have one
+//   stored(s, c, history)   its energy, if it stores some
+//   rate(s, c, r) of laws that remember a spring in their first spring_size values: how fast these
+//                 change where the contact sticks. stored() is then for any Real.
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
 // law_list.cpp makes it known to all.
@@ -51,6 +52,7 @@ struct LawBase {
   static constexpr bool lasts_beyond_contact = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
+  static constexpr int spring_size = 0;
   static constexpr double exponent = 1.0;
 };
 
@@ -260,24 +262,24 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
-/// A spring whose displacement, or force, is remembered.
-template <class L>
-inline constexpr bool has_lag = history_size_of < L >> 0 &&
-    (L::stage == Stage::TANGENTIAL || L::stage == Stage::ROLLING || L::stage == Stage::TWISTING);
-
 template <class L> void run_lag(ContactBatch &b, int begin, int end, const StageInput &in)
 {
-  double *const work = b.work[static_cast<int>(cause_of(L::stage))];
+  constexpr int remembered = history_size_of<L>;
   auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
   for (int k = begin; k < end; k += lanes) {
     if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
     ContactLanes<Vec8> s;
     load_state(b, k, s);
     load_found<Stage::TANGENTIAL>(b, k, s);
-    Vec8 change[history_size_of<L>];
-    for (int n = 0; n < history_size_of<L>; n++)
-      change[n] = load8(&b.history[in.places[n]][k]) - load8(&b.before[in.places[n]][k]);
-    store(work + k, load8(work + k) - L::stored(s, c, change));
+    Vec8 before[remembered], now[remembered];
+    for (int n = 0; n < remembered; n++) {
+      before[n] = load8(&b.before[in.places[n]][k]);
+      now[n] = load8(&b.history[in.places[n]][k]);
+    }
+    ContactWork<Vec8> work;
+    for (int n = 0; n < num_causes; n++) work[n] = load8(&b.work[n][k]);
+    take_lag<L>(s, c, before, now, in.dt, work);
+    for (int n = 0; n < num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 

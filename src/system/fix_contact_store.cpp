@@ -14,6 +14,7 @@
 #include "error.h"
 #include "integrate.h"
 #include "modify.h"
+#include "output.h"
 #include "update.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
+  nevery = 1;    // of the end of step
   set_maxexchange(0);
   comm_border = 1 + HistoryStore::size_origin + 1;
   force_reneighbor = 1;
@@ -59,8 +61,8 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
-         MIN_POST_NEIGHBOR;
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
+         END_OF_STEP;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -94,6 +96,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
+  require_numbers();
   store_histories(Occasion::REBUILD);
   if (system) system->release_pairs();
   keep_positions();
@@ -150,6 +153,44 @@ void FixContactStore::pairs_are_current()
 {
   if (!current) store.clear();
   current = true;
+}
+
+void FixContactStore::setup(int)
+{
+  require_numbers();
+}
+
+void FixContactStore::end_of_step()
+{
+  if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
+}
+
+/* A square that overflows counts as well: energies and moves are no numbers then. */
+
+void FixContactStore::require_numbers() const
+{
+  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
+  double **const rows[] = {atom->x, atom->v, atom->omega};
+  constexpr double none = std::numeric_limits<double>::max();
+  struct {
+    double tag = none;
+    int quantity = 0;
+  } mine, worst;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int q = 0; q < 3; q++) {
+      const double *v = rows[q][i], square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+      if (std::isfinite(square) || atom->tag[i] >= mine.tag) continue;
+      mine.tag = static_cast<double>(atom->tag[i]);
+      mine.quantity = q;
+    }
+  MPI_Allreduce(&mine, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  if (worst.tag == none) return;
+  error->all(FLERR,
+             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
+             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
+             "a fix)",
+             Talus::GranularSystem::of(lmp)->style_name(), quantities[worst.quantity], worst.tag,
+             update->ntimestep);
 }
 
 /* From here on each particle carries its slot along, also if it is moved or deleted before

@@ -61,6 +61,10 @@ class FixContactStore : public Fix {
   void post_neighbor() override;
   void min_post_neighbor() override;
   void setup_post_neighbor() override;
+  /// The last of the set-up, before its output, and outputs: positions and velocities have to be
+  /// numbers.
+  void setup(int) override;
+  void end_of_step() override;
   void post_run() override;
 
   void grow_arrays(int) override;
@@ -84,6 +88,7 @@ class FixContactStore : public Fix {
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
   void store_histories(Occasion occasion);
+  void require_numbers() const;
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;

@@ -242,6 +242,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void create_store();
   void prepare_laws();
   std::string small_period() const;
+  void require_sizes() const;
 
   ParticleView view() const;
   void update_gravity();

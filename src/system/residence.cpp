@@ -86,7 +86,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
     if (ours && ours->integrates()) integrators.push_back(fix);
     const std::string its = reason_of_fix(fix, modify->fmask[n]);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
-    if ((modify->fmask[n] & END_OF_STEP) == 0) continue;
+    if ((modify->fmask[n] & END_OF_STEP) == 0 || fix == store) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "): looks at particles at the end of every step: a larger Nevery";

@@ -239,13 +239,14 @@ void BodyBatch::survey() const
       memory.value[n] = n < 4 || task->with_impact ? batch.history[n][lane] : 0.0;
     SurveyedContact found{task->candidates.atom(candidate_of_lane[lane]), -1, -1,
                           by_parts ? part_of_lane[lane] : -1, 1.0,
-                          lane_of(batch.normal, lane), batch.overlap[lane], {}, {}, {}, {}};
+                          lane_of(batch.normal, lane), batch.overlap[lane], {}, {}, {}, {}, {}};
     survey_contact(law, task->laws.coefficients(batch.coefficients[lane]),
-                   state_of_lane(batch, lane), radius[lane], task->dt, memory, found);
+                   state_of_lane(batch, lane), task->dt, memory, found);
     if (frame.turned) {
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);
-      found.torque = frame.to_space(found.torque);
+      found.moment = frame.to_space(found.moment);
+      found.twisting_torque = frame.to_space(found.twisting_torque);
     }
     (*task->survey)(found);
   }
