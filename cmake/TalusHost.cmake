@@ -1,5 +1,8 @@
 # Find the host LAMMPS, check it, and offer it as target lammps_host.
 #
+# The host is a build directory of LAMMPS, or an installed program whose source tree is given as well: then what the
+# program says of itself (lmp -h) stands for the build directory.
+#
 # Sets TALUS_LAMMPS_VERSION (yyyymmdd), TALUS_HOST_SIZES, TALUS_HOST_LMP, TALUS_HOST_OMP,
 # LAMMPS_SOURCE_DIR, LAMMPS_BINARY_DIR. Every check ends in one message with its cure; scripts/build
 # shows the text from "talus:" on.
@@ -11,10 +14,10 @@ function(talus_fail)
   message(FATAL_ERROR "talus: ${text}")
 endfunction()
 
-# An input may come as a cache variable or from the environment.
-function(talus_input name help)
-  if(NOT DEFINED CACHE{${name}} AND NOT DEFINED ${name})
-    set(${name} "$ENV{${name}}" CACHE PATH "${help}")
+# An input may come as a cache variable or from the environment, also after a try without it.
+function(talus_input name type help)
+  if(NOT ${name})
+    set(${name} "$ENV{${name}}" CACHE ${type} "${help}" FORCE)
   endif()
 endfunction()
 
@@ -37,6 +40,45 @@ function(talus_read_host_cache)
   set(LAMMPS_BINARY_DIR "${dir}" PARENT_SCOPE)
 endfunction()
 
+# The same of an installed program. LAMMPS_BINARY_DIR becomes the folder it is in, for messages.
+function(talus_ask_host_program)
+  find_program(TALUS_HOST_PROGRAM "${LAMMPS_EXECUTABLE}" NO_CACHE)
+  if(NOT TALUS_HOST_PROGRAM)
+    talus_fail("there is no program '${LAMMPS_EXECUTABLE}' (LAMMPS_EXECUTABLE): give the lmp that is installed, with its path "
+      "if it is not in PATH.")
+  endif()
+  if(NOT LAMMPS_SOURCE_DIR)
+    talus_fail("LAMMPS_EXECUTABLE needs LAMMPS_SOURCE_DIR: the unpacked source of the same release of LAMMPS (installed headers "
+      "are not enough).")
+  endif()
+  set(ENV{LAMMPS_PLUGIN_PATH} "")
+  execute_process(COMMAND "${TALUS_HOST_PROGRAM}" -h OUTPUT_VARIABLE text ERROR_VARIABLE problem RESULT_VARIABLE failed)
+  if(failed OR NOT text MATCHES "Massively Parallel Simulator - ([0-9]+ [A-Z][a-z][a-z][a-z]* [0-9]+)")
+    talus_fail("'${TALUS_HOST_PROGRAM} -h' does not answer as LAMMPS does: ${problem}")
+  endif()
+  set(HOST_VERSION "${CMAKE_MATCH_1}" PARENT_SCOPE)
+  set(HOST_LAMMPS_SIZES "")
+  if(text MATCHES "-DLAMMPS_(SMALLBIG|BIGBIG|SMALLSMALL)")
+    string(TOLOWER "${CMAKE_MATCH_1}" sizes)
+    set(HOST_LAMMPS_SIZES "${sizes}" PARENT_SCOPE)
+  endif()
+  string(REGEX MATCH "Installed packages:.*" packages "${text}")
+  foreach(name PLUGIN GRANULAR)
+    string(REGEX MATCH "[ \n]${name}[ \n]" HOST_PKG_${name} "${packages}")
+    set(HOST_PKG_${name} "${HOST_PKG_${name}}" PARENT_SCOPE)
+  endforeach()
+  string(REGEX MATCH "MPI v[0-9.]+: [^\n]*" mpi "${text}")
+  if(mpi MATCHES "STUBS")
+    set(mpi "")
+  endif()
+  set(HOST_BUILD_MPI "${mpi}" PARENT_SCOPE)
+  string(REGEX MATCH "OpenMP [0-9]" openmp "${text}")
+  set(HOST_BUILD_OMP "${openmp}" PARENT_SCOPE)
+  get_filename_component(dir "${TALUS_HOST_PROGRAM}" DIRECTORY)
+  set(LAMMPS_BINARY_DIR "${dir}" PARENT_SCOPE)
+  set(TALUS_HOST_LMP "${TALUS_HOST_PROGRAM}" PARENT_SCOPE)
+endfunction()
+
 # Accepts the top of the tree and its src folder.
 function(talus_find_host_source)
   set(dir "${LAMMPS_SOURCE_DIR}")
@@ -52,21 +94,29 @@ function(talus_find_host_source)
       "missing. Set LAMMPS_SOURCE_DIR to an unpacked source of LAMMPS 4 Feb 2025 or newer "
       "(installed headers are not enough).")
   endif()
+  set(LAMMPS_SOURCE_DIR "${dir}" PARENT_SCOPE)
+  if(LAMMPS_EXECUTABLE)
+    return()
+  endif()
   get_filename_component(built_from "${HOST_CMAKE_HOME_DIRECTORY}/.." REALPATH)
   get_filename_component(given "${dir}" REALPATH)
   if(NOT built_from STREQUAL given)
     talus_fail("the host in ${LAMMPS_BINARY_DIR} was built from ${built_from}, but "
       "LAMMPS_SOURCE_DIR is ${given}. Give a pair that belongs together.")
   endif()
-  set(LAMMPS_SOURCE_DIR "${dir}" PARENT_SCOPE)
 endfunction()
 
 # "4 Feb 2025" -> 20250204
 function(talus_read_version file result)
   file(STRINGS "${file}" line REGEX "define +LAMMPS_VERSION")
-  if(NOT line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)\"")
+  if(NOT line MATCHES "\"([0-9]+ [A-Z][a-z][a-z][a-z]* [0-9]+)\"")
     talus_fail("no version like \"4 Feb 2025\" in ${file}. Is this a LAMMPS source tree?")
   endif()
+  if(HOST_VERSION AND NOT HOST_VERSION STREQUAL CMAKE_MATCH_1)
+    talus_fail("${TALUS_HOST_LMP} is LAMMPS ${HOST_VERSION}, but the source in ${LAMMPS_SOURCE_DIR} is that of "
+      "${CMAKE_MATCH_1}. Give the source of the same release.")
+  endif()
+  string(REGEX MATCH "([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)" line "${CMAKE_MATCH_1}")
   set(day "${CMAKE_MATCH_1}")
   set(year "${CMAKE_MATCH_3}")
   list(FIND talus_months "${CMAKE_MATCH_2}" month)
@@ -93,7 +143,7 @@ function(talus_check_host_options)
   endif()
   if(NOT HOST_PKG_PLUGIN)
     talus_fail("the host in ${LAMMPS_BINARY_DIR} has no package PLUGIN and cannot load plugins. "
-      "Rebuild it with -D PKG_PLUGIN=on, or run scripts/build.")
+      "Rebuild it with -D PKG_PLUGIN=on, or run scripts/build. (The packages of Debian 12 and 13 have none.)")
   endif()
   if(NOT HOST_BUILD_MPI)
     talus_fail("the host in ${LAMMPS_BINARY_DIR} was built without MPI. Rebuild it with "
@@ -152,14 +202,21 @@ function(talus_check_host_mpi)
   endif()
 endfunction()
 
-talus_input(LAMMPS_SOURCE_DIR "Source tree of the host LAMMPS")
-talus_input(LAMMPS_BINARY_DIR "Build directory of the host LAMMPS")
+talus_input(LAMMPS_SOURCE_DIR PATH "Source tree of the host LAMMPS")
+talus_input(LAMMPS_BINARY_DIR PATH "Build directory of the host LAMMPS")
+talus_input(LAMMPS_EXECUTABLE STRING "Installed LAMMPS, instead of a build directory")
 set(LAMMPS_SIZES "" CACHE STRING "Integer sizes the host must have (default: whatever it has)")
-talus_read_host_cache()
+if(LAMMPS_EXECUTABLE)
+  talus_ask_host_program()
+else()
+  talus_read_host_cache()
+endif()
 talus_find_host_source()
 talus_read_version("${LAMMPS_SOURCE_DIR}/src/version.h" TALUS_LAMMPS_VERSION)
 talus_check_host_options()
-talus_find_host_program()
+if(NOT LAMMPS_EXECUTABLE)
+  talus_find_host_program()
+endif()
 set(TALUS_HOST_SIZES "${HOST_LAMMPS_SIZES}")
 set(TALUS_HOST_OMP "${HOST_BUILD_OMP}")
 

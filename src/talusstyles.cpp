@@ -5,6 +5,7 @@
 
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
+#include "compute/compute_coarse_grid.h"
 #include "compute/compute_contact_gran_atom.h"
 #include "compute/compute_contact_gran_local.h"
 #include "compute/compute_dissipation_gran_atom.h"
@@ -184,6 +185,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
                                             "Talus compute style contact/gran/local");
   registry.compute<ComputeDissipationGranAtom>("dissipation/gran/atom",
                                                "Talus compute style dissipation/gran/atom");
+  registry.compute<ComputeCoarseGrid>("coarse/grid", "Talus compute style coarse/grid");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", "Talus contacts (internal)");
   registry.dump<DumpVtkGran>("vtk/gran");

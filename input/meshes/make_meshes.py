@@ -14,8 +14,9 @@ def write_stl(path, triangles):
             file.write(b"\0\0")
 
 
-def turned(profile, sectors, axis="z", inward=True):
-    """Surface of revolution of a list of (radius, height): normals to the left of its way, if inward."""
+def turned(profile, sectors, axis="z", inward=True, first=0, last=None):
+    """Surface of revolution of a list of (radius, height): normals to the left of its way, if inward. With first and
+    last only these of the sectors."""
     def at(k, j):
         r, h = profile[k]
         a = 2 * math.pi * (j % sectors) / sectors
@@ -24,7 +25,7 @@ def turned(profile, sectors, axis="z", inward=True):
 
     found = []
     for k in range(len(profile) - 1):
-        for j in range(sectors):
+        for j in range(first, sectors if last is None else last):
             a, b, c, d = at(k, j), at(k, j + 1), at(k + 1, j + 1), at(k + 1, j)
             found += [(a, c, b), (a, d, c)] if inward else [(a, b, c), (a, c, d)]
     return [t for t in found if len(set(t)) == 3]
@@ -54,13 +55,19 @@ def lifter(angle, low, high, width, half):
 
 # axis y, radius 1, length 0.6, four lifters; closed
 drum = turned([(0.0, -0.3), (1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")
+view = turned([(1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")    # for pictures: one end plate left out
 for k in range(4):
-    drum += lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
+    bar = lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
+    drum += bar
+    view += bar
 write_stl("drum.stl", drum)
+write_stl("drum_view.stl", view)
 
 # axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
 height = 0.7 * math.tan(math.radians(60))
-write_stl("hopper.stl", turned([(0.3, 0.0), (1.0, height), (1.0, height + 2.5)], 64))
+profile = [(0.3, 0.0), (1.0, height), (1.0, height + 2.5)]
+write_stl("hopper.stl", turned(profile, 64))
+write_stl("hopper_view.stl", turned(profile, 64, first=0, last=32))    # for pictures: the half with y > 0
 
 # axis y, radius 0.9, width 0.8, sixteen grousers up to radius 1; closed
 wheel = turned([(0.0, -0.4), (0.9, -0.4), (0.9, 0.4), (0.0, 0.4)], 64, "y", inward=False)

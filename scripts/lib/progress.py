@@ -109,8 +109,9 @@ class RunFollower:
         # nothing but the cause follows an error
         self.failed = self.failed or line.startswith("ERROR")
         self.in_block = bool(line.strip()) and (self.in_block or bool(self.BLOCK.match(line)))
-        self.speaking = bool(self.SHOWN.match(line)) or (
-            self.speaking and line.startswith("  ") and line.split()[:1] != ["Step"])
+        row = self.in_thermo and self.NUMBERS.match(line)    # may follow a warning: it is no part of it
+        self.speaking = bool(self.SHOWN.match(line)) or bool(
+            self.speaking and line.startswith("  ") and line.split()[:1] != ["Step"] and not row)
         return self.failed or self.in_block or self.speaking
 
     def line(self, line):

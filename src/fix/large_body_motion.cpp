@@ -192,10 +192,12 @@ void LargeBodyMotion::init()
 
 bool LargeBodyMotion::asks_variables() const
 {
-  const auto named = [](const Quantity &q) { return !q.name.empty(); };
-  return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), named)) ||
+  const auto asks = [this](const Quantity &q) {
+    return !q.name.empty() && !reads_only_time(lmp, q.name);
+  };
+  return (kind == Kind::VARIABLE && std::any_of(std::begin(path), std::end(path), asks)) ||
          (kind == Kind::REGION && !variable_that_may_read_particles(lmp, *region).empty()) ||
-         (has_load && std::any_of(std::begin(given_load), std::end(given_load), named));
+         (has_load && std::any_of(std::begin(given_load), std::end(given_load), asks));
 }
 
 double LargeBodyMotion::evaluate(const Quantity &q)

@@ -44,7 +44,7 @@ class LargeBodyMotion : protected Pointers {
   bool moves() const { return kind != Kind::NONE; }
   /// A function of time, so that steps must be counted without a gap.
   bool depends_on_time() const { return kind == Kind::PRESCRIBED || kind == Kind::VARIABLE; }
-  /// Variables are evaluated in every step.
+  /// Variables are evaluated in every step that may read particles.
   bool asks_variables() const;
   /// The load of a step is needed for the next one.
   bool driven_by_load() const { return kind == Kind::FREE || kind == Kind::SERVO; }

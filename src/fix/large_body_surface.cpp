@@ -133,7 +133,9 @@ int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&value
   image_values.clear();
   for (std::size_t t = comm->me; t < all.size(); t += comm->nprocs) {
     image_values.push_back(1.0);    // the color of particles of type 1, if it is by type
-    for (const Vector3<double> &p : all[t].corner) {
+    // LAMMPS lights the side from which the corners go round clockwise
+    for (const int corner : {0, 2, 1}) {
+      const Vector3<double> &p = all[t].corner[corner];
       image_values.push_back(p.x);
       image_values.push_back(p.y);
       image_values.push_back(p.z);

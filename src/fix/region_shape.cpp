@@ -17,30 +17,6 @@ using Talus::NearParts;
 using Talus::SurfaceContact;
 using Talus::Vector3;
 
-namespace {
-
-/// While it exists, a region answers as it was before it moved.
-class AtRest {
- public:
-  explicit AtRest(Region &its) : region(its), dynamic(its.dynamic), turns(its.rotateflag)
-  {
-    region.dynamic = region.rotateflag = 0;
-  }
-  ~AtRest()
-  {
-    region.dynamic = dynamic;
-    region.rotateflag = turns;
-  }
-  AtRest(const AtRest &) = delete;
-  AtRest &operator=(const AtRest &) = delete;
-
- private:
-  Region &region;
-  int dynamic, turns;
-};
-
-}    // namespace
-
 RegionShape::RegionShape(Region *r, const char *its_id) : region(r), id(its_id)
 {
   replace(r);
@@ -82,7 +58,7 @@ std::string RegionShape::refusal(Region &region, bool moves)
 int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearParts /*parts*/,
                                SurfaceContact *found) const
 {
-  const AtRest at_rest(*region);
+  const Talus::RegionAtRest at_rest(*region);
   const int touched = region->surface(x.x, x.y, x.z, radius);
   std::vector<SurfaceContact> all;
   for (int k = 0; k < touched; k++) {
@@ -109,7 +85,7 @@ bool RegionShape::touches(const Vector3<double> &center, double radius,
 bool RegionShape::is_near(const Vector3<double> &x, double reach,
                           std::vector<NearPart> & /*parts*/) const
 {
-  const AtRest at_rest(*region);
+  const Talus::RegionAtRest at_rest(*region);
   return region->surface(x.x, x.y, x.z, reach) > 0;
 }
 

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -203,26 +202,32 @@ std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
 
 /* ---------------------------------------------------------------------- */
 
+RegionAtRest::RegionAtRest(Region &its) : region(its), dynamic(its.dynamic), turns(its.rotateflag)
+{
+  region.dynamic = region.rotateflag = 0;
+}
+
+RegionAtRest::~RegionAtRest()
+{
+  region.dynamic = dynamic;
+  region.rotateflag = turns;
+}
+
 bool RegionInFrame::match(const double *x) const
 {
   double x0[3];
   pose.origin_of(x, x0);
-  const int dynamic = std::exchange(region.dynamic, 0);
-  const bool its = region.match(x0[0], x0[1], x0[2]);
-  region.dynamic = dynamic;
-  return its;
+  const RegionAtRest at_rest(region);
+  return region.match(x0[0], x0[1], x0[2]);
 }
 
 int RegionInFrame::surface(const double *x, double cutoff) const
 {
   double x0[3];
   pose.origin_of(x, x0);
-  const int dynamic = std::exchange(region.dynamic, 0);
-  const int turns = std::exchange(region.rotateflag, 0);
+  const RegionAtRest at_rest(region);
   const int contacts = region.surface(x0[0], x0[1], x0[2], cutoff);
-  region.dynamic = dynamic;
-  region.rotateflag = turns;
-  for (int n = 0; turns && n < contacts; n++) {
+  for (int n = 0; n < contacts; n++) {
     Region::Contact &its = region.contact[n];
     double separation[3] = {its.delx, its.dely, its.delz};
     pose.turn(separation);

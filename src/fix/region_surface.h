@@ -72,6 +72,19 @@ bool is_composite(const LAMMPS_NS::Region &region);
 /// are asked.
 std::string variable_that_may_read_particles(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
 
+/// While it exists, a simple region answers as it was before it moved.
+class RegionAtRest {
+ public:
+  explicit RegionAtRest(LAMMPS_NS::Region &region);
+  ~RegionAtRest();
+  RegionAtRest(const RegionAtRest &) = delete;
+  RegionAtRest &operator=(const RegionAtRest &) = delete;
+
+ private:
+  LAMMPS_NS::Region &region;
+  const int dynamic, turns;
+};
+
 /// Asks a simple region in its own frame: the pose of a step is computed once, where the host does it
 /// again, with a sine and a cosine, for every question. Answers differ by rounding.
 class RegionInFrame {

@@ -57,6 +57,8 @@ void NeighborSource::init(Pair *pair)
   neighbor->add_request(pair, NeighConst::REQ_SIZE |
                                   (own ? NeighConst::REQ_OCCASIONAL : NeighConst::REQ_NEWTON_OFF));
   bins_left_out = false;
+  types_excluded = neighbor->nex_type > 0;
+  groups_excluded = neighbor->nex_group;
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
       (own ? ": finds neighbors itself, as often as neigh_modify says\n"
@@ -83,8 +85,8 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
     search.find(
         {atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin + reach},
         comm->nthreads,
-        neighbor->nex_type || neighbor->nex_group ? [this](int i, int j) { return excludes(i, j); }
-                                                  : std::function<bool(int, int)>());
+        types_excluded || groups_excluded ? [this](int i, int j) { return excludes(i, j); }
+                                          : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
                GranularSystem::of(lmp)->style_name(), problem.what());
@@ -110,13 +112,14 @@ void NeighborSource::leave_bins_out()
   builder->nb = none;
 }
 
-/* `neigh_modify exclude type` and `group`, as the host's lists heed them. */
+/* `neigh_modify exclude type` and `group`, as the host's lists heed them: as they were when a run
+   was set up, for the tables of the host are made then. */
 
 bool NeighborSource::excludes(int i, int j) const
 {
-  if (neighbor->nex_type && neighbor->ex_type[atom->type[i]][atom->type[j]]) return true;
+  if (types_excluded && neighbor->ex_type[atom->type[i]][atom->type[j]]) return true;
   const int a = atom->mask[i], b = atom->mask[j];
-  for (int m = 0; m < neighbor->nex_group; m++) {
+  for (int m = 0; m < groups_excluded; m++) {
     const int one = neighbor->ex1_bit[m], other = neighbor->ex2_bit[m];
     if ((a & one && b & other) || (a & other && b & one)) return true;
   }

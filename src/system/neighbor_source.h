@@ -36,7 +36,8 @@ class NeighborSource : protected Pointers {
   void leave_bins_out();
 
   Talus::NeighborSearch search;
-  bool own = false, bins_left_out = false;
+  bool own = false, bins_left_out = false, types_excluded = false;
+  int groups_excluded = 0;
   std::string said;
 };
 

@@ -42,6 +42,10 @@ void GranularSystem::release_records()
 
 void GranularSystem::renumber_pairs()
 {
+  if (!pair->list)
+    error->all(FLERR,
+               "Pair style {}: 'run ... pre no' cannot follow a new pair style: leave 'pre no' out",
+               style.name);
   if (!laws_current) prepare_laws();
   timer->stamp(Timer::MODIFY);
   pipeline->release();

@@ -86,7 +86,7 @@ class ScriptCase(unittest.TestCase):
 
     def run_command(self, command, **environment):
         env = {key: value for key, value in os.environ.items()
-               if key not in ("LAMMPS_SOURCE_DIR", "LAMMPS_BINARY_DIR", "LAMMPS_PLUGIN_PATH", "CI", "TALUS_INPUTS")}
+               if key not in ("LAMMPS_SOURCE_DIR", "LAMMPS_BINARY_DIR", "LAMMPS_EXECUTABLE", "LAMMPS_PLUGIN_PATH", "CI", "TALUS_INPUTS")}
         env.update({"PATH": self.path("bin") + os.pathsep + self.search_path,
                     "XDG_CACHE_HOME": self.path("cache"), "TALUS_SKIP_PACKAGES": "1",
                     **environment})
@@ -105,6 +105,51 @@ class ScriptCase(unittest.TestCase):
         for part in parts:
             self.assertIn(part, lines[-1])
         return lines
+
+
+class InstalledHost(ScriptCase):
+    """A program in the place of a build directory: preset installed."""
+
+    ANSWER = """
+Large-scale Atomic/Molecular Massively Parallel Simulator - {version}
+
+Compiler: GNU C++ 12.2.0 with OpenMP 4.5
+MPI v3.1: Open MPI v4.1.4
+
+-DLAMMPS_{sizes}
+
+Installed packages:
+
+{packages}
+
+List of individual style options included in this LAMMPS executable
+"""
+
+    def configure(self, version="4 Feb 2025", sizes="SMALLBIG", packages="GRANULAR PLUGIN RIGID", source=True, **more):
+        self.command("lmp", "cat <<'END'" + self.ANSWER.format(version=version, sizes=sizes, packages=packages) + "END\n")
+        environment = {"LAMMPS_SOURCE_DIR": self.source_tree()} if source else {}
+        return self.run_command(
+            [os.environ.get("TALUS_CMAKE", "cmake"), "-S", ROOT, "--preset", "installed", "-B", self.path("build")],
+            **environment, **more)
+
+    def assert_refused(self, result, *parts):
+        self.assertNotEqual(result.returncode, 0, result.stdout)
+        words = " ".join(result.stdout.split())
+        self.assertEqual(words.count("talus: "), 1, result.stdout)
+        for part in parts:
+            self.assertIn(part, words)
+
+    def test_what_does_not_fit(self):
+        self.assert_refused(self.configure(source=False), "LAMMPS_EXECUTABLE needs LAMMPS_SOURCE_DIR")
+        self.assert_refused(self.configure(version="2 Apr 2025"), "is LAMMPS 2 Apr 2025", "that of 4 Feb 2025")
+        self.assert_refused(self.configure(packages="GRANULAR RIGID"), "no package PLUGIN", "-D PKG_PLUGIN=on")
+        self.assert_refused(self.configure(sizes="SMALLSMALL"), "integer sizes 'smallsmall'")
+        self.assert_refused(self.configure(LAMMPS_EXECUTABLE="nonsense", version="x"), "does not answer as LAMMPS does")
+
+    def test_no_such_program(self):
+        result = self.run_command([os.environ.get("TALUS_CMAKE", "cmake"), "-S", ROOT, "--preset", "installed", "-B",
+                                   self.path("build"), "-D", "LAMMPS_EXECUTABLE=lmp-of-mine"])
+        self.assert_refused(result, "no program 'lmp-of-mine'")
 
 
 class Arguments(ScriptCase):

@@ -2,7 +2,9 @@
 # ctest: label=smoke timeout=300 procs=2
 """How the plugin is found, what it refuses, and what `cmake --install` leaves."""
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -267,6 +269,28 @@ class Install(PluginCase):
             self.assertEqual(path, expected)
         result = self.run_lammps("plugin list\n" + USE, env={"LAMMPS_PLUGIN_PATH": folder})
         self.assertIn("pair style plugin gran/penalty", result.log)
+
+
+    def test_configured_for_an_installed_host(self):
+        """Preset installed: what the program says of itself gives the same build as its build directory."""
+        build = self.path("build")
+        env = {**os.environ, "LAMMPS_SOURCE_DIR": os.environ["TALUS_LAMMPS_SOURCE"]}
+        subprocess.run([os.environ.get("TALUS_CMAKE", "cmake"), "-S", os.environ["TALUS_SOURCE_DIR"],
+                        "--preset", "installed", "-B", build,
+                        "-D", "LAMMPS_EXECUTABLE=" + os.environ["TALUS_LMP"]],
+                       check=True, stdout=subprocess.DEVNULL, env=env)
+
+        def definitions(folder):
+            with open(os.path.join(folder, "compile_commands.json")) as file:
+                command, = [entry["command"] for entry in json.load(file)
+                            if entry["file"].endswith("talusplugin.cpp")]
+            return sorted(set(re.findall(r"-D *([^ ]+)", command)))
+        self.assertEqual(definitions(build), definitions(BUILD))
+        presets = subprocess.run([os.environ.get("TALUS_CMAKE", "cmake"), "--list-presets=all"],
+                                 check=True, capture_output=True, text=True,
+                                 cwd=os.environ["TALUS_SOURCE_DIR"]).stdout
+        for name in ("default", "installed", "portable"):
+            self.assertIn(f'"{name}"', presets)
 
 
 if __name__ == "__main__":

@@ -147,6 +147,13 @@ class Progress(unittest.TestCase):
         self.assertEqual(said, lines[:3] + ["WARNING: careful", "--- bed ---", "a  1",
                                             "ERROR: no", "Last input line: x"])
 
+    def test_rows_of_thermo_output_are_no_part_of_a_warning(self):
+        lines = ["WARNING: before", *self.THERMO[:2], "WARNING: between", *self.THERMO[2:4],
+                 "Talus gran/penalty: kernels", "  left out: history"]
+        shown, said = self.follow(lines)
+        self.assertEqual(said, [lines[0], "WARNING: between", *lines[-2:]])
+        self.assertEqual(shown.count("step"), 3)
+
     def test_terminal_rewrites_one_line(self):
         shown, _ = self.follow(["Progress: steps 500", *self.THERMO], terminal=True)
         self.assertNotIn("\n", shown)

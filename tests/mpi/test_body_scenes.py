@@ -30,6 +30,9 @@ class Scenes(SceneCase):
             script = file.read()
         log = self.run_lammps(script, np=np, cwd=self.path("input"), variables={"out": self.dir, **variables}).log
         lines = re.findall(r"^([a-zA-Z /-]+?) {2,}(-?[\d.]\S*)", log.rsplit("\n--- ", 1)[1], re.MULTILINE)
+        self.assertEqual(re.findall("WARNING.*", log), [])
+        ways = set(re.findall(r"steps without output +(.*)", log))
+        self.assertEqual(ways, {"in the records"})
         found = {words: float(number) for words, number in lines}
         print(name, found)
         pictures = glob.glob(self.path(f"{name}.*.png"))
@@ -50,7 +53,7 @@ class Scenes(SceneCase):
         self.assertAlmostEqual(found["torque on the drum / lever of the bed"], 1.0, delta=0.2)
 
     def test_penetration(self):
-        self.simulate("penetration", np=1, width=8, settle=0.15, speed=0.4)
+        self.simulate("penetration", np=1, width=8, settle=0.15, speed=0.4, kn=2e7)
         force = self.table("force.txt")
         quarter = len(force) // 4
         means = [sum(row[1] for row in force[k * quarter:(k + 1) * quarter]) / quarter for k in range(4)]
@@ -83,6 +86,8 @@ class Scenes(SceneCase):
                 rows.append(file.read())
         print(done.output.strip())
         self.assertEqual(rows[0], rows[1], "the same bits on 1 and 2 ranks")
+        with open(self.path("log.wheel")) as log:
+            self.assertLess(len(log.read()), 20000)
         numbers = [list(map(float, line.split(","))) for line in rows[0].splitlines()[1:]]
         last = numbers[len(numbers) // 2:]
         sinkage, lift, torque = (sum(row[k] for row in last) / len(last) for k in (3, 5, 6))

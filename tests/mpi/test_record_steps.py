@@ -32,6 +32,7 @@ fix top all large/body box 4.5 3.5 4.5 5 3 1.5 outside move rotate 4.5 3.5 4.5  
 fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
 fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
 """
+LID = f"fix lid all large/body plane 0 0 6 0 0 -1 move variable NULL NULL v_d NULL NULL NULL contact {LAW}"
 PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes"
 
 
@@ -138,12 +139,17 @@ class RecordSteps(TossedCase):
         touching = re.findall(r"^\d+ \S+ (\S+) *$", frames, re.M)
         self.assertGreater(sum(float.fromhex(number) > 0 for number in touching), 50)
 
+    def test_body_moved_by_a_formula_of_time(self):
+        more = f"variable t equal step*dt\nvariable d equal 0.2*sin(v_t)-0.5*ramp(0,1)\n{LID}"
+        for np, threads in (1, 1), (2, 2):
+            log = self.assert_same(np=np, threads=threads, more=more)
+            self.assertIn(RECORDS, log)
+
     def test_what_looks_in_every_step(self):
         cases = {
             "fix drag all viscous 0.1": "fix drag (viscous): may look at particles in every step",
             "compute e all penalty/stats\nthermo_style custom step c_e[*]": "accounted for",
-            "variable v equal 0.0\nvariable d equal 0.1*step*dt\nvariable s equal 0.1\nfix lid all "
-            f"large/body plane 0 0 6 0 0 -1 move variable NULL NULL v_d NULL NULL v_s contact {LAW}":
+            f"variable d equal 0.1*step*dt+0.0*xcm(all,z)\n{LID}":
                 "fix lid (large/body): its variables may read particles",
         }
         for more, reason in cases.items():

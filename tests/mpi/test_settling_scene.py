@@ -46,6 +46,8 @@ class SettlingScene(SceneCase):
         self.assertLess(bed["largest overlap / radius"], 0.03)
         self.assertAlmostEqual(bed["vertical force on floor and walls/weight"], 1.0, delta=0.01)
         self.assertIn("of the critical one", result.log)
+        self.assertEqual(re.findall("WARNING.*", result.log), [])
+        self.assertRegex(result.log, "steps without output +in the records")
         pictures = glob.glob(os.path.join(result.workdir, "settling.*.png"))
         self.assertGreaterEqual(len(pictures), 4)
         for picture in pictures:

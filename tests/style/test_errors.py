@@ -9,7 +9,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word
+from talus_testing import SceneCase, marked_word, ranks_of_refusal
 
 BOX = """
 units si
@@ -199,10 +199,10 @@ def box(**options):
 
 class Errors(SceneCase):
 
-    def assert_error(self, script, message, word=None):
-        for ranks in 1, 2:
-            with self.subTest(script.splitlines()[-1], ranks=ranks):
-                log = self.run_lammps(script + "\n", np=ranks, expect_error=True, timeout=30).log
+    def assert_error(self, script, message, word=None, ranks=(1, 2)):
+        for np in ranks:
+            with self.subTest(script.splitlines()[-1], ranks=np):
+                log = self.run_lammps(script + "\n", np=np, expect_error=True, timeout=30).log
                 error, = re.findall(r"^ERROR: (.*)", log, re.MULTILINE)    # not "ERROR on proc"
                 self.assertIn(message, error)
                 self.assertEqual(marked_word(log), word)
@@ -213,12 +213,13 @@ class Errors(SceneCase):
                               "pair_style gran/penalty: " + message, word)
 
     def test_pair_coeff(self):
-        for words, message, word in CONTACT:
+        for n, (words, message, word) in enumerate(CONTACT):
             self.assert_error(f"{box()}{STYLE}pair_coeff * * {words}",
-                              "pair_coeff gran/penalty: " + message, word)
-        for words, word in SURPLUS:
+                              "pair_coeff gran/penalty: " + message, word, ranks_of_refusal(n))
+        for n, (words, word) in enumerate(SURPLUS):
             self.assert_error(f"{box()}{STYLE}pair_coeff * * {words}", "pair_coeff gran/penalty: "
-                              f"unknown word '{word}', expected tangential, damping, rolling, spinning", word)
+                              f"unknown word '{word}', expected tangential, damping, rolling, spinning", word,
+                              ranks_of_refusal(n))
 
     def test_contact_of_large_body(self):
         for words, message, word in CONTACT[:3] + CONTACT[11:13] + CONTACT[-3:]:

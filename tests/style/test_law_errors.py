@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase
+from talus_testing import SceneCase, ranks_of_refusal
 
 BOX = """
 units si
@@ -262,7 +262,7 @@ class LawErrors(SceneCase):
     def assert_errors(self, cases, expected_start):
         """cases: (lines after the box, message, marked word); two processes at a time."""
         cases = list(cases)
-        jobs = [(case, np) for case in cases for np in (1, 2)]
+        jobs = [(case, np) for n, case in enumerate(cases) for np in ranks_of_refusal(n)]
         with concurrent.futures.ThreadPoolExecutor(3) as pool:
             logs = list(pool.map(lambda job: self.log_of(f"{BOX}{job[0][0]}\n", job[1]), jobs))
         for ((lines, message, word), np), log in zip(jobs, logs):
@@ -270,7 +270,7 @@ class LawErrors(SceneCase):
                 error, = re.findall(r"^ERROR.*", log, re.MULTILINE)
                 self.assertRegex(error, f"^ERROR: {expected_start}.*{message}")    # not "ERROR on proc"
                 self.assertEqual(marked_word(log), word)
-        print(f"\n{len(cases)} refusals on 1 and 2 ranks")
+        print(f"\n{len(cases)} refusals, {len(jobs) - len(cases)} of them on 2 ranks, too")
 
     def test_pair_coeff(self):
         self.assert_errors(((f"pair_coeff * * {words}", message or f"unknown word '{word}', {KEYWORDS}", word)

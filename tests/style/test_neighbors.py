@@ -10,7 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from tossed_grains import PAIR, TossedCase
+from tossed_grains import LAW, PAIR, TossedCase
 
 OWN = "Talus gran/penalty: finds neighbors itself"
 HOST = "Talus gran/penalty: neighbor lists are those of LAMMPS: "
@@ -67,6 +67,19 @@ class Neighbors(TossedCase):
             with self.subTest(exclude=words):
                 seen.add(self.assert_same(more="neigh_modify exclude " + words)[0])
         self.assertEqual(len(seen), 4)
+
+    def test_what_is_excluded_counts_from_the_next_set_up_on(self):
+        """As in LAMMPS, which makes its tables then."""
+        again = "run 40\n{}run 30 pre no\nrun 60 pre no"
+        plain, _, _ = self.run_scene(run=again.format(""))
+        late, _, _ = self.run_scene(run=again.format("neigh_modify exclude type 1 2\n"))
+        self.assertEqual(plain, late)
+
+    def test_a_run_without_set_up_after_a_new_pair_style(self):
+        for np in 1, 2:
+            with self.subTest(ranks=np), self.assertRaisesRegex(
+                    AssertionError, "return code 1:(.|\n)*Pair style gran/penalty: 'run ... pre no' cannot follow a new"):
+                self.run_scene(run=f"run 5\npair_style none\n{PAIR.format(law=LAW)}\nrun 5 pre no", np=np)
 
     def test_lists_of_a_group_are_those_of_lammps(self):
         _, log, _ = self.run_scene(more="atom_modify first low\nneigh_modify include low")

@@ -1,0 +1,407 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Spheres and planes by the simplest program that can be: every pair in every step, one contact at a
+// time, the leapfrog of `start half`, and the five measures by which contacts that dissipate become
+// of second order in the time step, each of which can be left out. The reference that the laws of
+// the engine are compared with: it shares no code with them. Any consistent units.
+//
+//   damping   velocities at the time of the positions: v(n-1/2) + dt/2 a(n-1), the normal one with
+//             the force of the contact itself implicit, (K d - G v_p)/(1 + G dt/(2 m)), v_p with
+//             what others contribute to a(n-1)
+//   midpoint  increment of the tangential displacement with the normal half way
+//   ends      the step in which a contact begins: a force A tau^p is summed by time steps with the
+//             error A dt^p zeta(-p, theta) (Hurwitz), theta = time since touching/dt
+//             (Euler-Maclaurin for a sum that does not begin on a grid point). Subtracted. The same
+//             for forces that end, in the first step after
+//   slip      a sliding contact moves along the mean of its old and its new force (generalized
+//             midpoint rule: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561)
+//   rolling   a rolling torque opposes the rotation at the time of the positions
+
+#ifndef TALUS_TESTS_SECOND_ORDER_TWIN_H
+#define TALUS_TESTS_SECOND_ORDER_TWIN_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace Twin {
+
+struct Vec {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+inline Vec operator+(Vec a, Vec b)
+{
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec operator-(Vec a, Vec b)
+{
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec operator*(double s, Vec a)
+{
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline double dot(Vec a, Vec b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline double length(Vec a)
+{
+  return std::sqrt(dot(a, a));
+}
+inline Vec cross(Vec a, Vec b)
+{
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vec unit(Vec a)
+{
+  const double l = length(a);
+  return l > 0.0 ? (1.0 / l) * a : Vec{};
+}
+inline Vec across(Vec a, Vec n)
+{
+  return a - dot(a, n) * n;
+}
+/// a in the plane normal to n, with its length.
+inline Vec turned(Vec a, Vec n)
+{
+  return length(a) * unit(across(a, n));
+}
+
+/// Hurwitz' zeta(-p, t), p >= 0, t > 0: Euler-Maclaurin behind the first terms of the sum.
+inline double zeta(double p, double t)
+{
+  constexpr int terms = 12;
+  double sum = 0.0;
+  for (int k = 0; k < terms; k++) sum += std::pow(t + k, p);
+  const double a = t + terms;
+  return sum - std::pow(a, p + 1.0) / (p + 1.0) + 0.5 * std::pow(a, p) -
+         p * std::pow(a, p - 1.0) / 12.0 +
+         p * (p - 1.0) * (p - 2.0) * std::pow(a, p - 3.0) / 720.0 -
+         p * (p - 1.0) * (p - 2.0) * (p - 3.0) * (p - 4.0) * std::pow(a, p - 5.0) / 30240.0;
+}
+
+enum class Damping { MASS, RADIUS, ROOT };    // m g; a m g; g sqrt(m dF/dd)
+
+struct Law {
+  bool hertz = false;
+  Damping damping = Damping::MASS;
+  double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
+  double mu_r = 0.0, mu_s = 0.0, adhesion = 0.0;
+  bool limit_damping = true;
+  bool slider = true;    // else the stock rule
+
+  double elastic_exponent() const { return hertz ? 1.5 : 1.0; }
+  /// Of the coefficients of damping.
+  double damping_exponent() const
+  {
+    if (!hertz || damping == Damping::MASS) return 0.0;
+    return damping == Damping::RADIUS ? 0.5 : 0.25;
+  }
+};
+
+struct Measures {
+  bool damping = true, implicit = true, midpoint = true, ends = true, slip = true, rolling = true;
+
+  static Measures none() { return {false, false, false, false, false, false}; }
+};
+
+struct Particle {
+  Vec x, v, w;
+  double radius = 0.5, mass = 1.0;
+  Vec a{}, alpha{};    // accelerations of the last step
+  Vec force{}, torque{};
+
+  double inertia() const { return 0.4 * mass * radius * radius; }
+};
+
+struct Plane {
+  Vec point, normal;
+};
+
+struct Contact {
+  bool touches = false;
+  double force = 0.0;    // normal one of the last step, as it was applied
+  double pure = 0.0;     // the same without the corrections of beginning and end
+  Vec s;                 // tangential displacement
+};
+
+/// Stiffness and damping of a contact with overlap d.
+struct Coefficients {
+  double kn, gn, kt, gt;
+};
+
+inline Coefficients coefficients(const Law &law, double d, double mass, double radius)
+{
+  const double a = law.hertz ? std::sqrt(radius * std::max(d, 0.0)) : 1.0;
+  const double kn = a * law.kn, kt = a * law.kt;
+  switch (law.damping) {
+  case Damping::MASS:
+    return {kn, mass * law.gn, kt, mass * law.gt};
+  case Damping::RADIUS:
+    return {kn, a * mass * law.gn, kt, a * mass * law.gt};
+  default:
+    return {kn, law.gn * std::sqrt(mass * law.elastic_exponent() * kn), kt,
+            law.gt * std::sqrt(mass * kt)};
+  }
+}
+
+class System {
+ public:
+  Law law;
+  Measures with;
+  Vec gravity{};
+  std::vector<Particle> particles;
+  std::vector<Plane> planes;
+
+  /// From the present time on for `time` in `steps` steps; velocities at the end are those of the
+  /// end.
+  void run(double time, int steps)
+  {
+    dt = time / steps;
+    contacts.assign(particles.size() * (particles.size() + planes.size()), Contact{});
+    lag = 0.0;
+    for (int n = 0; n < steps; n++) {
+      find_forces();
+      for (Particle &p : particles) {
+        p.v = p.v + (lag + 0.5 * dt) * p.a;
+        p.w = p.w + (lag + 0.5 * dt) * p.alpha;
+        p.x = p.x + dt * p.v;
+      }
+      lag = 0.5 * dt;
+    }
+    find_forces();
+    for (Particle &p : particles) {
+      p.v = p.v + lag * p.a;
+      p.w = p.w + lag * p.alpha;
+    }
+  }
+
+ private:
+  double dt = 0.0, lag = 0.0;    // lag: time by which velocities are behind positions
+  std::vector<Contact> contacts;
+
+  struct Pair {
+    Particle *i, *j;    // j: nullptr for a plane
+    Vec n, v, spin, a, alpha;
+    double d, distance, mass, radius, inverse_mass;
+  };
+
+  void find_forces()
+  {
+    for (Particle &p : particles) p.force = p.torque = Vec{};
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < particles.size(); i++) {
+      for (std::size_t j = 0; j < i; j++, place++) meet(particles[j], particles[i], place);
+      for (const Plane &plane : planes) meet(particles[i], plane, place++);
+    }
+    for (Particle &p : particles) {
+      p.a = gravity + (1.0 / p.mass) * p.force;
+      p.alpha = (1.0 / p.inertia()) * p.torque;
+    }
+  }
+
+  void meet(Particle &i, Particle &j, std::size_t place)
+  {
+    const Vec r = i.x - j.x;
+    const double distance = length(r), d = i.radius + j.radius - distance;
+    if (d <= 0.0 && !contacts[place].touches) return;
+    act({&i, &j, (1.0 / distance) * r, i.v - j.v, i.radius * i.w + j.radius * j.w, i.a - j.a,
+         i.radius * i.alpha + j.radius * j.alpha, d, distance, i.mass * j.mass / (i.mass + j.mass),
+         i.radius * j.radius / (i.radius + j.radius), 1.0 / i.mass + 1.0 / j.mass},
+        contacts[place]);
+  }
+
+  void meet(Particle &i, const Plane &plane, std::size_t place)
+  {
+    const double distance = dot(i.x - plane.point, plane.normal), d = i.radius - distance;
+    if (d <= 0.0 && !contacts[place].touches) return;
+    act({&i, nullptr, plane.normal, i.v, i.radius * i.w, i.a, i.radius * i.alpha, d, distance,
+         i.mass, i.radius, 1.0 / i.mass},
+        contacts[place]);
+  }
+
+  void act(const Pair &p, Contact &c)
+  {
+    if (p.d > 0.0)
+      touch(p, c);
+    else
+      part(p, c);
+  }
+
+  void apply(const Pair &p, Vec force, Vec moment, Vec twist)
+  {
+    p.i->force = p.i->force + force;
+    p.i->torque = p.i->torque - p.i->radius * moment + twist;
+    if (!p.j) return;
+    p.j->force = p.j->force - force;
+    p.j->torque = p.j->torque - p.j->radius * moment - twist;
+  }
+
+  /// The sum over the time steps of the force that a contact ends with, less its integral.
+  void part(const Pair &p, Contact &c)
+  {
+    const double speed = dot(p.v, p.n), apart = -p.d;
+    if (with.ends && speed * dt > apart) {
+      const double theta = 1.0 - apart / (speed * dt), reach = speed * dt;
+      const Coefficients most = coefficients(law, reach, p.mass, p.radius);
+      double error = -law.adhesion * zeta(0.0, theta);
+      if (!law.limit_damping || law.gn == 0.0)
+        error += most.kn * reach * zeta(law.elastic_exponent(), theta) -
+                 most.gn * speed * zeta(law.damping_exponent(), theta);
+      apply(p, -error * p.n, Vec{}, Vec{});
+    }
+    c = Contact{};
+  }
+
+  void touch(const Pair &p, Contact &c)
+  {
+    const Coefficients now = coefficients(law, p.d, p.mass, p.radius);
+    const double vn = dot(p.v, p.n), approach = -vn * dt;
+    const bool begins = lag > 0.0 && !c.touches && p.d <= approach;
+    const double theta = begins ? p.d / approach : 1.0;
+    const Coefficients most =
+        begins ? coefficients(law, approach, p.mass, p.radius) : Coefficients{};
+
+    // normal
+    const double forward = with.damping ? lag : 0.0;
+    const double own = with.implicit ? c.force / p.mass : 0.0;
+    const double v_p =
+        vn + forward * (dot(p.a, p.n) - own - (with.implicit ? law.adhesion / p.mass : 0.0));
+    double pure = now.kn * p.d - now.gn * v_p;
+    if (with.implicit) pure /= 1.0 + now.gn * forward / p.mass;
+    if (law.limit_damping) pure = std::max(pure, 0.0);
+    double force = pure;
+    if (begins && with.ends)
+      force -= most.kn * approach * zeta(law.elastic_exponent(), theta) -
+               most.gn * vn * zeta(law.damping_exponent(), theta);
+    double pull = law.adhesion;
+    if (begins && with.ends) pull *= 1.0 - zeta(0.0, theta);
+
+    // tangential
+    Vec friction{};
+    if (law.mu > 0.0) {
+      const Vec u = surface_velocity(p.v + forward * p.a, p.spin + forward * p.alpha, p.n);
+      const Vec wanted = friction_of(p, c, now, u, theta, law.mu * std::fabs(pure));
+      friction = wanted;
+      if (begins && with.ends)
+        friction = friction + zeta(law.elastic_exponent(), theta) * most.kt * dt * u +
+                   zeta(law.damping_exponent(), theta) * most.gt * u;
+      friction = capped(friction, law.mu * std::fabs(force));
+      // sliding all the time: the share of the normal force
+      if (begins && with.ends && slides) friction = (law.mu * std::fabs(force)) * unit(wanted);
+    }
+    Vec moment = cross(p.n, friction), twist{};
+    if (law.mu_r > 0.0) moment = moment + rolling(p, moment, std::max(force, 0.0), forward);
+    if (law.mu_s > 0.0) twist = spinning(p, std::max(force, 0.0), forward);
+    apply(p, (force - pull) * p.n + friction, moment, twist);
+    c.touches = true;
+    c.force = force - pull;
+    c.pure = pure;
+  }
+
+  static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }
+
+  static Vec capped(Vec a, double limit)
+  {
+    const double l = length(a);
+    return l > limit ? (limit / l) * a : a;
+  }
+
+  bool slides = false;
+
+  /// Advances the displacement. Spring and dashpot in parallel, both in series with a slider: the
+  /// force is -f, f = kt s + gt s', |f| <= L, and the slip u - s' is along f.
+  Vec friction_of(const Pair &p, Contact &c, const Coefficients &now, Vec u, double theta,
+                  double limit)
+  {
+    const double lasted = with.midpoint ? theta * dt : dt;
+    const double time = lag > 0.0 ? lasted : 0.0;
+    Vec before, slip;
+    const Vec old_r = p.distance * p.n - dt * p.v;
+    const Vec old_n = p.j ? unit(old_r) : p.n;
+    if (with.midpoint) {
+      const Vec half_n = p.j ? unit(p.distance * p.n - 0.5 * dt * p.v) : p.n;
+      before = turned(c.s, p.n);
+      slip = time * turned(surface_velocity(p.v, p.spin, half_n), p.n);
+    } else {
+      before = across(c.s, p.n);
+      slip = time * surface_velocity(p.v, p.spin, p.n);
+    }
+    const Vec trial = before + slip, f = now.kt * trial + now.gt * u;
+    c.s = trial;
+    slides = length(f) > limit;
+    if (!slides) return -1.0 * f;
+    const double tau = now.gt / now.kt;
+    Vec end = limit * unit(f);
+    if (!law.slider) {
+      c.s = (1.0 / now.kt) * (end - now.gt * u);
+      return -1.0 * end;
+    }
+    if (!with.slip || !c.touches || time == 0.0) {
+      if (time > 0.0) c.s = (1.0 / (tau + time)) * (tau * before + (time / now.kt) * end);
+      const Vec reach = now.kt * c.s + now.gt * u;
+      return -limit * unit(reach);
+    }
+    // the force a step ago
+    const double d0 = std::max(p.d + dt * dot(p.v, p.n), 0.0);
+    const Coefficients old = coefficients(law, d0, p.mass, p.radius);
+    const Coefficients mid = coefficients(law, 0.5 * (d0 + p.d), p.mass, p.radius);
+    const Vec u_old = turned(surface_velocity(p.v - lag * p.a, p.spin - lag * p.alpha, old_n), p.n);
+    const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.pure));
+    const Vec u_mid = (1.0 / time) * slip;
+    const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
+    // g = f/kt: at its limit half way along `along`
+    const Vec g_old = old.kt > 0.0 ? (1.0 / old.kt) * f_old : Vec{};
+    const double most = limit / now.kt, b = dot(along, g_old);
+    const double root = b * b + most * most - dot(g_old, g_old);
+    Vec g = (1.0 / now.kt) * end;
+    if (root >= 0.0 && b + std::sqrt(root) > 0.0) g = (b + std::sqrt(root)) * along - g_old;
+    // tau s' + s = g with g linear in time: second order for small dt/tau, s = g for large
+    const double t_mid = mid.gt / mid.kt;
+    c.s = (1.0 / (t_mid * t_mid + t_mid * dt + 0.5 * dt * dt)) *
+          (t_mid * t_mid * before + (0.5 * t_mid * dt) * g_old + (0.5 * dt * (t_mid + dt)) * g);
+    return -limit * unit(now.kt * c.s + now.gt * u);
+  }
+
+  /// What leaves three quarters of the rotation, at most mu_r F_n.
+  Vec rolling(const Pair &p, Vec moment, double force, double forward) const
+  {
+    const double response = 2.5 * dt * p.inverse_mass;
+    const Vec rotation = cross(p.n, cross(p.spin, p.n));
+    const Vec needed = (0.25 / response) * rotation - moment;
+    const double most = law.mu_r * force;
+    if (length(needed) <= most) return needed;
+    if (!with.rolling) return most * unit(needed);
+    const Vec later = cross(p.n, cross(p.spin + forward * p.alpha, p.n));
+    return most * unit(later);
+  }
+
+  Vec spinning(const Pair &p, double force, double forward) const
+  {
+    Vec w = p.i->w, alpha = p.i->alpha;
+    if (p.j) w = w - p.j->w, alpha = alpha - p.j->alpha;
+    w = w + forward * alpha;
+    const double speed = length(w);
+    if (speed == 0.0) return {};
+    const double response = 2.5 * dt * p.inverse_mass, inverse_radius = 1.0 / p.radius;
+    const double circle = circle_of_intersection(p);
+    const double wanted = law.mu_s * circle * force / speed;
+    const double most = 0.25 / (response * inverse_radius * inverse_radius);
+    return -std::min(wanted, most) * dot(w, p.n) * p.n;
+  }
+
+  static double circle_of_intersection(const Pair &p)
+  {
+    const double ri = p.i->radius;
+    const double to_plane =
+        p.j ? (p.distance * p.distance + ri * ri - p.j->radius * p.j->radius) / (2.0 * p.distance)
+            : p.distance;
+    return std::sqrt(std::max(ri * ri - to_plane * to_plane, 0.0));
+  }
+};
+
+}    // namespace Twin
+
+#endif
