@@ -65,7 +65,7 @@ write_stl("drum_view.stl", view)
 
 # axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
 height = 0.7 * math.tan(math.radians(60))
-profile = [(0.3, 0.0), (1.0, height), (1.0, height + 2.5)]
+profile = [(0.3, 0.0), (1.0, height), (1.0, height + 1.5)]
 write_stl("hopper.stl", turned(profile, 64))
 write_stl("hopper_view.stl", turned(profile, 64, first=0, last=32))    # for pictures: the half with y > 0
 

@@ -1,0 +1,228 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300
+"""Every line of the pages on other codes, on choosing coefficients and on output runs; where a table says "the same", both
+lines give the same motion."""
+
+import os
+import random
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import body_meshes
+from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+
+SOURCE = os.environ["TALUS_SOURCE_DIR"]
+NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
+MOTION = "x y z vx vy vz omegax omegay omegaz".split()
+
+# Slots of the scene, in order; a line of a page takes the place of the slot that it belongs to.
+SCENE = {
+    "pair": ["pair_style gran/hooke/history 1e4 NULL 20 NULL 0.5 1", "pair_coeff * *"],
+    "fix move": ["fix move all nve/sphere"],
+    "fix fall": ["fix fall all gravity 9.81 vector 0 0 -1"],
+    "fix floor": ["fix floor all wall/gran hooke 1e4 NULL 20 10 0.5 1 zplane 0 NULL"],
+}
+HEAD = """
+units lj
+boundary f f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+read_data grains
+neighbor 0.2 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.0005
+"""
+TAIL = """
+thermo 50
+thermo_modify norm no lost error
+run {steps}
+write_dump all custom state id x y z vx vy vz omegax omegay omegaz modify format float %.17g
+"""
+
+
+def slot_of(line):
+    words = line.split()
+    if words[0] in ("pair_style", "pair_coeff"):
+        return "pair"
+    return " ".join(words[:2]) if words[0] == "fix" else None
+
+
+def page(name):
+    with open(os.path.join(SOURCE, "doc", name)) as file:
+        return file.read()
+
+
+def rows(text, first):
+    """Cells of the rows of all tables whose first column is called so."""
+    found, inside = [], False
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")] if line.startswith("|") else []
+        if not cells:
+            inside = False
+        elif cells[0] == first:
+            inside = True
+        elif inside and not cells[0].startswith("---"):
+            found.append(cells)
+    return found
+
+
+def commands(cell):
+    return re.findall(r"`([^`]+)`", cell)
+
+
+def blocks(text):
+    return re.findall(r"^```\n(.*?)^```$", text, re.M | re.S)
+
+
+class PageCase(SceneCase):
+
+    def setUp(self):
+        draw = random.Random(6)
+        grains = [Sphere(tuple(0.9 * s + 0.75 + draw.uniform(-0.02, 0.02) for s in (i, j, 0.9 * k)),
+                         v=tuple(draw.gauss(0, 0.5) for _ in "xyz"), diameter=draw.uniform(0.8, 0.98))
+                  for i in range(5) for j in range(5) for k in range(3)]
+        write_sphere_data(self.path("grains"), ((-8, 8), (-8, 8), (-2, 20)), grains)
+        body_meshes.write_stl(self.path("drum.stl"), body_meshes.sphere((2.5, 2.5, 4), 12, 12))
+        os.makedirs(self.path("post"))
+
+    def simulate(self, lines, replaced=(), steps=60):
+        slots = {name: list(own) for name, own in SCENE.items()}
+        for name in replaced:
+            slots[name] = []
+        more = []
+        before = [line for line in lines if line.startswith("variable")]
+        for line in (line for line in lines if line not in before):
+            slots.get(slot_of(line), more).append(line)
+        text = "\n".join([HEAD, *before, *sum(slots.values(), []), *more, TAIL.format(steps=steps)])
+        return self.run_lammps(text).log
+
+    def replaced_by(self, *lists):
+        return {slot for lines in lists for slot in map(slot_of, lines) if slot in SCENE}
+
+    def state(self):
+        frame, = read_dump(self.path("state"))
+        os.remove(self.path("state"))
+        return frame
+
+
+class FromLammps(PageCase):
+
+    def test_tables(self):
+        text = page("from_lammps.md")
+        compared = 0
+        for theirs, ours, differs in rows(text, "LAMMPS"):
+            theirs, ours = commands(theirs), commands(ours)
+            with self.subTest(theirs[-1]):
+                self.simulate(theirs, self.replaced_by(theirs))
+                reference = self.state()
+                log = self.simulate(ours, self.replaced_by(theirs, ours))
+                self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
+                frame = self.state()
+                if differs.startswith("the same") or (NEW and differs.endswith("releases: the same")):
+                    compared += 1
+                    self.assertLess(max_difference(frame, reference, MOTION), 1e-8)
+        self.assertGreater(compared, 15)
+
+    def test_one_law_for_many_bodies(self):
+        block, = blocks(page("from_lammps.md"))
+        self.simulate(block.splitlines(), {"pair", "fix floor"})
+
+
+class FromLiggghts(PageCase):
+    """Each row is a script: the lines of the table of the set-up, a few grains, and what the row does not bring itself."""
+
+    GRAINS = """create_atoms 1 single 0.0 0.0 0.012
+create_atoms 1 single 0.0025 0.001 0.014
+set group all diameter 0.003
+set group all density 2500"""
+    PAIR = "pair_style gran/penalty\npair_coeff * * ${law}"
+    MOVE = "fix integr all nve/sphere/symplectic gravity 9.81 vector 0 0 -1"
+
+    def script(self, setup, law, lines):
+        early = [line for line in lines if line.split()[0] in ("region", "create_atoms", "set", "variable")]
+        late = [line for line in lines if line not in early]
+        return "\n".join([
+            "units si", *setup, "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1", "create_box 1 box", law, *early,
+            *([] if any(line.startswith("create_atoms") for line in early) else [self.GRAINS]),
+            *([] if any(line.startswith("pair_style") for line in late) else [self.PAIR]), "timestep 1e-6",
+            *([] if any("nve/sphere" in line for line in late) else [self.MOVE]), *late, "run 20"])
+
+    def test_tables(self):
+        text = page("from_liggghts.md")
+        scripts = [(theirs, commands(ours)) for theirs, ours, *_ in rows(text, "LIGGGHTS")]
+        setup = [line for _, lines in scripts for line in lines
+                 if line.split()[0] in ("atom_style", "comm_modify", "newton", "boundary", "neighbor", "neigh_modify")]
+        block, = blocks(text)
+        law = block.splitlines()[0]
+        bodies = 0
+        for theirs, lines in scripts:
+            lines = [line for line in lines if line not in setup]
+            if not lines:
+                continue
+            with self.subTest(theirs):
+                log = self.run_lammps(self.script(setup, law, lines)).log
+                self.assertEqual(re.findall("WARNING.*", log), [])
+                bodies += "large/body" in log
+        self.assertGreater(bodies, 8)
+        self.run_lammps(self.script(setup, law, block.splitlines()[1:]))
+
+
+class Choosing(PageCase):
+    """The coefficients that the scripts of the page compute have the restitution and the overlap that were asked for."""
+
+    IMPACT = """
+create_atoms 1 single -0.001501 0 0
+create_atoms 1 single 0.001501 0 0
+set group all diameter ${d}
+set group all density ${rho}
+set atom 1 vx $(0.5*v_v)
+set atom 2 vx $(-0.5*v_v)
+"""
+    REST = """
+fix move all nve/sphere/symplectic
+compute overlap all pair/local p11
+compute deepest all reduce max c_overlap inputs local
+variable speed equal vx[2]-vx[1]
+thermo_style custom step c_deepest v_speed
+thermo 1
+run 60
+"""
+
+    def test_impacts(self):
+        head = ("units si\natom_style sphere\natom_modify map yes\ncomm_modify vel yes\nboundary f f f\n"
+                "region box block -0.01 0.01 -0.01 0.01 -0.01 0.01\ncreate_box 1 box\n")
+        found = blocks(page("choosing.md"))
+        self.assertEqual(len(found), 2)
+        for block in found:
+            variables, commands_of_talus = block.split("\npair_style")
+            log = self.run_lammps(head + variables + self.IMPACT + "pair_style" + commands_of_talus + self.REST).log
+            self.assertNotIn("WARNING", log)
+            table = thermo(log)
+            self.assertAlmostEqual(table[-1]["v_speed"], 0.8 * 0.5, delta=0.01)
+            deepest = max(abs(row["c_deepest"]) for row in table if abs(row["c_deepest"]) < 1)
+            self.assertGreater(deepest, 0.007)
+            self.assertLess(deepest, 0.0101)
+
+
+class Output(PageCase):
+
+    def test_tables(self):
+        found = [commands(lines) for _, lines in rows(page("output.md"), "what you want")]
+        self.assertGreater(len(found), 20)
+        talus = ["pair_style gran/penalty", "pair_coeff * * ${law}",
+                 "fix floor all large/body plane 0 0 0 0 0 1 contact ${law}"]
+        law = 'variable law string "hooke 1e4 20 tangential multistep NULL NULL 0.5"'
+        for lines in found:
+            with self.subTest(lines[-1]):
+                log = self.simulate([law, *talus, *lines], {"pair", "fix floor"}, steps=100)
+                self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
+                for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
+                    self.assertTrue(os.path.getsize(self.path(name)))
+
+
+if __name__ == "__main__":
+    unittest.main()
