@@ -173,7 +173,7 @@ class EachEntry(Case):
                                  more=floor)
             lost = rows[0]["c_r"] - rows[-1]["c_r"]
             self.assertGreater(lost, 0.05 * rows[0]["c_r"])
-            self.assert_close(rows[-1][RESISTANCE], lost, 1e-6)
+            self.assert_close(rows[-1][RESISTANCE], lost, 2e-4)    # of first order in the time step
             self.assertEqual(rows[-1][TANGENTIAL], 0.0)
 
     def test_sliding_at_a_given_speed(self):
