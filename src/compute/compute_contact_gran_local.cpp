@@ -170,7 +170,7 @@ void ComputeContactGranLocal::compute_local()
 {
   invoked_local = update->ntimestep;
   values.clear();
-  system->for_each_contact([&](const SurveyedContact &one) {
+  system->for_each_contact(Talus::Ask::ALL, [&](const SurveyedContact &one) {
     if (!is_of_this_rank(one)) return;
     const Row row = row_of(one);
     for (const auto value : columns) values.push_back(value(row));

@@ -65,7 +65,7 @@ void ComputePenaltyStats::setup()
 ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
 {
   Survey found;
-  system->for_each_contact([&](const Talus::SurveyedContact &one) {
+  system->for_each_contact(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
     found.stored += one.share * one.stored;
     if (one.body < 0) return;
     found.with_bodies += 1.0;

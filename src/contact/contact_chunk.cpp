@@ -373,9 +373,9 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
     const double share = order.share(pairs.first[block[n]], pairs.second[block[n]]);
     for (auto &its : batch.work) its[lane_of_contact[n]] *= share;
   }
-  Vec8 sum[num_causes] = {};
+  Vec8 sum[ContactBatch::num_causes] = {};
   for (int k = 0; k < ranges.back().end; k += lanes)
-    for (int n = 0; n < num_causes; n++) sum[n] = sum[n] + load8(&batch.work[n][k]);
+    for (int n = 0; n < ContactBatch::num_causes; n++) sum[n] = sum[n] + load8(&batch.work[n][k]);
   its_work += {sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
 }
 
@@ -402,7 +402,7 @@ void ContactChunk::add_work_left(const WorkAccount &to) const
 {
   for (const WorkLeft &left : work_left)
     for (double **rows : to.by_particle)
-      for (int n = 0; n < num_causes; n++) rows[left.atom][n] += left.half[n];
+      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][n] += left.half[n];
 }
 
 double ContactChunk::memory_usage() const

@@ -14,7 +14,6 @@
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
-#include "laws/contact_work.h"
 #include "material/law_table.h"
 #include "neighbors/pair_list.h"
 #include "particles/particle_records.h"
@@ -169,7 +168,7 @@ class ContactChunk {
   EnergyByCause its_work;
   struct WorkLeft {
     int atom;
-    double half[num_causes];
+    double half[ContactBatch::num_causes];
   };
   std::vector<WorkLeft> work_left;
   int block_size = ContactBatch::width;

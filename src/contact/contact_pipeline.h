@@ -150,7 +150,7 @@ class ContactPipeline {
   /// visit(contact) for each contact of the last compute(), with the state that it found and the
   /// history after it, while the pairs are there. `dt`: of that step.
   using VisitContact = std::function<void(const SurveyedContact &)>;
-  void for_each_contact(double dt, const VisitContact &visit) const;
+  void for_each_contact(double dt, Ask ask, const VisitContact &visit) const;
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
@@ -176,7 +176,7 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
-  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt) const;
+  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt, Ask ask) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void make_room();

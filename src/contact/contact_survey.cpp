@@ -54,7 +54,7 @@ double ContactPipeline::early_share() const
 /* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
 
 SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair,
-                                        double dt) const
+                                        double dt, Ask ask) const
 {
   const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
   const Record &xi = particles.position[i], &xj = particles.position[j];
@@ -86,15 +86,15 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
   SurveyedContact found{order.atom_of_slot[i], order.atom_of_slot[j], -1, -1, order.share(i, j),
                         s.normal, s.overlap, {}, {}, {}, {}, {}};
   const int row = chunk.row_of_pair(scene, pair);
-  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, found);
+  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, ask, found);
   return found;
 }
 
-void ContactPipeline::for_each_contact(double dt, const VisitContact &visit) const
+void ContactPipeline::for_each_contact(double dt, Ask ask, const VisitContact &visit) const
 {
   if (!pairs_known) return;
   for (const ContactChunk &chunk : chunks)
-    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt)); });
+    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt, ask)); });
 }
 
 double ContactPipeline::squared_distance(int slot_a, int slot_b) const

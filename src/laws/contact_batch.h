@@ -41,7 +41,8 @@ struct ContactBatch {
 
   /// Only of kernels that account for energies: work that normal damping, tangential forces and
   /// resistance take from the bodies in the step, see contact_work.h; and `history` before it.
-  alignas(64) double work[3][width];
+  static constexpr int num_causes = 3;
+  alignas(64) double work[num_causes][width];
   alignas(64) double before[history_size][width];
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.

@@ -31,9 +31,10 @@ ContactLanes<double> response_of(const ContactLaw &law, const ContactCoefficient
 
 void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
                     const ContactState<double> &state, double dt, const RememberedValues &memory,
-                    SurveyedContact &to)
+                    Ask ask, SurveyedContact &to)
 {
-  const ContactLanes<double> s = single_contact(law, row, state, dt, memory);
+  const Stage last = ask == Ask::ALL ? Stage::HEAT : Stage::NORMAL;
+  const ContactLanes<double> s = single_contact(law, row, state, dt, memory, last);
   const HistoryLayout history = law.history();
   const auto stored = [&](Stage stage) {
     double values[ContactBatch::history_size] = {};

@@ -57,11 +57,14 @@ struct SurveyedContact {
   EnergyByCause stored;
 };
 
-/// Of `memory` after the step: fills in force, torques, memory and stored energy, in the frame of
-/// `state`.
+/// Which numbers of a contact are asked for: energies alone are found faster.
+enum class Ask : bool { ENERGIES, ALL };
+
+/// Of `memory` after the step: fills in memory, stored energy and, if asked for, force and torques,
+/// in the frame of `state`.
 void survey_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                     const ContactState<double> &state, double dt, const RememberedValues &memory,
-                    SurveyedContact &to);
+                    Ask ask, SurveyedContact &to);
 
 /// The state of one lane of a batch, as before its kernel has run.
 ContactState<double> state_of_lane(const ContactBatch &batch, int lane);

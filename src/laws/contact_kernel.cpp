@@ -129,7 +129,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
 
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory)
+                                    const RememberedValues &memory, Stage last)
 {
   ContactLanes<double> s;
   static_cast<ContactState<double> &>(s) = state;
@@ -147,6 +147,7 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
     s.age = impact.age;
   }
   for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (stage > last) return;
     if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < its.odd_history + its.even_history; n++)

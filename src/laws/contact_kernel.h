@@ -70,10 +70,11 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance);
 /// The kernel that advances, and finds ContactBatch::work: the same bits.
 ContactKernel accounting_kernel(const ContactLaw &law, bool uniform);
 
-/// One contact alone, history only read: for queries. Same bits as the kernels.
+/// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory = {});
+                                    const RememberedValues &memory = {},
+                                    Stage last = Stage::HEAT);
 
 }    // namespace Talus
 

@@ -24,7 +24,7 @@ void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &i
     load_found<Stage::HEAT>(b, k, s);
     ContactWork<Vec8> work;
     find_work<friction, twists>(s, in.dt, work);
-    for (int n = 0; n < num_causes; n++) store(&b.work[n][k], work[n]);
+    for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 

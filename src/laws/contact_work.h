@@ -10,10 +10,11 @@
 // the work lacks what is of second order in the step, except for the parts that do not cancel over
 // a contact, the lag:
 //   springs     the energy that the displacement of this step alone would store, where the contact
-//               sticks: then a spring takes what it stores and gives all of it back
+//               sticks: then a spring takes what it stores and gives all of it back. Less what the
+//               dashpot beside it changes, with the change of velocity by the force itself
+//   sliding     of a contact with a spring, that the limit of friction grows with the overlap
 //   damping     the change of velocity by the damping force itself, dt^2 F^2/(2 m_eff)
-// Sums over an impact of two bodies are of second order in the step by this, but for friction that
-// slides, of first.
+// The rest is of first order in the step; see doc/compute_penalty_stats.md for how much it is.
 
 #ifndef TALUS_LAWS_CONTACT_WORK_H
 #define TALUS_LAWS_CONTACT_WORK_H
@@ -28,13 +29,12 @@ class ContactLaw;
 
 /// Rows of ContactBatch::work.
 enum class Cause : int { DAMPING, FRICTION, RESISTANCE };
-inline constexpr int num_causes = 3;
 inline constexpr Cause cause_of(Stage stage)
 {
   return stage == Stage::TANGENTIAL ? Cause::FRICTION : Cause::RESISTANCE;
 }
 
-template <class Real> using ContactWork = Real[num_causes];
+template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
 /// The work without the lag of springs, once all stages have run. `twists`: as ContactLaw::twists().
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
@@ -80,7 +80,14 @@ TALUS_INLINE void take_lag(const ContactLanes<Real> &s, const typename L::templa
     constexpr double rounding = 1.0e-9;
     const Real limit = (1.0 - rounding) * c.mu * s.critical_force;
     const Vector3<Real> tangential = s.force - dot(s.force, s.normal) * s.normal;
-    its = its - select(dot(tangential, tangential) < limit * limit, lag, zero);
+    constexpr double response = 1.0 + 2.5;    // of a sphere's surface, times 1/m
+    const Real change = (0.5 * response * dt * dt) * s.inverse_mass * L::drag(s, c) *
+                        dot(tangential, surface_velocity(s));
+    // beyond it, the limit changes with the overlap
+    const Vector3<Real> velocity = surface_velocity(s);
+    const Real tightened = -0.5 * dt * dt * c.mu * s.tangent_n * s.normal_velocity *
+                           square_root(dot(velocity, velocity));
+    its = its - select(dot(tangential, tangential) < limit * limit, lag + change, tightened);
   } else {
     Real slip = zero, length = zero;
     for (int n = 0; n < L::spring_size; n++) {

@@ -107,7 +107,7 @@ struct Fused {
       take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);
     if constexpr (has_lag<Twisting>)
       take_lag<Twisting>(s, c.twisting, before + to_twisting, now + to_twisting, dt, work);
-    for (int n = 0; n < num_causes; n++) Memory<Real>::store(&b.work[n][k], work[n]);
+    for (int n = 0; n < ContactBatch::num_causes; n++) Memory<Real>::store(&b.work[n][k], work[n]);
   }
 
   template <bool accounts>

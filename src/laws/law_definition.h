@@ -15,6 +15,7 @@
 //   stored(s, c, history)   its energy, if it stores some
 //   rate(s, c, r) of laws that remember a spring in their first spring_size values: how fast these
 //                 change where the contact sticks. stored() is then for any Real.
+//   drag(s, c)    force/velocity of the dashpot beside it, of tangential laws
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
 // law_list.cpp makes it known to all.
@@ -277,9 +278,9 @@ template <class L> void run_lag(ContactBatch &b, int begin, int end, const Stage
       now[n] = load8(&b.history[in.places[n]][k]);
     }
     ContactWork<Vec8> work;
-    for (int n = 0; n < num_causes; n++) work[n] = load8(&b.work[n][k]);
+    for (int n = 0; n < ContactBatch::num_causes; n++) work[n] = load8(&b.work[n][k]);
     take_lag<L>(s, c, before, now, in.dt, work);
-    for (int n = 0; n < num_causes; n++) store(&b.work[n][k], work[n]);
+    for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 

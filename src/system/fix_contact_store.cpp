@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -165,32 +166,24 @@ void FixContactStore::end_of_step()
   if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
 }
 
-/* A square that overflows counts as well: energies and moves are no numbers then. */
+/* A square that overflows counts as well: energies and moves are no numbers then. The rank that has
+   one says so: nothing is asked of the others, for this is also done at each rebuild. */
 
 void FixContactStore::require_numbers() const
 {
-  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
-  double **const rows[] = {atom->x, atom->v, atom->omega};
-  constexpr double none = std::numeric_limits<double>::max();
-  struct {
-    double tag = none;
-    int quantity = 0;
-  } mine, worst;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int q = 0; q < 3; q++) {
-      const double *v = rows[q][i], square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-      if (std::isfinite(square) || atom->tag[i] >= mine.tag) continue;
-      mine.tag = static_cast<double>(atom->tag[i]);
-      mine.quantity = q;
+  const std::pair<const char *, double **> rows[] = {
+      {"position", atom->x}, {"velocity", atom->v}, {"angular velocity", atom->omega}};
+  for (const auto &[quantity, row] : rows)
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double *v = row[i];
+      if (std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) continue;
+      error->one(FLERR,
+                 "Pair style {}: the {} of particle {} is not a number, or much too large, at step "
+                 "{}: use a smaller time step, or look for what has set it (velocity, set, "
+                 "read_data, a fix)",
+                 Talus::GranularSystem::of(lmp)->style_name(), quantity, atom->tag[i],
+                 update->ntimestep);
     }
-  MPI_Allreduce(&mine, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
-  if (worst.tag == none) return;
-  error->all(FLERR,
-             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
-             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
-             "a fix)",
-             Talus::GranularSystem::of(lmp)->style_name(), quantities[worst.quantity], worst.tag,
-             update->ntimestep);
 }
 
 /* From here on each particle carries its slot along, also if it is moved or deleted before

@@ -196,7 +196,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void add_work(const EnergyByCause &its) { account.sum += its; }
   /// visit(contact) for the contacts of the last step on this rank, of pairs and large bodies: those
   /// with a ghost as well. Behind a run only as long as someone observes them.
-  void for_each_contact(const ContactPipeline::VisitContact &visit);
+  void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
 
   /// What a run warns about; registered by all who check something.
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }

@@ -190,9 +190,9 @@ bool LargeBody::accounts() const
   return is_asked || was_asked || system.accounts_for_work();
 }
 
-void LargeBody::for_each_contact(const BodyContacts::VisitContact &visit)
+void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visit)
 {
-  contacts.for_each_contact(*its_shape, *frame, view(), update->dt, visit);
+  contacts.for_each_contact(*its_shape, *frame, view(), update->dt, ask, visit);
 }
 
 /* What a spring has taken it stores, or has lost: it does not matter here. */
@@ -201,7 +201,7 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated, all;
-  for_each_contact([&](const SurveyedContact &one) { here += one.stored.normal; });
+  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) { here += one.stored.normal; });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

@@ -109,7 +109,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// a run in which nobody asks.
   double energy();
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
-  void for_each_contact(const BodyContacts::VisitContact &visit);
+  void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
   VtkPolyData picture() const { return make_picture(); }

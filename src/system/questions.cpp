@@ -77,7 +77,7 @@ std::vector<double **> GranularSystem::work_lists() const
   return lists;
 }
 
-void GranularSystem::for_each_contact(const ContactPipeline::VisitContact &visit)
+void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
   if (kept) {
     for (const SurveyedContact &one : *kept)
@@ -85,10 +85,10 @@ void GranularSystem::for_each_contact(const ContactPipeline::VisitContact &visit
     return;
   }
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
-    pipeline->for_each_contact(update->dt, visit);
+    pipeline->for_each_contact(update->dt, ask, visit);
   int number = 0;
   for (const auto &body : large_bodies) {
-    body->for_each_contact([&](SurveyedContact one) {
+    body->for_each_contact(ask, [&](SurveyedContact one) {
       one.body = number;
       visit(one);
     });
@@ -103,7 +103,7 @@ void GranularSystem::remember_contacts()
   pipeline->remember_contacts();
   if (observers.empty() || kept) return;
   std::vector<SurveyedContact> all;
-  for_each_contact([&](const SurveyedContact &one) { all.push_back(one); });
+  for_each_contact(Ask::ALL, [&](const SurveyedContact &one) { all.push_back(one); });
   kept = std::move(all);
 }
 

@@ -23,8 +23,8 @@ pair_coeff * * {LAW}
 neighbor 0.002 bin
 timestep 2e-5
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
-fix tank all large/body box 0 0 0 0.05 0.04 0.2 inside contact {LAW}
-fix stone all large/body box 0.02 0.015 -0.005 0.03 0.025 0.008 contact {LAW}
+fix tank all large/body box 0.025 0.02 0.1 0.05 0.04 0.2 inside contact {LAW}
+fix stone all large/body box 0.025 0.02 0.0 0.012 0.012 0.016 outside contact {LAW}
 compute rows all contact/gran/local {" ".join(WORDS)}
 compute number all contact/gran/atom
 compute lost all dissipation/gran/atom

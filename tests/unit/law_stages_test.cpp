@@ -121,12 +121,12 @@ TEST(Laws, StoreTheEnergyOfTheirSprings)
   s.overlap = 0.5;
   s.inverse_mass = s.inverse_radius = 1.0;
   SurveyedContact e;
-  survey_contact(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}}, e);
+  survey_contact(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}}, Ask::ENERGIES, e);
   EXPECT_DOUBLE_EQ(e.stored.normal, 0.5 * 4.0 * 0.25 - 0.25 * 0.5);
   EXPECT_DOUBLE_EQ(e.stored.tangential, 0.5 * 2.0 * 0.25);
   EXPECT_EQ(e.stored.resistance, 0.0);
   law.normal = Normal::HERTZ;
-  survey_contact(law, row_of(law, c), s, 1e-3, {}, e);
+  survey_contact(law, row_of(law, c), s, 1e-3, {}, Ask::ALL, e);
   EXPECT_NEAR(e.stored.normal, 0.4 * 4.0 * std::sqrt(0.5) * 0.25 - 0.125, 1e-15);
 }
 

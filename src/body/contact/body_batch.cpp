@@ -241,7 +241,7 @@ void BodyBatch::survey() const
                           by_parts ? part_of_lane[lane] : -1, 1.0,
                           lane_of(batch.normal, lane), batch.overlap[lane], {}, {}, {}, {}, {}};
     survey_contact(law, task->laws.coefficients(batch.coefficients[lane]),
-                   state_of_lane(batch, lane), task->dt, memory, found);
+                   state_of_lane(batch, lane), task->dt, memory, task->ask, found);
     if (frame.turned) {
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);

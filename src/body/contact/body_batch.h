@@ -19,7 +19,6 @@
 #include "body/shape/large_body_shape.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
-#include "laws/contact_work.h"
 #include "material/law_table.h"
 
 #include <cstdint>
@@ -52,6 +51,7 @@ struct BodyTask {
   const WorkAccount *account;        ///< nullptr, or asks for the work of contacts
   /// nullptr, or is called with each contact, by one thread, instead of adding forces.
   const std::function<void(const SurveyedContact &)> *survey;
+  Ask ask = Ask::ALL;
   bool with_history, with_impact;    ///< of any law
 
   static constexpr int spare = 128;

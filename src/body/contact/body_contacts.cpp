@@ -68,6 +68,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.touched != nullptr,
           step.account,
           nullptr,
+          Ask::ALL,
           with_history,
           with_impact};
 }
@@ -147,7 +148,7 @@ EnergyByCause BodyContacts::static_work() const
 /* Contacts are found where they have been found before, so that their histories stay. */
 
 void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                                    const BodyParticleView &view, double dt,
+                                    const BodyParticleView &view, double dt, Ask ask,
                                     const VisitContact &visit)
 {
   index_candidates(shape, view);
@@ -156,6 +157,7 @@ void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame
   step.advance = false;
   BodyTask task = task_of(shape, frame, view, step);
   task.survey = &visit;
+  task.ask = ask;
   BodyBatch{}.compute(task, 0, candidates.size());
 }
 

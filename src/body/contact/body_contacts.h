@@ -78,7 +78,8 @@ class BodyContacts {
   /// Every contact, once the forces of a step have been computed: visit(contact). `dt`: of the step.
   using VisitContact = std::function<void(const SurveyedContact &)>;
   void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                        const BodyParticleView &view, double dt, const VisitContact &visit);
+                        const BodyParticleView &view, double dt, Ask ask,
+                        const VisitContact &visit);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.

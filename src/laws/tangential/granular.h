@@ -110,6 +110,12 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
   }
 
   template <class Real>
+  static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
+  {
+    return c.xt * s.gn;
+  }
+
+  template <class Real>
   TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> &c, Real *r)
   {
     const Real unit = of_force ? -granular_stiffness<scaled>(c, s) : splat<Real>(1.0);
@@ -190,6 +196,12 @@ struct GranularClassic : GranularFriction {
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
     return 0.5 * granular_stiffness<scaled>(c, s) * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+  }
+
+  template <class Real>
+  static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
+  {
+    return c.xt * s.gn;
   }
 
   template <class Real>

@@ -66,6 +66,12 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   }
 
   template <class Real>
+  static Real drag(const ContactLanes<Real> &s, const Row<Real> & /*c*/)
+  {
+    return s.gt;
+  }
+
+  template <class Real>
   TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
   {
     const Vector3<Real> v = surface_velocity(s);
