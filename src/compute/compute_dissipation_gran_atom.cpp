@@ -71,6 +71,7 @@ void ComputeDissipationGranAtom::add_springs(double **to, double sign) const
     const double share = sign * (one.body < 0 ? 0.5 : 1.0);
     for (const int i : {one.i, one.j}) {
       if (i < 0 || i >= nlocal) continue;
+      to[i][0] += share * one.stored.tearing;
       to[i][1] += share * one.stored.tangential;
       to[i][2] += share * one.stored.resistance;
     }

@@ -132,7 +132,8 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   gather<friction, history_kept>(step.particles, end);
   if (scene.with_impact) gather_impacts(end);
   finish_geometry(end, friction);
-  if (scene.with_twisting) gather_for_twisting(step.particles, end, scene.with_resistance || step.account);
+  if (scene.with_twisting)
+    gather_for_twisting(step.particles, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(end);
@@ -206,8 +207,8 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   for (const LawRange &range : ranges) {
     const ContactKernel &kernel = step.account && step.advance
-        ? laws.accounting_kernel(range.law)
-        : laws.kernel(range.law, step.advance);
+                                      ? laws.accounting_kernel(range.law)
+                                      : laws.kernel(range.law, step.advance);
     kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
     // not written by the kernels of laws that have none
     const ContactLaw &law = laws.distinct_law(range.law);
@@ -376,7 +377,7 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
   Vec8 sum[ContactBatch::num_causes] = {};
   for (int k = 0; k < ranges.back().end; k += lanes)
     for (int n = 0; n < ContactBatch::num_causes; n++) sum[n] = sum[n] + load8(&batch.work[n][k]);
-  its_work += {sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
+  its_work += EnergyByCause{sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
 }
 
 /* Of an owned particle, all contacts are computed on its rank: no other one has a part. */
@@ -390,9 +391,8 @@ void ContactChunk::account_by_particle(const Step &step, const std::uint32_t *bl
     if (order.is_owned(j)) add_work(*step.account, j, batch, lane, 0.5);
     if (!order.is_owned(i)) continue;
     if (pairs.is_foreign(first))
-      work_left.push_back({i,
-                           {0.5 * batch.work[0][lane], 0.5 * batch.work[1][lane],
-                            0.5 * batch.work[2][lane]}});
+      work_left.push_back(
+          {i, {0.5 * batch.work[0][lane], 0.5 * batch.work[1][lane], 0.5 * batch.work[2][lane]}});
     else
       add_work(*step.account, i, batch, lane, 0.5);
   }

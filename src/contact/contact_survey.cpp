@@ -53,8 +53,8 @@ double ContactPipeline::early_share() const
 
 /* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
 
-SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair,
-                                        double dt, Ask ask) const
+SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair, double dt,
+                                        Ask ask) const
 {
   const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
   const Record &xi = particles.position[i], &xj = particles.position[j];
@@ -80,11 +80,21 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
 
   RememberedValues memory;
   if (scene.with_history && chunk.history.touches(pair))
-    memory = remembered_values(chunk.history.record(pair), chunk.history.with_impacts()
-                                                               ? chunk.history.impact(pair)
-                                                               : no_history);
-  SurveyedContact found{order.atom_of_slot[i], order.atom_of_slot[j], -1, -1, order.share(i, j),
-                        s.normal, s.overlap, {}, {}, {}, {}, {}};
+    memory =
+        remembered_values(chunk.history.record(pair),
+                          chunk.history.with_impacts() ? chunk.history.impact(pair) : no_history);
+  SurveyedContact found{order.atom_of_slot[i],
+                        order.atom_of_slot[j],
+                        -1,
+                        -1,
+                        order.share(i, j),
+                        s.normal,
+                        s.overlap,
+                        {},
+                        {},
+                        {},
+                        {},
+                        {}};
   const int row = chunk.row_of_pair(scene, pair);
   survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, ask, found);
   return found;

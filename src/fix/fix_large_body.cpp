@@ -28,7 +28,7 @@ using namespace Talus;
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->add_body(this)), motion(lmp),
-    monitor(lmp)
+    side(lmp), monitor(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -39,6 +39,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
   body.set_shape(LargeBodyShapes(lmp, words).parse(two_sided));
   surface = std::make_unique<LargeBodySurface>(lmp, body.shape());
+  side.watch(body.shape());
   parse_keywords(words);
   motion.finish(body.shape().reference_point());
   body.set_frame(&motion.frame(), motion.moves());
@@ -48,8 +49,9 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   body.keep_history();
   offer_output();
   keep_history();
-  system->run_monitor().add(this, monitor.checks([this] { return body.find_worst(); },
-                                                 [this] { return motion.moves(); }, id));
+  system->run_monitor().add(this,
+                            monitor.checks([this] { return body.find_worst(); },
+                                           [this] { return motion.moves(); }, side.mesh(), id));
 }
 
 FixLargeBody::~FixLargeBody()
@@ -73,7 +75,8 @@ void FixLargeBody::offer_output()
   virial_global_flag = virial_peratom_flag = 1;
   dynamic_group_allow = 1;
   time_depend = motion.depends_on_time() ? 1 : 0;
-  restart_global = body.keeps_history() || motion.moves() || surface->records() ? 1 : 0;
+  restart_global =
+      body.keeps_history() || motion.moves() || surface->records() || side.is_open() ? 1 : 0;
   nevery = surface->picture_interval();
   if (!surface->records()) return;
   array_flag = 1;
@@ -115,10 +118,6 @@ void FixLargeBody::parse_contact_words(Words &words)
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
   const int at_normal = words.index();
   const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
-  if (parsed.law.normal().lasts_beyond_contact)
-    words.fail(words.index() - at_normal,
-               std::string("contacts of ") + parsed.law.normal().name +
-                   " last beyond zero overlap, which those of large bodies do not: use dmt");
   if (parsed.law.conducts_heat())
     words.fail(words.index() - at_normal,
                "large bodies have no temperature: remove 'heat', or use fix wall/gran granular");
@@ -138,6 +137,7 @@ void FixLargeBody::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   motion.init();
+  monitor.start();
   system->run_monitor().start();
   follow_region();
   body.init();
@@ -183,6 +183,7 @@ void FixLargeBody::min_post_neighbor()
 
 void FixLargeBody::post_neighbor()
 {
+  side.decide(groupbit, motion.frame());
   body.list_particles();
 }
 

@@ -14,6 +14,7 @@
 #include "fix.h"
 #include "fix/large_body_monitor.h"
 #include "fix/large_body_motion.h"
+#include "fix/large_body_side.h"
 #include "fix/large_body_surface.h"
 #include "laws/contact_words.h"
 #include "system/granular_system.h"
@@ -80,6 +81,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   bool two_sided = false;
   LargeBodyMotion motion;
   std::unique_ptr<LargeBodySurface> surface;
+  LargeBodySide side;
   LargeBodyMonitor monitor;
   std::vector<double> virials;    // by particle
 };

@@ -18,8 +18,8 @@ using namespace Talus;
 namespace {
 
 // Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -2.0;
-constexpr int size_head = 2;
+constexpr double restart_version = -3.0;
+constexpr int size_head = 3;
 
 }    // namespace
 
@@ -60,7 +60,7 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
   return body.history().unpack(i, buf);
 }
 
-/* Version of what follows; number of particles; motion; what triangles have borne. The host does
+/* Version of what follows; number of particles; side of a mesh; motion; what triangles have borne. The host does
    not move what it has read for us when particles are deleted before this fix is defined: the
    number tells. */
 
@@ -69,6 +69,7 @@ void FixLargeBody::write_restart(FILE *fp)
   std::vector<double> values(size_head + LargeBodyMotion::size_restart);
   values[0] = restart_version;
   values[1] = static_cast<double>(atom->natoms);
+  values[2] = side.code();
   motion.to_array(&values[size_head]);
   surface->append_work(values);    // sums over ranks
   if (comm->me) return;
@@ -97,6 +98,7 @@ void FixLargeBody::restart(char *buf)
                "command, so that contact history cannot be assigned: define the fix right after "
                "read_restart",
                id);
+  side.set_code(values[2]);
   if (!motion.from_array(&values[size_head]) && comm->me == 0)
     error->warning(FLERR,
                    "Fix large/body {}: the restart file has another kind of motion: the body "

@@ -7,6 +7,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "update.h"
 
 #include <utility>
@@ -14,50 +15,102 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-/* One pass over the particles serves both checks, as long as the first one still looks. */
-
 std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst,
                                                         std::function<bool()> moves,
+                                                        const MeshShape *its_mesh,
                                                         const std::string &id)
 {
   using Finding = RunMonitor::Finding;
   look = std::move(find_worst);
-  const auto look_for_overlap = [this] {
-    worst = look();
-    just_looked = true;
-    return finding(worst.overlap, worst.deepest);
+  mesh = its_mesh;
+  body = "Fix large/body " + id;
+  const auto check = [this](double limit, std::function<Finding()> find,
+                            void (LargeBodyMonitor::*say)(const Finding &) const) {
+    return RunMonitor::Check{limit, std::move(find), [this, say](const Finding &found) {
+                               if (comm->me == 0) (this->*say)(found);
+                               return true;
+                             }};
   };
-  const auto say_overlap = [this, id](const Finding &found) {
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "Fix large/body {}: particle {:.0f} overlaps the body by {:.3g} of its radius "
-                     "at step {}; {}",
-                     id, found.details[0], found.value, update->ntimestep,
-                     ContactMonitor::cure_of(found.value));
-    return true;
-  };
-  const auto look_for_move = [this, moves = std::move(moves)]() -> Finding {
-    const bool looked = just_looked;
-    just_looked = false;
-    if (!moves()) return {};
-    if (!looked) worst = look();
-    return finding(worst.speed * update->dt, worst.fastest);
-  };
-  const auto say_move = [this, id](const Finding &found) {
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "Fix large/body {}: particle {:.0f} and the body move past each other by "
-                     "{:.3g} of its radius in a time step at step {}; an impact is not resolved: "
-                     "reduce the time step",
-                     id, found.details[0], found.value, update->ntimestep);
-    return true;
-  };
-  return {{largest_overlap, look_for_overlap, say_overlap, ContactMonitor::much_deeper},
-          {largest_move, look_for_move, say_move}};
+  RunMonitor::Check overlap = check(
+      largest_overlap, [this] { return finding(findings().overlap); },
+      &LargeBodyMonitor::say_overlap);
+  overlap.worse = ContactMonitor::much_deeper;
+  return {std::move(overlap),
+          check(
+              largest_move,
+              [this, moves = std::move(moves)] {
+                return moves() ? finding(findings().speed, update->dt) : Finding{};
+              },
+              &LargeBodyMonitor::say_move),
+          check(
+              0.5, [this] { return finding(findings().passed); }, &LargeBodyMonitor::say_passage),
+          check(
+              0.5, [this] { return finding(findings().idle); }, &LargeBodyMonitor::say_idle)};
 }
 
-RunMonitor::Finding LargeBodyMonitor::finding(double value, int particle) const
+const BodyFindings &LargeBodyMonitor::findings()
 {
-  if (!(value > 0.0)) return {};
-  return {value, {static_cast<double>(atom->tag[particle])}};
+  if (step_of_look != update->ntimestep) worst = look();
+  step_of_look = update->ntimestep;
+  return worst;
+}
+
+/* Details: the particle and, of a mesh, the number of the triangle in the file. */
+
+RunMonitor::Finding LargeBodyMonitor::finding(const Worst &its, double factor) const
+{
+  if (!(its.value > 0.0)) return {};
+  const int triangle = mesh ? mesh->surface().number_in_file(its.part) + 1 : 0;
+  return {factor * its.value,
+          {static_cast<double>(atom->tag[its.particle]), static_cast<double>(triangle)}};
+}
+
+std::string LargeBodyMonitor::place(const RunMonitor::Finding &found) const
+{
+  if (!mesh) return "the body";
+  return fmt::format("triangle {:.0f} of mesh '{}'", found.details[1], mesh->name());
+}
+
+void LargeBodyMonitor::warn(const std::string &text) const
+{
+  error->warning(FLERR, "{}: {}", body, text);
+}
+
+void LargeBodyMonitor::say_overlap(const RunMonitor::Finding &found) const
+{
+  const bool begins = update->ntimestep == update->firststep;
+  std::string cure = ContactMonitor::cure_of(found.value);
+  if (begins)
+    cure = "it is there from the beginning: move the particle or the body";
+  else if (found.value > deep)
+    cure =
+        "so deep it is pushed out on whatever side its center is: put particles where they are "
+        "clear of the body, or use a smaller time step or a higher stiffness if they hit it fast";
+  warn(fmt::format("particle {:.0f} overlaps {} by {:.3g} of its radius at step {}; {}",
+                   found.details[0], place(found), found.value, update->ntimestep, cure));
+}
+
+void LargeBodyMonitor::say_move(const RunMonitor::Finding &found) const
+{
+  warn(fmt::format("particle {:.0f} and the body move past each other by {:.3g} of its radius in a "
+                   "time step at step {}; an impact is not resolved: reduce the time step",
+                   found.details[0], found.value, update->ntimestep));
+}
+
+void LargeBodyMonitor::say_passage(const RunMonitor::Finding &found) const
+{
+  const bool unfelt = found.value > 1.5;
+  warn(fmt::format("particle {:.0f} went through {} before step {}; {}", found.details[0],
+                   place(found), update->ntimestep,
+                   unfelt ? "the mesh does not act on the side that it came from: use 'two-sided', "
+                            "or the other one of 'inside' and 'outside'"
+                          : "the contact is too soft, or the time step too long, for so hard an "
+                            "impact: use a higher stiffness or a smaller time step"));
+}
+
+void LargeBodyMonitor::say_idle(const RunMonitor::Finding &found) const
+{
+  warn(fmt::format("particle {:.0f} is at {} at step {}, but on the side where the mesh does not "
+                   "act: move it, or use 'two-sided', or the other one of 'inside' and 'outside'",
+                   found.details[0], place(found), update->ntimestep));
 }

@@ -1,16 +1,19 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Two checks of fix large/body, as ContactMonitor has them for pairs:
+// Checks of fix large/body, as ContactMonitor has them for pairs:
 //
 //   overlap   a particle overlaps the body by more than a tenth of its radius: the laws are those
 //             of small overlaps
 //   move      a particle near a body that moves goes by more than a tenth of its radius past it in
 //             a time step: it may be deep in the body, or through it, before it feels a force
+//   passage   the center of a particle has gone through a triangle of a mesh
+//   idle      a particle reaches a triangle of a mesh from the side that does not act
 
 #ifndef TALUS_FIX_LARGE_BODY_MONITOR_H
 #define TALUS_FIX_LARGE_BODY_MONITOR_H
 
 #include "body/contact/body_contacts.h"
+#include "body/shape/mesh_shape.h"
 #include "pointers.h"
 #include "system/run_monitor.h"
 
@@ -24,20 +27,35 @@ class LargeBodyMonitor : protected Pointers {
  public:
   static constexpr double largest_overlap = 0.1;    ///< over the radius
   static constexpr double largest_move = 0.1;       ///< over the radius
+  static constexpr double deep = 0.5;    ///< overlap over the radius that no contact should have
 
   explicit LargeBodyMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// `find_worst`: of the particles of this rank; `moves`: whether the body does. This object must live as
-  /// long as the checks.
+  /// `find_worst`: of the particles of this rank; `moves`: whether the body does; `its_mesh`: the
+  /// shape if it is one, or nullptr. This object must live as long as the checks.
   std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst,
-                                        std::function<bool()> moves, const std::string &id);
+                                        std::function<bool()> moves,
+                                        const Talus::MeshShape *its_mesh, const std::string &id);
+
+  /// A run begins.
+  void start() { step_of_look = -1; }
 
  private:
-  RunMonitor::Finding finding(double value, int particle) const;
+  using Worst = Talus::BodyFindings::Worst;
+  const Talus::BodyFindings &findings();
+  RunMonitor::Finding finding(const Worst &worst, double factor = 1.0) const;
+  std::string place(const RunMonitor::Finding &found) const;
+  void warn(const std::string &text) const;
+  void say_overlap(const RunMonitor::Finding &found) const;
+  void say_move(const RunMonitor::Finding &found) const;
+  void say_passage(const RunMonitor::Finding &found) const;
+  void say_idle(const RunMonitor::Finding &found) const;
 
+  std::string body;    // its name
+  const Talus::MeshShape *mesh = nullptr;
   std::function<Talus::BodyFindings()> look;
   Talus::BodyFindings worst;
-  bool just_looked = false;    ///< for the first of the two checks
+  bigint step_of_look = -1;    // one pass over the particles serves all checks of a step
 };
 
 }    // namespace LAMMPS_NS

@@ -7,10 +7,8 @@
 #include "body/shape/box.h"
 #include "body/shape/custom_shape.h"
 #include "body/shape/frustum.h"
-#include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
 #include "body/shape/rectangle.h"
-#include "body/shape/stl_file.h"
 #include "fix/region_shape.h"
 
 #include "comm.h"
@@ -151,28 +149,34 @@ std::string LargeBodyShapes::read_everywhere(const std::string &file)
   return content;
 }
 
-LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
+StlContent LargeBodyShapes::stl(const std::string &file)
 {
-  const std::string file = words.text("file");
-  const int file_word = words.index();
   StlContent content;
   try {
     content = parse_stl(read_everywhere(file));
   } catch (const std::runtime_error &problem) {
     words.fail(1, "'" + file + "': " + problem.what());
   }
-
-  std::vector<Triangle> &soup = content.triangles;
   if (content.trailing_bytes && comm->me == 0)
     error->warning(
         FLERR,
         "fix large/body mesh '{}': {} bytes behind the last of the {} triangles that the "
         "file announces are not read",
-        file, content.trailing_bytes, soup.size());
+        file, content.trailing_bytes, content.triangles.size());
+  return content;
+}
+
+LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
+{
+  const std::string file = words.text("file");
+  const int file_word = words.index();
+  StlContent content = stl(file);
+  std::vector<Triangle> &soup = content.triangles;
 
   double scale = 1.0;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vector3<double> shift{0.0, 0.0, 0.0};
+  std::string side = two_sided ? "two-sided" : "";
   for (bool more = true; more;) {    // scaled, then turned, then shifted, in whatever order given
     if (words.take("scale")) {
       scale = words.positive("scale s");
@@ -183,7 +187,7 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
       const Vector3<double> axis = words.direction("rotate axis (ax ay az)");
       turn = Eigen::AngleAxisd(angle * std::acos(-1.0) / 180.0, to_eigen(axis)).toRotationMatrix();
     } else {
-      more = false;
+      more = take_side(side);
     }
   }
   for (Triangle &t : soup)
@@ -191,36 +195,79 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
 
   std::unique_ptr<MeshShape> shape;
   try {
-    shape = std::make_unique<MeshShape>(TriangleMesh(soup), two_sided, true);
+    TriangleMesh surface(soup, side != "one-sided");
+    const MeshSide acting = side == "one-sided" ? MeshSide::NORMALS : MeshSide::BOTH;
+    shape = std::make_unique<MeshShape>(std::move(surface), acting, true);
   } catch (const std::runtime_error &problem) {
     words.fail(words.index() - file_word + 1, "'" + file + "': " + problem.what());
   }
+  shape->set_name(file);
+  const MeshReport &report = shape->surface().report();
+  const int back = words.index() - file_word + 1;
+  if (report.turned_edges && side == "one-sided")
+    words.fail(back,
+               fmt::format("'{}': {} edges lie between triangles that face opposite sides, the "
+                           "first at triangle {}: leave out one-sided, or repair the file",
+                           file, report.turned_edges, report.first_turned));
+  const bool has_inside = report.closed();
+  if (!has_inside && (side == "inside" || side == "outside"))
+    words.fail(back,
+               fmt::format("'{}' is not closed, so that nothing is {} of it ({}): leave the word "
+                           "out, or use one-sided",
+                           file, side, what_is_open(report)));
+  if (has_inside && side.empty()) shape->set_side(MeshSide::UNDECIDED);
+  if (side == "inside" || side == "outside") shape->set_side(shape->side_within(side == "inside"));
+  tell(*shape, side);
+  return shape;
+}
 
-  const TriangleMesh &surface = shape->surface();
+bool LargeBodyShapes::take_side(std::string &side)
+{
+  for (const char *word : {"one-sided", "two-sided", "inside", "outside"}) {
+    if (!words.take(word)) continue;
+    if (!side.empty() && side != word) words.fail(1, "is " + side + " already");
+    side = word;
+    return true;
+  }
+  return false;
+}
+
+std::string LargeBodyShapes::what_is_open(const MeshReport &r)
+{
+  if (r.open_edges) return fmt::format("{} open edges", r.open_edges);
+  if (r.crowded_edges) return fmt::format("{} edges of more than two triangles", r.crowded_edges);
+  return fmt::format("{} edges whose triangles face opposite sides", r.turned_edges);
+}
+
+/* What was found in the file, and on which side the mesh acts. */
+
+void LargeBodyShapes::tell(const MeshShape &shape, const std::string &side)
+{
+  if (comm->me) return;
+  const TriangleMesh &surface = shape.surface();
   const MeshReport &r = surface.report();
   const auto warn = [&](int count, int first, const char *what) {
-    if (count && comm->me == 0)
-      error->warning(FLERR, "fix large/body mesh '{}': {} {}; the first is triangle {}", file,
-                     count, what, first);
+    if (count)
+      error->warning(FLERR, "fix large/body mesh '{}': {} {}; the first is triangle {}",
+                     shape.name(), count, what, first);
   };
-  if (r.turned_edges && !two_sided)
-    words.fail(
-        words.index() - file_word + 1,
-        fmt::format("'{}': {} edges lie between triangles that face opposite sides, the first "
-                    "at triangle {}: repair the file, or use two-sided",
-                    file, r.turned_edges, r.first_turned));
   warn(r.degenerate, r.first_degenerate, "triangles without area are left out");
   warn(r.duplicate, r.first_duplicate, "triangles that are there already are left out");
   warn(r.crowded_edges, r.first_crowded, "edges belong to more than two triangles");
-  if (comm->me == 0)
-    utils::logmesg(lmp,
-                   "fix large/body mesh '{}': {} triangles, {}, {:.3g} MB on each rank "
-                   "and more where particles are\n",
-                   file, surface.size(),
-                   r.closed() ? fmt::format("closed, volume {:.6g}", surface.volume())
-                              : fmt::format("{} open edges", r.open_edges),
-                   shape->memory_usage() / 1048576.0);
-  return shape;
+  std::string text = r.closed() ? fmt::format("closed, volume {:.6g}", std::fabs(surface.volume()))
+                                : what_is_open(r);
+  if (r.mended_edges)
+    text += fmt::format(", triangles turned at {} edges where neighbors faced opposite sides",
+                        r.mended_edges);
+  static const char *const acts[] = {"on the side of its normals", "on the side behind its normals",
+                                     "on both sides", "on the side where particles are"};
+  const std::string where = side == "inside" || side == "outside"
+                                ? "on particles " + side + " of it"
+                                : acts[static_cast<int>(shape.side())];
+  utils::logmesg(lmp,
+                 "fix large/body mesh '{}': {} triangles, {}, acts {}; {:.3g} MB on each rank and "
+                 "more where particles are\n",
+                 shape.name(), surface.size(), text, where, shape.memory_usage() / 1048576.0);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::region()

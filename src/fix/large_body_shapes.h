@@ -6,7 +6,8 @@
 #define TALUS_FIX_LARGE_BODY_SHAPES_H
 
 #include "base/words.h"
-#include "body/shape/large_body_shape.h"
+#include "body/shape/mesh_shape.h"
+#include "body/shape/stl_file.h"
 #include "pointers.h"
 
 #include <memory>
@@ -34,6 +35,10 @@ class LargeBodyShapes : protected Pointers {
   Shape custom();
   bool parse_inside();
   std::string read_everywhere(const std::string &file);
+  Talus::StlContent stl(const std::string &file);
+  bool take_side(std::string &side);
+  static std::string what_is_open(const Talus::MeshReport &report);
+  void tell(const Talus::MeshShape &shape, const std::string &side);
 
   Talus::Words &words;
 };

@@ -45,7 +45,9 @@ void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
   to.force = s.force;
   to.moment = to.twisting_torque = {0.0, 0.0, 0.0};
   to.memory = memory;
-  to.stored = {stored(Stage::NORMAL) + stored(Stage::COHESION), 0.0, 0.0};
+  to.stored = EnergyByCause{};
+  to.stored.normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
+  if (law.normal().lasts_beyond_contact) to.stored.tearing = to.stored.normal;
   if (!law.has_friction()) return;
   to.moment = s.moment;
   to.twisting_torque = s.twisting_torque;

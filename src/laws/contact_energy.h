@@ -18,6 +18,8 @@ namespace Talus {
 /// twisting. Dissipated: by normal damping, friction, resistance.
 struct EnergyByCause {
   double normal = 0.0, tangential = 0.0, resistance = 0.0;
+  /// Of `normal`, if stored, that of contacts that tear: their work is that of the whole force.
+  double tearing = 0.0;
 
   double total() const { return normal + tangential + resistance; }
   EnergyByCause &operator+=(const EnergyByCause &o)
@@ -25,35 +27,37 @@ struct EnergyByCause {
     normal += o.normal;
     tangential += o.tangential;
     resistance += o.resistance;
+    tearing += o.tearing;
     return *this;
   }
   friend EnergyByCause operator*(double share, const EnergyByCause &e)
   {
-    return {share * e.normal, share * e.tangential, share * e.resistance};
+    return {share * e.normal, share * e.tangential, share * e.resistance, share * e.tearing};
   }
   friend EnergyByCause operator-(const EnergyByCause &a, const EnergyByCause &b)
   {
-    return {a.normal - b.normal, a.tangential - b.tangential, a.resistance - b.resistance};
+    return {a.normal - b.normal, a.tangential - b.tangential, a.resistance - b.resistance,
+            a.tearing - b.tearing};
   }
 };
 
 /// What is gone of the work that contacts have taken while springs store that much now.
 inline EnergyByCause dissipated(const EnergyByCause &work, const EnergyByCause &stored)
 {
-  return work - EnergyByCause{0.0, stored.tangential, stored.resistance};
+  return work - EnergyByCause{stored.tearing, stored.tangential, stored.resistance};
 }
 
 /// A contact as it is after a step. Everything as the first body sees it, in space.
 struct SurveyedContact {
-  int i, j;                   ///< host's indices; j is -1 if the second body is a large one
-  int body;                   ///< number of the large body, in the order of the script, from 0; or -1
-  int part;                   ///< of the large body; -1 without parts
-  double share;               ///< 1/2 if another rank has this contact as well, else 1
-  Vector3<double> normal;     ///< from the second body to the first
-  double overlap;             ///< length; negative of contacts that last beyond zero
-  Vector3<double> force;      ///< on the first body
+  int i, j;        ///< host's indices; j is -1 if the second body is a large one
+  int body;        ///< number of the large body, in the order of the script, from 0; or -1
+  int part;        ///< of the large body; -1 without parts
+  double share;    ///< 1/2 if another rank has this contact as well, else 1
+  Vector3<double> normal;    ///< from the second body to the first
+  double overlap;            ///< length; negative of contacts that last beyond zero
+  Vector3<double> force;     ///< on the first body
   Vector3<double> moment, twisting_torque;    ///< torques about the centers, see ContactLanes
-  RememberedValues memory;    ///< the first three of a large body in its own frame
+  RememberedValues memory;                    ///< the first three of a large body in its own frame
   EnergyByCause stored;
 };
 
@@ -82,8 +86,8 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficie
 /// host's index: half of a contact between two particles belongs to each of them, that with a large
 /// body to the particle.
 struct WorkAccount {
-  EnergyByCause sum;                  ///< of this rank: half of contacts that others have as well
-  std::vector<double **> by_particle; ///< rows may be added to by several threads, each its own
+  EnergyByCause sum;    ///< of this rank: half of contacts that others have as well
+  std::vector<double **> by_particle;    ///< rows may be added to by several threads, each its own
 };
 
 /// Adds `share` of the work of one lane to a particle.

@@ -53,7 +53,7 @@ class ContactKernel {
     int first_coefficient;
     HistoryPlaces places;
   };
-  std::array<Step, num_stages + 7> steps{};    // and what is before and behind the stages
+  std::array<Step, num_stages + 9> steps{};    // and what is before and behind the stages
   int count = 0;
   bool uniform = false;
 };
@@ -73,8 +73,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform);
 /// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory = {},
-                                    Stage last = Stage::HEAT);
+                                    const RememberedValues &memory = {}, Stage last = Stage::HEAT);
 
 }    // namespace Talus
 

@@ -15,7 +15,7 @@ void copy_history(ContactBatch &b, int begin, int end, const StageInput & /*in*/
     for (int k = begin; k < end; k += lanes) store(&b.before[n][k], load8(&b.history[n][k]));
 }
 
-template <bool friction, bool twists>
+template <bool friction, bool twists, bool tears>
 void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -23,9 +23,16 @@ void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &i
     load_state(b, k, s);
     load_found<Stage::HEAT>(b, k, s);
     ContactWork<Vec8> work;
-    find_work<friction, twists>(s, in.dt, work);
+    find_work<friction, twists, tears>(s, in.dt, work);
     for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
+}
+
+template <bool tears> StageFunction work_finder_of(const ContactLaw &law)
+{
+  if (law.twists()) return find_work_of_batch<true, true, tears>;
+  return law.has_friction() ? find_work_of_batch<true, false, tears>
+                            : find_work_of_batch<false, false, tears>;
 }
 
 }    // namespace
@@ -37,8 +44,7 @@ StageFunction history_copier(const ContactLaw &law)
 
 StageFunction work_finder(const ContactLaw &law)
 {
-  if (law.twists()) return find_work_of_batch<true, true>;
-  return law.has_friction() ? find_work_of_batch<true, false> : find_work_of_batch<false, false>;
+  return law.normal().lasts_beyond_contact ? work_finder_of<true>(law) : work_finder_of<false>(law);
 }
 
 }    // namespace Talus

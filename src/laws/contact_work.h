@@ -13,6 +13,8 @@
 //               sticks: then a spring takes what it stores and gives all of it back. Less what the
 //               dashpot beside it changes, with the change of velocity by the force itself
 //   sliding     of a contact with a spring, that the limit of friction grows with the overlap
+//   tearing     of contacts that last beyond zero overlap the work is that of the whole normal
+//               force, and what they store when they tear is lost like that of the springs above
 //   damping     the change of velocity by the damping force itself, dt^2 F^2/(2 m_eff)
 // The rest is of first order in the step; see doc/compute_penalty_stats.md for how much it is.
 
@@ -36,14 +38,18 @@ inline constexpr Cause cause_of(Stage stage)
 
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
-/// The work without the lag of springs, once all stages have run. `twists`: as ContactLaw::twists().
+/// The work without the lag of springs, once all stages have run. `twists`: as ContactLaw::twists();
+/// `tears`: as Law::lasts_beyond_contact of the normal law.
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
 /// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.
-template <bool friction, bool twists, class Real>
+template <bool friction, bool twists, bool tears, class Real>
 TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<Real> &work)
 {
   const Real damping = s.normal_force - s.elastic;
   work[0] = -dt * damping * (s.normal_velocity + 0.5 * dt * damping * s.inverse_mass);
+  if constexpr (tears)
+    work[0] = work[0] - dt * s.elastic * s.normal_velocity -
+              0.5 * dt * dt * s.tangent_n * s.normal_velocity * s.normal_velocity;
   work[1] = work[2] = splat<Real>(0.0);
   if constexpr (!friction) return;
   const Vector3<Real> tangential = s.force - dot(s.force, s.normal) * s.normal;

@@ -95,13 +95,12 @@ struct Fused {
 
   template <class Real>
   TALUS_INLINE static void account(ContactBatch &b, int k, const Rows<Real> &c,
-                                   const ContactLanes<Real> &s, const Real *before,
-                                   const Real *now, double dt)
+                                   const ContactLanes<Real> &s, const Real *before, const Real *now,
+                                   double dt)
   {
-    constexpr int to_rolling = values_of<Tangential>,
-                  to_twisting = to_rolling + values_of<Rolling>;
+    constexpr int to_rolling = values_of<Tangential>, to_twisting = to_rolling + values_of<Rolling>;
     ContactWork<Real> work;
-    find_work<Tangential::acts, twists>(s, dt, work);
+    find_work<Tangential::acts, twists, Normal::lasts_beyond_contact>(s, dt, work);
     if constexpr (has_lag<Tangential>) take_lag<Tangential>(s, c.tangential, before, now, dt, work);
     if constexpr (has_lag<Rolling>)
       take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);
@@ -132,12 +131,8 @@ template <class Normal, class Damping, class Tangential, class Rolling = Rolling
 constexpr Entry entry()
 {
   using Its = Fused<Normal, Damping, Tangential, Rolling, Twisting>;
-  return {Normal::name,
-          Damping::name,
-          Tangential::name,
-          Rolling::name,
-          Twisting::name,
-          Its::template run<false>,
+  return {Normal::name,           Damping::name,  Tangential::name,
+          Rolling::name,          Twisting::name, Its::template run<false>,
           Its::template run<true>};
 }
 

@@ -25,7 +25,7 @@ class ContactMonitor : protected Pointers {
   static constexpr double largest_overlap = 0.1;    ///< over the smaller radius
   /// A deep overlap is told once, and again if it is so many times as deep.
   static constexpr double much_deeper = 1.5;
-  static constexpr double largest_move = 0.1;       ///< over the radius
+  static constexpr double largest_move = 0.1;    ///< over the radius
 
   /// What to do about an overlap above the limit.
   static std::string cure_of(double overlap);

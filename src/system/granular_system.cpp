@@ -117,20 +117,23 @@ void GranularSystem::require_sizes() const
   const double largest = radii.largest(),
                box = std::max({domain->prd[0], domain->prd[1], domain->prd[2]});
   if (!(largest <= far_beyond * box))
-    error->all(FLERR,
-               "Pair style {}: the largest particle has a radius of {:.4g}, {:.3g} times the longest "
-               "side of the box: look for what has set it (set diameter, read_data, fix adapt, fix "
-               "pour or deposit), in units of length",
-               style.name, largest, largest / box);
+    error->all(
+        FLERR,
+        "Pair style {}: the largest particle has a radius of {:.4g}, {:.3g} times the longest "
+        "side of the box: look for what has set it (set diameter, read_data, fix adapt, fix "
+        "pour or deposit), in units of length",
+        style.name, largest, largest / box);
   double free = 0.0;
   for (int type = 1; type <= atom->ntypes; type++) free = std::max(free, radii.of_free(type));
   for (int d = 0; d < 3; d++) {
     const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
     if (!matters || domain->prd[d] >= 2.0 * free) continue;
-    const std::string problem = fmt::format(
-        "the box is periodic in {} with a period of {:.4g}, and the largest particle has a diameter "
-        "of {:.4g}: it touches its own image: make the box at least {:.4g} wide, or use 'boundary f'",
-        std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, 4.0 * free);
+    const std::string problem =
+        fmt::format("the box is periodic in {} with a period of {:.4g}, and the largest particle "
+                    "has a diameter "
+                    "of {:.4g}: it touches its own image: make the box at least {:.4g} wide, or "
+                    "use 'boundary f'",
+                    std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, 4.0 * free);
     error->all(FLERR, "Pair style {}: {}", style.name, problem);
   }
 }

@@ -69,6 +69,7 @@ void LargeBody::init()
   was_asked = is_asked || fix->thermo_energy;
   is_asked = false;
   joined = false;    // a step that an error ended may have left it
+  seen_between = {};
   masses.find_fixes();
   find_frozen();
   set_laws();
@@ -100,8 +101,9 @@ void LargeBody::list_particles()
   masses.update();
   const BodyParticleView particles = view();
   if (its_shape->wants_focus())
-    its_shape->focus(BodyCandidates::bounds_of_search(*frame, particles, atom->mask, group_bits(),
-                                                      neighbor->skin));
+    its_shape->focus(BodyCandidates::bounds_of_search(
+        *frame, particles, atom->mask, group_bits(), neighbor->skin,
+        contacts.largest_reach(particles, atom->mask, group_bits())));
   contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
                            comm->nthreads);
 }
@@ -164,7 +166,10 @@ void LargeBody::compute(bool advance, double *virial)
     mine = contacts.static_load();
     account.sum = contacts.static_work();
   } else {
-    if (contacts.is_stale(*frame, neighbor->skin)) list_particles();
+    if (contacts.is_stale(*frame, neighbor->skin)) {
+      seen_between.join(findings_now());
+      list_particles();
+    }
     BodyParticleView particles = view();
     particles.virial = virial;
     mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
@@ -180,7 +185,7 @@ void LargeBody::compute(bool advance, double *virial)
 
 /* ---------------------------------------------------------------------- */
 
-BodyFindings LargeBody::find_worst()
+BodyFindings LargeBody::findings_now() const
 {
   return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
 }
@@ -196,6 +201,16 @@ void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visi
 }
 
 /* What a spring has taken it stores, or has lost: it does not matter here. */
+
+/* What was seen between has the host's indices of this rebuild, which stand until the next. */
+
+BodyFindings LargeBody::find_worst()
+{
+  BodyFindings worst = findings_now();
+  worst.join(seen_between);
+  seen_between = {};
+  return worst;
+}
 
 double LargeBody::energy()
 {

@@ -110,6 +110,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   double energy();
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
   void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);
+  /// On this rank, now and when particles were listed anew between two rebuilds.
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
   VtkPolyData picture() const { return make_picture(); }
@@ -125,6 +126,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
  private:
   BodyParticleView view() const;
   BodyStep step_of(bool advance);
+  BodyFindings findings_now() const;
   void find_frozen();
   void clear_frozen();
   void set_laws();
@@ -141,6 +143,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::vector<bool> spec_is_set;
   bool with_history = false;
   BodyContacts contacts;
+  BodyFindings seen_between;    ///< before particles were listed anew within a step
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before
 

@@ -58,7 +58,7 @@ REFUSED = [    # words of the fix, message, marked word
     ("mesh cut.stl " + LAW, "mesh: 'cut.stl': it announces", "cut.stl"),
     ("mesh letter.stl " + LAW, "mesh: 'letter.stl': it is no STL file: it begins with 'Dear all,'", "letter.stl"),
     ("mesh flat.stl " + LAW, "mesh: 'flat.stl': all its triangles are without area", "flat.stl"),
-    ("mesh turned.stl " + LAW, "mesh: 'turned.stl': 3 edges lie between triangles that face opposite sides, "
+    ("mesh turned.stl one-sided " + LAW, "mesh: 'turned.stl': 3 edges lie between triangles that face opposite sides, "
      "the first at triangle", None),
     ("mesh good.stl scale 0 " + LAW, "mesh: expected scale s (a number > 0) instead of '0'", "0"),
     ("mesh good.stl rotate 30 0 0 0 " + LAW, "mesh: rotate axis (ax ay az) must not be zero", "0"),

@@ -178,10 +178,10 @@ TEST_P(BodyContactsTest, TheWorstContactAndTheFastestParticle)
   }
   for (int threads : {1, 2, 7}) {
     const BodyFindings worst = contacts.look_for_trouble(*shape, frame, view(), threads);
-    EXPECT_EQ(worst.overlap, overlap);
-    EXPECT_EQ(worst.deepest, deepest);
-    EXPECT_EQ(worst.speed, speed / 0.5);
-    EXPECT_EQ(worst.fastest, fast);
+    EXPECT_EQ(worst.overlap.value, overlap);
+    EXPECT_EQ(worst.overlap.particle, deepest);
+    EXPECT_EQ(worst.speed.value, speed / 0.5);
+    EXPECT_EQ(worst.speed.particle, fast);
   }
 }
 

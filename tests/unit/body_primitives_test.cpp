@@ -194,7 +194,7 @@ TEST(Primitives, BoxOfTrianglesAgrees)
     box.tessellate({}, soup);
     if (inside)
       for (Triangle &t : soup) std::swap(t.corner[0], t.corner[1]);
-    const MeshShape mesh(TriangleMesh(soup), false);
+    const MeshShape mesh(TriangleMesh(soup), MeshSide::NORMALS);
     EXPECT_TRUE(mesh.surface().report().closed());
     EXPECT_NEAR(mesh.surface().volume(), (inside ? -1.0 : 1.0) * 2.0 * 1.6 * 1.2, 1e-13);
     RandomSource random(5);

@@ -153,7 +153,8 @@ TEST_P(SeamlessPlane, SamePathAsOnAPlane)
   for (int direction = 0; direction < 100; direction++) {
     const Axes axes = random_axes(random);
     const int n = GetParam();
-    const MeshShape mesh(TriangleMesh(cut_plane(axes, 1.0, n, n > 1 ? 0.2 : 0.0, random)), false);
+    const MeshShape mesh(TriangleMesh(cut_plane(axes, 1.0, n, n > 1 ? 0.2 : 0.0, random)),
+                         MeshSide::NORMALS);
     const Plane plane(axes.origin, axes.normal, false);
     // aimed at a corner of the mesh or near it, from a little above the plane
     const double heading = random.uniform(0.0, 2.0 * pi), speed = random.uniform(0.2, 2.0);
@@ -194,7 +195,7 @@ MeshShape roof(double bend)
       right1{c, 2, s};
   return MeshShape(
       TriangleMesh({{{a, b, left0}}, {{left0, b, left1}}, {{b, a, right0}}, {{b, right0, right1}}}),
-      false);
+      MeshSide::NORMALS);
 }
 
 TEST(MeshEdges, RidgeTouchesOnceWithTheNormalFromTheEdge)
@@ -236,7 +237,7 @@ TEST(MeshEdges, CornerAndRimOfASheet)
 {
   const MeshShape sheet(TriangleMesh({{{V{0, 0, 0}, V{1, 0, 0}, V{1, 1, 0}}},
                                       {{V{0, 0, 0}, V{1, 1, 0}, V{0, 1, 0}}}}),
-                        false);
+                        MeshSide::NORMALS);
   SurfaceContact contact;
   const V at_corner{-0.1, -0.2, 0.2};
   ASSERT_TRUE(sheet.touches(at_corner, 0.4, contact));
@@ -265,7 +266,7 @@ TEST(MeshEdges, FacetsOfABasinAreOneSmoothPatch)
   for (Triangle &t : soup)
     for (V &p : t.corner)
       if (std::fabs(p.x - 1.0) < 1e-9) p = {1.0, 0.0, p.z};
-  const MeshShape tube(TriangleMesh(soup), false);
+  const MeshShape tube(TriangleMesh(soup), MeshSide::NORMALS);
   const double r = 0.2;
   double last = -1.0;
   for (int k = 0; k <= 2000; k++) {
@@ -292,7 +293,7 @@ TEST(MeshTree, FindsWhatASearchOfAllTrianglesFinds)
     for (V &p : t.corner) p.z = 0.2 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y);
   const TriangleMesh surface(soup);
   const MeshDetail all(surface, surface.bounds());
-  const MeshShape mesh(surface, true);
+  const MeshShape mesh(surface, MeshSide::BOTH);
   for (int n = 0; n < 300; n++) {
     const V x = talus(random.in_cube(1.3));
     const double reach = random.uniform(0.05, 0.6);
@@ -321,8 +322,8 @@ TEST(MeshFocus, GivesTheContactsOfTheWhole)
   for (Triangle &t : soup)
     for (V &p : t.corner)    // hills, and beyond them a plane
       p.z = p.x < 0.3 ? 0.2 * std::sin(7.0 * (p.x - 0.3)) * std::cos(5.0 * p.y) : 0.0;
-  const MeshShape whole(TriangleMesh(soup), true);
-  MeshShape part(TriangleMesh(soup), true, true);
+  const MeshShape whole(TriangleMesh(soup), MeshSide::BOTH);
+  MeshShape part(TriangleMesh(soup), MeshSide::BOTH, true);
   EXPECT_EQ(part.size_of_detail(), 0);
   EXPECT_TRUE(part.wants_focus());
   int compared = 0;

@@ -10,14 +10,9 @@ namespace Talus {
 
 void BodyFindings::join(const BodyFindings &other)
 {
-  if (other.overlap > overlap) {
-    overlap = other.overlap;
-    deepest = other.deepest;
-  }
-  if (other.speed > speed) {
-    speed = other.speed;
-    fastest = other.fastest;
-  }
+  for (Worst BodyFindings::*its :
+       {&BodyFindings::overlap, &BodyFindings::speed, &BodyFindings::passed, &BodyFindings::idle})
+    if ((other.*its).value > (this->*its).value) this->*its = other.*its;
 }
 
 void BodyContacts::set_laws(const LawTable &table)
@@ -33,8 +28,19 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin, int threads)
 {
   index.clear();
-  candidates.list(shape, frame, view, mask, group, skin, threads);
+  candidates.list(shape, frame, view, mask, group, skin, largest_reach(view, mask, group), threads);
   if (with_history) history.follow(candidates.atoms(), candidates.room());
+}
+
+double BodyContacts::largest_reach(const BodyParticleView &view, const int *mask, int group) const
+{
+  double largest = 0.0;
+  if (!laws.lasts_beyond_contact()) return largest;
+  for (int i = 0; i < view.owned; i++)
+    if (mask[i] & group)
+      largest =
+          std::max(largest, laws.reach(laws.row(view.type[i], view.type[i]), view.radius_of(i)));
+  return largest;
 }
 
 /* Where a step goes through the records, it does so from their beginning to their end. */
@@ -191,10 +197,19 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     const int count = !several    ? static_cast<int>(shape.touches(x, radius, *found))
                       : may_touch ? shape.find_contacts(x, radius, near, found)
                                   : 0;
-    for (int k = 0; k < count; k++) most.join({found[k].overlap / radius, 0.0, i, 0});
+    BodyFindings its;
+    for (int k = 0; k < count; k++)
+      if (const double overlap = found[k].overlap / radius; overlap > its.overlap.value)
+        its.overlap = {overlap, i, found[k].part};
     const Vector3<double> v = view.velocity(i);
-    const double speed = length(frame.moves ? v - frame.velocity_at(place) : v) / radius;
-    most.join({0.0, speed, 0, i});
+    its.speed = {length(frame.moves ? v - frame.velocity_at(place) : v) / radius, i, 0};
+    if (several) {
+      const Passage passage = shape.passage(candidates.listed_at(c), x, near);
+      if (passage.part >= 0) its.passed = {passage.from_acting_side ? 1.0 : 2.0, i, passage.part};
+      const int idle = may_touch ? shape.idle_part(x, radius, near) : -1;
+      if (idle >= 0) its.idle = {1.0, i, idle};
+    }
+    most.join(its);
   }
   return most;
 }

@@ -28,12 +28,20 @@ struct BodyStep {
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
 };
 
-/// What a run warns of, among the particles of this rank that are near the body: the largest
-/// overlap/radius and its particle (host's index), the largest speed past the body over the radius
-/// and its particle; of equal ones the first listed. Zero without any.
+/// What a run warns of, among the particles of this rank that are near the body. Of equal values the
+/// first listed counts; zero without any.
 struct BodyFindings {
-  double overlap = 0.0, speed = 0.0;
-  int deepest = 0, fastest = 0;
+  struct Worst {
+    double value = 0.0;
+    int particle = 0;    ///< host's index
+    int part = 0;        ///< of the body
+  };
+  Worst overlap;    ///< over radius
+  Worst speed;      ///< past the body, over radius
+  Worst
+      passed;    ///< 1: the center went through a part since particles were listed; 2: from a side
+                 ///< that does not act
+  Worst idle;    ///< 1: reaches a part from the side that does not act
 
   void join(const BodyFindings &other);
 };
@@ -49,13 +57,17 @@ class BodyContacts {
                        const BodyParticleView &view, const int *mask, int group, double skin,
                        int threads = 1);
 
+  /// How far contacts of these particles last beyond zero overlap at most (length).
+  double largest_reach(const BodyParticleView &view, const int *mask, int group) const;
+
   /// The body has moved so far that particles must be listed anew.
   bool is_stale(const BodyFrame &frame, double skin) const
   {
     return candidates.are_stale(frame, skin);
   }
 
-  /// `threads` are used for shapes that are thread_safe().
+  /// `threads` are used for shapes that are thread_safe(). To be called also before particles are
+  /// listed anew, so that nothing passes unseen in between.
   BodyFindings look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
                                 const BodyParticleView &view, int threads = 1) const;
 

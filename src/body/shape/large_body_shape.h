@@ -61,6 +61,12 @@ struct NearParts {
   const NearPart *begin, *end;
 };
 
+/// A part that the center of a sphere went through.
+struct Passage {
+  int part = -1;                   ///< -1: none
+  bool from_acting_side = true;    ///< from a side on which spheres are touched
+};
+
 struct Triangle {
   Vector3<double> corner[3];
 };
@@ -103,6 +109,27 @@ class LargeBodyShape {
   {
     (void) parts;
     return distance_bound(center) < reach;
+  }
+
+  /// For messages, of shapes with parts: the part through which the straight way leads that a center
+  /// went, if the center was at `from` when `parts` were listed; or none.
+  virtual Passage passage(const Vector3<double> &from, const Vector3<double> &to,
+                          NearParts parts) const
+  {
+    (void) from;
+    (void) to;
+    (void) parts;
+    return {};
+  }
+
+  /// For messages: the part which a sphere reaches but does not touch, because the center is on its
+  /// side that does not act, if no other part is nearer; or -1.
+  virtual int idle_part(const Vector3<double> &center, double radius, NearParts parts) const
+  {
+    (void) center;
+    (void) radius;
+    (void) parts;
+    return -1;
   }
 
   /// Prefetches what find_contacts() will read of a part.

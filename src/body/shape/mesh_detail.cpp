@@ -230,6 +230,23 @@ NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
   return result((dot(p, n) - faces[t].offset) * n, NearestPoint::FACE, 0);
 }
 
+/* Where the way meets the plane, and whether this is on the inner side of all edges. */
+
+bool MeshDetail::is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const
+{
+  const Face &face = faces[t];
+  const double before = dot(from, face.normal) - face.offset;
+  const double after = dot(to, face.normal) - face.offset;
+  if ((before >= 0.0) == (after >= 0.0)) return false;
+  const Vector3<double> place = from + before / (before - after) * (to - from);
+  for (int k = 0; k < 3; k++) {
+    const Vector3<double> edge = face.corner[(k + 1) % 3] - face.corner[k];
+    if (dot(cross(edge, place - face.corner[k]), face.normal) < -tolerance * dot(edge, edge))
+      return false;
+  }
+  return true;
+}
+
 bool MeshDetail::is_local_minimum(int t, const NearestPoint &nearest, double &height) const
 {
   if (nearest.feature == NearestPoint::EDGE) return edge_is_minimum(t, nearest, height);

@@ -48,6 +48,9 @@ class MeshDetail {
   const Vector3<double> &normal(int t) const { return faces[t].normal; }
   NearestPoint nearest(int t, const Vector3<double> &point) const;
 
+  /// Does the way between two points lead through triangle t? At its rim, by rounding, perhaps.
+  bool is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const;
+
   /// Is the nearest point of triangle t a point of the whole surface from which the distance grows
   /// in all directions, and is t the triangle that reports it, once for all that share it? `height`
   /// receives a number whose sign tells on which side of the surface the point is; of a face the

@@ -35,8 +35,8 @@ void keep(SurfaceContact *raw, int &count, const SurfaceContact &contact)
 
 }    // namespace
 
-MeshShape::MeshShape(TriangleMesh m, bool both, bool focused) :
-    mesh(std::move(m)), cover(mesh.bounds()), two_sided(both)
+MeshShape::MeshShape(TriangleMesh m, MeshSide side, bool focused) :
+    mesh(std::move(m)), cover(mesh.bounds()), acting(side)
 {
   if (!focused) look_at(mesh.bounds());
 }
@@ -65,6 +65,14 @@ double MeshShape::memory_usage() const
   return mesh.memory_usage() + (detail ? detail->memory_usage() : 0.0);
 }
 
+/* A center in the surface is on any side. */
+
+bool MeshShape::acts_at(double height) const
+{
+  if (acting == MeshSide::NORMALS) return !(height < 0.0);
+  return acting != MeshSide::BACKS || !(height > 0.0);
+}
+
 /* `face_height`: of a contact with the inside of a triangle. */
 
 bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius,
@@ -74,14 +82,16 @@ bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius
   if (nearest.square >= radius * radius) return false;
   double height;
   if (!detail->is_local_minimum(t, nearest, height)) return false;
-  if (height < 0.0 && !two_sided) return false;
+  if (!acts_at(height)) return false;
   const double distance = std::sqrt(nearest.square);
   const bool on_face = nearest.feature == NearestPoint::FACE;
   face_height = on_face ? std::fabs(height) : 0.0;
   contact.overlap = radius - distance;
   contact.part = detail->number(t);
   if (on_face || distance == 0.0)
-    contact.normal = height < 0.0 ? -detail->normal(t) : detail->normal(t);    // also in the plane
+    contact.normal = height < 0.0 || (height == 0.0 && acting == MeshSide::BACKS)
+                         ? -detail->normal(t)
+                         : detail->normal(t);    // also in the plane
   else
     contact.normal = 1.0 / distance * nearest.away;
   return true;
@@ -97,15 +107,31 @@ bool MeshShape::same_contact(const SurfaceContact &a, const SurfaceContact &b, d
   return cosine > 1.0 - 1.0e-12 && std::fabs(a.overlap - b.overlap) < 1.0e-9 * radius;
 }
 
-int MeshShape::merge(SurfaceContact *raw, int count, double radius, SurfaceContact *found) const
+/* Behind another triangle. */
+
+bool MeshShape::is_hidden(const SurfaceContact &contact, const Vector3<double> &center,
+                          double radius, NearParts parts) const
 {
+  constexpr double just_before = 1.0 - 1.0e-6;
+  const double distance = just_before * (radius - contact.overlap);
+  const Vector3<double> to = center - distance * contact.normal;
+  return std::any_of(parts.begin, parts.end, [&](const NearPart &p) {
+    return detail->number(p.part) != contact.part && detail->is_between(p.part, center, to);
+  });
+}
+
+int MeshShape::merge(SurfaceContact *raw, int count, const Vector3<double> &center, double radius,
+                     NearParts parts, SurfaceContact *found) const
+{
+  const bool may_hide = acting == MeshSide::BOTH || acting == MeshSide::UNDECIDED;
   sort_contacts(raw, count);
   int kept = 0;
   for (int k = 0; k < count && kept < max_contacts; k++) {
     const bool known = std::any_of(found, found + kept, [&](const SurfaceContact &other) {
       return same_contact(raw[k], other, radius);
     });
-    if (!known) found[kept++] = raw[k];
+    if (known || (k && may_hide && is_hidden(raw[k], center, radius, parts))) continue;
+    found[kept++] = raw[k];
   }
   return kept;
 }
@@ -138,7 +164,7 @@ int MeshShape::find_contacts(const Vector3<double> &center, double radius, NearP
     count++;
   });
   if (count < 2) return count;
-  if (count <= max_contacts) return merge(found, count, radius, found);
+  if (count <= max_contacts) return merge(found, count, center, radius, parts, found);
   return find_many(center, radius, parts, found);
 }
 
@@ -149,7 +175,33 @@ int MeshShape::find_many(const Vector3<double> &center, double radius, NearParts
   int count = 0;
   each_minimum(center, radius, parts,
                [&](const SurfaceContact &contact) { keep(raw, count, contact); });
-  return merge(raw, count, radius, found);
+  return merge(raw, count, center, radius, parts, found);
+}
+
+/* Parts are sorted by their distance from `from`. */
+
+Passage MeshShape::passage(const Vector3<double> &from, const Vector3<double> &to,
+                           NearParts parts) const
+{
+  const double way = length(to - from);
+  for (const NearPart *p = parts.begin; p != parts.end && p->distance <= way; p++)
+    if (detail->is_between(p->part, from, to))
+      return {detail->number(p->part), acts_at(dot(from - to, detail->normal(p->part)))};
+  return {};
+}
+
+int MeshShape::idle_part(const Vector3<double> &center, double radius, NearParts parts) const
+{
+  double least = radius * radius;
+  int idle = -1;
+  for (const NearPart *p = parts.begin; p != parts.end; p++) {
+    const NearestPoint nearest = detail->nearest(p->part, center);
+    double height;
+    if (nearest.square >= least || !detail->is_local_minimum(p->part, nearest, height)) continue;
+    least = nearest.square;
+    idle = acts_at(height) ? -1 : detail->number(p->part);
+  }
+  return idle;
 }
 
 bool MeshShape::is_near(const Vector3<double> &center, double reach,

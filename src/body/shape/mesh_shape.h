@@ -8,8 +8,13 @@
 #include "body/shape/triangle_mesh.h"
 
 #include <memory>
+#include <string>
 
 namespace Talus {
+
+/// On which side of a mesh spheres are touched: where the normals point, on the other side, on both;
+/// or on both until somebody has found out which is meant.
+enum class MeshSide { NORMALS, BACKS, BOTH, UNDECIDED };
 
 /// A surface of triangles.
 ///
@@ -24,16 +29,28 @@ namespace Talus {
 /// All ranks hold the whole surface, but only what MeshDetail has of it is large: this is made for
 /// the neighborhood of the particles of a rank, and anew when they or the body have gone further.
 ///
-/// One-sided, only spheres whose center is on the side of the normals are touched.
+/// A sphere is touched if its center is on a side that acts, and nothing of the surface lies between
+/// if both do: through a thin plate it does not feel the other face.
 class MeshShape : public LargeBodyShape {
  public:
   /// `focused`: nothing is found before focus() has said where.
-  MeshShape(TriangleMesh mesh, bool two_sided, bool focused = false);
+  MeshShape(TriangleMesh mesh, MeshSide side, bool focused = false);
 
   MeshShape(const MeshShape &) = delete;    // the detail knows the mesh by its address
   MeshShape &operator=(const MeshShape &) = delete;
 
   const TriangleMesh &surface() const { return mesh; }
+  MeshSide side() const { return acting; }
+  /// Between two steps.
+  void set_side(MeshSide side) { acting = side; }
+  /// Of a closed mesh that has been oriented: the side that is inside, or outside.
+  MeshSide side_within(bool inside) const
+  {
+    return inside == mesh.faces_outward() ? MeshSide::BACKS : MeshSide::NORMALS;
+  }
+  /// For messages: the file.
+  const std::string &name() const { return file; }
+  void set_name(const std::string &its) { file = its; }
   /// Triangles that may be found here.
   int size_of_detail() const { return detail ? detail->size() : 0; }
   double memory_usage() const;
@@ -47,6 +64,9 @@ class MeshShape : public LargeBodyShape {
                     SurfaceContact *found) const override;
   bool is_near(const Vector3<double> &center, double reach,
                std::vector<NearPart> &parts) const override;
+  Passage passage(const Vector3<double> &from, const Vector3<double> &to,
+                  NearParts parts) const override;
+  int idle_part(const Vector3<double> &center, double radius, NearParts parts) const override;
   void prefetch(int part) const override { detail->prefetch(part); }
   bool wants_focus() const override { return !covers_all; }
   bool focus(const Eigen::AlignedBox3d &bounds) override;
@@ -62,13 +82,18 @@ class MeshShape : public LargeBodyShape {
   int find_many(const Vector3<double> &center, double radius, NearParts parts,
                 SurfaceContact *found) const;
   bool same_contact(const SurfaceContact &a, const SurfaceContact &b, double radius) const;
-  int merge(SurfaceContact *raw, int count, double radius, SurfaceContact *found) const;
+  int merge(SurfaceContact *raw, int count, const Vector3<double> &center, double radius,
+            NearParts parts, SurfaceContact *found) const;
+  bool is_hidden(const SurfaceContact &contact, const Vector3<double> &center, double radius,
+                 NearParts parts) const;
+  bool acts_at(double height) const;
 
   TriangleMesh mesh;
   std::unique_ptr<MeshDetail> detail;
   Eigen::AlignedBox3d cover;
   bool covers_all = false;
-  bool two_sided;
+  MeshSide acting;
+  std::string file = "?";
 };
 
 }    // namespace Talus

@@ -2,6 +2,8 @@
 
 #include "body/shape/triangle_mesh.h"
 
+#include "body/shape/mesh_interior.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +42,7 @@ Eigen::AlignedBox3d bounds_of(const Triangle &t)
   return box;
 }
 
-TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
+TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup, bool to_orient)
 {
   join_corners(soup);
   if (triangles.empty()) throw std::runtime_error("all its triangles are without area");
@@ -49,6 +51,7 @@ TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup)
   if (triangles.size() == soup.size()) file_numbers.clear();
   file_numbers.shrink_to_fit();
   for (const Vector3<double> &p : vertices) extent.extend(to_eigen(p));
+  if (to_orient) orient(MeshEdges(triangles));
   const MeshEdges edges(triangles);
   look_at_edges(edges);
   find_patches(edges);
@@ -106,6 +109,78 @@ double TriangleMesh::area(int t) const
 {
   const Triangle its = triangle(t);
   return 0.5 * length(cross(its.corner[1] - its.corner[0], its.corner[2] - its.corner[0]));
+}
+
+void TriangleMesh::orient(const MeshEdges &edges)
+{
+  look_at_edges(edges);
+  const MeshReport before = findings;
+  std::vector<int> part(triangles.size(), -1);
+  int num_parts = 0;
+  for (int first = 0; first < size(); first++)
+    if (part[first] < 0) orient_along(first, num_parts++, edges, part);
+  const auto forget = [this] {
+    findings.open_edges = findings.crowded_edges = findings.turned_edges = 0;
+  };
+  forget();
+  look_at_edges(MeshEdges(triangles));
+  findings.mended_edges = before.turned_edges - findings.turned_edges;
+  findings.first_mended = before.first_turned;
+  if (findings.closed()) orient_parts(part, num_parts);
+  forget();
+}
+
+/* From a triangle over its edges to all that are connected with it: each is turned if it faces the
+   other side. Where edges belong to more than two triangles, parts end. */
+
+void TriangleMesh::orient_along(int first, int number, const MeshEdges &edges,
+                                std::vector<int> &part)
+{
+  std::vector<int> to_do(1, first);
+  part[first] = number;
+  while (!to_do.empty()) {
+    const int t = to_do.back();
+    to_do.pop_back();
+    for (int k = 0; k < 3; k++) {    // the edges know corners as they were before any turn
+      const MeshEdges::Edge &edge = edges.of(t, k);
+      if (edge.num_users != 2) continue;
+      const int *user = edges.users(edge);
+      const int other = user[0] == t ? user[1] : user[0];
+      if (part[other] >= 0) continue;
+      const int a = edge.vertex[0], b = edge.vertex[1];
+      if (triangles[other].runs_along(a, b) == triangles[t].runs_along(a, b)) turn(other);
+      part[other] = number;
+      to_do.push_back(other);
+    }
+  }
+}
+
+/* Parts of a closed mesh: all as the first. Parts may go through each other, such as a paddle through
+   the wall of a drum, so that some of a part is where nothing is: the side is that of most of its
+   area, looked at in some 30 points or more. */
+
+void TriangleMesh::orient_parts(const std::vector<int> &part, int num_parts)
+{
+  constexpr double fineness = 64.0, aside = 1.0e-6;    // over the size of a triangle
+  const MeshInterior interior(*this);
+  std::vector<double> whole(num_parts), facing_out(num_parts);
+  for (int t = 0; t < size(); t++) whole[part[t]] += area(t);
+  for (int t = 0; t < size(); t++) {
+    const Triangle its = triangle(t);
+    const double surface = area(t);
+    const Vector3<double> start = its.corner[0] + aside * std::sqrt(surface) * normal(t);
+    const Vector3<double> u = its.corner[1] - its.corner[0], v = its.corner[2] - its.corner[0];
+    const int cuts = static_cast<int>(std::ceil(std::sqrt(fineness * surface / whole[part[t]])));
+    const double share = 2.0 * surface / (cuts * (cuts + 1));
+    for (int i = 0; i < cuts; i++)
+      for (int j = 0; i + j < cuts; j++) {
+        const Vector3<double> x = start + (i + 1.0 / 3.0) / cuts * u + (j + 1.0 / 3.0) / cuts * v;
+        facing_out[part[t]] += interior.contains(x) ? -share : share;
+      }
+  }
+  outward = facing_out[0] >= 0.0;
+  for (int t = 0; t < size(); t++)
+    if ((facing_out[part[t]] >= 0.0) != outward) turn(t);
 }
 
 void TriangleMesh::look_at_edges(const MeshEdges &edges)

@@ -10,6 +10,7 @@
 #include "body/shape/large_body_shape.h"
 #include "body/shape/mesh_edges.h"
 
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -22,15 +23,18 @@ struct MeshReport {
   int open_edges = 0;                          ///< edges of one triangle only: used
   int crowded_edges = 0, first_crowded = 0;    ///< edges of three or more triangles: used
   int turned_edges = 0, first_turned = 0;      ///< whose two triangles face opposite sides
+  int mended_edges = 0, first_mended = 0;      ///< did, until triangles were turned
   bool closed() const { return open_edges + crowded_edges + turned_edges == 0; }
 };
 
 class TriangleMesh {
  public:
   /// Joins corners that have equal coordinates. The angle between the normals of two triangles
-  /// below which their common edge counts as part of one smooth patch is smooth_angle. Throws
-  /// std::runtime_error if no triangle is left.
-  explicit TriangleMesh(const std::vector<Triangle> &soup);
+  /// below which their common edge counts as part of one smooth patch is smooth_angle. `orient`:
+  /// triangles are turned such that connected ones face the same side, as far as that can be; and
+  /// the normals of all parts of a closed mesh point out of what it encloses, or all of them into
+  /// it. Throws std::runtime_error if no triangle is left.
+  explicit TriangleMesh(const std::vector<Triangle> &soup, bool orient = false);
 
   static constexpr double smooth_angle = 30.0;          // degrees
   static constexpr double smooth_cosine = 0.8660254;    // its cosine
@@ -42,6 +46,8 @@ class TriangleMesh {
   const Vector3<double> &vertex(int v) const { return vertices[v]; }
   Triangle triangle(int t) const;
   double area(int t) const;
+  /// Of a closed mesh that has been oriented: normals point out of what it encloses.
+  bool faces_outward() const { return outward; }
   /// Of the corners as they are; contacts use that of the plane, see plane_of().
   Vector3<double> normal(int t) const;
   /// Number of the triangle in the file, from 0.
@@ -62,6 +68,10 @@ class TriangleMesh {
 
  private:
   void join_corners(const std::vector<Triangle> &soup);
+  void orient(const MeshEdges &edges);
+  void orient_along(int first, int number, const MeshEdges &edges, std::vector<int> &part);
+  void orient_parts(const std::vector<int> &part, int num_parts);
+  void turn(int t) { std::swap(triangles[t].vertex[1], triangles[t].vertex[2]); }
   void look_at_edges(const MeshEdges &edges);
   void find_patches(const MeshEdges &edges);
   void find_planes(const MeshEdges &edges);
@@ -74,6 +84,7 @@ class TriangleMesh {
   std::vector<int> file_numbers;    // empty: those of the file
   MeshReport findings;
   Eigen::AlignedBox3d extent;
+  bool outward = true;
   double enclosed = 0.0;
   Vector3<double> middle{0.0, 0.0, 0.0};
 };
