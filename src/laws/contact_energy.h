@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What contacts are asked about between steps, one at a time: forces, and the energy that is stored in
+// What contacts are asked about between steps, one at a time: forces, and the energy stored in
 // springs; and where the work goes that contacts take from particles (contact_work.h). Not part of
 // the kernels.
 

@@ -38,7 +38,7 @@ inline constexpr Cause cause_of(Stage stage)
 
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
-/// The work without the lag of springs, once all stages have run. `twists`: as ContactLaw::twists();
+/// The work without the lag of springs, when all stages have run. `twists`: ContactLaw::twists();
 /// `tears`: as Law::lasts_beyond_contact of the normal law.
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
 /// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.

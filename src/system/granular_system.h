@@ -194,7 +194,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const EnergyByCause &work() const { return account.sum; }
   /// Of a large body in a step.
   void add_work(const EnergyByCause &its) { account.sum += its; }
-  /// visit(contact) for the contacts of the last step on this rank, of pairs and large bodies: those
+  /// visit(contact) for contacts of the last step on this rank, of pairs and large bodies, those
   /// with a ghost as well. Behind a run only as long as someone observes them.
   void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
 

@@ -200,7 +200,8 @@ void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visi
   contacts.for_each_contact(*its_shape, *frame, view(), update->dt, ask, visit);
 }
 
-/* What a spring has taken it stores, or has lost: it does not matter here. */
+/* What a spring has taken it stores, or has lost: it does not matter here. The same with the whole
+   force of contacts that tear. */
 
 /* What was seen between has the host's indices of this rebuild, which stand until the next. */
 
@@ -216,7 +217,7 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated, all;
-  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) { here += one.stored.normal; });
+  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) { here += one.stored.normal - one.stored.tearing; });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

@@ -104,7 +104,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   // ---- energies and questions
 
-  /// Collective: energy stored in the contacts, and the work that they have taken from the particles
+  /// Collective: energy stored in the contacts, and the work they have taken from the particles
   /// and the body less what it has stored. Work is accounted for from the first question on, until
   /// a run in which nobody asks.
   double energy();

@@ -87,7 +87,7 @@ class BodyContacts {
   /// Of the same, for step.account.
   EnergyByCause static_work() const;
 
-  /// Every contact, once the forces of a step have been computed: visit(contact). `dt`: of the step.
+  /// Every contact, once forces have been computed: visit(contact). `dt`: of the step.
   using VisitContact = std::function<void(const SurveyedContact &)>;
   void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
                         const BodyParticleView &view, double dt, Ask ask,
