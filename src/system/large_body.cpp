@@ -217,7 +217,9 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated, all;
-  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) { here += one.stored.normal - one.stored.tearing; });
+  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
+    here += one.stored.normal - one.stored.tearing;
+  });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
