@@ -15,7 +15,7 @@ void copy_history(ContactBatch &b, int begin, int end, const StageInput & /*in*/
     for (int k = begin; k < end; k += lanes) store(&b.before[n][k], load8(&b.history[n][k]));
 }
 
-template <bool friction, bool twists, bool tears>
+template <bool friction, bool twists, bool resists, bool tears>
 void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -23,16 +23,17 @@ void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &i
     load_state(b, k, s);
     load_found<Stage::HEAT>(b, k, s);
     ContactWork<Vec8> work;
-    find_work<friction, twists, tears>(s, in.dt, work);
+    find_work<friction, twists, resists, tears>(s, in.dt, work);
     for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 
 template <bool tears> StageFunction work_finder_of(const ContactLaw &law)
 {
-  if (law.twists()) return find_work_of_batch<true, true, tears>;
-  return law.has_friction() ? find_work_of_batch<true, false, tears>
-                            : find_work_of_batch<false, false, tears>;
+  if (law.resists()) return find_work_of_batch<true, true, true, tears>;
+  if (law.twists()) return find_work_of_batch<true, true, false, tears>;
+  return law.has_friction() ? find_work_of_batch<true, false, false, tears>
+                            : find_work_of_batch<false, false, false, tears>;
 }
 
 }    // namespace

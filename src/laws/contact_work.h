@@ -39,10 +39,10 @@ inline constexpr Cause cause_of(Stage stage)
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
 /// The work without the lag of springs, when all stages have run. `twists`: ContactLaw::twists();
-/// `tears`: as Law::lasts_beyond_contact of the normal law.
+/// `resists`: the same; `tears`: as Law::lasts_beyond_contact of the normal law.
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
 /// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.
-template <bool friction, bool twists, bool tears, class Real>
+template <bool friction, bool twists, bool resists, bool tears, class Real>
 TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<Real> &work)
 {
   const Real damping = s.normal_force - s.elastic;
@@ -62,6 +62,7 @@ TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<
                       twist = s.arm_difference * lever;
   work[1] = -dt * (dot(tangential, s.velocity) - dot(moment, s.surface_rotation) +
                    dot(twist, s.relative_omega));
+  if constexpr (!resists) return;
   work[2] = dt * (dot(s.moment - moment, s.surface_rotation) -
                   dot(s.twisting_torque - twist, s.relative_omega));
 }

@@ -100,7 +100,8 @@ struct Fused {
   {
     constexpr int to_rolling = values_of<Tangential>, to_twisting = to_rolling + values_of<Rolling>;
     ContactWork<Real> work;
-    find_work<Tangential::acts, twists, Normal::lasts_beyond_contact>(s, dt, work);
+    find_work<Tangential::acts, twists, Rolling::acts || Twisting::acts,
+              Normal::lasts_beyond_contact>(s, dt, work);
     if constexpr (has_lag<Tangential>) take_lag<Tangential>(s, c.tangential, before, now, dt, work);
     if constexpr (has_lag<Rolling>)
       take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);

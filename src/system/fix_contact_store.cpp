@@ -97,7 +97,6 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
-  require_numbers();
   store_histories(Occasion::REBUILD);
   if (system) system->release_pairs();
   keep_positions();
@@ -166,24 +165,44 @@ void FixContactStore::end_of_step()
   if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
 }
 
-/* A square that overflows counts as well: energies and moves are no numbers then. The rank that has
-   one says so: nothing is asked of the others, for this is also done at each rebuild. */
+/* A square that overflows counts as well: energies and moves are no numbers then. */
+
+RunMonitor::Finding FixContactStore::find_no_number() const
+{
+  double **const rows[] = {atom->x, atom->v, atom->omega};
+  for (int q = 0; q < 3; q++)
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double *v = rows[q][i];
+      if (!std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
+        return {1.0, {static_cast<double>(atom->tag[i]), static_cast<double>(q)}};
+    }
+  return {};
+}
+
+void FixContactStore::say_no_number(const RunMonitor::Finding &found) const
+{
+  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
+  error->all(FLERR,
+             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
+             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
+             "a fix)",
+             Talus::GranularSystem::of(lmp)->style_name(),
+             quantities[static_cast<int>(found.details[1])], found.details[0], update->ntimestep);
+}
+
+/* Of several ranks the particle with the lowest ID. */
 
 void FixContactStore::require_numbers() const
 {
-  const std::pair<const char *, double **> rows[] = {
-      {"position", atom->x}, {"velocity", atom->v}, {"angular velocity", atom->omega}};
-  for (const auto &[quantity, row] : rows)
-    for (int i = 0; i < atom->nlocal; i++) {
-      const double *v = row[i];
-      if (std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) continue;
-      error->one(FLERR,
-                 "Pair style {}: the {} of particle {} is not a number, or much too large, at step "
-                 "{}: use a smaller time step, or look for what has set it (velocity, set, "
-                 "read_data, a fix)",
-                 Talus::GranularSystem::of(lmp)->style_name(), quantity, atom->tag[i],
-                 update->ntimestep);
-    }
+  struct {
+    double tag;
+    int quantity;
+  } mine{std::numeric_limits<double>::max(), 0}, first;
+  const RunMonitor::Finding here = find_no_number();
+  if (here.value > 0.0) mine = {here.details[0], static_cast<int>(here.details[1])};
+  MPI_Allreduce(&mine, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  if (first.tag < std::numeric_limits<double>::max())
+    say_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
 }
 
 /* From here on each particle carries its slot along, also if it is moved or deleted before

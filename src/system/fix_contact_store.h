@@ -20,6 +20,7 @@
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
 #include "history/history_store.h"
+#include "system/run_monitor.h"
 
 #include <cstdint>
 #include <vector>
@@ -50,6 +51,11 @@ class FixContactStore : public Fix {
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
   Talus::HistoryStore &histories() { return store; }
+
+  /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number. The
+  /// error, collective.
+  RunMonitor::Finding find_no_number() const;
+  void say_no_number(const RunMonitor::Finding &found) const;
 
   int setmask() override;
   void init() override;

@@ -59,6 +59,12 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
   if (pair) return false;
   pair = one;
   style = traits;
+  monitors.add(pair,
+               {{0.5, [this] { return store ? store->find_no_number() : RunMonitor::Finding{}; },
+                 [this](const RunMonitor::Finding &found) {
+                   store->say_no_number(found);
+                   return true;
+                 }}});
   monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");

@@ -68,7 +68,7 @@ class Computes(SceneCase):
                 totals = [row["c_k"] + row["c_r"] + sum(row[key] for key in ENERGIES) for row in rows]
                 worst = max(abs(total - totals[0]) for total in totals) / totals[0]
                 print(f"\n{pair.splitlines()[-1] if 'granular' in pair else pair.splitlines()[0]}: change of the sum {worst:.1e}")
-                self.assertLess(worst, 1e-2)    # of first order in the time step
+                self.assertLess(worst, 2e-4)
                 self.assertGreater(max(row["c_s[2]"] for row in rows), 10)
                 for n in dissipates:
                     self.assertGreater(rows[-1][f"c_s[{n}]"], 1e-3 * totals[0], f"c_s[{n}]")
