@@ -230,7 +230,7 @@ def friction(bench, pool):
     section.text(f"""Elastic impacts (hertz/material, e = 1) of two spheres at {len(friction_gain.ANGLES)} angles from 0 to {max(friction_gain.ANGLES)}
 degrees and {len(friction_gain.SPINS)} angular velocities: gain of kinetic energy, mean over {phases} moments within a step at which the contact begins, at
 the angle and angular velocity where it is largest. (warned): Talus says so at the start of the run. Single impacts scatter also without
-friction, see above; the mean does not grow. Two things gain. The usual update of the tangential displacement is of
+friction, see above; the mean does not grow. Two errors of the spring give energy. The usual update of the tangential displacement is of
 first order (the step in which a contact begins counts whole), and above mu = .5 the limit of friction takes away less and less of
 what is too much: a smaller time step or `midpoint` cures it, and rolling resistance of .01 mu or more takes it away. And the spring of a Hertzian contact that neither slips (mu above 10) nor turns (rolling
 resistance above .2) stiffens with the overlap while it is stretched, which adds energy: that is a property of the law, which no time step cures, and damping does.""")

@@ -9,6 +9,8 @@
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
 #include "dump/dump_vtk_gran.h"
+#include "fill/fill_region.h"
+#include "fill/fix_pour_rate.h"
 #include "fix/fix_gravity_talus.h"
 #include "fix/fix_large_body.h"
 #include "fix/fix_nve_sphere_symplectic.h"
@@ -160,6 +162,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.pair<PairGranularTalus>("granular/talus", "Talus pair style granular/talus");
 #endif
   registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
+  registry.command<FillRegion>("fill_region", "Talus command fill_region");
   registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
   registry.run_style<Verlet>("verlet/stock", "run style verlet of LAMMPS, under a name of Talus");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
@@ -169,6 +172,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 #if TALUS_HOST_HAS_GRANULAR
   registry.fix<FixFreezeTalus>("freeze/talus", "Talus fix style freeze/talus");
 #endif
+  registry.fix<FixPourRate>("pour/rate", "Talus fix style pour/rate");
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
 #if TALUS_HOST_HAS_GRANULAR
   registry.fix<FixWallGranTalus>("wall/gran/talus", "Talus fix style wall/gran/talus");

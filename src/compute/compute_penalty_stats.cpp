@@ -50,7 +50,9 @@ ComputePenaltyStats::~ComputePenaltyStats()
 void ComputePenaltyStats::init()
 {
   if (!system->has_pair_style())
-    error->all(FLERR, "Compute penalty/stats requires one pair style gran/penalty");
+    error->all(FLERR,
+               "Compute penalty/stats requires one pair style gran/penalty, or one that is accelerated by "
+               "the suffix talus: see 'Talus: styles of this run' in the log");
   system->keep_account();
   for (Talus::LargeBody *body : system->bodies()) body->keep_account();
   if (started) return;

@@ -126,10 +126,6 @@ void FixLargeBody::parse_contact_words(Words &words)
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
   const int at_normal = words.index();
   const ContactSpec parsed = parse_contact(words, 1.0 / force->nktv2p);
-  if (parsed.law.normal().lasts_beyond_contact)
-    words.fail(words.index() - at_normal,
-               std::string("contacts of ") + parsed.law.normal().name +
-                   " last beyond zero overlap, which those of large bodies do not: use dmt");
   if (parsed.law.conducts_heat())
     words.fail(words.index() - at_normal,
                "large bodies have no temperature: remove 'heat', or use fix wall/gran granular");

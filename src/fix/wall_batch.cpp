@@ -24,10 +24,8 @@ void WallLaw::take(const Model &model)
 
 double WallLaw::reach(double radius, double wall_radius) const
 {
-  const Law &normal = law.normal();
-  if (!normal.reach) return 0.0;
   const double inverse = 1.0 / radius + (wall_radius != 0.0 ? 1.0 / wall_radius : 0.0);
-  return normal.reach(law.coefficients(Stage::NORMAL, row), 1.0 / inverse);
+  return reach_of(law, row, 1.0 / inverse);
 }
 
 void WallBatch::add(const Contact &c)

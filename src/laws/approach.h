@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // What every contact begins with: normal velocity, effective mass and radius, and the impact of
-// laws that keep it.
+// laws that keep it. Laws that are synchronized take all of it with the normal of half a step
+// before.
 
 #ifndef TALUS_LAWS_APPROACH_H
 #define TALUS_LAWS_APPROACH_H
@@ -27,6 +28,17 @@ inline void follow_impact(ContactImpact<Real> &impact, Real normal_velocity, dou
   if (!advance) return;
   impact.age = select(begun, impact.age + dt, zero);
   impact.begun = one;
+}
+
+/// The normal half a step before, dt/2: centers came here along straight lines. Where they coincide
+/// there is none.
+template <class Real>
+TALUS_INLINE Vector3<Real> normal_half_way(const ContactState<Real> &s, Real dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
+  const Real length = square_root(dot(half_way, half_way));
+  return select(length > zero, one / length, zero) * half_way;
 }
 
 /// Finds normal_velocity, mass and, if it is needed, radius. Between two infinitely heavy bodies

@@ -41,6 +41,7 @@ struct ContactBatch {
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {
+    alignas(64) double full_normal[3][width];    // only of synchronized laws
     alignas(64) double normal_velocity[width], mass[width], radius[width],
         impact_speed[width], age[width];
     alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],

@@ -46,6 +46,10 @@ ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &r
   ContactEnergy e;
   e.elastic_normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
   e.damping = (s.normal_force - s.elastic) * s.normal;
+  if (law.normal().lasts_beyond_contact) {
+    e.damping = s.normal_force * s.normal;
+    e.elastic_in_damping = e.elastic_normal;
+  }
   if (!law.has_friction()) return e;
 
   e.friction = s.tangential;
@@ -96,7 +100,8 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &row, doub
 
 void EnergyAccount::begin_step(int num_particles)
 {
-  elastic_normal = elastic_tangential = elastic_resistance = 0.0;
+  elastic_normal = elastic_in_damping = elastic_tangential = elastic_resistance = 0.0;
+  evaluations = std::min(evaluations + 1, 2);
   forces.assign(num_particles, Forces{});
 }
 
@@ -113,7 +118,13 @@ void EnergyAccount::add_end(const ContactEnergy &e, int particle, double radius,
 void EnergyAccount::add(const ContactEnergy &e, double share, int first, double first_radius,
                         int second, double second_radius)
 {
+  if (evaluations == 1) {
+    work_normal += share * e.elastic_in_damping;
+    work_tangential += share * e.elastic_tangential;
+    work_resistance += share * e.elastic_resistance;
+  }
   elastic_normal += share * e.elastic_normal;
+  elastic_in_damping += share * e.elastic_in_damping;
   elastic_tangential += share * e.elastic_tangential;
   elastic_resistance += share * e.elastic_resistance;
   add_end(e, first, first_radius, 1.0);

@@ -18,9 +18,10 @@ namespace Talus {
 /// minus a torque.
 struct ContactEnergy {
   double elastic_normal = 0.0;                ///< of normal law and cohesion
+  double elastic_in_damping = 0.0;            ///< of `elastic_normal`, whose force is in `damping`
   double elastic_tangential = 0.0;            ///< of the tangential law
   double elastic_resistance = 0.0;            ///< of rolling and twisting
-  Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force
+  Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force; of contacts that tear, the whole one
   Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
   Vector3<double> friction_moment{0.0, 0.0, 0.0};
   Vector3<double> friction_torque{0.0, 0.0, 0.0};    ///< of friction, opposite on both bodies
@@ -50,7 +51,9 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficie
 /// takes it: force times the mean of the velocities before and after the kick, so that for
 /// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by
 /// friction or resistance is the work of these forces less what is stored at the time of asking:
-/// what a contact still stores when it opens is lost, and counted so.
+/// what a contact still stores when it opens is lost, and counted so. Normal forces of
+/// contacts that last beyond zero overlap, and then tear, are treated in the same way. What contacts
+/// store in the first step of all has come from nowhere.
 class EnergyAccount {
  public:
   /// Before the contacts of a step: forgets the forces of the last one and what it stored.
@@ -71,7 +74,7 @@ class EnergyAccount {
   bool waits_for_move() const { return !forces.empty(); }
 
   double elastic() const { return elastic_normal + elastic_tangential + elastic_resistance; }
-  double dissipated_normal() const { return work_normal; }
+  double dissipated_normal() const { return work_normal - elastic_in_damping; }
   double dissipated_tangential() const { return work_tangential - elastic_tangential; }
   double dissipated_resistance() const { return work_resistance - elastic_resistance; }
 
@@ -83,7 +86,9 @@ class EnergyAccount {
   void add_end(const ContactEnergy &e, int particle, double radius, double sign);
 
   std::vector<Forces> forces;    // by particle
-  double elastic_normal = 0.0, elastic_tangential = 0.0, elastic_resistance = 0.0;
+  double elastic_normal = 0.0, elastic_in_damping = 0.0;
+  double elastic_tangential = 0.0, elastic_resistance = 0.0;
+  int evaluations = 0;    // of the contacts: none, the first, more
   double work_normal = 0.0, work_tangential = 0.0, work_resistance = 0.0;
 };
 

@@ -10,6 +10,26 @@
 namespace Talus {
 namespace {
 
+/// Puts the normal of half a step before in the place of that of the positions, and keeps this one.
+void go_half_way_back(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  for (int k = begin; k < end; k += lanes) {
+    Vec8 dt = splat<Vec8>(in.table[0].c[in.first_coefficient]);
+    for (int q = 0; q < lanes && !in.uniform; q++)
+      dt[q] = in.table[b.coefficients[k + q]].c[in.first_coefficient];
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    store_vector(b.between.full_normal, k, s.normal);
+    store_vector(b.normal, k, normal_half_way(s, dt));
+  }
+}
+
+void return_to_full_step(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
+{
+  for (int k = begin; k < end; k += lanes)
+    store_vector(b.normal, k, load_vector<Vec8>(b.between.full_normal, k));
+}
+
 template <bool with_radius, bool impact, bool advance>
 void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
 {
@@ -73,6 +93,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
   const HistoryLayout history = law.history();
   ContactKernel kernel;
   kernel.uniform = uniform;
+  if (law.synchronized()) kernel.add(go_half_way_back, law.place_of_time_step());
   kernel.add(law.needs_radius() ? approach_function<true>(history.keeps_impact, advance)
                                 : approach_function<false>(history.keeps_impact, advance),
              0, history.impact);
@@ -81,6 +102,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
     kernel.add(advance ? its.advancing : its.reading, law.first_coefficient(stage),
                history.of_stage[static_cast<int>(stage)]);
   });
+  if (law.synchronized()) kernel.add(return_to_full_step);
   return kernel;
 }
 
@@ -113,6 +135,8 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
 {
   ContactLanes<double> s;
   static_cast<ContactState<double> &>(s) = state;
+  s.full_normal = s.normal;
+  if (law.synchronized()) s.normal = normal_half_way(s, coefficients.c[law.place_of_time_step()]);
   if (law.needs_radius())
     approach<true>(s);
   else

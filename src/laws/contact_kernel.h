@@ -47,7 +47,7 @@ class ContactKernel {
     int first_coefficient;
     HistoryPlaces places;
   };
-  std::array<Step, num_stages + 2> steps{};    // and the approach, and Chrono's delay
+  std::array<Step, num_stages + 4> steps{};    // and what is around them, see staged_kernel()
   int count = 0;
   bool uniform = false;
 };

@@ -32,6 +32,8 @@ template <class Real> struct ContactState {
 /// torque on body 1, -r_2 moment - twisting torque on body 2.
 template <class Real> struct ContactLanes : ContactState<Real> {
   // approach, see approach.h
+  Vector3<Real> full_normal{};    ///< of synchronized laws: the normal of the positions, while
+                                  ///< `normal` is that of half a step before
   Real normal_velocity{};    ///< (v_1 - v_2) . n, negative when approaching
   Real mass{}, radius{};     ///< effective ones; radius only for laws that need it
   Real impact_speed{};       ///< normal speed in the first step; 0 if it is not kept

@@ -49,6 +49,13 @@ class Places {
 
 }    // namespace
 
+bool Law::reads(const char *coefficient) const
+{
+  for (int n = 0; n < num_coefficients; n++)
+    if (std::strcmp(coefficients[n].name, coefficient) == 0) return true;
+  return false;
+}
+
 ContactLaw::ContactLaw()
 {
   for (int s = 0; s < num_stages; s++) laws[s] = laws_of(static_cast<Stage>(s)).front();
@@ -101,10 +108,14 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
 double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                 double radius_j)
 {
+  if (radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
+  return reach_of(law, row, radius_i * radius_j / (radius_i + radius_j));
+}
+
+double reach_of(const ContactLaw &law, const ContactCoefficients &row, double effective_radius)
+{
   const Law &normal = law.normal();
-  if (!normal.reach || radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
-  return normal.reach(law.coefficients(Stage::NORMAL, row),
-                      radius_i * radius_j / (radius_i + radius_j));
+  return normal.reach ? normal.reach(law.coefficients(Stage::NORMAL, row), effective_radius) : 0.0;
 }
 
 std::string describe_law(const ContactLaw &law)

@@ -48,6 +48,7 @@ class ContactLaw {
   /// Torques arise that are not the moment of a force on both surfaces: twisting_torque is written.
   /// Heat goes with them.
   bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
+  bool synchronized() const { return tangential().synchronized; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Spins are read, torques arise.
   bool has_friction() const { return tangential().acts || twists(); }
@@ -67,6 +68,8 @@ class ContactLaw {
   /// Place of a stage's first coefficient in a row, and behind the last one of the last stage.
   int first_coefficient(Stage stage) const;
   int num_coefficients() const;
+  /// Of a synchronized law.
+  int place_of_time_step() const { return first_coefficient(Stage::ROLLING) - 1; }
   const double *coefficients(Stage stage, const ContactCoefficients &row) const
   {
     return row.c + first_coefficient(stage);
@@ -82,6 +85,7 @@ class ContactLaw {
 /// radius is.
 double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                 double radius_j);
+double reach_of(const ContactLaw &law, const ContactCoefficients &row, double effective_radius);
 
 /// A law in words, e.g. "hertz + multistep + resistance".
 std::string describe_law(const ContactLaw &law);

@@ -77,9 +77,11 @@ struct Law {
   bool has_spring;         ///< tangential: remembers a displacement, gives back its energy or more
   bool stiffens;           ///< tangential: a stretched spring of its own may gain from the overlap
   bool is_midpoint;        ///< tangential: second order in the time step
-  bool holds;              ///< rolling: a body at rest is held
-  bool delayed;            ///< rolling, twisting: reads delayed_force
-  double exponent;         ///< normal: elastic force ~ overlap^exponent
+  bool synchronized;    ///< tangential: all stages see the normal of half a step before; the last
+                        ///< coefficient is the time step
+  bool holds;           ///< rolling: a body at rest is held
+  bool delayed;         ///< rolling, twisting: reads delayed_force
+  double exponent;      ///< normal: elastic force ~ overlap^exponent
   bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
   bool cohesive;      ///< normal: adhesion of its own
   bool allows_cohesion;    ///< damping: may follow such a normal law
@@ -89,6 +91,9 @@ struct Law {
   /// Why kt (normal) or gt (damping) has to be NULL, or a number.
   const char *takes_no_kt, *takes_no_gt, *needs_gt;
   const char *damping;    ///< normal: name of the damping law that it has unless asked for another
+
+  /// Whether it has a coefficient of this name.
+  bool reads(const char *coefficient) const;
 
   StageFunction reading, advancing;    ///< history only read; or advanced by this step
   OneContact one;

@@ -44,7 +44,8 @@ struct LawBase {
 
   static constexpr bool acts = true, needs_radius = false, reads_impact = false;
   static constexpr bool reads_stiffness = false, has_spring = false, stiffens = false;
-  static constexpr bool is_midpoint = false, holds = false, delayed = false, like_stock = false;
+  static constexpr bool is_midpoint = false, synchronized = false;
+  static constexpr bool holds = false, delayed = false, like_stock = false;
   static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
   static constexpr bool lasts_beyond_contact = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
@@ -218,6 +219,7 @@ TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s
   if (stage == Stage::DAMPING) return;
   visit_written<Stage::DAMPING>(s, b, load);
   load(s.delayed_force, b.between.delayed_force);
+  s.full_normal = load_vector<Real>(b.between.full_normal, k);
   s.force = load_vector<Real>(b.force, k);
   if (stage == Stage::TANGENTIAL) return;
   s.moment = load_vector<Real>(b.moment, k);
@@ -332,6 +334,7 @@ template <class L> constexpr Law make_law()
   law.has_spring = L::has_spring;
   law.stiffens = L::stiffens;
   law.is_midpoint = L::is_midpoint;
+  law.synchronized = L::synchronized;
   law.holds = L::holds;
   law.delayed = L::delayed;
   law.exponent = L::exponent;

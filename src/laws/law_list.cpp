@@ -38,6 +38,7 @@
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
+#include "laws/tangential/synchronized.h"
 #include "laws/tangential/tanh.h"
 #include "laws/twisting/delayed.h"
 #include "laws/twisting/marshall.h"
@@ -91,11 +92,19 @@ const Law *const all_laws[] = {
     &law<MindlinRescaleForce>,
     &law<MindlinClassic>,
     &law<ClassicOfFeb2025>,
+    &law<SynchronizedLinear>,
+    &law<SynchronizedLinearClassic>,
+    &law<SynchronizedMindlin>,
+    &law<SynchronizedMindlinForce>,
+    &law<SynchronizedMindlinRescale>,
+    &law<SynchronizedMindlinRescaleForce>,
+    &law<SynchronizedMindlinClassic>,
 
     &law<RollingNone>,
     &law<HoldingRolling>,
     &law<DelayedRolling>,
     &law<SdsRolling>,
+    &law<SynchronizedSds>,
 
     &law<TwistingNone>,
     &law<StoppingTwist>,

@@ -108,14 +108,14 @@ std::string LawBook::describe(const LawTable &table) const
       if (known(i, j) && lines++ < most) text += "  " + describe_pair(i, j) + "\n";
   if (lines > most) text += "  ... " + std::to_string(lines - most) + " more pairs of types\n";
 
-  std::string left_out;
+  std::string spared;
   if (!table.has_resistance())
-    left_out += ", torques of resistance (no rolling or spinning resistance)";
-  if (!table.has_impact()) left_out += ", impact velocity and age of contacts (no law reads them)";
-  if (!table.has_history()) left_out += ", contact history (no law with a spring)";
-  if (!table.has_friction()) left_out += ", angular velocities and torques (no friction)";
-  if (table.uniform()) left_out += ", look-up by type (one set of coefficients)";
-  return left_out.empty() ? text : text + "  left out: " + left_out.substr(2) + "\n";
+    spared += ", torques of resistance (no rolling or spinning resistance)";
+  if (!table.has_impact()) spared += ", impact velocity and age of contacts (no law reads them)";
+  if (!table.has_history()) spared += ", contact history (no law with a spring)";
+  if (!table.has_friction()) spared += ", angular velocities and torques (no friction)";
+  if (table.uniform()) spared += ", coefficients by type (one set for all)";
+  return spared.empty() ? text : text + "  not needed here: " + spared.substr(2) + "\n";
 }
 
 }    // namespace Talus

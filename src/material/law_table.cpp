@@ -88,4 +88,9 @@ double LawTable::reach(int row, double radius_i, double radius_j) const
   return reach_of(laws[row], rows[row], radius_i, radius_j);
 }
 
+double LawTable::reach(int row, double radius) const
+{
+  return reach_of(laws[row], rows[row], radius);
+}
+
 }    // namespace Talus

@@ -50,6 +50,8 @@ class LawTable {
   bool conducts_heat() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
   double reach(int row, double radius_i, double radius_j) const;
+  /// The same against a flat body.
+  double reach(int row, double radius) const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;

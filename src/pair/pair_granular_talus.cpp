@@ -74,6 +74,14 @@ void PairGranularTalus::set_laws()
   svector = new double[single_extra];
 }
 
+/* Synchronized laws know the time step. */
+
+void PairGranularTalus::reset_dt()
+{
+  PairGranular::reset_dt();
+  if (in_system()) set_laws();
+}
+
 /* The stock style may have a larger cutoff: a user's, or that of contacts that last beyond an
    overlap. */
 
@@ -106,7 +114,7 @@ void PairGranularTalus::report_single(const std::optional<SinglePair> &pair)
   const Vector opposite = s.twisting_torque - s.arm_difference * cross(n, fs);
   const double twist = dot(opposite, n);
   const Vector fr = s.inverse_radius * cross(opposite - twist * n, n);
-  const Vector dx = pair->distance * n;
+  const Vector dx = pair->distance * s.full_normal;
   const double all[] = {fs.x,  fs.y, fs.z, std::sqrt(dot(fs, fs)),
                         fr.x,  fr.y, fr.z, std::sqrt(dot(fr, fr)),
                         twist, dx.x, dx.y, dx.z};

@@ -21,6 +21,7 @@ class PairGranularTalus : public AcceleratedPair<PairGranular> {
  public:
   explicit PairGranularTalus(LAMMPS *);
   ~PairGranularTalus() override;
+  void reset_dt() override;
 
  protected:
   std::string reason_of_models() const override;

@@ -55,15 +55,6 @@ constexpr StageOfModel stages[] = {{NORMAL, Stage::NORMAL, "normal"},
                                    {TWISTING, Stage::TWISTING, "twisting"},
                                    {HEAT, Stage::HEAT, "heat"}};
 
-const Law *law_of(const GranSubMod &sub_model, Stage stage)
-{
-  const std::string &name = sub_model.name;
-  if (stage == Stage::NORMAL && name == "hertz/material") return find_law(stage, "hertz");
-  const bool classic = name == "linear_history_classic" || name == "mindlin_classic";
-  if (classic && !TALUS_HOST_SCALES_CLASSIC_SLIP) return find_law(stage, "classic of 4 Feb 2025");
-  return find_law(stage, name);
-}
-
 /* In releases that have it. */
 
 template <class AnyModel>
@@ -76,10 +67,28 @@ auto is_synchronized(const AnyModel *model) -> decltype(model->synchronized_verl
   return false;
 }
 
+const Law *law_of(const Model &model, const StageOfModel &its)
+{
+  const Stage stage = its.stage;
+  const std::string &name = model.sub_models[its.type]->name;
+  const bool follows = stage == Stage::TANGENTIAL || (stage == Stage::ROLLING && name != "none");
+  if (follows && is_synchronized(&model)) return find_law(stage, name + " synchronized_verlet");
+  if (stage == Stage::NORMAL && name == "hertz/material") return find_law(stage, "hertz");
+  const bool classic = name == "linear_history_classic" || name == "mindlin_classic";
+  if (classic && !TALUS_HOST_SCALES_CLASSIC_SLIP) return find_law(stage, "classic of 4 Feb 2025");
+  return find_law(stage, name);
+}
+
 void give_normal(const Model &model, GivenNumbers &given)
 {
   GranSubModNormal *normal = model.normal_model;
-  given["gn"] = given["eta"] = normal->get_damp();
+  const std::string &damping = model.sub_models[DAMPING]->name;
+  const bool restitutes = damping == "tsuji" || damping == "coeff_restitution";
+  given[restitutes ? "eta" : "gn"] = normal->get_damp();
+  if (normal->get_material_properties()) {
+    given["E"] = normal->coeffs[0];
+    given["nu"] = normal->coeffs[2];
+  }
   if (const auto *hooke = dynamic_cast<GranSubModNormalHooke *>(normal))
     given["kn"] = hooke->*pointer_to(HookeStiffness{});
   if (const auto *hertz = dynamic_cast<GranSubModNormalHertz *>(normal))
@@ -116,23 +125,22 @@ void give_resistance(const GranSubMod &sub_model, const std::array<const char *,
 std::string reason_of_model(const Model &model)
 {
   for (const StageOfModel &its : stages) {
-    const GranSubMod &sub_model = *model.sub_models[its.type];
-    if (!law_of(sub_model, its.stage)) return std::string(its.word) + " model " + sub_model.name;
+    const std::string &name = model.sub_models[its.type]->name;
+    if (!law_of(model, its)) return std::string(its.word) + " model " + name;
   }
-  if (is_synchronized(&model)) return "synchronized_verlet";
   return "";
 }
 
 ContactSpec spec_of_model(const Model &model)
 {
   ContactSpec spec;
-  for (const StageOfModel &its : stages)
-    spec.law.choose(its.stage, law_of(*model.sub_models[its.type], its.stage));
+  for (const StageOfModel &its : stages) spec.law.choose(its.stage, law_of(model, its));
   give_normal(model, spec.given);
   give_tangential(model, spec.given);
   give_resistance(*model.rolling_model, {"k_roll", "gamma_roll", "mu_roll"}, spec.given);
   give_resistance(*model.twisting_model, {"k_twist", "gamma_twist", "mu_twist"}, spec.given);
   if (spec.law.conducts_heat()) spec.given["heat"] = model.sub_models[HEAT]->coeffs[0];
+  if (spec.law.synchronized()) spec.given["dt"] = model.dt;
   if (model.limit_damping) spec.given["limit_damping"] = 1.0;
   return spec;
 }

@@ -100,8 +100,9 @@ void LargeBody::list_particles()
   masses.update();
   const BodyParticleView particles = view();
   if (its_shape->wants_focus())
-    its_shape->focus(BodyCandidates::bounds_of_search(*frame, particles, atom->mask, group_bits(),
-                                                      neighbor->skin));
+    its_shape->focus(BodyCandidates::bounds_of_search(
+        *frame, particles, atom->mask, group_bits(), neighbor->skin,
+        contacts.largest_reach(particles, atom->mask, group_bits())));
   contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
                            comm->nthreads);
 }

@@ -11,6 +11,7 @@
 #include "fix.h"
 
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -52,8 +53,8 @@ ContactCoefficients LargeBody::coefficients_of(int type)
   for (const char *name : {"E", "nu", "e", "eta", "gamma", "mu", "limit_damping"})
     if (own->given.has(name)) particle.given[name] = own->given.value(name);
   if (body.law.normal().cohesive) particle.given.erase("limit_damping");
-  if (own->given.has("mu_r") || own->given.has("mu_s"))
-    for (const char *name : {"mu_r", "mu_s"}) particle.given[name] = own->given.value(name);
+  for (const auto &[stage, name] : {std::pair(Stage::ROLLING, "mu_r"), {Stage::TWISTING, "mu_s"}})
+    if (own->law[stage].reads(name)) particle.given[name] = own->given.value(name);
   return contact_coefficients(body, particle, system.laws().mix);
 }
 

@@ -140,7 +140,7 @@ class Progress(unittest.TestCase):
         self.assertEqual(shown.count("step"), 3)
 
     def test_what_passes_through(self):
-        lines = ["Talus gran/penalty: kernels", "  left out: history", "  Neighbor list info",
+        lines = ["Talus gran/penalty: kernels", "  not needed here: history", "  Neighbor list info",
                  "Setting up", "  indented", "WARNING: careful", *self.THERMO,
                  "--- bed ---", "a  1", "", "b  2", "ERROR: no", "Last input line: x"]
         _, said = self.follow(lines)
@@ -149,7 +149,7 @@ class Progress(unittest.TestCase):
 
     def test_rows_of_thermo_output_are_no_part_of_a_warning(self):
         lines = ["WARNING: before", *self.THERMO[:2], "WARNING: between", *self.THERMO[2:4],
-                 "Talus gran/penalty: kernels", "  left out: history"]
+                 "Talus gran/penalty: kernels", "  not needed here: history"]
         shown, said = self.follow(lines)
         self.assertEqual(said, [lines[0], "WARNING: between", *lines[-2:]])
         self.assertEqual(shown.count("step"), 3)

@@ -25,6 +25,11 @@ def combinations():
             if allowed(n, d, t, w)]
 
 
+def synchronized(combination):
+    """Those that allow synchronized_verlet, which LAMMPS has from 4 Jul 2026 on."""
+    return combination[2] != "linear_nohistory"
+
+
 def words(combination, rng, limit=False):
     """Of one model of these sub-models, with random numbers."""
     normal, damping, tangential, rolling, twisting = combination

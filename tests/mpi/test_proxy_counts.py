@@ -5,7 +5,7 @@
 Particles at rest: the steps of a long run are those of a short one and more of the same.  What one
 step must send is worked out from the positions: a message to each rank that has at least one proxy of
 ours, of 72 bytes for each of our particles with a proxy there: once, however many images of it are there.  In
-scenes without friction steps that nobody looks at send 48 bytes, from records to records."""
+scenes without friction steps without output send 48 bytes, from records to records."""
 
 import itertools
 import os

@@ -143,11 +143,11 @@ set group all density 2500"""
     MOVE = "fix integr all nve/sphere/symplectic gravity 9.81 vector 0 0 -1"
 
     def script(self, setup, law, lines):
-        early = [line for line in lines if line.split()[0] in ("region", "create_atoms", "set", "variable")]
+        early = [line for line in lines if line.split()[0] in ("region", "fill_region", "variable")]
         late = [line for line in lines if line not in early]
         return "\n".join([
             "units si", *setup, "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1", "create_box 1 box", law, *early,
-            *([] if any(line.startswith("create_atoms") for line in early) else [self.GRAINS]),
+            *([] if any(line.startswith("fill_region") for line in early) else [self.GRAINS]),
             *([] if any(line.startswith("pair_style") for line in late) else [self.PAIR]), "timestep 1e-6",
             *([] if any("nve/sphere" in line for line in late) else [self.MOVE]), *late, "run 20"])
 
@@ -222,6 +222,18 @@ class Output(PageCase):
                 self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
                 for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
                     self.assertTrue(os.path.getsize(self.path(name)))
+
+
+class FirstPage(SceneCase):
+
+    def test_example(self):
+        """The floor carries the weight that the page says."""
+        text = page("../README.md")
+        script, = [block for block in blocks(text) if "lattice" in block]
+        weight, = re.findall(r"minus their weight, (\d+)", " ".join(text.split()))
+        log = self.run_lammps(script).log
+        self.assertEqual(re.findall("WARNING.*", log), [])
+        self.assertAlmostEqual(thermo(log)[-1]["f_floor[3]"], -float(weight), delta=8.0)
 
 
 if __name__ == "__main__":

@@ -129,12 +129,11 @@ fix step all nve/sphere/symplectic {more}
 """
 COLUMNS = "x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz".split()
 WRITE = f"write_dump all custom last id {' '.join(COLUMNS)} modify format float %a\n"
-RICH = {
+RICH = (
     "hertz/material 1e5 0.6 0.3 tangential mindlin_rescale NULL 1.0 0.4 rolling sds 2e3 20.0 0.2 twisting marshall "
-    "damping tsuji": None,
-    "jkr 1e5 50.0 0.3 20.0 tangential mindlin/force NULL 1.0 0.4 rolling sds 2e3 20.0 0.2 twisting sds 30.0 0.5 0.02":
-    "dmt 1e5 50.0 0.3 20.0 tangential mindlin/force NULL 1.0 0.4 rolling sds 2e3 20.0 0.2 twisting sds 30.0 0.5 0.02",
-}
+    "damping tsuji",
+    "jkr 1e5 50.0 0.3 20.0 tangential mindlin/force NULL 1.0 0.4 rolling sds 2e3 20.0 0.2 twisting sds 30.0 0.5 0.02",
+)
 
 
 def heap(speed=1.0, spin=4.0):
@@ -152,10 +151,10 @@ class OneTrajectory(SceneCase):
 
     def test_same_bits(self):
         write_sphere_data(self.path("data"), ((-3, 8), (-3, 8), (-2, 9)), heap())
-        for words, of_floor in RICH.items():
+        for words in RICH:
             pair = f"pair_style gran/penalty\npair_coeff * * {words}\n"
             physics = (PHYSICS.format(more="gravity 10.0 vector 0.1 0 -1") +
-                       f"fix floor all large/body plane 0 0 -0.6 0 0 1 contact {of_floor or words} "
+                       f"fix floor all large/body plane 0 0 -0.6 0 0 1 contact {words} "
                        "move rotate 1.5 1.5 -0.6 0 0 1 2.0\n")
             whole = f"{SCENE}read_data data\n{pair}{physics}run 400\n{WRITE}"
             once = self.state(whole)
@@ -169,6 +168,53 @@ class OneTrajectory(SceneCase):
                 self.assert_same_bits(again, once, COLUMNS)
 
 
+class ResistanceAtABody(SceneCase):
+
+    def torque(self, of_particle):
+        law = "hertz/material 1e5 0.6 0.3"
+        self.run_lammps(f"{SCENE}read_data one\npair_style gran/penalty\npair_coeff * * {law} {of_particle}\n"
+                        f"{PHYSICS.format(more='')}timestep 1e-5\nfix floor all large/body plane 0 0 0 0 0 1 contact {law} "
+                        f"rolling 0.1 spinning 0.2\nrun 1\n{WRITE}")
+        frame, = read_dump(self.path("last"))
+        return [frame.column(c)[1] for c in ("tqx", "tqy", "tqz")]
+
+    def test_mixed_where_both_have_it(self):
+        """Of a particle that has another law for one of rolling and spinning, only the other is mixed."""
+        write_sphere_data(self.path("one"), ((-3, 3), (-3, 3), (-3, 3)), [Sphere((0, 0, 0.49), omega=(3.0, 2.0, 5.0))])
+        for words, same in (("", "rolling 0.1 spinning 0.2"),
+                            ("rolling sds 2e3 20.0 0.2 spinning 0.05", "rolling 0.1 spinning 0.05"),
+                            ("rolling 0.05 twisting sds 30.0 0.5 0.02", "rolling 0.05 spinning 0.2"),
+                            ("rolling 0.05", "rolling 0.05 spinning 0.0")):
+            with self.subTest(words):
+                found = self.torque(words)
+                self.assertEqual(found, self.torque(same))
+                self.assertNotEqual(found[0], 0.0)
+                self.assertEqual(found[2] == 0.0, words == "rolling 0.05")
+
+
+class MaterialOfTheSuffix(SceneCase):
+
+    def test_at_a_body(self):
+        """Of particles of pair_style granular that is accelerated, a material law of a body knows the material."""
+        write_sphere_data(self.path("one"), ((-3, 3), (-3, 3), (-3, 3)), [Sphere((0, 0, 0.49), (1.0, 0, -1.0))])
+        for particle, body in (("hertz/material 1e5 0.6 0.3 damping tsuji tangential mindlin NULL 0.5 0.4",
+                                "hertz/material 3e5 0.8 0.2 damping tsuji tangential mindlin NULL 0.5 0.6"),
+                               ("hertz/material 1e5 50.0 0.3 damping viscoelastic tangential mindlin NULL 0.5 0.4",
+                                "hertz/material 3e5 0.8 0.2 damping tsuji tangential mindlin NULL 0.5 0.6"),
+                               ("jkr 1e5 50.0 0.3 5.0 tangential mindlin NULL 0.5 0.4",
+                                "jkr 3e5 50.0 0.3 20.0 tangential mindlin NULL 0.5 0.4")):
+            forces = []
+            for style, arguments in ("granular", ["-sf", "talus"]), ("gran/penalty", []):
+                self.run_lammps(f"{SCENE}read_data one\npair_style {style}\npair_coeff * * {particle}\n"
+                                f"{PHYSICS.format(more='')}timestep 1e-5\n"
+                                f"fix floor all large/body plane 0 0 0 0 0 1 contact {body}\nrun 1\n{WRITE}", arguments=arguments)
+                frame, = read_dump(self.path("last"))
+                forces.append([frame.column(c)[1] for c in ("fx", "fy", "fz")])
+            with self.subTest(particle=particle, body=body):
+                self.assertLess(math.dist(*forces), 1e-12 * math.hypot(*forces[0]))
+                self.assertGreater(math.hypot(*forces[0]), 1.0)
+
+
 class LawsThatChange(SceneCase):
 
     def test_before_a_run_without_set_up(self):
@@ -178,7 +224,7 @@ class LawsThatChange(SceneCase):
         for np in 1, 2:
             with self.subTest(ranks=np):
                 self.run_lammps(f"{periodic}read_data data\npair_style gran/penalty\npair_coeff * * hooke 2e4 5.0\n"
-                                f"{PHYSICS.format(more='')}run 100\npair_coeff * * {next(iter(RICH))}\n"
+                                f"{PHYSICS.format(more='')}run 100\npair_coeff * * {RICH[0]}\n"
                                 f"run 300 pre no\n{WRITE}", np=np)
                 last = read_dump(self.path("last"))[-1]
                 self.assertEqual(len(last.atoms), 64)
@@ -190,7 +236,7 @@ class Energy(SceneCase):
     def test_balance(self):
         """Kinetic + elastic + dissipated = constant, of 64 spheres that fly into each other."""
         write_sphere_data(self.path("data"), ((-9, 13), (-9, 13), (-9, 13)), heap())
-        for words in next(iter(RICH)), "hertz/material 1e5 0.6 0.3 damping none tangential mindlin NULL 0.0 0.4 " \
+        for words in RICH[0], "hertz/material 1e5 0.6 0.3 damping none tangential mindlin NULL 0.0 0.4 " \
                                        "rolling sds 2e3 20.0 0.2 twisting marshall":
             log = self.run_lammps(f"{SCENE}read_data data\npair_style gran/penalty\npair_coeff * * {words}\n"
                                   f"{PHYSICS.format(more='')}compute s all penalty/stats\ncompute k all ke\n"

@@ -213,8 +213,6 @@ OTHERS = [
     (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
     (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0", "fix large/body contact: large bodies have no temperature: "
      "remove 'heat', or use fix wall/gran granular", "hertz"),
-    (f"{PAIR}{PLANE} contact jkr 1e6 2.0 0.3 0.1", "fix large/body contact: contacts of jkr last beyond zero overlap, "
-     "which those of large bodies do not: use dmt", "jkr"),
     # computes
     (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
     (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),
@@ -279,7 +277,6 @@ class LawErrors(SceneCase):
     def test_contact_of_a_large_body(self):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
-        cases = [case for case in cases if case[1] or "jkr" not in case[0]]    # which is refused itself
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
                              message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
@@ -299,8 +296,7 @@ class LawErrors(SceneCase):
     def test_accepted(self):
         for words in ACCEPTED:
             with self.subTest(words):
-                of_body = words.replace("jkr", "dmt")
-                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {of_body}\n"
+                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
                                 "fix step all nve/sphere/symplectic\n"
                                 "compute s all penalty/stats\ncompute t all timestep/gran\n"
                                 "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")

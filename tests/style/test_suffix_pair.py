@@ -146,8 +146,8 @@ class TestForces(Case):
     def compare(self, pair, tolerance=1e-12, np=1, threads=1, **options):
         stock = self.one(False, "stock", np, threads, pair=pair, **options)
         ours = self.one(True, "ours", np, threads, pair=pair, **options)
-        self.assertIn("left out", ours.log)
-        self.assertNotIn("left out", stock.log)
+        self.assertIn("not needed here", ours.log)
+        self.assertNotIn("not needed here", stock.log)
         self.assert_equal_states("stock", "ours", tolerance)
         self.assert_equal_thermo(stock, ours, tolerance)
         if options.get("local", True):

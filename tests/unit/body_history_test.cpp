@@ -41,7 +41,7 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
   void set(int candidate, double value)
   {
     if (several()) {
-      const SurfaceContact found[2] = {{V{0.0, 0.0, 1.0}, 0.1}, {V{1.0, 0.0, 0.0}, 0.1}};
+      SurfaceContact found[2] = {{V{0.0, 0.0, 1.0}, 0.1}, {V{1.0, 0.0, 0.0}, 0.1}};
       history.continue_contacts(candidate, found, 2);
     } else {
       history.set_touching(0, 1U << candidate, 1U << candidate);
@@ -50,7 +50,7 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
       const double its = value + 100.0 * k;
       const std::uint32_t slot = history.first_slot(candidate) + k;
       history.record(slot) = {{its, its + 1.0, its + 2.0, 1.0}};
-      if (impacts()) history.impact(slot) = {{its + 3.0, its + 4.0, 1.0, 0.0}};
+      if (impacts()) history.impact(slot) = {{its + 3.0, its + 4.0, 1.0, its + 5.0}};
     }
   }
 
@@ -71,7 +71,7 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
           several() ? (k ? Packed{1.0, 0.0, 0.0} : Packed{0.0, 0.0, 1.0}) : Packed(3, 0.0);
       values.insert(values.end(), normal.begin(), normal.end());
       for (const double a : {its, its + 1.0, its + 2.0, 1.0}) values.push_back(a);
-      for (const double a : {its + 3.0, its + 4.0, 1.0}) values.push_back(impacts() ? a : 0.0);
+      for (const double a : {its + 3.0, its + 4.0, 1.0, its + 5.0}) values.push_back(impacts() ? a : 0.0);
     }
     return values;
   }
@@ -186,11 +186,11 @@ TEST(SeveralContacts, AreKnownByTheirNormals)
   history.keep(true, false);
   history.grow(1);
   history.follow({0}, {4});
-  const SurfaceContact first[3] = {{tilted(0.0), 0.3}, {tilted(0.5), 0.2}, {tilted(1.5), 0.1}};
+  SurfaceContact first[3] = {{tilted(0.0), 0.3}, {tilted(0.5), 0.2}, {tilted(1.5), 0.1}};
   history.continue_contacts(0, first, 3);
   for (int k = 0; k < 3; k++) history.record(k).c[0] = k + 1.0;
 
-  const SurfaceContact next[4] = {
+  SurfaceContact next[4] = {
       {tilted(0.45), 0.3}, {tilted(0.4), 0.2}, {tilted(-1.0), 0.1}, {tilted(1.4), 0.1}};
   history.continue_contacts(0, next, 4);
   ASSERT_EQ(history.count(0), 4);
@@ -203,6 +203,24 @@ TEST(SeveralContacts, AreKnownByTheirNormals)
   EXPECT_EQ(history.record(0).c[0], 0.0) << "what has separated is forgotten";
 }
 
+// A contact may last where there is no overlap any more, and does not begin there.
+TEST(SeveralContacts, BeginWithAnOverlap)
+{
+  BodyHistory history;
+  history.keep(true, false);
+  history.grow(1);
+  history.follow({0}, {3});
+  SurfaceContact first[2] = {{tilted(0.0), -0.01}, {tilted(1.0), 0.2}};
+  EXPECT_EQ(history.continue_contacts(0, first, 2), 1);
+  EXPECT_EQ(first[0].overlap, 0.2);
+  history.record(0).c[0] = 7.0;
+  SurfaceContact next[3] = {{tilted(2.0), 0.1}, {tilted(0.0), -0.01}, {tilted(1.0), -0.02}};
+  EXPECT_EQ(history.continue_contacts(0, next, 3), 2);
+  EXPECT_EQ(next[1].overlap, -0.02);
+  EXPECT_EQ(history.record(0).c[0], 0.0);
+  EXPECT_EQ(history.record(1).c[0], 7.0);
+}
+
 // A particle keeps its contacts even if the new list has less room for it.
 TEST(SeveralContacts, RoomIsThatOfTheCandidatesAndOfWhatTheyHave)
 {
@@ -211,7 +229,7 @@ TEST(SeveralContacts, RoomIsThatOfTheCandidatesAndOfWhatTheyHave)
   history.grow(3);
   history.follow({2, 0}, {1, 3});
   EXPECT_EQ(history.first_slot(1), 1U);
-  const SurfaceContact found[3] = {{tilted(0.0), 0.3}, {tilted(1.0), 0.2}, {tilted(2.0), 0.1}};
+  SurfaceContact found[3] = {{tilted(0.0), 0.3}, {tilted(1.0), 0.2}, {tilted(2.0), 0.1}};
   history.continue_contacts(1, found, 3);
   for (int k = 0; k < 3; k++) history.record(1 + k).c[0] = k + 1.0;
   history.follow({0, 1}, {1, 1});

@@ -70,7 +70,7 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
     }
     EXPECT_EQ(find_law(stage, "no such law"), nullptr);
   }
-  EXPECT_EQ(count, 53);
+  EXPECT_EQ(count, 61);
 }
 
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)

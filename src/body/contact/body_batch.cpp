@@ -83,7 +83,7 @@ void BodyBatch::look_at_eight(std::size_t first, int low, int high)
     prefetch_contacts(first + ahead, task->history.touched((first + ahead) / width));
   load_spheres(index, low, high);
   const unsigned asked = bits_of_law(first, low, high);
-  const unsigned bits = task->shape.touches_eight(spheres_in_body(), high, contacts) & asked;
+  const unsigned bits = touching_eight(first, high) & asked;
   if (task->with_history) task->history.set_touching(first / width, asked, bits);
   if (bits) take(first, bits);
 }
@@ -116,6 +116,28 @@ const EightSpheres &BodyBatch::spheres_in_body()
   return seen;
 }
 
+/* Contacts that have begun may last beyond zero overlap. */
+
+unsigned BodyBatch::touching_eight(std::size_t first, int high)
+{
+  const EightSpheres &its = spheres_in_body();
+  if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(its, high, contacts);
+  double reach[width] = {};
+  widened = its;
+  for (int k = 0; k < high; k++) {
+    reach[k] = task->reach_of(first + k, its.radius[k]);
+    widened.radius[k] += reach[k];
+  }
+  unsigned bits = task->shape.touches_eight(widened, high, contacts);
+  const unsigned begun = task->history.touched(first / width);
+  for (unsigned rest = bits; rest; rest &= rest - 1U) {
+    const int k = __builtin_ctz(rest);
+    contacts.overlap[k] -= reach[k];
+    if (!(contacts.overlap[k] > 0.0)) bits &= begun | ~(1U << k);
+  }
+  return bits;
+}
+
 /* What the laws need of particles besides their positions is prefetched of those that probably
    touch: where histories are kept, of those that did in the step before. */
 
@@ -146,14 +168,16 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
   const int i = task->index[c];
   const Vector3<double> place_now = view.position_at(i), x = task->frame.point_to_body(place_now);
   const double r = view.radius_at(i);
+  const double reach = law.normal().lasts_beyond_contact ? task->reach_of(c, r) : 0.0;
   SurfaceContact found[LargeBodyShape::max_contacts];
   bool may_touch;
-  const NearParts near = task->candidates.parts_near(c, x, r, may_touch);
-  const int count = may_touch ? task->shape.find_contacts(x, r, near, found) : 0;
+  const NearParts near = task->candidates.parts_near(c, x, r + reach, may_touch);
+  int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;
+  for (int k = 0; k < count; k++) found[k].overlap -= reach;
   std::size_t slot = 0;
   if (task->with_history) {
     slot = task->history.first_slot(c);
-    task->history.continue_contacts(c, found, count);
+    count = task->history.continue_contacts(c, found, count);
   }
   if (count) view.prefetch_for_contact(i);
   for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k]);

@@ -53,6 +53,9 @@ struct BodyTask {
 
   static constexpr int spare = 128;
 
+  /// How far a contact of a candidate that has begun lasts beyond zero overlap (length).
+  double reach_of(std::size_t c, double radius) const { return laws.reach(row_of(c), radius); }
+
   /// Row of the table for a candidate; types are not read where all have the same law.
   int row_of(std::size_t c) const
   {
@@ -88,6 +91,7 @@ class BodyBatch {
   void look_at_eight(std::size_t first, int low, int high);
   void load_spheres(const int *index, int low, int high);
   const EightSpheres &spheres_in_body();
+  unsigned touching_eight(std::size_t first, int high);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
   void look_at_parts(std::size_t candidate, std::size_t last);
@@ -136,7 +140,8 @@ class BodyBatch {
   alignas(64) double radius[ContactBatch::width];
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
-  EightSpheres spheres{}, seen{};    // in space, and in the frame of a body that moves
+  // in space, in the frame of a body that moves, and with radii as far as contacts last
+  EightSpheres spheres{}, seen{}, widened{};
   EightContacts contacts{};
 };
 

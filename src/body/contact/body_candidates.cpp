@@ -38,7 +38,7 @@ struct BodyCandidates::Search {
 
 void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
                           const BodyParticleView &view, const int *mask, int group, double skin,
-                          int threads)
+                          double beyond, int threads)
 {
   particles.clear();
   listed.clear();
@@ -47,7 +47,7 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
   parts_begin.assign(1, 0);
   listed_frame = frame;
   listed_reach = 0.0;
-  const double margin = frame.moves ? (1.0 + free_way) * skin : skin;
+  const double margin = beyond + (frame.moves ? (1.0 + free_way) * skin : skin);
   const Search search{shape, frame, view, mask, group, margin};
   if (shape.most_contacts() == 1)
     list_near(search, shape.thread_safe() ? threads : 1);
@@ -141,7 +141,7 @@ void BodyCandidates::prefetch_parts(std::size_t c, double radius, const LargeBod
 
 Eigen::AlignedBox3d BodyCandidates::bounds_of_search(const BodyFrame &frame,
                                                      const BodyParticleView &view, const int *mask,
-                                                     int group, double skin)
+                                                     int group, double skin, double beyond)
 {
   Eigen::AlignedBox3d box;
   double largest = 0.0;
@@ -152,7 +152,7 @@ Eigen::AlignedBox3d BodyCandidates::bounds_of_search(const BodyFrame &frame,
   }
   if (box.isEmpty()) return box;
   // listed with the margin of list(); they go half a skin, the body what it may until it is stale
-  const double reach = largest + (frame.moves ? 3.0 : 2.0) * skin;
+  const double reach = largest + beyond + (frame.moves ? 3.0 : 2.0) * skin;
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
   return {box.min() - around, box.max() + around};
 }

@@ -19,10 +19,10 @@ namespace Talus {
 class BodyCandidates {
  public:
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
-  /// than `skin`, and the body not too far. `threads` are used for shapes that are thread_safe()
-  /// and touch at one point at most.
+  /// than `skin`, and the body not too far; contacts that have begun last until there is a gap of
+  /// `beyond`. `threads` are used for shapes that are thread_safe() and touch at one point at most.
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
-            const int *mask, int group, double skin, int threads);
+            const int *mask, int group, double skin, double beyond, int threads);
 
   /// The body has moved so far that particles must be listed anew.
   bool are_stale(const BodyFrame &frame, double skin) const;
@@ -30,7 +30,8 @@ class BodyCandidates {
   /// The box, in the frame of the body, around all that list() may ask the shape for until the next
   /// call; empty without particles.
   static Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const BodyParticleView &view,
-                                              const int *mask, int group, double skin);
+                                              const int *mask, int group, double skin,
+                                              double beyond);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.

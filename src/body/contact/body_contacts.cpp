@@ -28,8 +28,19 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin, int threads)
 {
   index.clear();
-  candidates.list(shape, frame, view, mask, group, skin, threads);
+  candidates.list(shape, frame, view, mask, group, skin, largest_reach(view, mask, group), threads);
   if (with_history) history.follow(candidates.atoms(), candidates.room());
+}
+
+double BodyContacts::largest_reach(const BodyParticleView &view, const int *mask, int group) const
+{
+  double largest = 0.0;
+  if (!laws.lasts_beyond_contact()) return largest;
+  for (int i = 0; i < view.owned; i++)
+    if (mask[i] & group)
+      largest =
+          std::max(largest, laws.reach(laws.row(view.type[i], view.type[i]), view.radius_of(i)));
+  return largest;
 }
 
 /* Where a step goes through the records, it does so from their beginning to their end. */

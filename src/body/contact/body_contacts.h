@@ -57,6 +57,9 @@ class BodyContacts {
                        const BodyParticleView &view, const int *mask, int group, double skin,
                        int threads = 1);
 
+  /// How far contacts of these particles last beyond zero overlap at most (length).
+  double largest_reach(const BodyParticleView &view, const int *mask, int group) const;
+
   /// The body has moved so far that particles must be listed anew.
   bool is_stale(const BodyFrame &frame, double skin) const
   {

@@ -53,7 +53,7 @@ int BodyHistory::pack(int particle, double *buf) const
     const Contact c = contact_at(first_slot(entry_of[particle]) + k);
     for (const double component : {c.normal.x, c.normal.y, c.normal.z}) *to++ = component;
     to = std::copy(c.history.c, c.history.c + 4, to);
-    to = std::copy(c.impact.c, c.impact.c + 3, to);
+    to = std::copy(c.impact.c, c.impact.c + 4, to);
   }
   return static_cast<int>(to - buf);
 }
@@ -76,7 +76,7 @@ int BodyHistory::unpack(int particle, const double *buf)
     resize_slots(slot + kept);
     for (int k = 0; k < kept; k++) {
       const double *c = buf + 1 + k * size_contact;
-      put(slot + k, {{c[0], c[1], c[2]}, {{c[3], c[4], c[5], c[6]}}, {{c[7], c[8], c[9], 0.0}}});
+      put(slot + k, {{c[0], c[1], c[2]}, {{c[3], c[4], c[5], c[6]}}, {{c[7], c[8], c[9], c[10]}}});
     }
   }
   return 1 + number * size_contact;
@@ -126,7 +126,7 @@ void BodyHistory::clear(std::size_t block, unsigned separated)
   }
 }
 
-void BodyHistory::continue_contacts(std::size_t candidate, const SurfaceContact *found, int count)
+int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count)
 {
   constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
   Contact old[LargeBodyShape::max_contacts];
@@ -134,6 +134,7 @@ void BodyHistory::continue_contacts(std::size_t candidate, const SurfaceContact 
   const std::size_t slot = first[candidate];
   for (int k = 0; k < known; k++) old[k] = contact_at(slot + k);
   unsigned taken = 0;
+  int left = 0;
   for (int n = 0; n < count; n++) {
     Contact now{found[n].normal, Record{}, Record{}};
     int best = -1;
@@ -149,9 +150,12 @@ void BodyHistory::continue_contacts(std::size_t candidate, const SurfaceContact 
       now.history = old[best].history;
       now.impact = old[best].impact;
     }
-    put(slot + n, now);
+    if (best < 0 && !(found[n].overlap > 0.0)) continue;
+    found[left] = found[n];
+    put(slot + left++, now);
   }
-  counts[candidate] = static_cast<std::uint8_t>(count);
+  counts[candidate] = static_cast<std::uint8_t>(left);
+  return left;
 }
 
 double BodyHistory::memory_usage() const

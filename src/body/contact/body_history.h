@@ -43,7 +43,7 @@ class BodyHistory {
 
   /// For migration and restart: the number of contacts, then of each its normal (of bodies with
   /// several contacts), history and impact. Return the number of doubles.
-  static constexpr int size_contact = 10;
+  static constexpr int size_contact = 11;
   static constexpr int max_packed = 1 + LargeBodyShape::max_contacts * size_contact;
   int pack(int particle, double *buf) const;
   int unpack(int particle, const double *buf);
@@ -82,8 +82,9 @@ class BodyHistory {
 
   /// With several(): the contacts that a candidate has now; slot k of it is that of found[k]. A
   /// contact continues that with the nearest normal, in the frame of the body: from one step to the
-  /// next it turns by far less than the angle between two contacts.
-  void continue_contacts(std::size_t candidate, const SurfaceContact *found, int count);
+  /// next it turns by far less than the angle between two contacts. Contacts without overlap that
+  /// continue none are taken out of `found`; returns how many are left.
+  int continue_contacts(std::size_t candidate, SurfaceContact *found, int count);
 
   /// Contacts of a particle, and history of the first; zero if it has none.
   int count(int particle) const;

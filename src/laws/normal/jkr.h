@@ -29,13 +29,13 @@ struct Jkr : AdhesiveLaw {
     return std::cbrt(3.0 * pi * pi / 16.0 * effective_radius * ratio * ratio);
   }
 
-  /// The work of F_e from a = 0 on.
+  /// The work of F_e from overlap zero on, where a^3 = 4 pi gamma R^2/E. What is left of it when
+  /// the bodies separate is lost.
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)
   {
-    const double a = s.contact_radius, a2 = a * a, tension = std::sqrt(pi * c.gamma * c.young * a);
-    return a2 * (8.0 / 15.0 * c.young * a2 * a / (s.radius * s.radius) -
-                 8.0 / 3.0 * tension * a / s.radius + 2.0 * pi * c.gamma);
+    const double begin = std::cbrt(4.0 * pi * c.gamma * s.radius * s.radius / c.young);
+    return work_from_zero(c, s.contact_radius, s.radius) - work_from_zero(c, begin, s.radius);
   }
 
   template <bool advance, class Real>
@@ -57,6 +57,14 @@ struct Jkr : AdhesiveLaw {
   }
 
  private:
+  /// The work of F_e from a = 0 on.
+  static double work_from_zero(const Row<double> &c, double a, double radius)
+  {
+    const double a2 = a * a, tension = std::sqrt(pi * c.gamma * c.young * a);
+    return a2 * (8.0 / 15.0 * c.young * a2 * a / (radius * radius) -
+                 8.0 / 3.0 * tension * a / radius + 2.0 * pi * c.gamma);
+  }
+
   template <class Real> TALUS_INLINE static Real not_negative(Real x)
   {
     const Real zero = splat<Real>(0.0);

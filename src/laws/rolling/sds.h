@@ -39,14 +39,23 @@ struct SdsRolling : RollingLaw {
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
+    follow<advance, false>(c, s, h, dt);
+  }
+
+ protected:
+  /// `synchronized`: see tangential/synchronized.h.
+  template <bool advance, bool synchronized, class Real>
+  TALUS_INLINE static void follow(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
+  {
     const Real zero = splat<Real>(0.0);
     const SlidingInput<Real> in{c.k, c.gamma, s.radius * cross(s.relative_omega, s.normal),
                                 c.mu * s.critical_force, splat<Real>(dt)};
     Vector3<Real> xi{h[0], h[1], h[2]}, force;
     if (advance && dt > 0.0) {
-      const auto leaves = magnitude(dot(xi, s.normal)) * in.kt > 1.0e-10 * in.limit;
-      xi = select(leaves, turned(xi, s.normal), xi);
+      xi = select(leaves_plane(in, xi, s.normal), turned(xi, s.normal), xi);
       xi = xi + in.dt * in.velocity;
+      if constexpr (synchronized)
+        xi = select(leaves_plane(in, xi, s.full_normal), turned(xi, s.full_normal), xi);
       TangentialHistory<Real> history = granular_history(xi);
       force = limited_force<advance, false>(in, xi, splat<Real>(dt) > zero, history);
       h[0] = history.displacement.x;
@@ -57,6 +66,17 @@ struct SdsRolling : RollingLaw {
       force = limited_force<false, false>(in, xi, dot(xi, xi) > zero, history);
     }
     s.twisting_torque = s.twisting_torque + s.radius * cross(s.normal, force);
+  }
+};
+
+struct SynchronizedSds : SdsRolling {
+  static constexpr const char *name = "sds synchronized_verlet", *label = "rolling sds";
+  static constexpr std::nullptr_t read = nullptr;
+
+  template <bool advance, class Real>
+  TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
+  {
+    follow<advance, true>(c, s, h, dt);
   }
 };
 

@@ -81,6 +81,14 @@ template <class Real> TALUS_INLINE TangentialHistory<Real> granular_history(cons
   return {d, select(dot(d, d) > zero, splat<Real>(1.0), zero)};
 }
 
+/// By more than what LAMMPS takes for rounding.
+template <class Real>
+TALUS_INLINE bool_of<Real> leaves_plane(const SlidingInput<Real> &in, const Vector3<Real> &d,
+                                        const Vector3<Real> &normal)
+{
+  return magnitude(dot(d, normal)) * in.kt > 1.0e-10 * in.limit;
+}
+
 template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : GranularFriction {
   static constexpr bool needs_radius = scaled == Scaled::YES;
   /// One that shrinks with the contact radius loses a good part of its energy.
@@ -110,12 +118,20 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
+    follow<advance, false>(c, s, h, dt);
+  }
+
+  /// `synchronized`: see synchronized.h.
+  template <bool advance, bool synchronized, class Real>
+  TALUS_INLINE static void follow(const GranularRow<Real> &c, ContactLanes<Real> &s, Real *h,
+                                  double dt)
+  {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     const Real k = granular_stiffness<scaled>(c, s);
     // a force that is kept is the displacement of a spring of stiffness 1, with the other sign
     const double sign = of_force ? -1.0 : 1.0;
-    const SlidingInput<Real> in{of_force ? one : k, c.xt * s.gn, surface_velocity(s),
-                                c.mu * s.critical_force, splat<Real>(dt)};
+    SlidingInput<Real> in{of_force ? one : k, c.xt * s.gn, surface_velocity(s),
+                          c.mu * s.critical_force, splat<Real>(dt)};
     Vector3<Real> d{sign * h[0], sign * h[1], sign * h[2]};
     if constexpr (rescaled == Rescaled::YES) {
       const auto shrinks = s.contact_radius < h[3];
@@ -123,10 +139,14 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
     }
     auto moved = splat<Real>(dt) > zero;
     if (advance && dt > 0.0) {
-      const auto leaves = magnitude(dot(d, s.normal)) * in.kt > 1.0e-10 * in.limit;
-      d = select(leaves, turned(d, s.normal), d);
+      d = select(leaves_plane(in, d, s.normal), turned(d, s.normal), d);
       d = d + (of_force ? k * dt : splat<Real>(dt)) * in.velocity;
       if constexpr (rescaled == Rescaled::YES) h[3] = s.contact_radius;
+      if constexpr (synchronized) {
+        const auto turns = leaves_plane(in, d, s.full_normal);
+        d = select(turns, turned(d, s.full_normal), d);
+        in.velocity = select(turns, turned(in.velocity, s.full_normal), in.velocity);
+      }
     } else
       moved = dot(d, d) > zero;
     TangentialHistory<Real> history = granular_history(d);
@@ -181,6 +201,14 @@ struct GranularClassic : GranularFriction {
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
+  {
+    follow<advance, false>(c, s, h, dt);
+  }
+
+  /// A displacement that is synchronized is not turned once more: so in LAMMPS.
+  template <bool advance, bool synchronized, class Real>
+  TALUS_INLINE static void follow(const GranularRow<Real> &c, ContactLanes<Real> &s, Real *h,
+                                  double dt)
   {
     const Real zero = splat<Real>(0.0);
     const SlidingInput<Real> in{granular_stiffness<scaled>(c, s), c.xt * s.gn, surface_velocity(s),

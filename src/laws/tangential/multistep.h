@@ -14,6 +14,7 @@
 #ifndef TALUS_LAWS_TANGENTIAL_MULTISTEP_H
 #define TALUS_LAWS_TANGENTIAL_MULTISTEP_H
 
+#include "laws/approach.h"
 #include "laws/tangential/common.h"
 #include "laws/tangential/sliding.h"
 
@@ -27,15 +28,11 @@ template <class Real> inline Real lasted(const ContactLanes<Real> &s, double dt)
   return dt * select(approach > s.overlap, s.overlap / approach, splat<Real>(1.0));
 }
 
-/// Displacement of the surfaces during the step that led here. The centers came here along straight
-/// lines, so the normal half way is known.
+/// Displacement of the surfaces during the step that led here.
 template <class Real>
 inline Vector3<Real> step_displacement(const ContactLanes<Real> &s, double dt, Real time)
 {
-  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
-  const Real length = square_root(dot(half_way, half_way));
-  const Vector3<Real> n = select(length > zero, one / length, zero) * half_way;
+  const Vector3<Real> n = normal_half_way(s, splat<Real>(dt));
   const Vector3<Real> slip = s.velocity - dot(s.velocity, n) * n - cross(s.surface_rotation, n);
   return time * slip;
 }

@@ -1,0 +1,141 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fill/fill_region.h"
+
+#include "fill/region_space.h"
+#include "system/command_words.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+namespace {
+
+constexpr double four_thirds_pi = 4.18879020478639098462;
+
+double cube(double a)
+{
+  return a * a * a;
+}
+
+}    // namespace
+
+void FillRegion::parse(int narg, char **arg)
+{
+  Words words = command_words(lmp, "fill_region", narg, arg);
+  region_id = words.text("region-ID");
+  type = words.integer("type", 1);
+  if (type > atom->ntypes)
+    words.fail(1, "there are " + std::to_string(atom->ntypes) + " types of atoms");
+  if (words.choice("amount", {"fraction", "number"}) == 0)
+    fraction = words.between("solid fraction", 0.0, 1.0, true);
+  else
+    number = words.integer("number of spheres", 1);
+  while (!words.at_end()) {
+    switch (words.choice("keyword", {"diameter", "density", "seed", "overlap", "steps"})) {
+    case 0:
+      sizes.parse(words);
+      break;
+    case 1:
+      density = words.positive("density");
+      break;
+    case 2:
+      seed = words.integer("seed", 1);
+      break;
+    case 3:
+      limit = words.between("overlap over the smaller radius", 0.0, 1.0, true);
+      break;
+    default:
+      most_steps = words.integer("steps", 1);
+    }
+  }
+  if (!sizes.is_set()) words.text("diameter");
+  if (density == 0.0) words.text("density");
+  if (seed == 0) words.text("seed");
+}
+
+void FillRegion::command(int narg, char **arg)
+{
+  if (!domain->box_exist)
+    error->all(FLERR, "fill_region before the simulation box is defined: put it after create_box, "
+                      "read_data or read_restart");
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->tag_enable)
+    error->all(FLERR, "fill_region requires atom attributes radius and rmass, and IDs: use "
+                      "'atom_style sphere'");
+  parse(narg, arg);
+  const RegionSpace space(lmp, "fill_region", region_id);
+  const double volume = space.volume();
+  const int count = count_spheres(volume);
+  const std::vector<KnownSphere> present = spheres_in_box(lmp, space.lo, space.hi);
+  const std::vector<KnownSphere> made = pack(space, count, present);
+  double solid = 0.0;
+  for (const KnownSphere &sphere : made) solid += four_thirds_pi * cube(sphere.radius);
+  if (reached > limit)
+    error->all(
+        FLERR,
+        "fill_region: {} spheres, a solid fraction of {:.4f} of region '{}', do not fit: the "
+        "largest overlap is {:.3g} of the smaller radius after {} steps, the limit {:.3g}. "
+        "Ask for fewer spheres or allow more overlap{}",
+        count, solid / volume, region_id, reached, steps, limit,
+        steps == most_steps ? " or more steps" : "");
+  create_spheres(lmp, made, type, density);
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "fill_region: {} spheres in region {}, solid fraction {:.6g} of its volume "
+                   "{:.6g}, largest overlap {:.3g} of the smaller radius after {} steps\n",
+                   count, region_id, solid / volume, volume, reached, steps);
+}
+
+int FillRegion::count_spheres(double volume) const
+{
+  if (!(volume > 0.0)) error->all(FLERR, "fill_region: region '{}' has no volume", region_id);
+  if (number) return number;
+  const double count = std::round(fraction * volume / sizes.mean_volume());
+  if (count < 1.0)
+    error->all(FLERR, "fill_region: less than one sphere in region '{}' of volume {:.6g}",
+               region_id, volume);
+  if (count > 1.0e8)
+    error->all(FLERR, "fill_region: {:.4g} spheres are more than this command is made for", count);
+  return static_cast<int>(count);
+}
+
+/* One rank does it, for all. */
+
+std::vector<KnownSphere> FillRegion::pack(const RegionSpace &space, int count,
+                                          const std::vector<KnownSphere> &present)
+{
+  RandomNumbers random(seed);
+  const std::vector<double> diameters = sizes.diameters(count, random);
+  std::vector<double> radii;
+  for (const double d : diameters) radii.push_back(0.5 * d);
+  std::vector<Vector3<double>> places(count);
+  if (comm->me == 0) {
+    for (Vector3<double> &x : places) {
+      do x = space.draw(random);
+      while (!space.contains(x));
+    }
+    std::vector<double> all_radii = radii;
+    for (const KnownSphere &sphere : present) {
+      places.push_back(sphere.x);
+      all_radii.push_back(sphere.radius);
+    }
+    SpherePacking packing(space, places, all_radii, count);
+    packing.relax(limit, most_steps);
+    places.assign(packing.places().begin(), packing.places().begin() + count);
+    reached = packing.largest_overlap();
+    steps = packing.steps();
+  }
+  MPI_Bcast(&reached, 1, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&steps, 1, MPI_INT, 0, world);
+  for (int from = 0; from < count; from += 10000000)    // in messages that MPI can count
+    MPI_Bcast(&places[from], 3 * std::min(10000000, count - from), MPI_DOUBLE, 0, world);
+  std::vector<KnownSphere> made;
+  for (int k = 0; k < count; k++) made.push_back({places[k], radii[k]});
+  return made;
+}

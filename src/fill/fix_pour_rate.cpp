@@ -1,0 +1,206 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fill/fix_pour_rate.h"
+
+#include "fill/region_space.h"
+#include "system/command_words.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+FixPourRate::FixPourRate(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->tag_enable)
+    error->all(FLERR, "fix pour/rate requires atom attributes radius and rmass, and IDs: use "
+                      "'atom_style sphere'");
+  Words words = command_words(lmp, "fix pour/rate", narg, arg, 3);
+  nevery = words.integer("N", 1);
+  type = words.integer("type", 1);
+  if (type > atom->ntypes)
+    words.fail(1, "there are " + std::to_string(atom->ntypes) + " types of atoms");
+  region_id = words.text("region-ID");
+  rate = words.positive("mass rate");
+  int seed = 0;
+  while (!words.at_end()) {
+    switch (
+        words.choice("keyword", {"diameter", "density", "seed", "velocity", "attempts", "mass"})) {
+    case 0:
+      sizes.parse(words);
+      break;
+    case 1:
+      density = words.positive("density");
+      break;
+    case 2:
+      seed = words.integer("seed", 1);
+      break;
+    case 3:
+      velocity = words.vector("velocity");
+      break;
+    case 4:
+      attempts = words.integer("attempts", 1);
+      break;
+    default:
+      total = words.positive("mass");
+    }
+  }
+  if (!sizes.is_set()) words.text("diameter");
+  if (density == 0.0) words.text("density");
+  if (seed == 0) words.text("seed");
+  const RegionSpace space(lmp, "fix pour/rate", region_id);
+
+  random = RandomNumbers(seed);
+  next_diameter = sizes.quantile(random.uniform());
+  largest_radius = 0.5 * sizes.largest();
+  vector_flag = 1;
+  size_vector = 3;
+  extvector = 0;
+  global_freq = 1;
+  restart_global = time_depend = 1;
+  force_reneighbor = 1;
+  next_reneighbor = update->ntimestep + 1;
+}
+
+int FixPourRate::setmask()
+{
+  return FixConst::PRE_EXCHANGE;
+}
+
+void FixPourRate::init()
+{
+  const RegionSpace space(lmp, "fix pour/rate", region_id);
+  warned = false;
+  if (is_over()) return;
+  // also after runs without this fix, or with another step count
+  if (next_reneighbor <= update->ntimestep || next_reneighbor > update->ntimestep + nevery)
+    next_reneighbor = update->ntimestep + 1;
+}
+
+double FixPourRate::mass_of(double diameter) const
+{
+  return density * (0.52359877559829887308 * diameter * diameter * diameter);
+}
+
+void FixPourRate::pre_exchange()
+{
+  if (next_reneighbor != update->ntimestep) return;
+  due += rate * (nevery * update->dt);
+  const RegionSpace space(lmp, "fix pour/rate", region_id);
+  create(find_places(space));
+  warn_if_behind();
+  next_reneighbor = is_over() ? 0 : update->ntimestep + nevery;
+}
+
+/* The same on all ranks: they know the same spheres and draw the same numbers. */
+
+std::vector<KnownSphere> FixPourRate::find_places(const RegionSpace &space)
+{
+  std::vector<KnownSphere> known = spheres_in_box(lmp, space.low_corner(), space.high_corner()),
+                           made;
+  while (due >= 0.5 * mass_of(next_diameter) && !is_over()) {
+    KnownSphere sphere{{}, 0.5 * next_diameter};
+    bool placed = false;
+    for (int k = 0; k < attempts && !placed; k++) {
+      sphere.x = space.draw(random);
+      placed = space.holds(sphere.x, sphere.radius) && is_free(sphere, known);
+    }
+    if (!placed) break;
+    known.push_back(sphere);
+    made.push_back(sphere);
+    due -= mass_of(next_diameter);
+    poured += mass_of(next_diameter);
+    next_diameter = sizes.quantile(random.uniform());
+  }
+  return made;
+}
+
+bool FixPourRate::is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others) const
+{
+  for (const KnownSphere &other : others) {
+    const Vector3<double> between = sphere.x - other.x;
+    double d[3] = {between.x, between.y, between.z};
+    for (int k = 0; k < 3; k++)
+      if (domain->periodicity[k]) d[k] -= domain->prd[k] * std::round(d[k] / domain->prd[k]);
+    const double touch = sphere.radius + other.radius;
+    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < touch * touch) return false;
+  }
+  return true;
+}
+
+void FixPourRate::create(const std::vector<KnownSphere> &spheres)
+{
+  if (spheres.empty()) return;
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  const int first = create_spheres(lmp, spheres, type, density);
+  for (int i = first; i < atom->nlocal; i++) {
+    atom->mask[i] |= groupbit;
+    atom->v[i][0] = velocity.x;
+    atom->v[i][1] = velocity.y;
+    atom->v[i][2] = velocity.z;
+  }
+  count += static_cast<double>(spheres.size());
+}
+
+void FixPourRate::warn_if_behind()
+{
+  const double usual = rate * nevery * update->dt + mass_of(2.0 * largest_radius);
+  if (warned || due < 10.0 * usual) return;
+  warned = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "fix pour/rate {}: a mass of {:.4g} finds no place: the region is too small or "
+                   "particles do not leave it fast enough",
+                   id, due);
+}
+
+double FixPourRate::compute_vector(int n)
+{
+  return n == 0 ? poured : n == 1 ? count : due;
+}
+
+void *FixPourRate::extract(const char *what, int &of_type)
+{
+  if (strcmp(what, "radius") != 0) return nullptr;
+  static double none = 0.0;
+  return of_type == type ? &largest_radius : &none;
+}
+
+/* ---- restart -------------------------------------------------------------------------------- */
+
+namespace {
+struct State {
+  std::uint64_t random;
+  double next_diameter, due, poured, count;
+  bigint next_step;
+};
+}    // namespace
+
+void FixPourRate::write_restart(FILE *file)
+{
+  if (comm->me) return;
+  const State state{random.state, next_diameter, due, poured, count, next_reneighbor};
+  const int size = sizeof state;
+  fwrite(&size, sizeof(int), 1, file);
+  fwrite(&state, sizeof state, 1, file);
+}
+
+void FixPourRate::restart(char *buffer)
+{
+  State state;
+  std::memcpy(&state, buffer, sizeof state);
+  random.state = state.random;
+  next_diameter = state.next_diameter;
+  due = state.due;
+  poured = state.poured;
+  count = state.count;
+  next_reneighbor = state.next_step;
+}

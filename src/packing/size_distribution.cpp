@@ -1,0 +1,105 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "packing/size_distribution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Talus {
+
+namespace {
+
+constexpr double sixth_of_pi = 0.52359877559829887308;
+
+double normal_share(double x)
+{
+  return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
+}    // namespace
+
+void SizeDistribution::parse(Words &words)
+{
+  words.about("diameter");
+  std::vector<double> weights;
+  if (words.take("uniform") || words.is_next("lognormal")) {
+    kind = words.take("lognormal") ? Kind::LOGNORMAL : Kind::UNIFORM;
+    if (kind == Kind::LOGNORMAL) {
+      median = words.positive("median");
+      sigma = words.positive("sigma");
+    }
+    lo = words.positive("lo");
+    hi = words.positive("hi");
+    if (hi < lo) words.fail(1, "hi must not be less than lo");
+  } else if (words.take("discrete")) {
+    kind = Kind::DISCRETE;
+    const int n = words.integer("n", 1);
+    for (int k = 0; k < n; k++) {
+      sizes.push_back(words.positive("diameter D"));
+      weights.push_back(words.positive("weight w"));
+    }
+  } else {
+    kind = Kind::DISCRETE;
+    sizes = {words.positive("D, uniform, lognormal or discrete")};
+    weights = {1.0};
+  }
+  by_mass = words.take("mass");
+  if (!by_mass) words.take("number");
+  words.about("");
+
+  // from mass to number: the density of a distribution is divided by the cube of the diameter
+  if (by_mass) median *= std::exp(-3.0 * sigma * sigma);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < weights.size(); k++) {
+    sum += by_mass ? weights[k] / (sizes[k] * sizes[k] * sizes[k]) : weights[k];
+    shares.push_back(sum);
+  }
+  for (double &share : shares) share /= sum;
+}
+
+double SizeDistribution::quantile(double q) const
+{
+  if (kind == Kind::DISCRETE) {
+    const auto place = std::lower_bound(shares.begin(), shares.end() - 1, q) - shares.begin();
+    return sizes[place];
+  }
+  if (kind == Kind::UNIFORM) {
+    if (!by_mass) return lo + q * (hi - lo);
+    const double at_lo = 1.0 / (lo * lo), at_hi = 1.0 / (hi * hi);
+    return std::clamp(1.0 / std::sqrt(at_lo - q * (at_lo - at_hi)), lo, hi);
+  }
+  const auto share_below = [this](double d) { return normal_share(std::log(d / median) / sigma); };
+  const double below = share_below(lo), wanted = below + q * (share_below(hi) - below);
+  double least = lo, most = hi;
+  for (int k = 0; k < 60; k++) {
+    const double middle = 0.5 * (least + most);
+    (share_below(middle) < wanted ? least : most) = middle;
+  }
+  return 0.5 * (least + most);
+}
+
+double SizeDistribution::largest() const
+{
+  return kind == Kind::DISCRETE ? *std::max_element(sizes.begin(), sizes.end()) : hi;
+}
+
+double SizeDistribution::mean_volume() const
+{
+  constexpr int parts = 20000;
+  double sum = 0.0;
+  for (int k = 0; k < parts; k++) {
+    const double d = quantile((k + 0.5) / parts);
+    sum += sixth_of_pi * d * d * d;
+  }
+  return sum / parts;
+}
+
+std::vector<double> SizeDistribution::diameters(int count, RandomNumbers &random) const
+{
+  std::vector<double> all;
+  for (int k = 0; k < count; k++) all.push_back(quantile((k + 0.5) / count));
+  random.shuffle(all);
+  return all;
+}
+
+}    // namespace Talus

@@ -1,0 +1,58 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=60 label=hostless,smoke
+"""The pages: every link leads somewhere, the first page is short, and what it says of the scenes is what they say themselves."""
+
+import glob
+import os
+import re
+import unittest
+
+ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+PAGES = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "doc", "*.md")))]
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+def anchors(text):
+    """Names of the headings, as the usual viewers of Markdown make them."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    titles = re.findall(r"^#+ +(.*)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+class Pages(unittest.TestCase):
+
+    def test_links(self):
+        count = 0
+        for page in PAGES:
+            text = re.sub(r"^```.*?^```", "", read(page), flags=re.M | re.S)
+            for link in re.findall(r"\]\(([^)\s]+)\)", text):
+                if re.match(r"https?:", link):
+                    continue
+                count += 1
+                path, _, anchor = link.partition("#")
+                target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+                where = f"{link} in {os.path.relpath(page, ROOT)}"
+                self.assertTrue(os.path.exists(target), where)
+                if anchor:
+                    self.assertIn(anchor, anchors(read(target)), where)
+        self.assertGreater(count, 100)
+
+    def test_all_pages_are_listed(self):
+        listed = re.findall(r"\]\((\w+\.md)", read(os.path.join(ROOT, "doc", "README.md")))
+        self.assertEqual(sorted(set(listed) | {"README.md"}), [os.path.basename(page) for page in PAGES[1:]])
+
+    def test_first_page(self):
+        text = read(PAGES[0])
+        self.assertLessEqual(len(text.splitlines()), 200)
+        scenes = re.findall(r"^\| `(\w+)` \| ([\d ]+) \|", text, re.M)
+        self.assertEqual(sorted(name for name, _ in scenes), ["drum", "hopper", "penetration", "settling", "wavetank"])
+        for name, number in scenes:
+            self.assertRegex(read(os.path.join(ROOT, "input", f"in.{name}")), rf"scripts/run.* {number} spheres\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=120
+"""fix pour/rate: mass rate, sizes, no overlaps when made, the same on 1, 2 and 4 ranks and after a restart, errors."""
+
+import itertools
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, marked_word, read_dump, thermo
+
+SCENE = """
+units si
+boundary p p f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+region box block 0 1 0 1 0 2
+create_box 2 box
+"""
+FIXES = """region top block 0 1 0.2 0.8 1.7 1.9
+pair_style gran/penalty
+pair_coeff * * hooke 1e6 100 tangential multistep NULL NULL 0.5
+fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
+fix floor all large/body plane 0 0 0.01 0 0 1 contact hooke 1e6 100
+group stream empty
+timestep 1e-4
+fix in stream pour/rate {words}
+thermo_style custom step atoms f_in[1] f_in[2] f_in[3]
+thermo 100
+"""
+WORDS = "50 2 top 100.0 diameter uniform 0.05 0.1 mass density 2500 seed 77 velocity 0.1 0 -2"
+DUMP = "write_dump all custom {name} id type radius mass x y z vx vy vz modify format float %.17g\n"
+
+
+class Pour(SceneCase):
+
+    def pour(self, words=WORDS, commands="run 1000\n", np=1, name="state", before="", **options):
+        script = SCENE + FIXES.format(words=words) + before + commands + DUMP.format(name=name)
+        self.log = self.run_lammps(script, np=np, **options).log
+        if options.get("expect_error"):
+            return None
+        frame, = read_dump(self.path(name))
+        return frame
+
+    def test_rate_and_ranks(self):
+        one = self.pour(before="dump first all custom 50 made id radius x y z vx vy vz\ndump_modify first format float %.17g first no\n")
+        rows = thermo(self.log)
+        largest = 2500 * math.pi / 6 * 0.1**3
+        for row in rows[1:]:
+            # the first spheres come with the first step
+            self.assertAlmostEqual(row["f_in[1]"], 100.0 * 1e-4 * (row["Step"] + 49), delta=0.51 * largest + 100 * 50e-4)
+            self.assertEqual(row["Atoms"], row["f_in[2]"])
+            self.assertLessEqual(abs(row["f_in[3]"]), 0.5 * largest)
+        self.assertAlmostEqual(rows[-1]["f_in[1]"], math.fsum(one.column("mass").values()), delta=1e-4 * rows[-1]["f_in[1]"])
+        self.assertGreater(len(one.atoms), 10)
+        self.assertEqual(set(one.column("type").values()), {2})
+        diameters = [2 * r for r in one.column("radius").values()]
+        self.assertTrue(0.05 <= min(diameters) and max(diameters) <= 0.1)
+        for np in (2, 4):
+            self.assert_same_bits(one, self.pour(np=np))
+
+    def test_spheres_as_they_are_made(self):
+        dump = "dump made all custom 1 made id radius x y z vx vy vz\ndump_modify made format float %.17g first yes\n"
+        self.pour(WORDS.replace("100.0", "900"), before=dump, commands="run 4\n")
+        frame = [f for f in read_dump(self.path("made")) if f.atoms][0]
+        spheres = [tuple(row[frame.columns.index(c)] for c in ("x", "y", "z", "radius")) for row in frame.atoms.values()]
+        self.assertGreater(len(spheres), 3)
+        for a, b in itertools.combinations(spheres, 2):
+            d = [p - q for p, q in zip(a[:3], b[:3])]
+            d[0] -= round(d[0])
+            self.assertGreater(math.hypot(*d), (a[3] + b[3]) * (1 - 1e-9))
+        for x, y, z, r in spheres:
+            self.assertTrue(0.2 <= y - r and y + r <= 0.8 and z + r <= 1.9 and 1.69 <= z - r)
+        for v in frame.column("vx").values():
+            self.assertEqual(v, 0.1)
+
+    def test_restart_and_end(self):
+        whole = self.pour(commands="run 400\nrun 400\n")
+        self.pour(commands="run 400\nwrite_restart half\n")
+        again = FIXES.format(words=WORDS).replace("group stream empty\n", "")
+        self.run_lammps("read_restart half\n" + again + "run 400\n" + DUMP.format(name="again"), np=2)
+        frame, = read_dump(self.path("again"))
+        self.assert_same_bits(whole, frame)
+        self.pour(WORDS + " mass 4.0")
+        self.assertAlmostEqual(thermo(self.log)[-1]["f_in[1]"], 4.0, delta=1.31)
+        self.assertEqual(thermo(self.log)[-1]["f_in[2]"], thermo(self.log)[-2]["f_in[2]"])
+
+    def test_a_stream_that_is_too_strong(self):
+        self.pour(WORDS.replace("100.0", "4e5"))
+        self.assertEqual(self.log.count("finds no place: the region is too small or particles do not leave it fast enough"), 1)
+
+    def test_with_styles_of_the_host(self):
+        more = ("pair_style gran/hooke/history 1e6 NULL 100 NULL 0.5 1\npair_coeff * *\nunfix floor\n"
+                "fix floor all wall/gran hooke/history 1e6 NULL 100 NULL 0.5 1 zplane 0 NULL\n")
+        first = self.pour(before=more)
+        self.assert_same_bits(first, self.pour(before=more, arguments=["-sf", "talus"], np=2), ["radius", "mass"])
+
+    def test_errors(self):
+        cases = [("50 2", "fix pour/rate: missing region-ID", None), (WORDS.replace("50 2", "0 2"), r"expected N \(a whole number >= 1\)", "0"),
+                 (WORDS.replace("50 2", "50 3"), "there are 2 types of atoms", "3"),
+                 (WORDS.replace("100.0", "-1"), "expected mass rate", "-1"),
+                 (WORDS.replace("top", "none"), "fix pour/rate: there is no region 'none'", None),
+                 (WORDS.replace("velocity", "speed"), "unknown keyword 'speed', expected diameter, density, seed, velocity, attempts or mass", "speed"),
+                 (WORDS.replace("seed 77", ""), "missing seed", None), (WORDS.replace("density 2500", ""), "missing density", None),
+                 (WORDS.split("diameter")[0], "missing diameter", None)]
+        for k, (words, message, word) in enumerate(cases):
+            for np in (1, 2) if k % 4 == 0 else (1,):
+                with self.subTest(message, np=np):
+                    self.pour(words, np=np, expect_error=True)
+                    self.assertRegex(self.log, message)
+                    if word:
+                        self.assertEqual(marked_word(self.log), word)
+
+
+if __name__ == "__main__":
+    unittest.main()
