@@ -1,0 +1,171 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Packings of spheres: overlaps after relaxation, walls, periods, spheres that stay; what cannot fit; and the quantiles of
+// distributions of sizes.
+
+#include "packing/size_distribution.h"
+#include "packing/sphere_packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+using namespace Talus;
+
+namespace {
+
+/// The unit cube, periodic along x and y.
+class Cube : public PackingSpace {
+ public:
+  Cube()
+  {
+    lo = {0.0, 0.0, 0.0};
+    hi = {1.0, 1.0, 1.0};
+    periodic[0] = periodic[1] = true;
+    periodic[2] = false;
+  }
+  bool contains(const Vector3<double> &x) const override { return x.z >= 0.0 && x.z < 1.0; }
+  void find_walls(const Vector3<double> &x, double radius,
+                  std::vector<std::pair<Vector3<double>, double>> &walls) const override
+  {
+    if (x.z < radius) walls.push_back({{0.0, 0.0, 1.0}, radius - x.z});
+    if (1.0 - x.z < radius) walls.push_back({{0.0, 0.0, -1.0}, radius - (1.0 - x.z)});
+  }
+};
+
+double nearest(double d)
+{
+  return d - std::round(d);
+}
+
+double deepest(const std::vector<Vector3<double>> &x, const std::vector<double> &radius)
+{
+  double worst = 0.0;
+  for (std::size_t i = 0; i < x.size(); i++) {
+    worst = std::max({worst, 1.0 - x[i].z / radius[i], 1.0 - (1.0 - x[i].z) / radius[i]});
+    for (std::size_t j = 0; j < i; j++) {
+      const Vector3<double> d{nearest(x[i].x - x[j].x), nearest(x[i].y - x[j].y), x[i].z - x[j].z};
+      worst = std::max(worst, (radius[i] + radius[j] - length(d)) / std::min(radius[i], radius[j]));
+    }
+  }
+  return worst;
+}
+
+struct Spheres {
+  std::vector<Vector3<double>> x;
+  std::vector<double> radius;
+};
+
+Spheres at_random(int count, double least, double most)
+{
+  RandomNumbers random(7);
+  Spheres spheres;
+  for (int k = 0; k < count; k++) {
+    spheres.x.push_back({random.uniform(), random.uniform(), random.uniform()});
+    spheres.radius.push_back(least + (most - least) * random.uniform());
+  }
+  return spheres;
+}
+
+/// The distribution that a text tells of.
+SizeDistribution sizes_of(const std::string &text)
+{
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) words.push_back(word);
+  std::vector<const char *> arg;
+  for (const std::string &word : words) arg.push_back(word.c_str());
+  Words reader("command", static_cast<int>(arg.size()), arg.data(), 0,
+               [](int, const std::string &problem) { throw std::runtime_error(problem); });
+  SizeDistribution sizes;
+  sizes.parse(reader);
+  reader.end();
+  return sizes;
+}
+
+}    // namespace
+
+TEST(SpherePacking, holds_its_limit)
+{
+  const Cube cube;
+  // few cells, where both neighbors of a cell are the same, and many
+  for (const double r : {0.22, 0.04}) {
+    const int count = static_cast<int>(0.5 / (4.18879 * r * r * r));
+    const Spheres s = at_random(count, 0.8 * r, r);
+    SpherePacking packing(cube, s.x, s.radius, count);
+    ASSERT_TRUE(packing.relax(1e-3, 10000));
+    EXPECT_LE(packing.largest_overlap(), 1e-3);
+    EXPECT_NEAR(deepest(packing.places(), s.radius), packing.largest_overlap(), 1e-12);
+    EXPECT_GT(packing.largest_overlap(), 0.0);
+  }
+}
+
+TEST(SpherePacking, leaves_others_in_their_places)
+{
+  const Cube cube;
+  Spheres s = at_random(200, 0.05, 0.06);
+  s.x[199] = {0.01, 0.5, 0.5};
+  s.radius[199] = 0.3;
+  SpherePacking packing(cube, s.x, s.radius, 199);
+  ASSERT_TRUE(packing.relax(1e-3, 10000));
+  EXPECT_EQ(packing.places()[199].x, 0.01);
+  EXPECT_EQ(packing.places()[199].z, 0.5);
+  EXPECT_LE(deepest(packing.places(), s.radius), 1e-3 * (1 + 1e-9));
+}
+
+TEST(SpherePacking, tells_what_it_reached)
+{
+  const Cube cube;
+  const Spheres s = at_random(700, 0.07, 0.07);    // a solid fraction of 1
+  SpherePacking packing(cube, s.x, s.radius, 700);
+  EXPECT_FALSE(packing.relax(1e-3, 100000));
+  EXPECT_LT(packing.steps(), 20000);
+  EXPECT_GT(packing.largest_overlap(), 0.1);
+  EXPECT_NEAR(deepest(packing.places(), s.radius), packing.largest_overlap(), 1e-12);
+}
+
+TEST(SpherePacking, same_places_make_no_division_by_zero)
+{
+  const Cube cube;
+  SpherePacking packing(cube, {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}, {0.1, 0.1}, 2);
+  ASSERT_TRUE(packing.relax(1e-3, 1000));
+  EXPECT_GE(length(packing.places()[0] - packing.places()[1]), 0.2 - 1e-4);
+}
+
+TEST(SizeDistribution, quantiles)
+{
+  EXPECT_EQ(sizes_of("0.3").quantile(0.2), 0.3);
+  EXPECT_DOUBLE_EQ(sizes_of("uniform 1 3").quantile(0.25), 1.5);
+  const SizeDistribution two = sizes_of("discrete 2 2.0 1 1.0 3 number");
+  EXPECT_EQ(two.quantile(0.24), 2.0);
+  EXPECT_EQ(two.quantile(0.26), 1.0);
+  EXPECT_EQ(two.largest(), 2.0);
+  // by mass: a sphere of diameter 2 has the mass of eight
+  EXPECT_EQ(sizes_of("discrete 2 2.0 8 1.0 1 mass").quantile(0.49), 2.0);
+  EXPECT_EQ(sizes_of("discrete 2 2.0 8 1.0 1 mass").quantile(0.51), 1.0);
+  EXPECT_NEAR(sizes_of("uniform 1 3 mass").quantile(1.0 - 1e-12), 3.0, 1e-9);
+  EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000").quantile(0.5), 1.0, 1e-9);
+  EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000 mass").quantile(0.5), std::exp(-3 * 0.04), 1e-9);
+  // the moment of order 3 of a lognormal distribution
+  EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000").mean_volume(),
+              0.5235987755982989 * std::exp(4.5 * 0.04), 1e-3);
+}
+
+TEST(SizeDistribution, diameters_follow_it)
+{
+  RandomNumbers random(1);
+  std::vector<double> all = sizes_of("uniform 1 2").diameters(100, random);
+  EXPECT_FALSE(std::is_sorted(all.begin(), all.end()));
+  std::sort(all.begin(), all.end());
+  for (int k = 0; k < 100; k++) EXPECT_DOUBLE_EQ(all[k], 1.0 + (k + 0.5) / 100);
+}
+
+TEST(RandomNumbers, are_those_of_splitmix64)
+{
+  RandomNumbers random(0);
+  // the first output for the state 0 is e220a8397b1dcdaf
+  EXPECT_DOUBLE_EQ(random.uniform(), static_cast<double>(0xe220a8397b1dcU) * 0x1p-52 + 0x1p-53);
+}
