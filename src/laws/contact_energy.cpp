@@ -132,11 +132,12 @@ void EnergyAccount::add(const ContactEnergy &e, double share, int first, double 
 }
 
 void EnergyAccount::move(int particle, double dt, const Vector3<double> &mean_velocity,
-                         const Vector3<double> &mean_omega)
+                         const Vector3<double> &mean_omega, const Vector3<double> &surface)
 {
   const Forces &f = forces[particle];
   work_normal -= dt * dot(f.damping, mean_velocity);
-  work_tangential -= dt * (dot(f.friction, mean_velocity) + dot(f.friction_torque, mean_omega));
+  work_tangential -=
+      dt * (dot(f.friction, mean_velocity - surface) + dot(f.friction_torque, mean_omega));
   work_resistance -= dt * dot(f.resistance_torque, mean_omega);
 }
 

@@ -66,8 +66,9 @@ class EnergyAccount {
 
   /// After the integrator has moved the velocities of an owned particle. Lengths of time and
   /// velocities in the units of the caller.
+  /// `surface`: velocity of a surface that runs past its body.
   void move(int particle, double dt, const Vector3<double> &mean_velocity,
-            const Vector3<double> &mean_omega);
+            const Vector3<double> &mean_omega, const Vector3<double> &surface = {0.0, 0.0, 0.0});
   /// After the last move() of a step: the forces have been used.
   void end_step() { forces.clear(); }
   bool waits_for_move() const { return !forces.empty(); }

@@ -158,7 +158,7 @@ class Series(SceneCase):
         for p in floor.points:
             self.assertAlmostEqual(p[1], -0.01, delta=1e-12)
         ball, = read_part(series[0][1]["body_ball_1"])
-        self.assertEqual(set(ball.cell_data), {"pressure", "shear_stress", "shear_work"})
+        self.assertEqual(set(ball.cell_data), {"pressure", "shear_stress", "shear_work", "force"})
         self.assertGreater(max(ball.cell_data["pressure"]), 0.0)
         for p in ball.points:
             self.assertAlmostEqual(math.dist(p, (2, 3.6, 2)), 1.0, delta=1e-6)

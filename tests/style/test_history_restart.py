@@ -91,10 +91,10 @@ class HistoryRestart(SceneCase):
             content = file.read()
         self.run_lammps(START + "read_restart half\n" + REST + body + "run 0\n")
         # bytes, number of values, and the first one, which is the version; in the first one the number of particles
-        found = [k for k in range(len(content) - 20) if content[k + 12:k + 20] == struct.pack("<d", -2.0)
+        found = [k for k in range(len(content) - 20) if content[k + 12:k + 20] == struct.pack("<d", -3.0)
                  and struct.unpack("<i", content[k:k + 4])[0] == 8 + 8 * struct.unpack("<d", content[k + 4:k + 12])[0]]
         self.assertEqual(len(found), 1)
-        for first in -3.0, -1.0, float(len(GRAINS)):
+        for first in -4.0, -2.0, float(len(GRAINS)):
             self.refuse(content[:found[0] + 12] + struct.pack("<d", first) + content[found[0] + 20:], REST + body,
                         "Fix large/body floor: the restart file was written by another version of Talus, which kept other "
                         "data of large bodies: go on with that version")

@@ -258,7 +258,7 @@ void BodyBatch::record_parts()
         v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
     const Vector3<double> shear =
         law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
-    touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});
+    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip)});
   }
 }
 

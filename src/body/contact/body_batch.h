@@ -29,7 +29,8 @@ namespace Talus {
 struct TouchedPart {
   int part;
   double normal_force;      ///< > 0: pressed
-  Vector3<double> shear;    ///< tangential force on the body, its frame
+  Vector3<double> force;    ///< on the body, its frame
+  Vector3<double> shear;    ///< the tangential part of it
   double shear_power;       ///< that force times the velocity of the surfaces past each other
 };
 

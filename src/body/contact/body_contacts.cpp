@@ -223,7 +223,8 @@ void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleVi
           frame_before.to_body(velocity - frame.state.velocity - cross(frame.state.omega, arm));
       omega = frame_before.to_body(omega - frame.state.omega);
     }
-    to.move(i, dt, 0.5 * (before[n].velocity + velocity), 0.5 * (before[n].omega + omega));
+    to.move(i, dt, 0.5 * (before[n].velocity + velocity), 0.5 * (before[n].omega + omega),
+            frame_before.surface_velocity);
   }
   to.end_step();
 }
