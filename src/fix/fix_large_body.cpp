@@ -176,7 +176,6 @@ void FixLargeBody::follow_region()
 void FixLargeBody::post_integrate()
 {
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{});
-  body.account_for_move();
 }
 
 void FixLargeBody::setup_post_neighbor()
