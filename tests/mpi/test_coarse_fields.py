@@ -201,7 +201,7 @@ timestep 5e-4
             above += 0.5 * h * layer[z][0] * 10
         self.assertEqual(checked, 38 if base == "freeze" else 40)
         if base == "plane":    # the force of the plane takes over in the middle of the range
-            self.assertAlmostEqual(layer[3][1] / -weight, 0.5, delta=0.1)
+            self.assertAlmostEqual((layer[3][1] + layer[4][1]) / (-2 * weight), 0.5, delta=0.05)
             self.assertAlmostEqual(layer[0][1], 0.0, delta=0.05 * weight)
 
     def test_group_averages_and_one_value(self):
