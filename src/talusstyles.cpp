@@ -6,6 +6,9 @@
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
 #include "compute/compute_coarse_grid.h"
+#include "compute/compute_contact_gran_atom.h"
+#include "compute/compute_contact_gran_local.h"
+#include "compute/compute_dissipation_gran_atom.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
 #include "dump/dump_vtk_gran.h"
@@ -180,6 +183,12 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
                                        "Talus fix style wall/gran/region/talus");
 #endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
+  registry.compute<ComputeContactGranAtom>("contact/gran/atom",
+                                           "Talus compute style contact/gran/atom");
+  registry.compute<ComputeContactGranLocal>("contact/gran/local",
+                                            "Talus compute style contact/gran/local");
+  registry.compute<ComputeDissipationGranAtom>("dissipation/gran/atom",
+                                               "Talus compute style dissipation/gran/atom");
   registry.compute<ComputeCoarseGrid>("coarse/grid", "Talus compute style coarse/grid");
   registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
   registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", "Talus contacts (internal)");

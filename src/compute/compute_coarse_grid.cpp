@@ -44,7 +44,7 @@ Vector3<double> row(const double *x)
 }    // namespace
 
 ComputeCoarseGrid::ComputeCoarseGrid(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), contacts(lmp)
+    Compute(lmp, narg, arg), system(GranularSystem::of(lmp)), contacts(lmp)
 {
   Words words = command_words(lmp, "compute coarse/grid", narg, arg, 3);
   for (const auto &[d, name] : {std::pair{0, "Nx"}, std::pair{1, "Ny"}, std::pair{2, "Nz"}})
@@ -220,7 +220,7 @@ void ComputeCoarseGrid::add_particles()
 }
 
 /* The line of a contact is divided where the surfaces meet: each particle has a branch from its
-   center to there, which counts if the particle is in the group. */
+   center to there, which counts if the particle is in the group. A body has none. */
 
 void ComputeCoarseGrid::add_contacts()
 {
@@ -231,6 +231,12 @@ void ComputeCoarseGrid::add_contacts()
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, f);
     if (atom->mask[c.j] & groupbit) add_branch(partner, meeting, -f);
   });
+  for (LargeBody *body : system->bodies())
+    body->for_each_contact(Ask::ALL, [this](const SurveyedContact &c) {
+      if (!(atom->mask[c.i] & groupbit)) return;
+      const Vector3<double> x = row(atom->x[c.i]);
+      add_branch(x, x - (atom->radius[c.i] - c.overlap) * c.normal, c.force);
+    });
 }
 
 void ComputeCoarseGrid::add_branch(const Vector3<double> &from, const Vector3<double> &to,

@@ -9,6 +9,7 @@
 
 #include "compute/coarse_kernel.h"
 #include "compute/grid_sum.h"
+#include "system/granular_system.h"
 #include "system/pair_contacts.h"
 
 #include "compute.h"
@@ -50,6 +51,7 @@ class ComputeCoarseGrid : public Compute {
   double width;
   std::vector<int> quantities;    // what each column is
   bool with_contacts = false;
+  std::shared_ptr<Talus::GranularSystem> system;    // its bodies
   Talus::PairContacts contacts;
 
   std::unique_ptr<GridSum> sums;

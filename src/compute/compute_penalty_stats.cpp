@@ -2,6 +2,7 @@
 
 #include "compute/compute_penalty_stats.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "update.h"
@@ -37,59 +38,58 @@ ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) :
   size_vector = SIZE;
   extvector = 0;
   vector = new double[size_vector]();
+  system->add_observer(this);
 }
 
 ComputePenaltyStats::~ComputePenaltyStats()
 {
+  system->drop_observer(this);
   delete[] vector;
 }
-
-/* Energies cost time: pair style and bodies account for them only once this compute exists. What
-   they have dissipated before is not of this compute. */
 
 void ComputePenaltyStats::init()
 {
   if (!system->has_pair_style())
     error->all(FLERR,
-               "Compute penalty/stats requires one pair style gran/penalty, or one that is accelerated by "
-               "the suffix talus: see 'Talus: styles of this run' in the log");
-  system->keep_account();
-  for (Talus::LargeBody *body : system->bodies()) body->keep_account();
-  if (started) return;
-  started = true;
-  before = energies_here();
+               "Compute penalty/stats requires one pair style gran/penalty, or one that is "
+               "accelerated by the suffix talus: see 'Talus: styles of this run' in the log");
 }
 
-ComputePenaltyStats::Energies ComputePenaltyStats::energies_here() const
+/* The contacts have just been found. */
+
+void ComputePenaltyStats::setup()
 {
-  Energies sum;
-  const auto add = [&sum](const Talus::EnergyAccount &account) {
-    sum.elastic += account.elastic();
-    sum.normal += account.dissipated_normal();
-    sum.tangential += account.dissipated_tangential();
-    sum.resistance += account.dissipated_resistance();
-  };
-  add(system->energy_account());
-  for (const Talus::LargeBody *body : system->bodies()) add(body->energy_account());
-  return sum;
+  if (started) return;
+  started = true;
+  before = dissipated(system->work(), survey().stored);
+}
+
+ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
+{
+  Survey found;
+  system->for_each_contact(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+    found.stored += one.share * one.stored;
+    if (one.body < 0) return;
+    found.with_bodies += 1.0;
+    found.deepest_in_body = std::max(found.deepest_in_body, one.overlap / atom->radius[one.i]);
+  });
+  return found;
 }
 
 void ComputePenaltyStats::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  const Energies now = energies_here();
   double mine[SIZE] = {};
-  mine[ELASTIC] = now.elastic;
-  mine[NORMAL] = now.normal - before.normal;
-  mine[TANGENTIAL] = now.tangential - before.tangential;
-  mine[RESISTANCE] = now.resistance - before.resistance;
+  const Survey found = survey();
+  const Talus::EnergyByCause lost = dissipated(system->work(), found.stored) - before;
+  mine[ELASTIC] = found.stored.total();
+  mine[NORMAL] = lost.normal;
+  mine[TANGENTIAL] = lost.tangential;
+  mine[RESISTANCE] = lost.resistance;
   mine[CANDIDATES] = system->contacts().count_candidates();
-  mine[CONTACTS] = system->contacts().count_contacts();
-  double largest = system->contacts().deepest_contact().overlap_ratio;
-  for (const Talus::LargeBody *body : system->bodies()) {
-    mine[CONTACTS] += body->contacts_here();
-    largest = std::max(largest, body->largest_overlap_ratio());
-  }
+  mine[CONTACTS] = system->contacts().count_contacts() + found.with_bodies;
+  double largest =
+      std::max(system->contacts().deepest_contact().overlap_ratio, found.deepest_in_body);
   if (Talus::ProxyUpdates *proxies = system->proxy_updates()) {
     const Talus::ExchangeCounters &c = proxies->counters();
     mine[MESSAGES] = proxies->messages_per_exchange();

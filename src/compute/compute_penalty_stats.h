@@ -14,11 +14,12 @@
 
 namespace LAMMPS_NS {
 
-class ComputePenaltyStats : public Compute {
+class ComputePenaltyStats : public Compute, private Talus::ContactObserver {
  public:
   ComputePenaltyStats(class LAMMPS *, int, char **);
   ~ComputePenaltyStats() override;
   void init() override;
+  void setup() override;
 
   /// candidate pairs, contacts, largest overlap/radius, elastic energy; energy dissipated since the
   /// first run with this compute by normal damping, by friction, by rolling and spinning
@@ -27,15 +28,17 @@ class ComputePenaltyStats : public Compute {
   void compute_vector() override;
 
  private:
-  /// Sums of this rank over the pair style and all bodies.
-  struct Energies {
-    double elastic = 0.0, normal = 0.0, tangential = 0.0, resistance = 0.0;
+  bool asks_for_work() const override { return true; }
+  /// What the contacts of this rank are asked one by one.
+  struct Survey {
+    Talus::EnergyByCause stored;
+    double with_bodies = 0.0, deepest_in_body = 0.0;
   };
-  Energies energies_here() const;
+  Survey survey() const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   bool started = false;
-  Energies before;    ///< when this compute was defined
+  Talus::EnergyByCause before;    ///< dissipated when the first run began
 };
 
 }    // namespace LAMMPS_NS

@@ -44,6 +44,8 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   if (contacts.size() != room) renew(contacts, room);
   later_reports.clear();
   reported = 0;
+  its_work = EnergyByCause{};
+  work_left.clear();
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
@@ -131,7 +133,8 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   if (scene.with_impact) gather_impacts(end);
   if (scene.second_order) gather_changes(step.particles, end);
   finish_geometry(end, friction);
-  if (scene.with_twisting) gather_for_twisting(step.particles, end, scene.with_resistance);
+  if (scene.with_twisting)
+    gather_for_twisting(step.particles, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(end);
@@ -144,7 +147,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
-  if (step.account) account_block(step, block, count);
+  if (step.account && step.advance) account_block(step, block, count);
 }
 
 void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
@@ -163,8 +166,9 @@ int ContactChunk::arrange(const ContactScene &scene, const std::uint32_t *contac
   ranges.clear();
   int lane = 0;
   const auto close_range = [&](int law, int begin) {
+    const int used = lane;
     for (; lane % lanes; lane++) pair_of_lane[lane] = pair_of_lane[lane - 1];
-    if (lane > begin) ranges.push_back({law, begin, lane});
+    if (lane > begin) ranges.push_back({law, begin, used, lane});
   };
 
   if (laws.num_laws() == 1) {    // lanes are those of start_pairs()
@@ -186,6 +190,13 @@ int ContactChunk::arrange(const ContactScene &scene, const std::uint32_t *contac
 }
 
 namespace {
+double sum_of(Vec8 lane)
+{
+  double sum = 0.0;
+  for (int k = 0; k < lanes; k++) sum += lane[k];
+  return sum;
+}
+
 void clear_lanes(double (&vector)[3][ContactBatch::width], int begin, int end)
 {
   for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
@@ -197,8 +208,10 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   batch.lag = step.lag;
   for (const LawRange &range : ranges) {
-    laws.kernel(range.law, step.advance)(batch, range.begin, range.end, laws.coefficients(),
-                                         step.dt);
+    const ContactKernel &kernel = step.account && step.advance
+                                      ? laws.accounting_kernel(range.law)
+                                      : laws.kernel(range.law, step.advance);
+    kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
     // not written by the kernels of laws that have none
     const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())
@@ -346,16 +359,52 @@ void ContactChunk::report_early_before(int second, int first, const Step &step)
   }
 }
 
+/* Lanes of copies count nothing, and those of a contact with a ghost a half: the other rank has the
+   other one. */
+
 void ContactChunk::account_block(const Step &step, const std::uint32_t *block, int count)
 {
-  const LawTable &laws = step.scene.laws;
-  const AlignedVector<Record> &position = step.particles.position;
-  for (int n = 0; n < count; n++) {
-    const int lane = lane_of_contact[n], row = row_of_pair(step.scene, block[n]);
-    const int i = pairs.first[block[n]], j = pairs.second[block[n]];
-    step.account->add(lane_energy(laws.law(row), laws.coefficients(row), batch, lane, step.dt),
-                      pairs.order().share(i, j), i, position[i].c[3], j, position[j].c[3]);
+  for (const LawRange &range : ranges)
+    for (int lane = range.used; lane < range.end; lane++)
+      for (auto &its : batch.work) its[lane] = 0.0;
+  if (pairs.weighted())
+    for (int n = 0; n < count; n++)
+      for (auto &its : batch.work) its[lane_of_contact[n]] *= pairs.weights[block[n]];
+  if (!step.account->by_particle.empty()) account_by_particle(step, block, count);
+  const ParticleOrder &order = pairs.order();
+  for (int n = 0; n < count && order.owned < order.size(); n++) {
+    const double share = order.share(pairs.first[block[n]], pairs.second[block[n]]);
+    for (auto &its : batch.work) its[lane_of_contact[n]] *= share;
   }
+  Vec8 sum[ContactBatch::num_causes] = {};
+  for (int k = 0; k < ranges.back().end; k += lanes)
+    for (int n = 0; n < ContactBatch::num_causes; n++) sum[n] = sum[n] + load8(&batch.work[n][k]);
+  its_work += EnergyByCause{sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
+}
+
+/* Of an owned particle, all contacts are computed on its rank: no other one has a part. */
+
+void ContactChunk::account_by_particle(const Step &step, const std::uint32_t *block, int count)
+{
+  const ParticleOrder &order = pairs.order();
+  for (int n = 0; n < count; n++) {
+    const int lane = lane_of_contact[n], first = pairs.first[block[n]];
+    const int i = order.atom_of_slot[first], j = order.atom_of_slot[pairs.second[block[n]]];
+    if (order.is_owned(j)) add_work(*step.account, j, batch, lane, 0.5);
+    if (!order.is_owned(i)) continue;
+    if (pairs.is_foreign(first))
+      work_left.push_back(
+          {i, {0.5 * batch.work[0][lane], 0.5 * batch.work[1][lane], 0.5 * batch.work[2][lane]}});
+    else
+      add_work(*step.account, i, batch, lane, 0.5);
+  }
+}
+
+void ContactChunk::add_work_left(const WorkAccount &to) const
+{
+  for (const WorkLeft &left : work_left)
+    for (double **rows : to.by_particle)
+      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][n] += left.half[n];
 }
 
 double ContactChunk::memory_usage() const

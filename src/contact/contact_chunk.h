@@ -52,16 +52,16 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `report`, if given, is called for every contact; `account`, if given, gets the energies of all;
-/// both are not for use by several threads. `meanwhile`, if given, is called now and then, by the
-/// first thread: for messages that need someone to look after them. `add_more`, if given, adds
+/// `report`, if given, is called for every contact, not for use by several threads; `account`, if
+/// given, gets the work of all in a step that advances. `meanwhile`, if given, is called now and then,
+/// by the first thread: for messages that need someone to look after them. `add_more`, if given, adds
 /// other forces to the sums of slots begin ... end-1 when all contacts of these are added: called
 /// once by each thread, with its number and range.
 struct ContactStep {
   double dt;
   bool advance;
   const std::function<void(const ReportedContact &)> *report = nullptr;
-  EnergyAccount *account = nullptr;
+  WorkAccount *account = nullptr;
   const std::function<void()> *meanwhile = nullptr;
   const std::function<void(int thread, int begin, int end)> *add_more = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
@@ -109,6 +109,11 @@ class ContactChunk {
     return scene.row_of(pairs.first[pair], pairs.second[pair]);
   }
 
+  /// What the last compute() has found of the work of contacts; those of first particles that other
+  /// chunks may deal with at the same time are not in the lists of step.account yet.
+  const EnergyByCause &work() const { return its_work; }
+  void add_work_left(const WorkAccount &to) const;
+
   double memory_usage() const;
 
   PairList pairs;
@@ -151,6 +156,7 @@ class ContactChunk {
   void add_twisting_torques(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
+  void account_by_particle(const Step &step, const std::uint32_t *contacts, int count);
   void report_block(const Step &step, const std::uint32_t *contacts, int count);
   void report_early_before(int second, int first, const Step &step);
 
@@ -162,12 +168,18 @@ class ContactChunk {
   };
   std::vector<LaterReport> later_reports;    ///< of ends that have late contacts as well
   std::size_t reported = 0;                  ///< of those of the early chunk
+  EnergyByCause its_work;
+  struct WorkLeft {
+    int atom;
+    double half[ContactBatch::num_causes];
+  };
+  std::vector<WorkLeft> work_left;
   int block_size = ContactBatch::width;
   SlotRange to_prefetch;    ///< slots that are loaded soon
 
   // one block of contacts on its way through the kernels
   struct LawRange {
-    int law, begin, end;
+    int law, begin, used, end;    ///< lanes behind used-1 are copies
   };
   ContactBatch batch;
   std::uint32_t pair_of_lane[ContactBatch::width];

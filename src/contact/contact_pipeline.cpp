@@ -124,14 +124,14 @@ void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, 
 
 void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
 {
-  start_step(step);
+  start_step();
   for (int phase = 0; phase < work.num_phases(); phase++) run_phase(host, step, phase);
   end_step(host, step);
 }
 
 void ContactPipeline::compute_early(const ParticleView &host, const ContactStep &step)
 {
-  start_step(step);
+  start_step();
   run_phase(host, step, 0);
 }
 
@@ -141,17 +141,21 @@ void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &
   end_step(host, step);
 }
 
-void ContactPipeline::start_step(const ContactStep &step)
+void ContactPipeline::start_step()
 {
   remembered.reset();
   if (!particles.has_room()) make_room();
   deferred.begin_step();
-  if (step.account) step.account->begin_step(order.size());
 }
 
 void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step)
 {
   in_records = !step.deliver;
+  for (const ContactChunk &chunk : chunks) {
+    if (!step.account || !step.advance) break;
+    step.account->sum += chunk.work();
+    chunk.add_work_left(*step.account);
+  }
   if (step.deliver)
     in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
 }
@@ -226,8 +230,8 @@ template <class Visit> void ContactPipeline::for_each_chunk_of(int thread, int p
   });
 }
 
-/* Computes the chunks of one phase. Reports and accounts are kept in the order of the chunks, so
-   these then run one after the other. */
+/* Computes the chunks of one phase. Reports are in the order of the chunks, so these then run one
+   after the other. */
 
 void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &step, int phase)
 {
@@ -258,7 +262,7 @@ void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &ste
     const SlotRange its = work.range_of_thread(t);
     if (step.add_more) (*step.add_more)(t, its.begin, its.end);
   };
-  in_parallel(threads, step.report || step.account ? 1 : threads, prepare, compute_chunks, finish);
+  in_parallel(threads, step.report ? 1 : threads, prepare, compute_chunks, finish);
   move_pending = false;    // all have been moved on the way
 }
 

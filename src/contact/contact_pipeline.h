@@ -137,9 +137,6 @@ class ContactPipeline {
   void write_changes(double *changes) const;
   void show_changes(const std::vector<int> &atoms, double *changes) const;
 
-  /// For energies: after the integrator has moved velocities, before particles are renumbered.
-  void account_for_move(const double *v, const double *omega, double dt, EnergyAccount &to) const;
-
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.
   std::optional<RememberedValues> remembered_of(int i, int j) const;
@@ -155,6 +152,10 @@ class ContactPipeline {
   /// Share of the candidate pairs that compute_early() computes.
   double early_share() const;
 
+  /// visit(contact) for each contact of the last compute(), with the state that it found and the
+  /// history after it, while the pairs are there. `dt`: of that step.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  void for_each_contact(double dt, Ask ask, const VisitContact &visit) const;
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
@@ -180,10 +181,11 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
+  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt, Ask ask) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void make_room();
-  void start_step(const ContactStep &step);
+  void start_step();
   void end_step(const ParticleView &host, const ContactStep &step);
   void find_shared();
   void run_phase(const ParticleView &host, const ContactStep &step, int phase);

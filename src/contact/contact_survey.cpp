@@ -6,6 +6,7 @@
 #include "contact/contact_pipeline.h"
 
 #include "base/in_parallel.h"
+#include "laws/circle_of_intersection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,23 +51,60 @@ double ContactPipeline::early_share() const
   return all ? static_cast<double>(early) / static_cast<double>(all) : 0.0;
 }
 
-void ContactPipeline::account_for_move(const double *v, const double *omega, double dt,
-                                       EnergyAccount &to) const
+/* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
+
+SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair, double dt,
+                                        Ask ask) const
 {
-  for (int s = 0; s < order.size(); s++) {
-    const int a = order.atom_of_slot[s];
-    if (!order.is_owned(a)) continue;
-    const double *before = particles.velocity(s).c, *now = v + 3L * a;
-    Vector3<double> mean_omega{0.0, 0.0, 0.0};
-    if (scene.with_friction) {
-      const double *w = particles.omega(s).c, *w_now = omega + 3L * a;
-      mean_omega = {0.5 * (w[0] + w_now[0]), 0.5 * (w[1] + w_now[1]), 0.5 * (w[2] + w_now[2])};
-    }
-    to.move(s, dt,
-            {0.5 * (before[0] + now[0]), 0.5 * (before[1] + now[1]), 0.5 * (before[2] + now[2])},
-            mean_omega);
+  const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
+  const Record &xi = particles.position[i], &xj = particles.position[j];
+  const Record &vi = particles.velocity(i), &vj = particles.velocity(j);
+  const auto three = [](const Record &r) { return Vector3<double>{r.c[0], r.c[1], r.c[2]}; };
+  const Vector3<double> separation = three(xi) - three(xj);
+  const double ri = xi.c[3], rj = xj.c[3], distance = length(separation);
+  ContactState<double> s;
+  s.inverse_distance = distance > 0.0 ? 1.0 / distance : 0.0;
+  s.normal = s.inverse_distance * separation;
+  s.overlap = distance > 0.0 ? ri + rj - distance : 0.0;
+  s.velocity = three(vi) - three(vj);
+  s.inverse_mass = vi.c[3] + vj.c[3];
+  s.inverse_radius = 1.0 / ri + 1.0 / rj;
+  if (scene.with_friction) {
+    const Vector3<double> wi = three(particles.omega(i)), wj = three(particles.omega(j));
+    s.surface_rotation = ri * wi + rj * wj;
+    s.relative_omega = wi - wj;
   }
-  to.end_step();
+  s.arm_loss = s.overlap / (ri + rj);
+  s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
+  s.circle = circle_of_intersection(ri, rj, s.overlap);
+
+  RememberedValues memory;
+  if (scene.with_history && chunk.history.touches(pair))
+    memory =
+        remembered_values(chunk.history.record(pair),
+                          chunk.history.with_impacts() ? chunk.history.impact(pair) : no_history);
+  SurveyedContact found{order.atom_of_slot[i],
+                        order.atom_of_slot[j],
+                        -1,
+                        -1,
+                        order.share(i, j),
+                        s.normal,
+                        s.overlap,
+                        {},
+                        {},
+                        {},
+                        {},
+                        {}};
+  const int row = chunk.row_of_pair(scene, pair);
+  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, ask, found);
+  return found;
+}
+
+void ContactPipeline::for_each_contact(double dt, Ask ask, const VisitContact &visit) const
+{
+  if (!pairs_known) return;
+  for (const ContactChunk &chunk : chunks)
+    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt, ask)); });
 }
 
 double ContactPipeline::squared_distance(int slot_a, int slot_b) const

@@ -215,21 +215,37 @@ VtkPolyData DumpVtkGran::contacts()
   VtkPolyData lines(VtkCells::LINES);
   auto &strength = lines.add_point_data("normal_force", 1);
   auto &first = lines.add_cell_data("id1", 1), &second = lines.add_cell_data("id2", 1);
+  auto &body_number = lines.add_cell_data("body", 1);
   auto &force = lines.add_cell_data("force", 3), &overlap = lines.add_cell_data("overlap", 1);
-  const double *const *x = atom->x;
-  contact_list->contacts.for_each([&](const PairContact &c) {
-    if (!(atom->mask[c.i] & groupbit) || !(atom->mask[c.j] & groupbit)) return;
-    const Vector3<double> begin{x[c.i][0], x[c.i][1], x[c.i][2]};
+  const auto is_chosen = [this](int i) { return (atom->mask[i] & groupbit) != 0; };
+  const auto add = [&](int i, double partner, int body, const Vector3<double> &line,
+                       const Vector3<double> &force_on_i, double normal, double depth) {
+    const double *x = atom->x[i];
+    const Vector3<double> begin{x[0], x[1], x[2]};
     lines.add_point(begin);
-    lines.add_point(begin - c.separation);
+    lines.add_point(begin - line);
+    strength.add(normal);
+    strength.add(normal);
+    first.add(static_cast<double>(atom->tag[i]));
+    second.add(partner);
+    body_number.add(body);
+    force.add(force_on_i);
+    overlap.add(depth);
+  };
+  contact_list->contacts.for_each([&](const PairContact &c) {
+    if (!is_chosen(c.i) || !is_chosen(c.j)) return;
     const double normal = dot(c.normal_force, c.separation) / length(c.separation);
-    strength.add(normal);
-    strength.add(normal);
-    first.add(static_cast<double>(atom->tag[c.i]));
-    second.add(static_cast<double>(atom->tag[c.j]));
-    force.add(c.force());
-    overlap.add(c.overlap);
+    add(c.i, static_cast<double>(atom->tag[c.j]), 0, c.separation, c.force(), normal, c.overlap);
   });
+  int number = 0;
+  for (LargeBody *body : system->bodies()) {
+    number++;
+    body->for_each_contact(Ask::ALL, [&](const SurveyedContact &c) {
+      if (!is_chosen(c.i)) return;
+      const Vector3<double> line = (atom->radius[c.i] - c.overlap) * c.normal;
+      add(c.i, 0.0, number, line, c.force, dot(c.force, c.normal), c.overlap);
+    });
+  }
   return lines;
 }
 

@@ -2,6 +2,8 @@
 
 #include "fix/fix_large_body.h"
 
+#include "body/shape/plane.h"
+#include "body/shape/rectangle.h"
 #include "fix/large_body_shapes.h"
 #include "fix/region_shape.h"
 
@@ -81,7 +83,7 @@ void FixLargeBody::offer_output()
   if (!surface->records()) return;
   array_flag = 1;
   size_array_rows = surface->size();
-  size_array_cols = LargeBodySurface::columns;
+  size_array_cols = surface->columns();
   extarray = 0;
 }
 
@@ -97,11 +99,17 @@ void FixLargeBody::parse_keywords(Words &words)
       continue;
     } else {
       words.fail(0, "unknown word '" + words.peek() +
-                        "', expected contact, two-sided, move, servo, gravity, load, pressure, "
-                        "vtk, or in a contact " +
+                        "', expected contact, two-sided, move, servo, surface_velocity, gravity, "
+                        "load, pressure, wear, vtk, or in a contact " +
                         contact_keywords);
     }
   }
+  const LargeBodyShape &shape = body.shape();
+  const bool is_flat =
+      dynamic_cast<const Plane *>(&shape) || dynamic_cast<const Rectangle *>(&shape) || side.mesh();
+  if (motion.frame().runs && !is_flat)
+    error->all(FLERR, "fix large/body: surface_velocity is for plane, rectangle and mesh: give a "
+                      "cylinder or cone that turns 'move rotate'");
   for (int type = 1; type <= atom->ntypes; type++)
     if (!body.has_law(type))
       error->all(FLERR,
@@ -168,7 +176,6 @@ void FixLargeBody::follow_region()
 void FixLargeBody::post_integrate()
 {
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{});
-  body.account_for_move();
 }
 
 void FixLargeBody::setup_post_neighbor()

@@ -2,6 +2,8 @@
 
 #include "fix/large_body_monitor.h"
 
+#include "system/contact_monitor.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -29,9 +31,11 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
                                return true;
                              }};
   };
-  return {check(
-              largest_overlap, [this] { return finding(findings().overlap); },
-              &LargeBodyMonitor::say_overlap),
+  RunMonitor::Check overlap = check(
+      largest_overlap, [this] { return finding(findings().overlap); },
+      &LargeBodyMonitor::say_overlap);
+  overlap.worse = ContactMonitor::much_deeper;
+  return {std::move(overlap),
           check(
               largest_move,
               [this, moves = std::move(moves)] {
@@ -75,9 +79,7 @@ void LargeBodyMonitor::warn(const std::string &text) const
 void LargeBodyMonitor::say_overlap(const RunMonitor::Finding &found) const
 {
   const bool begins = update->ntimestep == update->firststep;
-  const char *cure =
-      "contact laws are made for small overlaps: use a higher stiffness, or look for "
-      "particles that were put into it";
+  std::string cure = ContactMonitor::cure_of(found.value);
   if (begins)
     cure = "it is there from the beginning: move the particle or the body";
   else if (found.value > deep)

@@ -48,6 +48,15 @@ bool LargeBodyMotion::parse(Words &words)
     gravity.parse(words);
     return true;
   }
+  if (words.take("surface_velocity")) {
+    words.about("surface_velocity");
+    const double x = words.number_or_null("velocity (vx vy vz)"),
+                 y = words.number_or_null("velocity (vx vy vz)"),
+                 z = words.number_or_null("velocity (vx vy vz)");
+    now.surface_velocity = {x, y, z};
+    now.runs = true;
+    return true;
+  }
   if (words.take("load")) {
     words.about("load");
     for (Quantity &q : given_load) q = quantity(words, "force and torque (fx fy fz tx ty tz)");

@@ -90,6 +90,11 @@ bool LargeBodyShapes::parse_inside()
   return words.choice("side", {"inside", "outside"}) == 0;
 }
 
+LargeBodyShapes::Side LargeBodyShapes::parse_side()
+{
+  return static_cast<Side>(words.choice("side", {"inside", "outside", "open"}));
+}
+
 LargeBodyShapes::Shape LargeBodyShapes::box()
 {
   const Vector3<double> center = words.vector("center (cx cy cz)");
@@ -112,7 +117,9 @@ LargeBodyShapes::Shape LargeBodyShapes::cylinder()
   const double radius = words.positive("radius r");
   const double length =
       words.take("INF") ? std::numeric_limits<double>::infinity() : words.positive("length l");
-  return std::make_unique<Frustum>(center, axis, radius, radius, length, parse_inside());
+  const Side side = parse_side();
+  return std::make_unique<Frustum>(center, axis, radius, radius, length, side == Side::INSIDE,
+                                   side == Side::OPEN);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::cone()
@@ -123,7 +130,9 @@ LargeBodyShapes::Shape LargeBodyShapes::cone()
   if (low < 0.0 || high < 0.0 || low + high == 0.0)
     words.fail(2, "radii must not be negative, and one of them must be positive");
   const double length = words.positive("length l");
-  return std::make_unique<Frustum>(center, axis, low, high, length, parse_inside());
+  const Side side = parse_side();
+  return std::make_unique<Frustum>(center, axis, low, high, length, side == Side::INSIDE,
+                                   side == Side::OPEN);
 }
 
 /* Rank 0 reads, so that the file need not be visible elsewhere. */

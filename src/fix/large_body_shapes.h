@@ -34,6 +34,8 @@ class LargeBodyShapes : protected Pointers {
   Shape region();
   Shape custom();
   bool parse_inside();
+  enum class Side { INSIDE, OUTSIDE, OPEN };
+  Side parse_side();
   std::string read_everywhere(const std::string &file);
   Talus::StlContent stl(const std::string &file);
   bool take_side(std::string &side);

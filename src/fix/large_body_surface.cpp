@@ -20,7 +20,7 @@ using namespace Talus;
 
 namespace {
 
-enum Field { NORMAL, SHEAR, WORK = 4 };
+enum Field { NORMAL, SHEAR, FORCE = 4, WORK = 7 };
 constexpr int size_image = 10;    // type and three corners
 
 }    // namespace
@@ -34,10 +34,17 @@ bool LargeBodySurface::parse(Words &words)
 {
   if (words.take("pressure")) {
     words.about("pressure");
-    with_loads = words.choice("value", {"yes", "no"}) == 0;
+    const int choice = words.choice("value", {"yes", "no", "average"});
     if (!mesh) words.fail(2, "only the triangles of a mesh are looked at one by one");
-    loads.assign(with_loads ? fields * size() : 0, 0.0);
-    loads_of_all = loads;
+    averages = choice == 2;
+    if (choice != 1) keep_loads();
+    return true;
+  }
+  if (words.take("wear")) {
+    words.about("wear");
+    wear = words.positive("coefficient k");
+    if (!mesh) words.fail(2, "only the triangles of a mesh are looked at one by one");
+    keep_loads();
     return true;
   }
   if (words.take("vtk")) {
@@ -55,16 +62,31 @@ bool LargeBodySurface::parse(Words &words)
 
 /* ---- loads ---------------------------------------------------------------------------------- */
 
+void LargeBodySurface::keep_loads()
+{
+  with_loads = true;
+  loads.assign(fields * size(), 0.0);
+  loads_of_all = loads;
+}
+
 void LargeBodySurface::add_step(double dt)
 {
-  if (!with_loads) return;
-  for (int t = 0; t < size(); t++) std::fill_n(&loads[fields * t], WORK, 0.0);
+  if (!with_loads || (averages && dt == 0.0)) return;
+  if (!averages || begins_anew) {
+    for (int t = 0; t < size(); t++) std::fill_n(&loads[fields * t], WORK, 0.0);
+    steps = 0;
+  }
+  begins_anew = false;
+  steps++;
   for (const TouchedPart &p : parts) {
     double *load = &loads[fields * p.part];
     load[NORMAL] += p.normal_force;
     load[SHEAR] += p.shear.x;
     load[SHEAR + 1] += p.shear.y;
     load[SHEAR + 2] += p.shear.z;
+    load[FORCE] += p.force.x;
+    load[FORCE + 1] += p.force.y;
+    load[FORCE + 2] += p.force.z;
     load[WORK] += dt * p.shear_power;
   }
   reduced = false;
@@ -83,10 +105,11 @@ double LargeBodySurface::value(int t, int column)
   reduce();
   const double *load = &loads_of_all[fields * t];
   const double area = mesh->surface().area(t);
-  if (column == 0) return load[NORMAL] / area;
+  if (column == 0) return share() * load[NORMAL] / area;
   if (column == 2) return load[WORK] / area;
+  if (column == 3) return wear * load[WORK] / area;
   const double *s = load + SHEAR;
-  return std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / area;
+  return share() * std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / area;
 }
 
 void LargeBodySurface::append_work(std::vector<double> &values)
@@ -150,15 +173,28 @@ int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&value
   return count;
 }
 
+void LargeBodySurface::add_loads(VtkPolyData &picture, const BodyFrame &frame)
+{
+  static const char *const names[] = {"pressure", "shear_stress", "shear_work", "wear"};
+  reduce();
+  begins_anew = true;
+  const int count = comm->me == 0 ? size() : 0;
+  for (int c = 0; c < columns(); c++) {
+    VtkPolyData::Array &array = picture.add_cell_data(names[c], 1);
+    for (int t = 0; t < count; t++) array.add(value(t, c));
+  }
+  VtkPolyData::Array &forces = picture.add_cell_data("force", 3);
+  for (int t = 0; t < count; t++) {
+    const double *f = &loads_of_all[fields * t + FORCE];
+    const Vector3<double> force = frame.to_space(Vector3<double>{f[0], f[1], f[2]});
+    for (const double component : {force.x, force.y, force.z}) forces.add(share() * component);
+  }
+}
+
 VtkPolyData LargeBodySurface::picture(const BodyFrame &frame)
 {
   VtkPolyData picture(VtkCells::TRIANGLES);
-  static const char *const names[columns] = {"pressure", "shear_stress", "shear_work"};
-  if (with_loads) reduce();
-  for (int c = 0; with_loads && c < columns; c++) {
-    VtkPolyData::Array &array = picture.add_cell_data(names[c], 1);
-    for (int t = 0; comm->me == 0 && t < size(); t++) array.add(value(t, c));
-  }
+  if (with_loads) add_loads(picture, frame);
   if (comm->me) return picture;
   for (const Triangle &t : triangles_in_space(frame))
     for (const Vector3<double> &p : t.corner) picture.add_point(p);

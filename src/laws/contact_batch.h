@@ -41,6 +41,12 @@ struct ContactBatch {
   alignas(64) double twisting_torque[3][width];
   alignas(64) double heat_flow[width];    ///< only of laws that conduct heat
 
+  /// Only of kernels that account for energies: work that normal damping, tangential forces and
+  /// resistance take from the bodies in the step, see contact_work.h; and `history` before it.
+  static constexpr int num_causes = 3;
+  alignas(64) double work[num_causes][width];
+  alignas(64) double before[history_size][width];
+
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {
     alignas(64) double full_normal[3][width];    // only of synchronized laws

@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Where the energy of contacts goes: stored in springs, or dissipated by damping, friction and
-// resistance. Diagnostics only, contact by contact; not part of the kernels.
+// What contacts are asked about between steps, one at a time: forces, and the energy stored in
+// springs; and where the work goes that contacts take from particles (contact_work.h). Not part of
+// the kernels.
 
 #ifndef TALUS_LAWS_CONTACT_ENERGY_H
 #define TALUS_LAWS_CONTACT_ENERGY_H
@@ -13,30 +14,64 @@
 
 namespace Talus {
 
-/// Energy stored in one contact, and the parts of its forces that take energy from the bodies.
-/// Forces act on the first body, torques on body i are -r_i times a moment, plus (first body) or
-/// minus a torque.
-struct ContactEnergy {
-  double elastic_normal = 0.0;                ///< of normal law and cohesion
-  double elastic_in_damping = 0.0;            ///< of `elastic_normal`, whose force is in `damping`
-  double elastic_tangential = 0.0;            ///< of the tangential law
-  double elastic_resistance = 0.0;            ///< of rolling and twisting
-  Vector3<double> damping{0.0, 0.0, 0.0};     ///< normal damping force; of contacts that tear, the whole one
-  Vector3<double> friction{0.0, 0.0, 0.0};    ///< tangential; its work is stored or dissipated
-  Vector3<double> friction_moment{0.0, 0.0, 0.0};
-  Vector3<double> friction_torque{0.0, 0.0, 0.0};    ///< of friction, opposite on both bodies
-  Vector3<double> rolling_moment{0.0, 0.0, 0.0};
-  Vector3<double> resistance_torque{0.0, 0.0, 0.0};    ///< of rolling and twisting, the same
+/// Stored: in the normal law with cohesion, in the spring of friction, in those of rolling and
+/// twisting. Dissipated: by normal damping, friction, resistance.
+struct EnergyByCause {
+  double normal = 0.0, tangential = 0.0, resistance = 0.0;
+  /// Of `normal`, if stored, that of contacts that tear: their work is that of the whole force.
+  double tearing = 0.0;
+
+  double total() const { return normal + tangential + resistance; }
+  EnergyByCause &operator+=(const EnergyByCause &o)
+  {
+    normal += o.normal;
+    tangential += o.tangential;
+    resistance += o.resistance;
+    tearing += o.tearing;
+    return *this;
+  }
+  friend EnergyByCause operator*(double share, const EnergyByCause &e)
+  {
+    return {share * e.normal, share * e.tangential, share * e.resistance, share * e.tearing};
+  }
+  friend EnergyByCause operator-(const EnergyByCause &a, const EnergyByCause &b)
+  {
+    return {a.normal - b.normal, a.tangential - b.tangential, a.resistance - b.resistance,
+            a.tearing - b.tearing};
+  }
 };
 
-/// `memory` as it is after the step.
-ContactEnergy contact_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
-                             const ContactState<double> &state, double dt,
-                             const RememberedValues &memory);
+/// What is gone of the work that contacts have taken while springs store that much now.
+inline EnergyByCause dissipated(const EnergyByCause &work, const EnergyByCause &stored)
+{
+  return work - EnergyByCause{stored.tearing, stored.tangential, stored.resistance};
+}
 
-/// The same for one lane of a batch after its kernel has run.
-ContactEnergy lane_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
-                          const ContactBatch &batch, int lane, double dt);
+/// A contact as it is after a step. Everything as the first body sees it, in space.
+struct SurveyedContact {
+  int i, j;        ///< host's indices; j is -1 if the second body is a large one
+  int body;        ///< number of the large body, in the order of the script, from 0; or -1
+  int part;        ///< of the large body; -1 without parts
+  double share;    ///< 1/2 if another rank has this contact as well, else 1
+  Vector3<double> normal;    ///< from the second body to the first
+  double overlap;            ///< length; negative of contacts that last beyond zero
+  Vector3<double> force;     ///< on the first body
+  Vector3<double> moment, twisting_torque;    ///< torques about the centers, see ContactLanes
+  RememberedValues memory;                    ///< the first three of a large body in its own frame
+  EnergyByCause stored;
+};
+
+/// Which numbers of a contact are asked for: energies alone are found faster.
+enum class Ask : bool { ENERGIES, ALL };
+
+/// Of `memory` after the step: fills in memory, stored energy and, if asked for, force and torques,
+/// in the frame of `state`.
+void survey_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
+                    const ContactState<double> &state, double dt, const RememberedValues &memory,
+                    Ask ask, SurveyedContact &to);
+
+/// The state of one lane of a batch, as before its kernel has run.
+ContactState<double> state_of_lane(const ContactBatch &batch, int lane);
 
 /// Tangent stiffness dF_n/d overlap of the elastic normal force (force/distance) of a contact.
 double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &coefficients,
@@ -47,49 +82,21 @@ double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &coeff
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficients, double overlap,
                      double mass_eff, double radius_eff);
 
-/// Running account of the contacts of one rank. Work is that of the time step as the integrator
-/// takes it: force times the mean of the velocities before and after the kick, so that for
-/// semi-implicit Euler it equals the change of kinetic energy exactly. Energy dissipated by
-/// friction or resistance is the work of these forces less what is stored at the time of asking:
-/// what a contact still stores when it opens is lost, and counted so. Normal forces of
-/// contacts that last beyond zero overlap, and then tear, are treated in the same way. What contacts
-/// store in the first step of all has come from nowhere.
-class EnergyAccount {
- public:
-  /// Before the contacts of a step: forgets the forces of the last one and what it stored.
-  void begin_step(int num_particles);
-
-  /// Adds a contact of the particles `first` and `second` (second < 0: a large body, which does no
-  /// work here). `share` is 1/2 for a contact that another rank counts as well.
-  void add(const ContactEnergy &e, double share, int first, double first_radius, int second,
-           double second_radius);
-
-  /// After the integrator has moved the velocities of an owned particle. Lengths of time and
-  /// velocities in the units of the caller.
-  void move(int particle, double dt, const Vector3<double> &mean_velocity,
-            const Vector3<double> &mean_omega);
-  /// After the last move() of a step: the forces have been used.
-  void end_step() { forces.clear(); }
-  bool waits_for_move() const { return !forces.empty(); }
-
-  double elastic() const { return elastic_normal + elastic_tangential + elastic_resistance; }
-  double dissipated_normal() const { return work_normal - elastic_in_damping; }
-  double dissipated_tangential() const { return work_tangential - elastic_tangential; }
-  double dissipated_resistance() const { return work_resistance - elastic_resistance; }
-
- private:
-  struct Forces {
-    Vector3<double> damping{0.0, 0.0, 0.0}, friction{0.0, 0.0, 0.0};
-    Vector3<double> friction_torque{0.0, 0.0, 0.0}, resistance_torque{0.0, 0.0, 0.0};
-  };
-  void add_end(const ContactEnergy &e, int particle, double radius, double sign);
-
-  std::vector<Forces> forces;    // by particle
-  double elastic_normal = 0.0, elastic_in_damping = 0.0;
-  double elastic_tangential = 0.0, elastic_resistance = 0.0;
-  int evaluations = 0;    // of the contacts: none, the first, more
-  double work_normal = 0.0, work_tangential = 0.0, work_resistance = 0.0;
+/// Where a step puts ContactBatch::work. Sums over contacts, and for each list one row of three by
+/// host's index: half of a contact between two particles belongs to each of them, that with a large
+/// body to the particle.
+struct WorkAccount {
+  EnergyByCause sum;    ///< of this rank: half of contacts that others have as well
+  std::vector<double **> by_particle;    ///< rows may be added to by several threads, each its own
 };
+
+/// Adds `share` of the work of one lane to a particle.
+inline void add_work(const WorkAccount &to, int atom, const ContactBatch &batch, int lane,
+                     double share)
+{
+  for (double **rows : to.by_particle)
+    for (int n = 0; n < 3; n++) rows[atom][n] += share * batch.work[n][lane];
+}
 
 }    // namespace Talus
 

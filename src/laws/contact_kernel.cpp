@@ -2,6 +2,7 @@
 
 #include "laws/contact_kernel.h"
 
+#include "laws/contact_work.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
 
@@ -129,9 +130,28 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   return kernel;
 }
 
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
+{
+  ContactKernel kernel;
+  kernel.uniform = uniform;
+  if (const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr) {
+    kernel.add(fused, 0, places_one_behind_the_other(law));
+    return kernel;
+  }
+  if (law.has_history()) kernel.add(history_copier(law));
+  kernel.add(staged_kernel(law, uniform, true));
+  kernel.add(work_finder(law));
+  const HistoryLayout history = law.history();
+  for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (its.lag)
+      kernel.add(its.lag, law.first_coefficient(stage), history.of_stage[static_cast<int>(stage)]);
+  });
+  return kernel;
+}
+
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory)
+                                    const RememberedValues &memory, Stage last)
 {
   ContactLanes<double> s;
   static_cast<ContactState<double> &>(s) = state;
@@ -151,6 +171,7 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
     s.age = impact.age;
   }
   for_each_stage(law, [&](Stage stage, const Law &its) {
+    if (stage > last) return;
     if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < its.odd_history + its.even_history; n++)

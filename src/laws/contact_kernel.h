@@ -37,9 +37,15 @@ class ContactKernel {
  private:
   friend ContactKernel contact_kernel(const ContactLaw &, bool, bool);
   friend ContactKernel staged_kernel(const ContactLaw &, bool, bool);
+  friend ContactKernel accounting_kernel(const ContactLaw &, bool);
   void add(StageFunction run, int first_coefficient = 0, const HistoryPlaces &places = {})
   {
     steps[count++] = {run, first_coefficient, places};
+  }
+
+  void add(const ContactKernel &other)
+  {
+    for (int n = 0; n < other.count; n++) steps[count++] = other.steps[n];
   }
 
   struct Step {
@@ -47,7 +53,7 @@ class ContactKernel {
     int first_coefficient;
     HistoryPlaces places;
   };
-  std::array<Step, num_stages + 4> steps{};    // and what is around them, see staged_kernel()
+  std::array<Step, num_stages + 9> steps{};    // and what is before and behind the stages
   int count = 0;
   bool uniform = false;
 };
@@ -61,10 +67,13 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance);
 /// The same, stage by stage in any case.
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance);
 
-/// One contact alone, history only read: for queries. Same bits as the kernels.
+/// The kernel that advances, and finds ContactBatch::work: the same bits.
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform);
+
+/// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory = {});
+                                    const RememberedValues &memory = {}, Stage last = Stage::HEAT);
 
 }    // namespace Talus
 

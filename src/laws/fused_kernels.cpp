@@ -3,6 +3,7 @@
 #include "laws/fused_kernels.h"
 
 #include "laws/approach.h"
+#include "laws/contact_work.h"
 #include "laws/damping/coeff_restitution.h"
 #include "laws/damping/mass_velocity.h"
 #include "laws/damping/restitution.h"
@@ -65,17 +66,17 @@ struct Fused {
             spread<Twisting, Real>(c + coefficients_of<Normal, Damping, Tangential, Rolling>)};
   }
 
-  /// The contacts from lane k on, as many as a Real is wide.
-  template <class Real>
+  /// The contacts from lane k on, as many as a Real is wide; `accounts`: and their work.
+  template <bool accounts, class Real>
   TALUS_INLINE static void compute(ContactBatch &b, int k, const Rows<Real> &c,
                                    const StageInput &in)
   {
     ContactLanes<Real> s;
     load_state(b, k, s);
     approach<with_radius>(s);
-    Real history[remembered + 1];    // none has no length 0
+    Real history[remembered + 1], before[remembered + 1];    // none has no length 0
     for (int n = 0; n < remembered; n++)
-      history[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
+      history[n] = before[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
     Normal::template compute<true>(c.normal, s, history, in.dt);
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
@@ -88,33 +89,53 @@ struct Fused {
       if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
+    if constexpr (accounts) account(b, k, c, s, before, history, in.dt);
     for (int n = 0; n < remembered; n++)
       Memory<Real>::store(&b.history[in.places[n]][k], history[n]);
   }
 
+  template <class Real>
+  TALUS_INLINE static void account(ContactBatch &b, int k, const Rows<Real> &c,
+                                   const ContactLanes<Real> &s, const Real *before, const Real *now,
+                                   double dt)
+  {
+    constexpr int to_rolling = values_of<Tangential>, to_twisting = to_rolling + values_of<Rolling>;
+    ContactWork<Real> work;
+    find_work<Tangential::acts, twists, Rolling::acts || Twisting::acts,
+              Normal::lasts_beyond_contact>(s, dt, work);
+    if constexpr (has_lag<Tangential>) take_lag<Tangential>(s, c.tangential, before, now, dt, work);
+    if constexpr (has_lag<Rolling>)
+      take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);
+    if constexpr (has_lag<Twisting>)
+      take_lag<Twisting>(s, c.twisting, before + to_twisting, now + to_twisting, dt, work);
+    for (int n = 0; n < ContactBatch::num_causes; n++) Memory<Real>::store(&b.work[n][k], work[n]);
+  }
+
+  template <bool accounts>
   static void run(ContactBatch &b, int begin, int end, const StageInput &in)
   {
     const Rows<Wide> wide = rows<Wide>(in.table[0].c);
     int k = begin;
-    for (; k + wide_lanes <= end; k += wide_lanes) compute<Wide>(b, k, wide, in);
+    for (; k + wide_lanes <= end; k += wide_lanes) compute<accounts, Wide>(b, k, wide, in);
     const Rows<Vec8> rest = rows<Vec8>(in.table[0].c);
-    for (; k < end; k += lanes) compute<Vec8>(b, k, rest, in);
+    for (; k < end; k += lanes) compute<accounts, Vec8>(b, k, rest, in);
   }
 };
 
 /// Laws by their names: what is in law_list.cpp is not compiled here once more.
 struct Entry {
   const char *normal, *damping, *tangential, *rolling, *twisting;
-  StageFunction function;
+  StageFunction function, accounting;
 };
 
 template <class Normal, class Damping, class Tangential, class Rolling = RollingNone,
           class Twisting = TwistingNone>
 constexpr Entry entry()
 {
-  return {Normal::name,     Damping::name,
-          Tangential::name, Rolling::name,
-          Twisting::name,   Fused<Normal, Damping, Tangential, Rolling, Twisting>::run};
+  using Its = Fused<Normal, Damping, Tangential, Rolling, Twisting>;
+  return {Normal::name,           Damping::name,  Tangential::name,
+          Rolling::name,          Twisting::name, Its::template run<false>,
+          Its::template run<true>};
 }
 
 constexpr Entry entries[] = {
@@ -136,13 +157,25 @@ constexpr Entry entries[] = {
     entry<Jkr, Viscoelastic, Mindlin>(),
 };
 
+const Entry *entry_of(const ContactLaw &law)
+{
+  const std::vector<ContactLaw> laws = fused_laws();
+  const auto found = std::find(laws.begin(), laws.end(), law);
+  return found == laws.end() ? nullptr : &entries[found - laws.begin()];
+}
+
 }    // namespace
 
 StageFunction fused_function(const ContactLaw &law)
 {
-  const std::vector<ContactLaw> laws = fused_laws();
-  const auto found = std::find(laws.begin(), laws.end(), law);
-  return found == laws.end() ? nullptr : entries[found - laws.begin()].function;
+  const Entry *its = entry_of(law);
+  return its ? its->function : nullptr;
+}
+
+StageFunction fused_accounting_function(const ContactLaw &law)
+{
+  const Entry *its = entry_of(law);
+  return its ? its->accounting : nullptr;
 }
 
 std::vector<ContactLaw> fused_laws()

@@ -16,6 +16,8 @@ namespace Talus {
 /// For contacts with one row of coefficients, histories advanced; nullptr if there is none for this
 /// law.
 StageFunction fused_function(const ContactLaw &law);
+/// The same, which finds ContactBatch::work as well.
+StageFunction fused_accounting_function(const ContactLaw &law);
 
 /// The laws that have one.
 std::vector<ContactLaw> fused_laws();

@@ -13,6 +13,9 @@
 //   read(reader)  its words; left out if it comes with another law's
 //   mix(m)        its row for a contact of two materials
 //   stored(s, c, history)   its energy, if it stores some
+//   rate(s, c, r) of laws that remember a spring in their first spring_size values: how fast these
+//                 change where the contact sticks. stored() is then for any Real.
+//   drag(s, c)    force/velocity of the dashpot beside it, of tangential laws
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
 // law_list.cpp makes it known to all.
@@ -21,6 +24,7 @@
 #define TALUS_LAWS_LAW_DEFINITION_H
 
 #include "base/simd.h"
+#include "laws/contact_work.h"
 #include "laws/given_law.h"
 #include "laws/law.h"
 
@@ -50,6 +54,7 @@ struct LawBase {
   static constexpr bool lasts_beyond_contact = false, second_order = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
+  static constexpr int spring_size = 0;
   static constexpr double exponent = 1.0;
 };
 
@@ -266,6 +271,27 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
+template <class L> void run_lag(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  constexpr int remembered = history_size_of<L>;
+  auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
+  for (int k = begin; k < end; k += lanes) {
+    if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    load_found<Stage::TANGENTIAL>(b, k, s);
+    Vec8 before[remembered], now[remembered];
+    for (int n = 0; n < remembered; n++) {
+      before[n] = load8(&b.before[in.places[n]][k]);
+      now[n] = load8(&b.history[in.places[n]][k]);
+    }
+    ContactWork<Vec8> work;
+    for (int n = 0; n < ContactBatch::num_causes; n++) work[n] = load8(&b.work[n][k]);
+    take_lag<L>(s, c, before, now, in.dt, work);
+    for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
+  }
+}
+
 /// 1 if resistance acts, 0 before the contact has lasted one collision time
 /// pi sqrt(m/(k (1-d^2))), d = g/(2 m sqrt(k/m)); over-damped contacts (d >= 1) resist at once.
 template <class L, class Real> TALUS_INLINE void find_delayed_force(ContactLanes<Real> &s)
@@ -355,6 +381,7 @@ template <class L> constexpr Law make_law()
   law.needs_gt = L::needs_gt;
   law.reading = run_stage<L, false>;
   law.advancing = run_stage<L, remembers>;
+  if constexpr (has_lag<L>) law.lag = run_lag<L>;
   law.one = compute_one<L>;
   law.read = L::read;
   law.mix = mix_row<L>;

@@ -37,9 +37,11 @@ void LawTable::finish()
   }
   advancing.clear();
   reading.clear();
+  accounting.clear();
   for (const ContactLaw &law : distinct) {
     advancing.push_back(contact_kernel(law, one_row, true));
     reading.push_back(contact_kernel(law, one_row, false));
+    accounting.push_back(Talus::accounting_kernel(law, one_row));
   }
 }
 

@@ -28,7 +28,7 @@ std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestConta
   };
   return {
       {largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
-       say_once(&ContactMonitor::say_overlap)},
+       say_once(&ContactMonitor::say_overlap), much_deeper},
       {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::say_move)}};
 }
 
@@ -39,14 +39,24 @@ RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) co
   return {deepest.overlap_ratio, {static_cast<double>(low), static_cast<double>(high)}};
 }
 
+/* The overlap of an impact is that of a spring: ~ 1/sqrt(k), as the time step should be. */
+
+std::string ContactMonitor::cure_of(double overlap)
+{
+  const double softer = overlap / largest_overlap;
+  return fmt::format("contact laws are made for overlaps below {}: for impacts a stiffness {:.2g} "
+                     "times as high, with {:.2g} of the time step, would do; or look for particles "
+                     "that overlap from the beginning. Said once, unless it becomes much worse",
+                     largest_overlap, softer * softer, 1.0 / softer);
+}
+
 void ContactMonitor::say_overlap(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
-                 "radius at step {}; contact laws are made for small overlaps: use a higher "
-                 "stiffness, or look for particles that overlap from the beginning",
+                 "radius at step {}; {}",
                  GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
-                 worst.value, update->ntimestep);
+                 worst.value, update->ntimestep, cure_of(worst.value));
 }
 
 RunMonitor::Finding ContactMonitor::largest_own_move() const

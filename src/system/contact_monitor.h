@@ -15,6 +15,7 @@
 #include "system/run_monitor.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -22,7 +23,12 @@ namespace LAMMPS_NS {
 class ContactMonitor : protected Pointers {
  public:
   static constexpr double largest_overlap = 0.1;    ///< over the smaller radius
-  static constexpr double largest_move = 0.1;       ///< over the radius
+  /// A deep overlap is told once, and again if it is so many times as deep.
+  static constexpr double much_deeper = 1.5;
+  static constexpr double largest_move = 0.1;    ///< over the radius
+
+  /// What to do about an overlap above the limit.
+  static std::string cure_of(double overlap);
 
   explicit ContactMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 

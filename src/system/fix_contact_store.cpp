@@ -14,11 +14,13 @@
 #include "error.h"
 #include "integrate.h"
 #include "modify.h"
+#include "output.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -37,6 +39,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange_dynamic = 1;
+  nevery = 1;    // of the end of step
   set_maxexchange(0);
   comm_border = size_border;
   comm_forward = size_change;
@@ -60,8 +63,8 @@ FixContactStore::~FixContactStore()
 
 int FixContactStore::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
-         MIN_POST_NEIGHBOR;
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
+         END_OF_STEP;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -105,11 +108,6 @@ void FixContactStore::pre_exchange()
   });
   sort_particles();
   next_reneighbor = next_refresh(update->ntimestep);
-}
-
-void FixContactStore::post_integrate()
-{
-  if (system) system->velocities_have_moved();
 }
 
 void FixContactStore::min_pre_exchange()
@@ -159,6 +157,56 @@ void FixContactStore::pairs_are_current()
   current = true;
 }
 
+void FixContactStore::setup(int)
+{
+  require_numbers();
+}
+
+void FixContactStore::end_of_step()
+{
+  if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
+}
+
+/* A square that overflows counts as well: energies and moves are no numbers then. */
+
+RunMonitor::Finding FixContactStore::find_no_number() const
+{
+  double **const rows[] = {atom->x, atom->v, atom->omega};
+  for (int q = 0; q < 3; q++)
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double *v = rows[q][i];
+      if (!std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
+        return {1.0, {static_cast<double>(atom->tag[i]), static_cast<double>(q)}};
+    }
+  return {};
+}
+
+void FixContactStore::say_no_number(const RunMonitor::Finding &found) const
+{
+  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
+  error->all(FLERR,
+             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
+             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
+             "a fix)",
+             Talus::GranularSystem::of(lmp)->style_name(),
+             quantities[static_cast<int>(found.details[1])], found.details[0], update->ntimestep);
+}
+
+/* Of several ranks the particle with the lowest ID. */
+
+void FixContactStore::require_numbers() const
+{
+  struct {
+    double tag;
+    int quantity;
+  } mine{std::numeric_limits<double>::max(), 0}, first;
+  const RunMonitor::Finding here = find_no_number();
+  if (here.value > 0.0) mine = {here.details[0], static_cast<int>(here.details[1])};
+  MPI_Allreduce(&mine, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  if (first.tag < std::numeric_limits<double>::max())
+    say_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
+}
+
 /* From here on each particle carries its slot along, also if it is moved or deleted before
    histories are stored. */
 
@@ -186,13 +234,13 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* Something may still be to be asked about them. And in a periodic box a run that goes on without a
+/* In a periodic box a run that goes on without a
    new set-up goes on with the histories of both sides as they are, not with what the sides agree
    on: the same bits as one run. */
 
 bool FixContactStore::pairs_stay_after_run() const
 {
-  return in_periodic_box() || system->account_waits_for_move();
+  return in_periodic_box();
 }
 
 void FixContactStore::store_histories(Occasion occasion)

@@ -22,6 +22,7 @@
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
 #include "history/history_store.h"
+#include "system/run_monitor.h"
 
 #include <cstdint>
 #include <vector>
@@ -55,9 +56,13 @@ class FixContactStore : public Fix {
   /// Changes of velocities, rows of six, of owned particles and ghosts; nullptr if none are kept.
   double *all_changes() { return changes.empty() ? nullptr : changes.data(); }
 
+  /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number. The
+  /// error, collective.
+  RunMonitor::Finding find_no_number() const;
+  void say_no_number(const RunMonitor::Finding &found) const;
+
   int setmask() override;
   void init() override;
-  void post_integrate() override;
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void min_pre_exchange() override;
@@ -66,6 +71,10 @@ class FixContactStore : public Fix {
   void post_neighbor() override;
   void min_post_neighbor() override;
   void setup_post_neighbor() override;
+  /// The last of the set-up, before its output, and outputs: positions and velocities have to be
+  /// numbers.
+  void setup(int) override;
+  void end_of_step() override;
   void post_run() override;
 
   void grow_arrays(int) override;
@@ -94,6 +103,7 @@ class FixContactStore : public Fix {
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
   void store_histories(Occasion occasion);
+  void require_numbers() const;
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;

@@ -59,6 +59,12 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
   if (pair) return false;
   pair = one;
   style = traits;
+  monitors.add(pair,
+               {{0.5, [this] { return store ? store->find_no_number() : RunMonitor::Finding{}; },
+                 [this](const RunMonitor::Finding &found) {
+                   store->say_no_number(found);
+                   return true;
+                 }}});
   monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
@@ -75,9 +81,10 @@ void GranularSystem::detach(const Pair *one)
   pair = nullptr;
   store = nullptr;
   book = LawBook{};
-  laws_current = keeps_account = false;
+  laws_current = false;
   announced.clear();
-  account = EnergyAccount{};
+  account.sum = EnergyByCause{};
+  kept.reset();
   pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})
     if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
@@ -100,10 +107,41 @@ void GranularSystem::init_pair_style()
   gravity = nullptr;    // its init() comes later
   masses.find_fixes();
   radii.find(masses.frozen_groups());
+  require_sizes();
   create_store();
   monitors.start();
   time_step.start();
   laws_current = false;    // init_one() will mix what is not set
+}
+
+/* A radius far beyond the box makes ghosts or cells of neighbors without end. A frozen particle may
+   touch its image: it does not move. */
+
+void GranularSystem::require_sizes() const
+{
+  constexpr double far_beyond = 1.0e6;
+  const double largest = radii.largest(),
+               box = std::max({domain->prd[0], domain->prd[1], domain->prd[2]});
+  if (!(largest <= far_beyond * box))
+    error->all(
+        FLERR,
+        "Pair style {}: the largest particle has a radius of {:.4g}, {:.3g} times the longest "
+        "side of the box: look for what has set it (set diameter, read_data, fix adapt, fix "
+        "pour or deposit), in units of length",
+        style.name, largest, largest / box);
+  double free = 0.0;
+  for (int type = 1; type <= atom->ntypes; type++) free = std::max(free, radii.of_free(type));
+  for (int d = 0; d < 3; d++) {
+    const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
+    if (!matters || domain->prd[d] >= 2.0 * free) continue;
+    const std::string problem =
+        fmt::format("the box is periodic in {} with a period of {:.4g}, and the largest particle "
+                    "has a diameter "
+                    "of {:.4g}: it touches its own image: make the box at least {:.4g} wide, or "
+                    "use 'boundary f'",
+                    std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, 4.0 * free);
+    error->all(FLERR, "Pair style {}: {}", style.name, problem);
+  }
 }
 
 /* Of the largest particles; the reach grows with both radii. */

@@ -22,6 +22,7 @@
 #include "exchange/record_packer.h"
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
+#include "system/contact_observer.h"
 #include "system/effective_masses.h"
 #include "system/exchange_switch.h"
 #include "system/large_body.h"
@@ -184,7 +185,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// The pairs are still those of the last step, on all ranks.
   void look_at_contacts(bool run_is_over);
   /// A run has ended: what is asked about its contacts is what it would be now.
-  void remember_contacts() { pipeline->remember_contacts(); }
+  void remember_contacts();
   /// Puts histories aside. The pairs are gone then until renumber_pairs(), unless they stay.
   void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
   /// Memory that is free for others until renumber_pairs().
@@ -195,13 +196,22 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- energies
 
-  /// For computes: from the next step on energies are accounted for; what the last step found.
-  void keep_account();
-  const EnergyAccount &energy_account() const { return account; }
-  /// Velocities have moved, and particles are still numbered as in the last step.
-  void velocities_have_moved();
-  /// Something is still to be asked about the pairs of the last step.
-  bool account_waits_for_move() const { return account.waits_for_move(); }
+  /// Until drop_observer(): in the constructor of a compute, and in its destructor.
+  void add_observer(ContactObserver *one) { observers.push_back(one); }
+  void drop_observer(const ContactObserver *one);
+  /// In this step the work of contacts is accounted for.
+  bool accounts_for_work() const;
+  /// Where work is accounted for: an error if the laws of this run do not know theirs. Collective.
+  void require_known_work() const;
+  /// For a step: where it goes by particle.
+  std::vector<double **> work_lists() const;
+  /// What contacts of this rank have taken in steps that were accounted for.
+  const EnergyByCause &work() const { return account.sum; }
+  /// Of a large body in a step.
+  void add_work(const EnergyByCause &its) { account.sum += its; }
+  /// visit(contact) for contacts of the last step on this rank, of pairs and large bodies, those
+  /// with a ghost as well. Behind a run only as long as someone observes them.
+  void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
 
   /// What a run warns about; registered by all who check something.
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
@@ -247,6 +257,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void create_store();
   void prepare_laws();
   std::string small_period() const;
+  void require_sizes() const;
 
   ParticleView view() const;
   void update_gravity();
@@ -283,8 +294,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::ContactMonitor monitor;
   LAMMPS_NS::TimeStepMonitor time_step;
   LAMMPS_NS::RunMonitor monitors;
-  bool keeps_account = false;
-  EnergyAccount account;
+  std::vector<ContactObserver *> observers;
+  WorkAccount account;
+  std::optional<std::vector<SurveyedContact>> kept;    ///< behind a run
 
   ExchangeSwitch exchange_switch;
   StyleReport report;

@@ -66,7 +66,8 @@ void LargeBody::keep_history()
 
 void LargeBody::init()
 {
-  if (fix->thermo_energy) keeps_account = true;
+  was_asked = is_asked || fix->thermo_energy;
+  is_asked = false;
   joined = false;    // a step that an error ended may have left it
   seen_between = {};
   masses.find_fixes();
@@ -107,11 +108,6 @@ void LargeBody::list_particles()
                            comm->nthreads);
 }
 
-void LargeBody::account_for_move()
-{
-  if (account.waits_for_move()) contacts.account_for_move(*frame, view(), update->dt, account);
-}
-
 /* ---------------------------------------------------------------------- */
 
 BodyParticleView LargeBody::view() const
@@ -136,7 +132,6 @@ BodyParticleView LargeBody::view() const
 
 std::string LargeBody::needs_host_arrays() const
 {
-  if (keeps_account) return "its energies are accounted for";
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
   if (turns && !system.turns_particles())
@@ -151,7 +146,10 @@ BodyStep LargeBody::step_of(bool advance)
   step.lag = system.lag();
   step.advance = advance;
   step.threads = comm->nthreads;
-  step.account = keeps_account ? &account : nullptr;
+  account.sum = EnergyByCause{};
+  account.by_particle = system.work_lists();
+  step.account = accounts() ? &account : nullptr;
+  if (step.account) system.require_known_work();
   step.exact = moves ? &exact : nullptr;
   step.touched = touched;
   return step;
@@ -169,6 +167,7 @@ void LargeBody::compute(bool advance, double *virial)
   finish_reduction();
   if (joined) {
     mine = contacts.static_load();
+    account.sum = contacts.static_work();
   } else {
     if (contacts.is_stale(*frame, neighbor->skin)) {
       seen_between.join(findings_now());
@@ -180,6 +179,10 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
+  if (advance && accounts()) {
+    dissipated += account.sum.total();
+    system.add_work(account.sum);
+  }
   if (already_frozen) clear_frozen();
 }
 
@@ -189,6 +192,19 @@ BodyFindings LargeBody::findings_now() const
 {
   return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
 }
+
+bool LargeBody::accounts() const
+{
+  return is_asked || was_asked || system.accounts_for_work();
+}
+
+void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visit)
+{
+  contacts.for_each_contact(*its_shape, *frame, view(), update->dt, ask, visit);
+}
+
+/* What a spring has taken it stores, or has lost: it does not matter here. The same with the whole
+   force of contacts that tear. */
 
 /* What was seen between has the host's indices of this rebuild, which stand until the next. */
 
@@ -202,17 +218,11 @@ BodyFindings LargeBody::find_worst()
 
 double LargeBody::energy()
 {
-  if (!keeps_account && has_forces) {
-    keeps_account = true;
-    std::vector<double> unused(6L * atom->nlocal);
-    BodyParticleView particles = view();
-    particles.f = unused.data();
-    particles.torque = unused.data() + 3L * atom->nlocal;
-    mine = contacts.compute(*its_shape, *frame, particles, step_of(false));
-  }
-  const double here = account.elastic() + account.dissipated_normal() +
-                      account.dissipated_tangential() + account.dissipated_resistance();
-  double all;
+  is_asked = true;
+  double here = dissipated, all;
+  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
+    here += one.stored.normal - one.stored.tearing;
+  });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

@@ -6,7 +6,6 @@
 // LAMMPS:
 //
 //   at the start of a run     init()
-//   after the integrator      account_for_move(), once the body is where it goes
 //   new neighbor lists        list_particles()
 //   forces                    [join_step(), add_to_slots(), by the system], compute()
 //
@@ -77,8 +76,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   void init();
   void list_particles();
-  /// Velocities have moved, and the body is at its new place.
-  void account_for_move();
   /// At the beginning of a step in the records: whether its forces will be added by add_to_slots().
   /// If not, nor are those of the bodies behind it: forces on a particle are summed in the order of
   /// the commands.
@@ -109,13 +106,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   // ---- energies and questions
 
-  /// From the next step on energies are accounted for; what the last step found on this rank.
-  void keep_account() { keeps_account = true; }
-  const EnergyAccount &energy_account() const { return account; }
-  /// Collective: energy stored in and dissipated by the contacts. The first question begins the
-  /// account: then the contacts of this step are looked at once more.
+  /// Collective: energy stored in the contacts, and the work they have taken from the particles
+  /// and the body less what it has stored. Work is accounted for from the first question on, until
+  /// a run in which nobody asks.
   double energy();
-  double largest_overlap_ratio() const { return contacts.largest_overlap_ratio(); }
+  /// visit(contact) for those of the last step on this rank, once its forces have been computed.
+  void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);
   /// On this rank, now and when particles were listed anew between two rebuilds.
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
@@ -153,9 +149,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before
 
-  bool keeps_account = false, has_forces = false;
+  bool accounts() const;
+  /// The sum is only that of the questions to this body; the system has its own.
+  bool is_asked = false, was_asked = false, has_forces = false;
   bool joined = false;    ///< forces of this step have been added by the threads of the system
-  EnergyAccount account;
+  WorkAccount account;
+  double dissipated = 0.0;    ///< with what the springs of friction and resistance store
 
   BodyLoad mine, total;           ///< of this rank, and of all
   bool reduced = false;           ///< forces and torques of `total` are those of the last step

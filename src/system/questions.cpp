@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "bond.h"
 #include "comm.h"
+#include "error.h"
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
@@ -100,15 +101,62 @@ double GranularSystem::share_without_proxies() const
   return pipeline->in_two_phases() ? pipeline->early_share() : 0.0;
 }
 
-void GranularSystem::keep_account()
+void GranularSystem::drop_observer(const ContactObserver *one)
 {
-  keeps_account = true;
+  observers.erase(std::remove(observers.begin(), observers.end(), one), observers.end());
 }
 
-void GranularSystem::velocities_have_moved()
+bool GranularSystem::accounts_for_work() const
 {
-  if (account.waits_for_move())
-    pipeline->account_for_move(atom->v[0], atom->omega[0], update->dt, account);
+  return std::any_of(observers.begin(), observers.end(),
+                     [](const ContactObserver *one) { return one->asks_for_work(); });
+}
+
+void GranularSystem::require_known_work() const
+{
+  if (order() == 2)
+    error->all(
+        FLERR,
+        "Fix nve/sphere/symplectic order 2: energies of contacts are only known with order 1: "
+        "leave compute penalty/stats and the energy of fix large/body out, or use order 1");
+}
+
+std::vector<double **> GranularSystem::work_lists() const
+{
+  std::vector<double **> lists;
+  for (ContactObserver *one : observers)
+    if (double **rows = one->work_by_particle()) lists.push_back(rows);
+  return lists;
+}
+
+void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
+{
+  if (kept) {
+    for (const SurveyedContact &one : *kept)
+      if (std::max(one.i, one.j) < atom->nlocal + atom->nghost) visit(one);
+    return;
+  }
+  if (pipeline->num_particles() == atom->nlocal + atom->nghost)
+    pipeline->for_each_contact(update->dt, ask, visit);
+  int number = 0;
+  for (const auto &body : large_bodies) {
+    body->for_each_contact(ask, [&](SurveyedContact one) {
+      one.body = number;
+      visit(one);
+    });
+    number++;
+  }
+}
+
+/* Memory is given back behind a run, and particles may be deleted. */
+
+void GranularSystem::remember_contacts()
+{
+  pipeline->remember_contacts();
+  if (observers.empty() || kept) return;
+  std::vector<SurveyedContact> all;
+  for_each_contact(Ask::ALL, [&](const SurveyedContact &one) { all.push_back(one); });
+  kept = std::move(all);
 }
 
 }    // namespace Talus

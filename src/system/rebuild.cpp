@@ -35,7 +35,7 @@ void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, b
 
 void GranularSystem::release_records()
 {
-  if (!account.waits_for_move()) pipeline->release_records();
+  pipeline->release_records();
 }
 
 /* The timer of the host stands at the fixes; the work is that of neighbor lists. */

@@ -66,7 +66,6 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!run_style) return std::string("run style ") + update->integrate_style;
   if (book.conducts_heat()) return "contacts conduct heat";
-  if (keeps_account) return "energies of contacts are accounted for";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
   if (atom->molecular != Atom::ATOMIC || force->kspace)
     return "there are bonds or long-range forces";
@@ -87,7 +86,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
     if (ours && ours->integrates()) integrators.push_back(fix);
     const std::string its = reason_of_fix(fix, modify->fmask[n]);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
-    if ((modify->fmask[n] & END_OF_STEP) == 0) continue;
+    if ((modify->fmask[n] & END_OF_STEP) == 0 || fix == store) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "): looks at particles at the end of every step: a larger Nevery";

@@ -56,9 +56,13 @@ void RunMonitor::look(Moment moment)
   std::vector<Value> all(here.size());
   MPI_Allreduce(here.data(), all.data(), static_cast<int>(here.size()), MPI_DOUBLE_INT, MPI_MAXLOC,
                 world);
-  for (std::size_t n = 0; n < asked.size(); n++)
-    if (all[n].value > asked[n]->check.limit)
-      asked[n]->said = asked[n]->check.say(from_worst(mine[n], all[n].value, all[n].rank));
+  for (std::size_t n = 0; n < asked.size(); n++) {
+    Entry &its = *asked[n];
+    const double value = all[n].value;
+    if (!(value > its.check.limit) || value <= its.check.worse * its.told) continue;
+    its.said = its.check.say(from_worst(mine[n], value, all[n].rank));
+    its.told = value;
+  }
 }
 
 /* What the rank with the largest value has found. */

@@ -7,7 +7,7 @@
 // in every step), the largest values of all ranks are found for all checks at once, in one
 // reduction. Only where a limit is exceeded more messages follow: the rank that has the largest
 // value tells the others what they need to know, and the check says it. Each check speaks once in a
-// run. GranularSystem owns the monitor of a LAMMPS instance.
+// run, or once for all unless it becomes worse. GranularSystem owns the monitor of a LAMMPS instance.
 //
 // Thresholds stand beside the checks: ContactMonitor, TimeStepMonitor, LargeBodyMonitor.
 
@@ -39,6 +39,9 @@ class RunMonitor : protected Pointers {
     /// The value of all ranks is above the limit. Called on all ranks, which may communicate.
     /// Returns whether that was all for this run; if not, look() goes on.
     std::function<bool(const Finding &worst)> say;
+    /// What has been said in an earlier run is only said again of a value that is so many times as
+    /// large; 0: in each run.
+    double worse = 0.0;
   };
 
   explicit RunMonitor(LAMMPS *lmp) : Pointers(lmp) {}
@@ -60,6 +63,7 @@ class RunMonitor : protected Pointers {
     const void *owner;
     Check check;
     bool said;
+    double told = 0.0;    ///< largest value that has been said
   };
   Finding from_worst(const Finding &mine, double value, int rank) const;
 

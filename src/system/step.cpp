@@ -106,7 +106,10 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   const bool setting_up = update->setupflag != 0;
   ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
                    !setting_up || style.limits_at_setup, report,
-                   keeps_account ? &account : nullptr};
+                   accounts_for_work() ? &account : nullptr};
+  if (step.account) require_known_work();
+  account.by_particle = work_lists();
+  kept.reset();
   step.lag = lag();
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;

@@ -169,6 +169,12 @@ class Fields(SceneCase):
                 for i in range(3) for j in range(3) for k in range(9)]
 
     def test_weight_of_a_bed(self):
+        """On frozen spheres, and on a plane: there the stress ends within W of the plane."""
+        for base in ("freeze", "plane"):
+            with self.subTest(base):
+                self.check_weight(base)
+
+    def check_weight(self, base):
         self.make(self.bed(), ((0, 3), (0, 3), (0, 12)))
         more = """group base type 2
 group mobile type 1
@@ -177,6 +183,8 @@ fix damp mobile viscous 2e4
 fix hold base freeze
 timestep 5e-4
 """
+        if base == "plane":
+            more = more.replace("fix hold base freeze", "fix hold all large/body plane 0 0 1 0 0 1 contact hooke 1e7 10\ndelete_atoms group base")
         self.run_lammps(self.scene(more + field("density szz cxx czx", (6, 6, 48), 1.0) + output(4000, cells=(6, 6, 48)),
                                    boundary="p p f", pair=TALUS.replace("1e5", "1e7"), steps=4000), np=2)
         cells = read_grid(self.path("fields"))[-1]
@@ -185,12 +193,16 @@ timestep 5e-4
         weight = 8 * 1000 * math.pi / 6 * 10
         for z in reversed(range(48)):
             above += 0.5 * h * layer[z][0] * 10
-            if (z + 0.5) * h > 2.5:    # the frozen spheres, and what holds them, do not reach higher
+            # the frozen spheres, and what holds them, do not reach higher; nor does the plane
+            if (z + 0.5) * h > (2.5 if base == "freeze" else 2.0):
                 self.assertAlmostEqual(layer[z][1], -above, delta=0.005 * weight)
                 self.assertAlmostEqual(layer[z][2], 0.0, delta=1e-6 * weight)
                 checked += 1
             above += 0.5 * h * layer[z][0] * 10
-        self.assertEqual(checked, 38)
+        self.assertEqual(checked, 38 if base == "freeze" else 40)
+        if base == "plane":    # the force of the plane takes over in the middle of the range
+            self.assertAlmostEqual((layer[3][1] + layer[4][1]) / (-2 * weight), 0.5, delta=0.05)
+            self.assertAlmostEqual(layer[0][1], 0.0, delta=0.05 * weight)
 
     def test_group_averages_and_one_value(self):
         self.make()

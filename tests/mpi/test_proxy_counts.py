@@ -45,7 +45,7 @@ run {steps}
 {after_run}
 comm_proxy info
 """ % CUT
-STATS = dict(before_run="compute cost all penalty/stats",    # every step then goes through the arrays of LAMMPS
+STATS = dict(before_run="compute cost all penalty/stats",
              after_run="thermo_style custom step c_cost[8] c_cost[9] c_cost[10] c_cost[11]\nrun 0")
 NO_STATS = dict(before_run="", after_run="")
 IN_RECORDS = "steps without output              in the records"

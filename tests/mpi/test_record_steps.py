@@ -148,7 +148,6 @@ class RecordSteps(TossedCase):
     def test_what_looks_in_every_step(self):
         cases = {
             "fix drag all viscous 0.1": "fix drag (viscous): may look at particles in every step",
-            "compute e all penalty/stats\nthermo_style custom step c_e[*]": "accounted for",
             f"variable d equal 0.1*step*dt+0.0*xcm(all,z)\n{LID}":
                 "fix lid (large/body): its variables may read particles",
         }

@@ -78,7 +78,7 @@ class Series(SceneCase):
                 for piece in pieces:
                     self.assertEqual(piece.time, time)
             self.check_grains(frame, read["grains"])
-            self.check_contacts(frame, read["contacts"], balance=not bodies)
+            self.check_contacts(frame, read["contacts"], bodies)
         return series
 
     def check_grains(self, frame, pieces):
@@ -99,14 +99,21 @@ class Series(SceneCase):
             self.assertEqual((rows["type"][k], rows["radius"][k]), (1, 0.5))
         self.assertEqual({kind for piece in pieces for kind in piece.cells}, {"Verts"})
 
-    def check_contacts(self, frame, pieces, balance):
+    def check_contacts(self, frame, pieces, bodies):
         x = frame.column("x"), frame.column("y"), frame.column("z")
         total = {tag: [0.0] * 3 for tag in frame.atoms}
-        seen = set()
+        seen, touched = set(), set()
         for piece in pieces:
-            values = zip(piece.cells["Lines"], piece.cell_data["id1"], piece.cell_data["id2"], piece.cell_data["force"],
-                         piece.cell_data["overlap"])
-            for (a, b), i, j, force, overlap in values:
+            values = zip(piece.cells["Lines"], piece.cell_data["id1"], piece.cell_data["id2"], piece.cell_data["body"],
+                         piece.cell_data["force"], piece.cell_data["overlap"])
+            for (a, b), i, j, body, force, overlap in values:
+                if body:
+                    self.assertEqual(j, 0)
+                    self.check_body_contact(piece, a, b, body, overlap)
+                    touched.add(body)
+                    for c in range(3):
+                        total[i][c] += force[c]
+                    continue
                 self.assertNotIn(frozenset((i, j)), seen)
                 seen.add(frozenset((i, j)))
                 begin, end = piece.points[a], piece.points[b]
@@ -123,10 +130,19 @@ class Series(SceneCase):
                     total[i][c] += force[c]
                     total[j][c] -= force[c]
         self.assertGreater(len(seen), 50)
-        if balance:
-            for tag, force in total.items():
-                for c, name in enumerate(("fx", "fy", "fz")):
-                    self.assertAlmostEqual(force[c], frame.column(name)[tag], delta=1e-8)
+        self.assertEqual(touched, set(range(1, len(bodies) + 1)))
+        for tag, force in total.items():
+            for c, name in enumerate(("fx", "fy", "fz")):
+                self.assertAlmostEqual(force[c], frame.column(name)[tag], delta=1e-8)
+
+    def check_body_contact(self, piece, a, b, body, overlap):
+        """From the center to the surface: of the floor, or of the ball, whose facets are within it."""
+        begin, end = piece.points[a], piece.points[b]
+        self.assertAlmostEqual(math.dist(begin, end), 0.5 - overlap, delta=1e-12)
+        if body == 1:
+            self.assertAlmostEqual(end[1], -0.01, delta=1e-9)
+        else:
+            self.assertTrue(0.7 < math.dist(end, (2, 3.6, 2)) < 1.0 + 1e-6)
 
     def test_forces_of_contacts_are_those_on_grains(self):
         for name, pair in (("talus", TALUS), ("stock", STOCK)):
@@ -142,7 +158,7 @@ class Series(SceneCase):
         for p in floor.points:
             self.assertAlmostEqual(p[1], -0.01, delta=1e-12)
         ball, = read_part(series[0][1]["body_ball_1"])
-        self.assertEqual(set(ball.cell_data), {"pressure", "shear_stress", "shear_work"})
+        self.assertEqual(set(ball.cell_data), {"pressure", "shear_stress", "shear_work", "force"})
         self.assertGreater(max(ball.cell_data["pressure"]), 0.0)
         for p in ball.points:
             self.assertAlmostEqual(math.dist(p, (2, 3.6, 2)), 1.0, delta=1e-6)
@@ -164,7 +180,7 @@ class Series(SceneCase):
         grains, = read_part(series[0][1]["grains"])
         self.assertEqual(sorted(grains.point_data["id"]), list(range(1, 10)))
         contacts, = read_part(series[0][1]["contacts"])
-        self.assertLessEqual({*contacts.cell_data["id1"], *contacts.cell_data["id2"]}, set(range(1, 10)))
+        self.assertLessEqual({*contacts.cell_data["id1"], *contacts.cell_data["id2"]}, set(range(10)))    # 0: a body
         again = re.sub(r"units si|boundary p f p|atom_style sphere|atom_modify map yes|newton off", "",
                        self.scene(modify="\ndump_modify vtk append yes contacts no")).replace("read_data grains", "read_restart half")
         self.run_lammps(again)

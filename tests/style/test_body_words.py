@@ -81,7 +81,7 @@ REFUSED = [    # words of the fix, message, marked word
     (f"{BOX} {LAW} servo force 0 0 1 0 1", "servo: target must not be zero", "0"),
     (f"{BOX} {LAW} servo force 0 0 1 5 0", "servo: expected vmax (a number > 0) instead of '0'", "0"),
     (f"{BOX} {LAW} pressure yes", "only the triangles of a mesh are looked at one by one", None),
-    (f"mesh good.stl {LAW} pressure maybe", "pressure: unknown value 'maybe', expected yes or no", "maybe"),
+    (f"mesh good.stl {LAW} pressure maybe", "pressure: unknown value 'maybe', expected yes, no or average", "maybe"),
     (f"{BOX} {LAW} vtk 0 a.*", "vtk: expected interval N (a whole number >= 1) instead of '0'", "0"),
     (f"{BOX} {LAW} vtk 5 a.vtk", "vtk: the name of the file needs a * for the time step", "a.vtk"),
     (f"{BOX} {LAW} vtk 5 a.*.vtk", "vtk: the name of the file must end in .vtp", "a.*.vtk"),

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace Talus;
@@ -125,6 +126,30 @@ TEST_P(KernelBits, ForceIsReproducedFromTheStoredHistory)
   if (law.has_history()) {
     EXPECT_GT(sliding, 2000);
     EXPECT_GT(below, 2000);
+  }
+}
+
+// Nor does it change a bit that energies are asked for; and they are the same from one function and
+// from single stages.
+TEST_P(KernelBits, AccountingLeavesThem)
+{
+  for (int n = 0; n < 2000; n++) {
+    next();
+    const int lane = n % width, begin = lane / lanes * lanes;
+    const Result plain = run_in_lane(batch, lane, law, c, p, true, true);
+    double work[2][ContactBatch::num_causes];
+    for (const bool uniform : {false, true}) {
+      slow::put(batch, lane, c, 0);
+      const ContactCoefficients row = row_of(law, p);
+      accounting_kernel(law, uniform)(batch, begin, begin + lanes, &row, dt);
+      ASSERT_TRUE(same_bits(plain, result_of(batch, lane))) << n;
+      for (int k = 0; k < ContactBatch::num_causes; k++) work[uniform][k] = batch.work[k][lane];
+    }
+    for (int k = 0; k < ContactBatch::num_causes; k++)
+      ASSERT_NEAR(work[0][k], work[1][k], 1e-12 * std::abs(work[0][k])) << n << " cause " << k;
+    if (!law.law().has_friction()) {
+      ASSERT_EQ(work[0][1], 0.0);
+    }
   }
 }
 

@@ -121,13 +121,14 @@ TEST(Laws, StoreTheEnergyOfTheirSprings)
   s.normal = {1.0, 0.0, 0.0};
   s.overlap = 0.5;
   s.inverse_mass = s.inverse_radius = 1.0;
-  const ContactEnergy e = contact_energy(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}});
-  EXPECT_DOUBLE_EQ(e.elastic_normal, 0.5 * 4.0 * 0.25 - 0.25 * 0.5);
-  EXPECT_DOUBLE_EQ(e.elastic_tangential, 0.5 * 2.0 * 0.25);
-  EXPECT_EQ(e.elastic_resistance, 0.0);
+  SurveyedContact e;
+  survey_contact(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}}, Ask::ENERGIES, e);
+  EXPECT_DOUBLE_EQ(e.stored.normal, 0.5 * 4.0 * 0.25 - 0.25 * 0.5);
+  EXPECT_DOUBLE_EQ(e.stored.tangential, 0.5 * 2.0 * 0.25);
+  EXPECT_EQ(e.stored.resistance, 0.0);
   law.normal = Normal::HERTZ;
-  EXPECT_NEAR(contact_energy(law, row_of(law, c), s, 1e-3, {}).elastic_normal,
-              0.4 * 4.0 * std::sqrt(0.5) * 0.25 - 0.125, 1e-15);
+  survey_contact(law, row_of(law, c), s, 1e-3, {}, Ask::ALL, e);
+  EXPECT_NEAR(e.stored.normal, 0.4 * 4.0 * std::sqrt(0.5) * 0.25 - 0.125, 1e-15);
 }
 
 }    // namespace

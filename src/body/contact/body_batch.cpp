@@ -41,7 +41,7 @@ void BodyBatch::start()
   load = BodyLoad{};
   exact.clear();
   touched.clear();
-  largest_overlap = 0.0;
+  work = EnergyByCause{};
 }
 
 void BodyBatch::compute(const BodyTask &its_task, std::size_t begin, std::size_t last)
@@ -223,9 +223,17 @@ void BodyBatch::flush()
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
   gather();
   batch.lag = task->lag;
-  task->laws.kernel(law_index, task->advance)(batch, 0, end, task->laws.coefficients(), task->dt);
+  if (task->survey) {
+    survey();
+    filled = 0;
+    return;
+  }
+  const bool accounts = task->account && task->advance;
+  const ContactKernel &kernel = accounts ? task->laws.accounting_kernel(law_index)
+                                         : task->laws.kernel(law_index, task->advance);
+  kernel(batch, 0, end, task->laws.coefficients(), task->dt);
   if (task->with_history && task->advance) keep_histories();
-  if (task->energies) account();
+  if (accounts) account();
   if (task->record_parts) record_parts();
   if (task->frame.turned) turn_to_space();
   if (task->view.records)
@@ -241,11 +249,40 @@ void BodyBatch::flush()
 void BodyBatch::account()
 {
   for (int lane = 0; lane < filled; lane++) {
-    const double r = radius[lane];
-    largest_overlap = std::max(largest_overlap, batch.overlap[lane] / r);
-    task->energies->add(
-        lane_energy(law, task->laws.coefficients(batch.coefficients[lane]), batch, lane, task->dt),
-        1.0, task->candidates.atom(candidate_of_lane[lane]), r, -1, 0.0);
+    work += EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
+    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), batch, lane, 1.0);
+  }
+}
+
+void BodyBatch::survey() const
+{
+  const BodyFrame &frame = task->frame;
+  const bool by_parts = task->shape.most_contacts() > 1;
+  for (int lane = 0; lane < filled; lane++) {
+    RememberedValues memory;
+    for (int n = 0; n < ContactBatch::history_size && task->with_history; n++)
+      memory.value[n] = n < 4 || task->with_impact ? batch.history[n][lane] : 0.0;
+    SurveyedContact found{task->candidates.atom(candidate_of_lane[lane]),
+                          -1,
+                          -1,
+                          by_parts ? part_of_lane[lane] : -1,
+                          1.0,
+                          lane_of(batch.normal, lane),
+                          batch.overlap[lane],
+                          {},
+                          {},
+                          {},
+                          {},
+                          {}};
+    survey_contact(law, task->laws.coefficients(batch.coefficients[lane]),
+                   state_of_lane(batch, lane), task->dt, memory, task->ask, found);
+    if (frame.turned) {
+      found.normal = frame.to_space(found.normal);
+      found.force = frame.to_space(found.force);
+      found.moment = frame.to_space(found.moment);
+      found.twisting_torque = frame.to_space(found.twisting_torque);
+    }
+    (*task->survey)(found);
   }
 }
 
@@ -259,7 +296,7 @@ void BodyBatch::record_parts()
         v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
     const Vector3<double> shear =
         law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
-    touched.push_back({part_of_lane[lane], pressed, shear, dot(shear, slip)});
+    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip)});
   }
 }
 

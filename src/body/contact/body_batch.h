@@ -22,6 +22,7 @@
 #include "material/law_table.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace Talus {
 
@@ -29,7 +30,8 @@ namespace Talus {
 struct TouchedPart {
   int part;
   double normal_force;      ///< > 0: pressed
-  Vector3<double> shear;    ///< tangential force on the body, its frame
+  Vector3<double> force;    ///< on the body, its frame
+  Vector3<double> shear;    ///< the tangential part of it
   double shear_power;       ///< that force times the velocity of the surfaces past each other
 };
 
@@ -48,7 +50,10 @@ struct BodyTask {
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
-  EnergyAccount *energies;           ///< nullptr, or receives them: from one thread only
+  const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
+  /// nullptr, or is called with each contact, by one thread, instead of adding forces.
+  const std::function<void(const SurveyedContact &)> *survey;
+  Ask ask = Ask::ALL;
   bool with_history, with_impact;    ///< of any law
 
   static constexpr int spare = 128;
@@ -81,7 +86,7 @@ class BodyBatch {
   BodyLoad load;
   ExactLoad exact;                       ///< if asked for
   AlignedVector<TouchedPart> touched;    ///< if asked for
-  double largest_overlap = 0.0;          ///< over radius; only with energies
+  EnergyByCause work;                    ///< if asked for
 
  private:
   using Lanes = double[3][ContactBatch::width];
@@ -100,6 +105,7 @@ class BodyBatch {
               const SurfaceContact &contact);
   void flush();
   void account();
+  void survey() const;
   void record_parts();
 
   // lanes

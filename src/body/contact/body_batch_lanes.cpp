@@ -66,6 +66,11 @@ void BodyBatch::gather()
       m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
       m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
     }
+    if (frame.runs) {
+      const Vector3<Vec8> surface = in_all_lanes<Vec8>(frame.surface_velocity),
+                          n = vector_at(batch.normal, k);
+      m.velocity = m.velocity - (surface - dot(surface, n) * n);
+    }
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius);

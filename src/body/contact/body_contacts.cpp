@@ -74,6 +74,8 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.exact != nullptr,
           step.touched != nullptr,
           step.account,
+          nullptr,
+          Ask::ALL,
           with_history,
           with_impact};
 }
@@ -93,9 +95,8 @@ std::size_t BodyContacts::first_of(int thread, int threads) const
 BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &frame,
                                const BodyParticleView &view, const BodyStep &step)
 {
-  const bool many = step.threads > 1 && !step.account && shape.thread_safe();
+  const bool many = step.threads > 1 && shape.thread_safe();
   const int threads = many ? step.threads : 1;
-  if (step.account) remember_velocities(frame, view, *step.account);
   index_candidates(shape, view);
   start_batches(threads);
   const BodyTask task = task_of(shape, frame, view, step);
@@ -104,12 +105,11 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   });
 
   BodyLoad load;
-  largest_overlap = 0.0;
+  if (step.account) step.account->sum += static_work();
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
   for (const auto &batch : batches) {
     load.add(batch->load);
-    largest_overlap = std::max(largest_overlap, batch->largest_overlap);
     if (step.exact) step.exact->add(batch->exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), batch->touched.begin(), batch->touched.end());
@@ -120,12 +120,11 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
 bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &frame,
                                 const BodyParticleView &view, const BodyStep &step)
 {
-  const bool is_plain = !step.account && !step.exact && !step.touched && !view.virial;
+  const bool is_plain = !step.exact && !step.touched && !view.virial;
   if (shape.most_contacts() > 1 || !view.records || frame.moves || !is_plain) return false;
   index_candidates(shape, view);
   start_batches(step.threads);
   in_pieces = {&shape, &frame, view, step};
-  largest_overlap = 0.0;
   return true;
 }
 
@@ -144,6 +143,29 @@ BodyLoad BodyContacts::static_load() const
   BodyLoad load;
   for (const auto &batch : batches) load.add(batch->load);
   return load;
+}
+
+EnergyByCause BodyContacts::static_work() const
+{
+  EnergyByCause work;
+  for (const auto &batch : batches) work += batch->work;
+  return work;
+}
+
+/* Contacts are found where they have been found before, so that their histories stay. */
+
+void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
+                                    const BodyParticleView &view, double dt, Ask ask,
+                                    const VisitContact &visit)
+{
+  index_candidates(shape, view);
+  BodyStep step;
+  step.dt = dt;
+  step.advance = false;
+  BodyTask task = task_of(shape, frame, view, step);
+  task.survey = &visit;
+  task.ask = ask;
+  BodyBatch{}.compute(task, 0, candidates.size());
 }
 
 BodyFindings BodyContacts::look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
@@ -191,42 +213,6 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     most.join(its);
   }
   return most;
-}
-
-void BodyContacts::remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
-                                       EnergyAccount &account)
-{
-  account.begin_step(view.owned);
-  before.clear();
-  frame_before = frame;
-  for (const int i : candidates.atoms()) {
-    Motion m{view.velocity(i), view.angular_velocity(i), view.position(i)};
-    if (frame.moves) {
-      m.velocity = frame.to_body(m.velocity - frame.velocity_at(m.place));
-      m.omega = frame.to_body(m.omega - frame.state.omega);
-    }
-    before.push_back(m);
-  }
-}
-
-/* Work is that of the velocities past each other, each the mean of before and after the kick: then
-   it is what particles and body lose. */
-
-void BodyContacts::account_for_move(const BodyFrame &frame, const BodyParticleView &view, double dt,
-                                    EnergyAccount &to) const
-{
-  for (std::size_t n = 0; n < before.size(); n++) {
-    const int i = candidates.atom(n);
-    Vector3<double> velocity = view.velocity(i), omega = view.angular_velocity(i);
-    if (frame_before.moves) {
-      const Vector3<double> arm = before[n].place - frame_before.state.position;
-      velocity =
-          frame_before.to_body(velocity - frame.state.velocity - cross(frame.state.omega, arm));
-      omega = frame_before.to_body(omega - frame.state.omega);
-    }
-    to.move(i, dt, 0.5 * (before[n].velocity + velocity), 0.5 * (before[n].omega + omega));
-  }
-  to.end_step();
 }
 
 double BodyContacts::memory_usage() const

@@ -24,7 +24,7 @@ struct BodyStep {
   double lag = 0.0;       ///< see ContactStep
   bool advance = true;    ///< false while a run is set up: histories are then only read
   int threads = 1;
-  EnergyAccount *account = nullptr;               ///< receives the energies; takes one thread
+  WorkAccount *account = nullptr;                 ///< receives the work, if it advances
   ExactLoad *exact = nullptr;                     ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
 };
@@ -85,18 +85,18 @@ class BodyContacts {
                     const BodyParticleView &view, const BodyStep &step);
   void add_to_slots(int thread, int begin, int end);
   BodyLoad static_load() const;
+  /// Of the same, for step.account.
+  EnergyByCause static_work() const;
 
-  /// For energies: after the integrator has moved velocities, before particles are renumbered.
-  /// `frame`: with the velocity that the body has now.
-  void account_for_move(const BodyFrame &frame, const BodyParticleView &view, double dt,
-                        EnergyAccount &to) const;
+  /// Every contact, once forces have been computed: visit(contact). `dt`: of the step.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
+                        const BodyParticleView &view, double dt, Ask ask,
+                        const VisitContact &visit);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.
   double reach() const { return candidates.reach(); }
-
-  /// Largest overlap/radius of the last compute() with an account; 0 without contacts.
-  double largest_overlap_ratio() const { return largest_overlap; }
 
   bool keeps_history() const { return with_history; }
   double memory_usage() const;
@@ -113,8 +113,6 @@ class BodyContacts {
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const BodyParticleView &view, std::size_t begin, std::size_t end) const;
-  void remember_velocities(const BodyFrame &frame, const BodyParticleView &view,
-                           EnergyAccount &account);
 
   LawTable laws;
   bool with_history = false, with_impact = false;
@@ -123,7 +121,6 @@ class BodyContacts {
   bool index_of_records = false;    // of the last view
 
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
-  double largest_overlap = 0.0;                       // over radius
 
   struct StaticStep {
     const LargeBodyShape *shape = nullptr;
@@ -132,12 +129,6 @@ class BodyContacts {
     BodyStep step;
   };
   StaticStep in_pieces;    // of the last begin_static()
-
-  struct Motion {
-    Vector3<double> velocity, omega, place;    // frame of the body; place: in space
-  };
-  std::vector<Motion> before;    // of candidates, only with an account
-  BodyFrame frame_before;
 };
 
 }    // namespace Talus

@@ -35,10 +35,10 @@ void from_segment(const double (&a)[2], const double (&b)[2], const double (&p)[
 }    // namespace
 
 Frustum::Frustum(const Vector3<double> &center, const Vector3<double> &direction, double low_,
-                 double high_, double length, bool in) :
+                 double high_, double length, bool in, bool no_caps) :
     middle(center),
     axis(direction), side(any_normal_to(direction)), low(low_), high(high_), half(0.5 * length),
-    inside(in), endless(std::isinf(length))
+    inside(in), endless(std::isinf(length)), open(no_caps)
 {
   const double slope = endless ? 0.0 : (high - low) / length;
   lean_rho = 1.0 / std::sqrt(1.0 + slope * slope);
@@ -71,6 +71,7 @@ Vector3<double> Frustum::inward(const Meridian &m, int face) const
 
 bool Frustum::touches(const Vector3<double> &center, double radius, SurfaceContact &contact) const
 {
+  if (open) return touches_open(center, radius, contact);
   if (!inside) return touches_from_outside(center, radius, contact);
   SurfaceContact found[3];
   const int count = touched_from_inside(center, radius, found);
@@ -81,8 +82,8 @@ bool Frustum::touches(const Vector3<double> &center, double radius, SurfaceConta
 int Frustum::find_contacts(const Vector3<double> &center, double radius, NearParts /*parts*/,
                            SurfaceContact *found) const
 {
-  if (inside) return touched_from_inside(center, radius, found);
-  return touches_from_outside(center, radius, *found) ? 1 : 0;
+  if (inside && !open) return touched_from_inside(center, radius, found);
+  return touches(center, radius, *found) ? 1 : 0;
 }
 
 int Frustum::touched_from_inside(const Vector3<double> &center, double radius,
@@ -125,6 +126,35 @@ bool Frustum::touches_from_outside(const Vector3<double> &center, double radius,
   return true;
 }
 
+void Frustum::from_mantle(const Meridian &m, double &rho, double &s) const
+{
+  if (endless) {
+    rho = m.rho - low;
+    s = 0.0;
+    return;
+  }
+  const double a[2] = {low, -half}, b[2] = {high, half}, p[2] = {m.rho, m.s};
+  double away[2];
+  from_segment(a, b, p, away);
+  rho = away[0];
+  s = away[1];
+}
+
+bool Frustum::touches_open(const Vector3<double> &center, double radius,
+                           SurfaceContact &contact) const
+{
+  const Meridian m = meridian(center);
+  double rho, s;
+  from_mantle(m, rho, s);
+  const double distance = std::sqrt(rho * rho + s * s);
+  if (distance >= radius) return false;
+  contact.part = 0;
+  contact.normal =
+      distance > 0.0 ? (rho / distance) * m.away + (s / distance) * axis : inward(m, MANTLE);
+  contact.overlap = radius - distance;
+  return true;
+}
+
 void Frustum::from_outline(const Meridian &m, double &rho, double &s) const
 {
   const double corner[4][2] = {{0.0, -half}, {low, -half}, {high, half}, {0.0, half}};
@@ -144,6 +174,11 @@ void Frustum::from_outline(const Meridian &m, double &rho, double &s) const
 double Frustum::distance_bound(const Vector3<double> &center) const
 {
   const Meridian m = meridian(center);
+  if (open) {
+    double rho, s;
+    from_mantle(m, rho, s);
+    return std::sqrt(rho * rho + s * s);
+  }
   double depth[3];
   depths(m, depth);
   const double least = std::min({depth[0], depth[1], depth[2]});
@@ -170,7 +205,7 @@ void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangl
   for (int k = 0; k < sectors; k++) {
     if (low > 0.0) triangles.push_back({{point(0, k), point(0, k + 1), point(1, k)}});
     if (high > 0.0) triangles.push_back({{point(0, k + 1), point(1, k + 1), point(1, k)}});
-    if (endless) continue;
+    if (endless || open) continue;
     if (low > 0.0) triangles.push_back({{cap[0], point(0, k + 1), point(0, k)}});
     if (high > 0.0) triangles.push_back({{cap[1], point(1, k), point(1, k + 1)}});
   }

@@ -16,18 +16,21 @@ namespace Talus {
 /// the rims, up to a center one radius behind; it touches the mantle at one point only, so that a
 /// sphere wider than the cone is not held. A cap of radius 0 is not there. Where the nearest point
 /// of the mantle is undefined, on the axis, a fixed direction is taken.
+///
+/// Open: the mantle alone, without thickness and caps, touched from inside and outside at its
+/// nearest point, which may be on a rim.
 class Frustum : public LargeBodyShape {
  public:
   /// `axis`: unit vector; `low`: radius at -length/2 along it, `high` at +length/2. Radii >= 0, one
   /// of them > 0; length > 0; infinite only if the radii are equal.
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
-          double length, bool inside);
+          double length, bool inside, bool open = false);
 
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  int most_contacts() const override { return inside && !endless ? 3 : 1; }
+  int most_contacts() const override { return inside && !endless && !open ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,
@@ -47,6 +50,10 @@ class Frustum : public LargeBodyShape {
   /// Vector (rho, s) from the nearest point of the outline, for points outside.
   void from_outline(const Meridian &m, double &rho, double &s) const;
 
+  /// Of the mantle alone.
+  void from_mantle(const Meridian &m, double &rho, double &s) const;
+
+  bool touches_open(const Vector3<double> &center, double radius, SurfaceContact &contact) const;
   bool touches_from_outside(const Vector3<double> &center, double radius,
                             SurfaceContact &contact) const;
   int touched_from_inside(const Vector3<double> &center, double radius,
@@ -55,7 +62,7 @@ class Frustum : public LargeBodyShape {
   Vector3<double> middle, axis, side;    // side: unit vector normal to the axis
   double low, high, half;
   double lean_rho, lean_s;    // outward normal of the mantle
-  bool inside, endless;
+  bool inside, endless, open;
 };
 
 }    // namespace Talus

@@ -35,9 +35,21 @@ template <class L> struct Synchronized : L {
     const GranularRow<double> row = L::mix(m);
     return {row.kt, row.xt, row.mu, m.smallest("dt")};
   }
-  static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
+  template <class Real>
+  static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
-    return L::stored(s, {c.kt, c.xt, c.mu}, h);
+    return L::stored(s, GranularRow<Real>{c.kt, c.xt, c.mu}, h);
+  }
+
+  template <class Real> static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
+  {
+    return L::drag(s, GranularRow<Real>{c.kt, c.xt, c.mu});
+  }
+
+  template <class Real>
+  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> &c, Real *r)
+  {
+    L::rate(s, GranularRow<Real>{c.kt, c.xt, c.mu}, r);
   }
 
   template <bool advance, class Real>

@@ -1,0 +1,188 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "compute/compute_contact_gran_local.h"
+
+#include "atom.h"
+#include "error.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using Talus::SurveyedContact;
+
+namespace {
+
+using Row = ComputeContactGranLocal::Row;
+
+double normal_force(const Row &r)
+{
+  return r.force[0] * r.normal[0] + r.force[1] * r.normal[1] + r.force[2] * r.normal[2];
+}
+
+double length_of(const double *v)
+{
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+double tangential_force(const Row &r)
+{
+  const double normal = normal_force(r);
+  double rest[3];
+  for (int d = 0; d < 3; d++) rest[d] = r.force[d] - normal * r.normal[d];
+  return length_of(rest);
+}
+
+struct Column {
+  const char *word;
+  double (*value)(const Row &);
+};
+
+constexpr Column known[] = {
+    {"id1", [](const Row &r) { return r.id[0]; }},
+    {"id2", [](const Row &r) { return r.id[1]; }},
+    {"body", [](const Row &r) { return r.body; }},
+    {"part", [](const Row &r) { return r.part; }},
+    {"x1", [](const Row &r) { return r.x[0][0]; }},
+    {"y1", [](const Row &r) { return r.x[0][1]; }},
+    {"z1", [](const Row &r) { return r.x[0][2]; }},
+    {"x2", [](const Row &r) { return r.x[1][0]; }},
+    {"y2", [](const Row &r) { return r.x[1][1]; }},
+    {"z2", [](const Row &r) { return r.x[1][2]; }},
+    {"px", [](const Row &r) { return r.point[0]; }},
+    {"py", [](const Row &r) { return r.point[1]; }},
+    {"pz", [](const Row &r) { return r.point[2]; }},
+    {"nx", [](const Row &r) { return r.normal[0]; }},
+    {"ny", [](const Row &r) { return r.normal[1]; }},
+    {"nz", [](const Row &r) { return r.normal[2]; }},
+    {"overlap", [](const Row &r) { return r.overlap; }},
+    {"force", [](const Row &r) { return length_of(r.force); }},
+    {"fn", normal_force},
+    {"ft", tangential_force},
+    {"fx", [](const Row &r) { return r.force[0]; }},
+    {"fy", [](const Row &r) { return r.force[1]; }},
+    {"fz", [](const Row &r) { return r.force[2]; }},
+    {"tx", [](const Row &r) { return r.torque[0]; }},
+    {"ty", [](const Row &r) { return r.torque[1]; }},
+    {"tz", [](const Row &r) { return r.torque[2]; }},
+    {"eng", [](const Row &r) { return r.energy; }},
+    {"h1", [](const Row &r) { return r.history[0]; }},
+    {"h2", [](const Row &r) { return r.history[1]; }},
+    {"h3", [](const Row &r) { return r.history[2]; }},
+    {"h4", [](const Row &r) { return r.history[3]; }},
+    {"h5", [](const Row &r) { return r.history[4]; }},
+    {"h6", [](const Row &r) { return r.history[5]; }},
+    {"h7", [](const Row &r) { return r.history[6]; }},
+    {"h8", [](const Row &r) { return r.history[7]; }},
+};
+
+std::string known_words()
+{
+  std::string all;
+  for (const Column &one : known) all += std::string(all.empty() ? "" : " ") + one.word;
+  return all;
+}
+
+}    // namespace
+
+ComputeContactGranLocal::ComputeContactGranLocal(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
+{
+  if (narg < 4)
+    error->all(FLERR, "compute contact/gran/local: expected at least one of {}", known_words());
+  for (int n = 3; n < narg; n++) {
+    const auto *found = std::find_if(std::begin(known), std::end(known), [&](const Column &one) {
+      return std::strcmp(one.word, arg[n]) == 0;
+    });
+    if (found == std::end(known))
+      error->all(FLERR, n, "compute contact/gran/local: unknown value '{}': expected some of {}",
+                 arg[n], known_words());
+    columns.push_back(found->value);
+  }
+  local_flag = 1;
+  size_local_cols = columns.size() == 1 ? 0 : static_cast<int>(columns.size());
+  system->add_observer(this);
+}
+
+ComputeContactGranLocal::~ComputeContactGranLocal()
+{
+  system->drop_observer(this);
+}
+
+void ComputeContactGranLocal::init()
+{
+  if (!system->has_pair_style())
+    error->all(FLERR, "Compute contact/gran/local requires a pair style of Talus");
+}
+
+/* A contact with a ghost is known twice: the owner of the particle with the lower ID has it. */
+
+bool ComputeContactGranLocal::is_of_this_rank(const SurveyedContact &one) const
+{
+  const int nlocal = atom->nlocal;
+  if (!(atom->mask[one.i] & groupbit)) return false;
+  if (one.body >= 0) return true;
+  if (!(atom->mask[one.j] & groupbit)) return false;
+  if (one.i < nlocal && one.j < nlocal) return true;
+  const auto [owned, ghost] = one.i < nlocal ? std::pair(one.i, one.j) : std::pair(one.j, one.i);
+  return atom->tag[owned] <= atom->tag[ghost];
+}
+
+/* The point of a contact is in the middle of the overlap, and on the surface of a large body. */
+
+ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedContact &one) const
+{
+  const bool with_body = one.body >= 0, swapped = !with_body && atom->tag[one.i] > atom->tag[one.j];
+  const int i = swapped ? one.j : one.i;
+  const double sign = swapped ? -1.0 : 1.0, radius = atom->radius[i];
+  const double other = with_body ? 0.0 : atom->radius[swapped ? one.i : one.j];
+  const double n[3] = {sign * one.normal.x, sign * one.normal.y, sign * one.normal.z};
+  const double f[3] = {one.force.x, one.force.y, one.force.z};
+  const double moment[3] = {one.moment.x, one.moment.y, one.moment.z};
+  const double twist[3] = {one.twisting_torque.x, one.twisting_torque.y, one.twisting_torque.z};
+  Row row{};
+  row.id[0] = static_cast<double>(atom->tag[i]);
+  row.id[1] = with_body ? 0.0 : static_cast<double>(atom->tag[swapped ? one.i : one.j]);
+  row.body = one.body + 1;
+  row.part = one.part + 1;
+  row.overlap = one.overlap;
+  row.energy = one.stored.total();
+  const double to_second = radius + other - one.overlap;
+  const double to_point = radius - (with_body ? one.overlap : 0.5 * one.overlap);
+  for (int d = 0; d < 3; d++) {
+    row.normal[d] = n[d];
+    row.force[d] = sign * f[d];
+    row.torque[d] = sign * twist[d] - radius * moment[d];
+    row.x[0][d] = atom->x[i][d];
+    row.x[1][d] = atom->x[i][d] - to_second * n[d];
+    row.point[d] = atom->x[i][d] - to_point * n[d];
+  }
+  for (int k = 0; k < 8; k++) row.history[k] = (k < 3 ? sign : 1.0) * one.memory.value[k];
+  return row;
+}
+
+void ComputeContactGranLocal::compute_local()
+{
+  invoked_local = update->ntimestep;
+  values.clear();
+  system->for_each_contact(Talus::Ask::ALL, [&](const SurveyedContact &one) {
+    if (!is_of_this_rank(one)) return;
+    const Row row = row_of(one);
+    for (const auto value : columns) values.push_back(value(row));
+  });
+  size_local_rows = static_cast<int>(values.size() / columns.size());
+  rows.resize(size_local_rows);
+  for (int n = 0; n < size_local_rows; n++) rows[n] = values.data() + n * columns.size();
+  vector_local = values.data();
+  array_local = rows.data();
+}
+
+double ComputeContactGranLocal::memory_usage()
+{
+  return static_cast<double>(values.capacity() + rows.capacity()) * sizeof(double);
+}

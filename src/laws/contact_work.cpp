@@ -1,0 +1,51 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "laws/contact_work.h"
+
+#include "laws/contact_law.h"
+#include "laws/law_definition.h"
+
+namespace Talus {
+namespace {
+
+template <int count>
+void copy_history(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
+{
+  for (int n = 0; n < count; n++)
+    for (int k = begin; k < end; k += lanes) store(&b.before[n][k], load8(&b.history[n][k]));
+}
+
+template <bool friction, bool twists, bool resists, bool tears>
+void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  for (int k = begin; k < end; k += lanes) {
+    ContactLanes<Vec8> s;
+    load_state(b, k, s);
+    load_found<Stage::HEAT>(b, k, s);
+    ContactWork<Vec8> work;
+    find_work<friction, twists, resists, tears>(s, in.dt, work);
+    for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
+  }
+}
+
+template <bool tears> StageFunction work_finder_of(const ContactLaw &law)
+{
+  if (law.resists()) return find_work_of_batch<true, true, true, tears>;
+  if (law.twists()) return find_work_of_batch<true, true, false, tears>;
+  return law.has_friction() ? find_work_of_batch<true, false, false, tears>
+                            : find_work_of_batch<false, false, false, tears>;
+}
+
+}    // namespace
+
+StageFunction history_copier(const ContactLaw &law)
+{
+  return law.has_impact() ? copy_history<ContactBatch::history_size> : copy_history<4>;
+}
+
+StageFunction work_finder(const ContactLaw &law)
+{
+  return law.normal().lasts_beyond_contact ? work_finder_of<true>(law) : work_finder_of<false>(law);
+}
+
+}    // namespace Talus

@@ -1,0 +1,224 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: procs=2 timeout=120
+"""compute contact/gran/local, contact/gran/atom, dissipation/gran/atom: contacts of particles and large bodies as
+data. Forces and torques of the rows are those of the particles; energies by particle are those of penalty/stats."""
+
+import collections
+import os
+import random
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import begin
+from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, relative_difference, thermo,
+                           write_sphere_data)
+
+LAW = "hertz/material 1e7 0.5 0.3 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"
+WORDS = ("id1 id2 body part x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap force fn ft fx fy fz tx ty tz eng "
+         "h1 h2 h3 h4 h5 h6 h7 h8").split()
+BED = begin(boundary="{boundary}") + f"""
+pair_coeff * * {LAW}
+neighbor 0.002 bin
+timestep 2e-5
+fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
+fix tank all large/body box 0.025 0.02 0.1 0.05 0.04 0.2 inside contact {LAW}
+fix stone all large/body box 0.025 0.02 0.0 0.012 0.012 0.016 outside contact {LAW}
+compute rows all contact/gran/local {" ".join(WORDS)}
+compute number all contact/gran/atom
+compute lost all dissipation/gran/atom
+compute sum all reduce sum c_lost[1] c_lost[2] c_lost[3]
+compute s all penalty/stats
+thermo_style custom step c_s[2] c_s[5] c_s[6] c_s[7] c_sum[1] c_sum[2] c_sum[3]
+thermo_modify format float %.17g norm no
+"""
+DUMPS = """
+dump rows all local {every} rows index c_rows[*]
+dump_modify rows format line "%.0f{numbers}"
+dump atoms all custom {every} atoms id fx fy fz tqx tqy tqz c_number[1] c_number[2] c_number[3] c_lost[1] c_lost[2] c_lost[3]
+dump_modify atoms format float %.17g
+""".replace("{numbers}", " %.17g" * len(WORDS))
+
+
+def grains():
+    draw = random.Random(3)
+    return [Sphere(tuple(0.0095 * (s + 0.5) + draw.uniform(-0.0004, 0.0004) for s in site),
+                   diameter=draw.uniform(0.0085, 0.0094), density=2500.0, v=(0.2, 0.1, -0.5))
+            for site in ((i, j, k) for k in range(1, 6) for j in range(4) for i in range(5))]
+
+
+def named(frame):
+    return [dict(zip(["index", *WORDS], row)) for row in frame.rows]
+
+
+class Bed(SceneCase):
+
+    def run_bed(self, np=1, boundary="f f f", run="run 1500", data=True, **options):
+        if data:
+            write_sphere_data(self.path("data"), ((-0.001, 0.051), (-0.001, 0.041), (-0.01, 0.1)), grains())
+        script = BED.format(boundary=boundary) + DUMPS.format(every=500) + "thermo 500\n" + run
+        self.log = self.run_lammps(script, np=np, **options).log
+        return [named(f) for f in read_local(self.path("rows"))], read_dump(self.path("atoms")), thermo(self.log)
+
+    def assert_rows_are_those_of_particles(self, rows, frame):
+        """Newton's third law included: the force on the second particle is the opposite one."""
+        radius = {s.id or n + 1: s.diameter / 2 for n, s in enumerate(grains())}
+        force, torque = collections.defaultdict(lambda: [0.0] * 3), collections.defaultdict(lambda: [0.0] * 3)
+        count = collections.Counter()
+        for row in rows:
+            self.assertEqual(row["body"] == 0, row["id2"] > 0)
+            count[row["id1"], row["body"] > 0] += 1
+            for d, axis in enumerate("xyz"):
+                force[row["id1"]][d] += row["f" + axis]
+                torque[row["id1"]][d] += row["t" + axis]
+                if row["id2"]:
+                    force[row["id2"]][d] -= row["f" + axis]
+            if row["id2"]:
+                count[row["id2"], False] += 1
+        scale = max(abs(row["force"]) for row in rows)
+        alone = {tag for tag in frame.atoms if all(row["id2"] != tag for row in rows)}
+        for tag, values in frame.atoms.items():
+            self.assertEqual(tuple(values[7:10]),
+                             (count[tag, False] + count[tag, True], count[tag, False], count[tag, True]))
+            for d in range(3):
+                self.assertLess(abs(force[tag][d] - values[1 + d]), 1e-9 * scale)
+                if tag in alone:    # else there are torques as a second particle
+                    self.assertLess(abs(torque[tag][d] - values[4 + d]), 1e-9 * scale * radius[tag])
+
+    def test_rows(self):
+        """On any number of ranks, also across a periodic border."""
+        for boundary in "f f f", "p p f":
+            first = None
+            for np in (1, 2, 3) if boundary == "f f f" else (1, 2):
+                rows, frames, steps = self.run_bed(np, boundary)
+                for its_rows, frame, step in zip(rows[1:], frames[1:], steps[1:], strict=True):
+                    self.assert_rows_are_those_of_particles(its_rows, frame)
+                    self.assertEqual(len(its_rows), step["c_s[2]"])
+                key = lambda row: (row["id1"], row["id2"], row["body"], row["part"], row["nx"])
+                last = sorted(rows[-1], key=key)
+                self.assertGreater(sum(row["body"] > 0 for row in last), 10)
+                self.assertGreater(sum(row["h1"] != 0 for row in last), 10)
+                self.assertEqual({row["body"] for row in last}, {0.0, 1.0, 2.0})
+                if first:
+                    for a, b in zip(first, last, strict=True):
+                        for word in WORDS:
+                            if "p" in boundary and word[0] in "xyz":
+                                continue
+                            self.assertAlmostEqual(a[word], b[word], delta=1e-9 * max(1.0, abs(a[word])), msg=word)
+                first = first or last
+
+    def test_energies_by_particle(self):
+        """Sums are those of penalty/stats; steps are made in the records all the same."""
+        for np, threads in (1, 1), (2, 1), (1, 2), (2, 2):
+            for boundary in "f f f", "p p f":
+                *_, steps = self.run_bed(np, boundary, env={"OMP_NUM_THREADS": str(threads)})
+                self.assertRegex(self.log, "steps without output +in the records")
+                last = steps[-1]
+                scale = last["c_s[5]"]
+                self.assertGreater(scale, 0)
+                for n in 1, 2, 3:
+                    self.assertGreater(last[f"c_s[{4 + n}]"], 1e-3 * scale)
+                    self.assertLess(abs(last[f"c_sum[{n}]"] - last[f"c_s[{4 + n}]"]), 1e-12 * scale)
+
+    def test_restart(self):
+        """Energies by particle go on; those of penalty/stats begin anew."""
+        _, whole, _ = self.run_bed(run="run 1500\nwrite_restart half\nrun 500")
+        script = BED.format(boundary="f f f").replace("read_data data", "read_restart half")
+        self.run_lammps(script + DUMPS.format(every=500) + "thermo 500\nrun 500", np=2)
+        again = read_dump(self.path("atoms"))[-1]
+        for tag, values in whole[-1].atoms.items():
+            for a, b in zip(values[10:], again.atoms[tag][10:], strict=True):
+                self.assertAlmostEqual(a, b, delta=1e-12 * abs(values[10]))
+
+    def test_gone_when_nobody_asks(self):
+        """A compute that begins later counts from then on, whatever has been asked before."""
+        _, _, steps = self.run_bed(run="run 500\nundump atoms\nuncompute sum\nuncompute lost\nuncompute s\n"
+                                   "thermo_style custom step\nrun 500\ncompute s all penalty/stats\n"
+                                   "compute lost all dissipation/gran/atom\n"
+                                   "compute sum all reduce sum c_lost[1] c_lost[2] c_lost[3]\n"
+                                   "thermo_style custom step c_s[5] c_s[6] c_s[7] c_sum[1] c_sum[2] c_sum[3]\n"
+                                   "thermo_modify format float %.17g norm no\nrun 500")
+        begin_row, end = steps[-2], steps[-1]
+        for n in 1, 2, 3:
+            self.assertEqual(begin_row[f"c_s[{4 + n}]"], 0.0)
+            self.assertLess(abs(begin_row[f"c_sum[{n}]"]), 1e-12 * end["c_s[5]"])
+            self.assertLess(abs(end[f"c_sum[{n}]"] - end[f"c_s[{4 + n}]"]), 1e-12 * end["c_s[5]"])
+
+    def test_after_a_run(self):
+        """The contacts of its last step."""
+        rows, *_ = self.run_bed(run="run 1500\nundump rows\nwrite_dump all local later index c_rows[*] modify format line "
+                                f'"%.0f{" %.17g" * len(WORDS)}"')
+        later, = read_local(self.path("later"))
+        self.assertEqual(sorted(tuple(r.values())[1:] for r in rows[-1]), sorted(row[1:] for row in later.rows))
+
+
+class TwoContacts(SceneCase):
+
+    def test_numbers(self):
+        """One between particles of different size, one with a plane, one with a part of a mesh-like body."""
+        spheres = [Sphere((0, 0, 0.49), id=7), Sphere((0, 0.74, 0.49), diameter=0.5, id=3)]
+        write_sphere_data(self.path("data"), ((-2, 2),) * 3, spheres)
+        log = self.run_lammps(begin() + f"""
+pair_coeff * * hooke 1000.0 0.0
+fix step all nve/sphere/symplectic
+fix floor all large/body plane 0 0 0 0 0 1 contact hooke 500.0 0.0
+timestep 1e-5
+compute rows all contact/gran/local {" ".join(WORDS)}
+compute one all contact/gran/local overlap
+dump rows all local 1 rows index c_rows[*]
+dump one all local 1 one index c_one
+run 0""").log
+        self.assertNotIn("WARNING", log)
+        pair, floor = sorted(named(read_local(self.path("rows"))[0]), key=lambda row: row["body"])
+        expect = {"id1": 3, "id2": 7, "body": 0, "part": 0, "y1": 0.74, "y2": 0.0, "py": 0.495, "ny": 1.0, "overlap": 0.01,
+                  "fn": 10.0, "fy": 10.0, "force": 10.0, "ft": 0.0, "eng": 0.05}
+        for word, value in expect.items():
+            self.assertAlmostEqual(pair[word], value, delta=1e-5, msg=word)
+        expect = {"id1": 7, "id2": 0, "body": 1, "part": 0, "z1": 0.49, "z2": 0.0, "pz": 0.0, "nz": 1.0, "overlap": 0.01,
+                  "fn": 5.0, "fz": 5.0, "eng": 0.025}
+        for word, value in expect.items():
+            self.assertAlmostEqual(floor[word], value, delta=1e-5, msg=word)
+        self.assertEqual([round(row[1], 6) for row in read_local(self.path("one"))[0].rows], [0.01, 0.01])
+
+    def test_groups(self):
+        """Both particles have to be members."""
+        spheres = [Sphere((0.99 * n, 0, 0), id=n + 1) for n in range(3)]
+        write_sphere_data(self.path("data"), ((-2, 4),) * 3, spheres)
+        self.run_lammps(begin() + """
+pair_coeff * * hooke 1000.0 0.0
+fix step all nve/sphere/symplectic
+group some id 1 2
+compute rows some contact/gran/local id1 id2
+compute number some contact/gran/atom
+dump rows all local 1 rows index c_rows[1] c_rows[2]
+dump atoms all custom 1 atoms id c_number[1]
+run 0""")
+        self.assertEqual([row[1:] for row in read_local(self.path("rows"))[0].rows], [(1, 2)])
+        self.assertEqual([read_dump(self.path("atoms"))[0].atoms[t][1] for t in (1, 2, 3)], [1, 2, 0])
+
+
+class Refused(SceneCase):
+
+    def test_words(self):
+        write_sphere_data(self.path("data"), ((-2, 2),) * 3, [Sphere((0, 0, 0))])
+        pair = "pair_coeff * * hooke 1000.0 0.0\n"
+        for words, message, mark in (
+                ("contact/gran/local", "compute contact/gran/local: expected at least one of id1 id2 body part", None),
+                ("contact/gran/local id1 foo", "compute contact/gran/local: unknown value 'foo': expected some of id1", "foo"),
+                ("contact/gran/atom foo", "compute contact/gran/atom: surplus word 'foo'", "foo"),
+                ("dissipation/gran/atom foo", "compute dissipation/gran/atom: surplus word 'foo'", "foo")):
+            result = self.run_lammps(f"{begin()}{pair}compute c all {words}", expect_error=True)
+            self.assertIn(message, result.log)
+            if mark:
+                self.assertEqual(marked_word(result.log), mark)
+        for style in "contact/gran/local id1", "contact/gran/atom", "dissipation/gran/atom":
+            result = self.run_lammps(f"{begin()}pair_style none\ncompute c all {style}\nrun 0", expect_error=True)
+            self.assertRegex(result.log, re.escape(style.split()[0]) + " requires a pair style of Talus")
+        result = self.run_lammps(f"{begin()}{pair}compute c all dissipation/gran/atom\nunfix c_DISSIPATION_STORE\nrun 0",
+                                 expect_error=True)
+        self.assertIn("its internal fix c_DISSIPATION_STORE has been deleted: remove the unfix command", result.log)
+
+
+if __name__ == "__main__":
+    unittest.main()
