@@ -125,9 +125,9 @@ BodyParticleView LargeBody::view() const
           atom->f[0],
           atom->torque[0],
           nullptr,
-          system.velocity_changes(),
           in_records ? &system.records() : nullptr,
-          in_records ? system.slot_of_atom() : nullptr};
+          in_records ? system.slot_of_atom() : nullptr,
+          system.velocity_changes()};
 }
 
 std::string LargeBody::needs_host_arrays() const

@@ -23,10 +23,10 @@ struct BodyParticleView {
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   const int *type;       ///< counts from 1
   double *f, *torque;
-  double *virial = nullptr;          ///< nullptr, or six for each particle: xx yy zz xy xz yz
-  const double *change = nullptr;    ///< see ParticleView
+  double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
   ParticleRecords *records = nullptr;
   const int *slot_of_atom = nullptr;    ///< of the records
+  const double *change = nullptr;       ///< see ParticleView
 
   // by the host's index
   int index_of(int atom) const { return records ? slot_of_atom[atom] : atom; }
