@@ -79,9 +79,18 @@ def _with_fix(line):
 
 
 def _with_compute(line):
+    """What it computes is asked for, too."""
     words = line.split()
-    see = "" if len(words) < 2 or "/atom" not in line else f"\ndump see all custom 5 dump.see id c_{words[1]}"
-    return scene(command=line + see)
+    if len(words) < 4:
+        return scene(command=line)
+    name, style = words[1], words[3]
+    kinds = {"atom": f"dump see all custom 5 dump.see id c_{name}", "local": f"dump see all local 5 dump.see c_{name}[*]",
+             "grid": f"dump see all grid 5 dump.see c_{name}:grid:data[*]"}
+    of_all = f"thermo_style custom step c_{name}[1]"
+    return scene(command=line + "\n" + kinds.get(style.split("/")[-1], of_all))
+
+
+BIN = "region bin cylinder z 2.5 2.5 0.5 4 6 units box\n"
 
 
 # first word of an example: the script that has it
@@ -92,8 +101,8 @@ PLACES = {
     "compute": _with_compute,
     "comm_proxy": lambda line: scene(command=line),
     "run_style": lambda line: scene(command=line),
-    "fill": lambda line: scene(command=line),
-    "dump": lambda line: scene(command=line),
+    "fill_region": lambda line: scene(command=BIN + line.replace(" 0.00", " 0.1")),    # diameters
+    "dump": lambda line: scene(command="shell mkdir post\n" + line),
 }
 
 

@@ -278,7 +278,8 @@ class LawErrors(SceneCase):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
-                             message or f"unknown word '{word}', expected contact, two-sided, move, servo, gravity, load, pressure, vtk, or in a contact "
+                             message or f"unknown word '{word}', expected contact, two-sided, move, servo, surface_velocity, gravity, load, "
+                             "pressure, wear, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
                             for words, message, word in cases), "fix large/body")
 

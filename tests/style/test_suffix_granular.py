@@ -191,13 +191,24 @@ class TestModels(Case):
 
     def test_synchronized(self):
         """Pairs of types may differ in it. In p5 to p7 of LAMMPS there is a part along the normal, which no torque has."""
-        if not self.is_new():
-            self.skipTest("LAMMPS has synchronized_verlet from 4 Jul 2026 on")
+        if not self.is_new():    # from 4 Jul 2026 on
+            self.assert_unknown("synchronized_verlet")
+            return
         self.of_rolling = 1e-3
         rng = random.Random(20260704)
         number = max(12, int(os.environ.get("TALUS_GRANULAR_MODELS", 40)) // 4)
         drawn = [c for c in self.draw(rng, 3 * number) if granular_models.synchronized(c)]
         self.check_models(rng, drawn[:number], "synchronized_verlet")
+
+    def assert_unknown(self, keyword):
+        """To LAMMPS and to us: the same message."""
+        write_sphere_data(self.path("data"), ((-10.0, 20.0),) * 3, packing(random.Random(1), 20, (1.0,), 1), 1)
+        text = DRIVEN.format(newton="on", skin=0.1, shift="", amplitude="0 0 0", coeffs="pair_coeff * * hertz/material "
+                             f"1e4 5.0 0.3 tangential linear_history 1000 1.0 0.5 {keyword}")
+        errors = [re.search(r"ERROR.*?: (.*)", self.run_suffix(suffix, "run", text, expect_error=True).log)[1]
+                  for suffix in (False, True)]
+        self.assertEqual(*errors)
+        self.assertIn(keyword, errors[0])
 
     def check_models(self, rng, drawn, keyword=""):
         number, left_out = len(drawn), 0
