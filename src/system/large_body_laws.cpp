@@ -6,6 +6,7 @@
 
 #include "system/granular_system.h"
 
+#include "body/shape/plane.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -41,8 +42,9 @@ void LargeBody::set_laws()
 
 std::string LargeBody::reason_against_second_order()
 {
-  if (moves) return "moves";
-  if (its_shape->most_contacts() > 1) return "has edges at which a particle changes its contact";
+  if (moves || frame->runs) return "or its surface moves";
+  if (!dynamic_cast<const Plane *>(its_shape.get()))
+    return "is not a plane: its normal turns as a particle goes along it";
   for (int type = 1; type <= atom->ntypes; type++) {
     const std::string its =
         Talus::reason_against_second_order(specs[type].law, coefficients_of(type));
