@@ -193,7 +193,7 @@ def two_core_rows(bench, run, machine_says):
     cores = machine.cores()[-2:]
     size = bench.size(50000, 12500)
     s = bed_scripts(bench, size)
-    rounds = 3 * bench.rounds    # whoever disturbs one core delays both: the spread is larger, and runs are short
+    rounds = 3 * bench.rounds    # what disturbs one core delays both: the spread is larger, and runs are short
     both = {"ranks": ("talus ranks", "2 ranks", dict(ranks=2, cores=cores)),
             "overlapped": ("talus overlapped", "2 ranks, overlap", dict(ranks=2, cores=cores)),
             "threads": ("talus", "2 threads", dict(threads=2, cores=cores))}

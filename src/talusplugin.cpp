@@ -94,8 +94,8 @@ bool check_disabled()
   return value && *value && std::strcmp(value, "0") != 0;
 }
 
-// The path that the host opened may be a link, which is followed: the second file is beside the first
-// itself.
+// The path that the host opened may be a link, which is followed: the second file is beside the
+// first itself.
 std::string styles_path()
 {
   Dl_info info{};

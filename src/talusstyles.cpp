@@ -73,9 +73,9 @@ template <typename Base, typename Style> Base *create(LAMMPS *lmp, int narg, cha
   return new Style(lmp, narg, arg);
 }
 
-// Every style is put down twice: in LAMMPS' list of plugins, which belongs to the process, and in the
-// tables of this LAMMPS object. LAMMPS leaves out the second where a style is on the list already, and
-// then a second object in one process would have no styles of ours.
+// Every style is put down twice: in LAMMPS' list of plugins, which belongs to the process, and in
+// the tables of this LAMMPS object. LAMMPS leaves out the second where a style is on the list
+// already, and then a second object in one process would have no styles of ours.
 class Registry {
  public:
   Registry(void *lmp, void *handle, void *registerfunc) :

@@ -25,9 +25,10 @@ ComputeTimestepGran::~ComputeTimestepGran()
 void ComputeTimestepGran::init()
 {
   if (!system->has_pair_style())
-    error->all(FLERR,
-               "Compute timestep/gran requires one pair style gran/penalty, or one that is accelerated by "
-               "the suffix talus: see 'Talus: styles of this run' in the log");
+    error->all(
+        FLERR,
+        "Compute timestep/gran requires one pair style gran/penalty, or one that is accelerated by "
+        "the suffix talus: see 'Talus: styles of this run' in the log");
 }
 
 void ComputeTimestepGran::compute_vector()

@@ -18,7 +18,8 @@ namespace LAMMPS_NS {
 
 class RegionSpace : public Talus::PackingSpace, protected Pointers {
  public:
-  /// `command`: for messages. An error if there is no such region, or it cannot be used. Collective.
+  /// `command`: for messages. An error if there is no such region, or it cannot be used.
+  /// Collective.
   RegionSpace(LAMMPS *lmp, const std::string &command, const std::string &region_id);
 
   bool contains(const Talus::Vector3<double> &x) const override;

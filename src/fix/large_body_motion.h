@@ -27,7 +27,8 @@ class LargeBodyMotion : protected Pointers {
  public:
   explicit LargeBodyMotion(LAMMPS *lmp);
 
-  /// One of move, servo, gravity, load, surface_velocity with its arguments, if that is the next word.
+  /// One of move, servo, gravity, load, surface_velocity with its arguments, if that is the next
+  /// word.
   bool parse(Talus::Words &words);
   /// After all words: checks that they go together. `reference`: of the shape.
   void finish(const Talus::Vector3<double> &reference);

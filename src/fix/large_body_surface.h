@@ -42,8 +42,8 @@ class LargeBodySurface : protected Pointers {
   std::vector<Talus::TouchedPart> *touched() { return &parts; }
   void add_step(double dt);
 
-  /// Pressure and shear stress in the last step, or their means over the steps since the last picture;
-  /// shear work per area since the start; depth of wear. All ranks.
+  /// Pressure and shear stress in the last step, or their means over the steps since the last
+  /// picture; shear work per area since the start; depth of wear. All ranks.
   int columns() const { return wear > 0.0 ? 4 : 3; }
   double value(int triangle, int column);
 
@@ -77,8 +77,8 @@ class LargeBodySurface : protected Pointers {
   std::string file;
 
   std::vector<Talus::TouchedPart> parts;
-  // by triangle, of this rank: normal force, shear force (3), force on the body (3), shear work; and
-  // of all ranks; vectors in the frame of the body
+  // by triangle, of this rank: normal force, shear force (3), force on the body (3), shear work;
+  // and of all ranks; vectors in the frame of the body
   static constexpr int fields = 8;
   std::vector<double> loads, loads_of_all;
   bool reduced = false;

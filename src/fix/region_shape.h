@@ -12,8 +12,8 @@ namespace LAMMPS_NS {
 class Region;
 
 /// The surface of a region of the host, seen from where its particles are, as fix wall/gran/region
-/// sees it. A region that moves is asked as if it did not: how it moves is a matter of the body. The
-/// region keeps its contacts in its own arrays, so one thread asks it.
+/// sees it. A region that moves is asked as if it did not: how it moves is a matter of the body.
+/// The region keeps its contacts in its own arrays, so one thread asks it.
 class RegionShape : public Talus::LargeBodyShape {
  public:
   RegionShape(Region *region, const char *id);

@@ -85,8 +85,8 @@ class RegionAtRest {
   const int dynamic, turns;
 };
 
-/// Asks a simple region in its own frame: the pose of a step is computed once, where the host does it
-/// again, with a sine and a cosine, for every question. Answers differ by rounding.
+/// Asks a simple region in its own frame: the pose of a step is computed once, where the host does
+/// it again, with a sine and a cosine, for every question. Answers differ by rounding.
 class RegionInFrame {
  public:
   /// Both must exist as long as this does; `pose` that of the region, after prematch().

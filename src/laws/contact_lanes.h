@@ -38,10 +38,10 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   // approach, see approach.h
   Vector3<Real> full_normal{};    ///< of synchronized laws: the normal of the positions, while
                                   ///< `normal` is that of half a step before
-  Real normal_velocity{};    ///< (v_1 - v_2) . n, negative when approaching
-  Real mass{}, radius{};     ///< effective ones; radius only for laws that need it
-  Real impact_speed{};       ///< normal speed in the first step; 0 if it is not kept
-  Real age{};                ///< time since the first step; 0 if it is not kept
+  Real normal_velocity{};         ///< (v_1 - v_2) . n, negative when approaching
+  Real mass{}, radius{};          ///< effective ones; radius only for laws that need it
+  Real impact_speed{};            ///< normal speed in the first step; 0 if it is not kept
+  Real age{};                     ///< time since the first step; 0 if it is not kept
 
   // normal
   Real kn{}, kt{};    ///< force/length: elastic force over overlap, tangential stiffness

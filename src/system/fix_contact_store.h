@@ -6,8 +6,8 @@
 //     files;
 //   * the contact history whenever pairs are renumbered, and between runs (see
 //     history/history_store.h); in restart files by the names of particles;
-//   * with an integrator of second order the changes of its velocities, see ParticleRecords::change,
-//     to other ranks, to ghosts and into restart files;
+//   * with an integrator of second order the changes of its velocities, see
+//     ParticleRecords::change, to other ranks, to ghosts and into restart files;
 //   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
 //     and back for that, which moves every particle by a rounding error. The positions are put
 //     back, so that load balancing does not change the trajectory.
@@ -56,8 +56,8 @@ class FixContactStore : public Fix {
   /// Changes of velocities, rows of six, of owned particles and ghosts; nullptr if none are kept.
   double *all_changes() { return changes.empty() ? nullptr : changes.data(); }
 
-  /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number. The
-  /// error, collective.
+  /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
+  /// The error, collective.
   RunMonitor::Finding find_no_number() const;
   void say_no_number(const RunMonitor::Finding &found) const;
 

@@ -12,8 +12,9 @@
 // What is remembered of rolling and twisting is the same for both particles. The stock style writes
 // it with a minus for the one that does not own the pair in its neighbor list, and reads it at the
 // owner alone: so the plain value, written for both, is what it continues with, whichever particle
-// owns the pair then. Of a file of its own the value of the particle that comes first in memory is taken,
-// for it owns most pairs of a rank; of a pair across ranks each has the value of its own particle.
+// owns the pair then. Of a file of its own the value of the particle that comes first in memory is
+// taken, for it owns most pairs of a rank; of a pair across ranks each has the value of its own
+// particle.
 
 #ifndef LMP_FIX_PAIR_HISTORY_H
 #define LMP_FIX_PAIR_HISTORY_H

@@ -108,7 +108,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   /// Collective: energy stored in the contacts, and the work they have taken from the particles
   /// and the body less what it has stored. Work is accounted for from the first question on, until
-  /// a run in which nobody asks.
+  /// a run in which it is not asked for.
   double energy();
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
   void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);

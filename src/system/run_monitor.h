@@ -7,7 +7,8 @@
 // in every step), the largest values of all ranks are found for all checks at once, in one
 // reduction. Only where a limit is exceeded more messages follow: the rank that has the largest
 // value tells the others what they need to know, and the check says it. Each check speaks once in a
-// run, or once for all unless it becomes worse. GranularSystem owns the monitor of a LAMMPS instance.
+// run, or once for all unless it becomes worse. GranularSystem owns the monitor of a LAMMPS
+// instance.
 //
 // Thresholds stand beside the checks: ContactMonitor, TimeStepMonitor, LargeBodyMonitor.
 

@@ -164,7 +164,7 @@ class Fields(SceneCase):
             self.assertAlmostEqual(temperature, 0.0, delta=1e-12)
 
     def bed(self):
-        """Columns of spheres on frozen ones, shifted so that contacts are oblique to nobody but the grid."""
+        """Columns of spheres on frozen ones, shifted so that contacts are oblique to nothing but the grid."""
         return [Sphere((0.5 + i, 0.5 + j, 0.5 + k), diameter=1.0, density=1000.0, type=1 if k else 2)
                 for i in range(3) for j in range(3) for k in range(9)]
 

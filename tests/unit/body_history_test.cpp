@@ -71,7 +71,8 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
           several() ? (k ? Packed{1.0, 0.0, 0.0} : Packed{0.0, 0.0, 1.0}) : Packed(3, 0.0);
       values.insert(values.end(), normal.begin(), normal.end());
       for (const double a : {its, its + 1.0, its + 2.0, 1.0}) values.push_back(a);
-      for (const double a : {its + 3.0, its + 4.0, 1.0, its + 5.0}) values.push_back(impacts() ? a : 0.0);
+      for (const double a : {its + 3.0, its + 4.0, 1.0, its + 5.0})
+        values.push_back(impacts() ? a : 0.0);
     }
     return values;
   }

@@ -31,7 +31,7 @@ TEST(FusedKernels, AreTheirStages)
   RandomSource random(12);
   ContactBatch fused, staged;
   for (const ContactLaw &law : laws) {
-    if (law.tangential().lever_arms) continue;    // granular_laws_test
+    if (law.tangential().lever_arms) continue;      // granular_laws_test
     if (law.tangential().second_order) continue;    // second_order_laws_test
     NamedLaw its = named_law(law);
     ASSERT_EQ(its.law(), law);

@@ -29,8 +29,8 @@ struct BodyStep {
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
 };
 
-/// What a run warns of, among the particles of this rank that are near the body. Of equal values the
-/// first listed counts; zero without any.
+/// What a run warns of, among the particles of this rank that are near the body. Of equal values
+/// the first listed counts; zero without any.
 struct BodyFindings {
   struct Worst {
     double value = 0.0;

@@ -35,8 +35,8 @@ struct BodyFrame {
   bool turned = false;                                       ///< the rotation is not 1
   Vector3<double> origin{0.0, 0.0, 0.0};    ///< the reference point in the frame of the body
   double inverse_mass = 0.0;                ///< 0: infinitely heavy
-  /// The surface runs past the body that stays, like a belt: frame of the body; at each contact only
-  /// the part that is tangential there counts. `runs` false: it does not.
+  /// The surface runs past the body that stays, like a belt: frame of the body; at each contact
+  /// only the part that is tangential there counts. `runs` false: it does not.
   bool runs = false;
   Vector3<double> surface_velocity{0.0, 0.0, 0.0};
 

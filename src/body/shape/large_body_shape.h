@@ -111,8 +111,8 @@ class LargeBodyShape {
     return distance_bound(center) < reach;
   }
 
-  /// For messages, of shapes with parts: the part through which the straight way leads that a center
-  /// went, if the center was at `from` when `parts` were listed; or none.
+  /// For messages, of shapes with parts: the part through which the straight way leads that a
+  /// center went, if the center was at `from` when `parts` were listed; or none.
   virtual Passage passage(const Vector3<double> &from, const Vector3<double> &to,
                           NearParts parts) const
   {

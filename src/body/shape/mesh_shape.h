@@ -12,8 +12,8 @@
 
 namespace Talus {
 
-/// On which side of a mesh spheres are touched: where the normals point, on the other side, on both;
-/// or on both until somebody has found out which is meant.
+/// On which side of a mesh spheres are touched: where the normals point, on the other side, on
+/// both; or on both until somebody has found out which is meant.
 enum class MeshSide { NORMALS, BACKS, BOTH, UNDECIDED };
 
 /// A surface of triangles.
@@ -29,8 +29,8 @@ enum class MeshSide { NORMALS, BACKS, BOTH, UNDECIDED };
 /// All ranks hold the whole surface, but only what MeshDetail has of it is large: this is made for
 /// the neighborhood of the particles of a rank, and anew when they or the body have gone further.
 ///
-/// A sphere is touched if its center is on a side that acts, and nothing of the surface lies between
-/// if both do: through a thin plate it does not feel the other face.
+/// A sphere is touched if its center is on a side that acts, and nothing of the surface lies
+/// between if both do: through a thin plate it does not feel the other face.
 class MeshShape : public LargeBodyShape {
  public:
   /// `focused`: nothing is found before focus() has said where.

@@ -155,9 +155,9 @@ void TriangleMesh::orient_along(int first, int number, const MeshEdges &edges,
   }
 }
 
-/* Parts of a closed mesh: all as the first. Parts may go through each other, such as a paddle through
-   the wall of a drum, so that some of a part is where nothing is: the side is that of most of its
-   area, looked at in some 30 points or more. */
+/* Parts of a closed mesh: all as the first. Parts may go through each other, such as a paddle
+   through the wall of a drum, so that some of a part is where nothing is: the side is that of most
+   of its area, looked at in some 30 points or more. */
 
 void TriangleMesh::orient_parts(const std::vector<int> &part, int num_parts)
 {

@@ -1,12 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Laws of LAMMPS' pair granular with the word synchronized_verlet (from 4 Jul 2026 on; Vyas, Ottino,
-// Lueptow and Umbanhowar 2025, Comput. Phys. Commun. 310, 109524). The velocities that velocity
-// Verlet has when forces are computed are those of half a step before, and so is the normal that
-// all stages see: that of dx - v dt/2. What is kept of friction and rolling is first turned into
-// the tangent plane of that normal, lengthened there, and then turned into that of the positions;
-// so is the slip of the tangential dashpot where the displacement has left that plane. Both classic
-// laws only see the normal of half a step before.
+// Laws of LAMMPS' pair granular with the word synchronized_verlet (from 4 Jul 2026 on; Vyas,
+// Ottino, Lueptow and Umbanhowar 2025, Comput. Phys. Commun. 310, 109524). The velocities that
+// velocity Verlet has when forces are computed are those of half a step before, and so is the
+// normal that all stages see: that of dx - v dt/2. What is kept of friction and rolling is first
+// turned into the tangent plane of that normal, lengthened there, and then turned into that of the
+// positions; so is the slip of the tangential dashpot where the displacement has left that plane.
+// Both classic laws only see the normal of half a step before.
 //
 // While a run is set up the slip is not turned, as in LAMMPS.
 
