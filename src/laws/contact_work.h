@@ -90,11 +90,15 @@ TALUS_INLINE void take_lag(const ContactLanes<Real> &s, const typename L::templa
     constexpr double response = 1.0 + 2.5;    // of a sphere's surface, times 1/m
     const Real change = (0.5 * response * dt * dt) * s.inverse_mass * L::drag(s, c) *
                         dot(tangential, surface_velocity(s));
-    // beyond it, the limit changes with the overlap
-    const Vector3<Real> velocity = surface_velocity(s);
-    const Real tightened = -0.5 * dt * dt * c.mu * s.tangent_n * s.normal_velocity *
-                           square_root(dot(velocity, velocity));
-    its = its - select(dot(tangential, tangential) < limit * limit, lag + change, tightened);
+    const auto slides = dot(tangential, tangential) >= limit * limit;
+    Real late = lag + change;
+    if (any(slides)) {    // few slide: spares the root. Their limit changes with the overlap
+      const Vector3<Real> velocity = surface_velocity(s);
+      const Real tightened = -0.5 * dt * dt * c.mu * s.tangent_n * s.normal_velocity *
+                             square_root(dot(velocity, velocity));
+      late = select(slides, tightened, late);
+    }
+    its = its - late;
   } else {
     Real slip = zero, length = zero;
     for (int n = 0; n < L::spring_size; n++) {
