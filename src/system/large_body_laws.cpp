@@ -6,7 +6,6 @@
 
 #include "system/granular_system.h"
 
-#include "body/shape/plane.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -43,8 +42,6 @@ void LargeBody::set_laws()
 std::string LargeBody::reason_against_second_order()
 {
   if (moves || frame->runs) return "or its surface moves";
-  if (!dynamic_cast<const Plane *>(its_shape.get()))
-    return "is not a plane: its normal turns as a particle goes along it";
   for (int type = 1; type <= atom->ntypes; type++) {
     const std::string its =
         Talus::reason_against_second_order(specs[type].law, coefficients_of(type));

@@ -77,6 +77,7 @@ void BodyBatch::gather()
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) store_at(batch.relative_omega, k, m.omega);
     if (law.tangential().second_order) gather_changes(index, k);
+    if (turns() && !task->history.several()) gather_turns(k);
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
@@ -102,6 +103,26 @@ void BodyBatch::gather_changes(const int *index, int k)
       batch.rotation_change[d][k + q] = r * omega[d];
     }
   }
+}
+
+/* Of shapes with several contacts it is known since they were found. Lanes behind the last contact
+   have the geometry of others. */
+
+void BodyBatch::gather_turns(int k)
+{
+  for (int q = k; q < std::min(k + lanes, filled); q++) {
+    const Vector3<double> n{batch.normal[0][q], batch.normal[1][q], batch.normal[2][q]};
+    set_turn(q, n, task->history.replace_normal(slots()[q], n));
+  }
+}
+
+void BodyBatch::set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before)
+{
+  const bool known = before.x != 0.0 || before.y != 0.0 || before.z != 0.0;
+  const Vector3<double> turn = known ? normal - before : Vector3<double>{0.0, 0.0, 0.0};
+  batch.turn[0][lane] = turn.x;
+  batch.turn[1][lane] = turn.y;
+  batch.turn[2][lane] = turn.z;
 }
 
 BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const
