@@ -117,6 +117,9 @@ class BodyBatch {
   Motion motion_in_records(const int *index, int k) const;
   Motion motion_in_arrays(const int *index, int k) const;
   void gather_changes(const int *index, int k);
+  void see_from_body(Motion &m, int k);
+  void run_past(Motion &m, int k);
+  Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;
   void gather_turns(int k);
   void set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before);
   /// Its laws ask for what normals have turned in the last step.
