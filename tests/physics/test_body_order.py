@@ -39,8 +39,8 @@ modify format float %.17g
 
 class OrderCase(SceneCase):
     steps = (128, 2048)
-    exact_steps = 32768
-    old_steps = 131072    # of order 1
+    exact_steps = 16384
+    old_steps = 32768    # of order 1
 
     def write(self, x, z, v=(1.0, 0.5, -0.5), w=(0.0, 3.0, 1.0), number=COUNT):
         draw = random.Random(3)
