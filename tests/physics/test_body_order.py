@@ -109,7 +109,7 @@ class NormalsThatTurn(OrderCase):
     def test_without_friction(self):
         self.write(0.5, -1.3)
         self.assert_second_order("fix b all large/body cylinder 0 0 0 0 1 0 2 INF inside contact "
-                                 "hooke 2.0e4 80 limit_damping", 0.5)
+                                 "hertz 2.0e4 300 limit_damping", 0.5)
 
     def test_edges(self):
         self.write(0.8, 0.52)
