@@ -130,7 +130,7 @@ def bill(bench, ladders, nanoseconds):
     section.table(["law", "restitution to", *rebound.METHODS, "order 1 / order 2", "stock / order 2"], rows)
     section.text(f"""Run time of the same simulated time in a settled bed of {bench.size(COUNT, 12500)} spheres on one core, in units of that of order 1 with 16 steps
 per contact. A step takes {", ".join(f"{report.number(v)} ns per particle with {m}" for m, v in nanoseconds.items())} (Hertz, friction, floor
-and four walls). Fewer steps than about 8 per contact are not stable in a bed, whatever the restitution (tables above).""")
+and four walls). Fewer steps than about 12 per contact are not stable in a bed, whatever the restitution (tables above).""")
 
 
 def measure(bench):

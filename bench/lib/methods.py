@@ -101,9 +101,6 @@ def physics(scene, method):
         text = f"pair_style gran/penalty\npair_coeff * * {words}\n" \
                f"fix move all nve/sphere/symplectic {start}{pull}\n"
         if scene.floor:
-            # without friction a body keeps nothing of its contacts, which order 2 needs
-            if method == SECOND_ORDER and not law.mu:
-                words += " tangential multistep NULL NULL 0 slider midpoint"
             text += f"fix floor all large/body plane 0 0 0 0 0 1 contact {words}\n"
         return text
     text = f"fix gravity all gravity {scene.gravity!r} vector 0 0 -1\n" if scene.gravity else ""
