@@ -33,6 +33,7 @@
 #include "talus_abi.h"
 
 #if TALUS_HOST_HAS_RIGID
+#include "fix/fix_rigid_small_symplectic.h"
 #include "fix/fix_rigid_small_talus.h"
 #endif
 #if TALUS_HOST_HAS_GRANULAR
@@ -186,6 +187,8 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
                                        "Talus fix style wall/gran/region/talus");
 #endif
 #if TALUS_HOST_HAS_RIGID
+  registry.fix<FixRigidSmallSymplectic>("rigid/small/symplectic",
+                                        "Talus fix style rigid/small/symplectic");
   registry.fix<FixRigidSmallTalus>("rigid/small/talus", "Talus fix style rigid/small/talus");
 #endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");

@@ -67,7 +67,11 @@ void FixRigidSmallTalus::init()
 
 std::string FixRigidSmallTalus::find_reason()
 {
-  if (!system->has_pair_style()) return system->reason_of_pair_style();
+  return system->has_pair_style() ? reason_of_settings() : system->reason_of_pair_style();
+}
+
+std::string FixRigidSmallTalus::reason_of_settings() const
+{
   if (langflag) return "its thermostat acts on bodies";
   if (earlyflag) return "'fix_modify bodyforces early' is set";
   if (update->whichflag == 2) return "there are no time steps in a minimization";
@@ -179,8 +183,8 @@ FixRigidSmallTalus::Loads FixRigidSmallTalus::with_weight(const Loads &loads, do
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond
    what is accounted for, at the places before. */
 
-void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, const Body &b,
-                                       bool moves, const Kick &kick)
+void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body &b, bool moves,
+                                       const Kick &kick)
 {
   const bool tallies = evflag && kick.share > 0.0;
   const bool flat = domain->dimension == 2;
@@ -220,6 +224,7 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, const
     int list = i;
     v_tally(1, &list, 1.0, virial_of, place, its, center);
   }
+  if (evflag && moves) put(state.position + state.axes.to_space(vector_of(b.xgc_body)), b.xgc);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -269,7 +274,6 @@ void FixRigidSmallTalus::begin_step(bool completes)
     s.drift_extrapolated(dtv);
     put_state(s, b);
     place_spheres(clump, s, b, true, kick);
-    if (evflag) put(s.position + s.axes.to_space(vector_of(b.xgc_body)), b.xgc);
   });
 }
 

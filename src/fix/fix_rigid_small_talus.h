@@ -75,6 +75,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
 
   // "", or what of the settings only the methods of LAMMPS do; collective
   virtual std::string find_reason();
+  std::string reason_of_settings() const;
   // what a clump is made of may differ from what its spheres add up to
   virtual bool given_masses_stay() const { return false; }
 
@@ -102,11 +103,12 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   static void put_state(const Talus::ClumpState &s, Body &b);
   Loads loads_on(int clump, const Talus::ClumpState &state) const;
   // the spheres that this rank owns get velocities, and places on request, from the clump's state
-  void place_spheres(int clump, const Talus::ClumpState &state, const Body &b, bool moves,
+  void place_spheres(int clump, const Talus::ClumpState &state, Body &b, bool moves,
                      const Kick &kick);
   // before the first of these in a step
   void look_at_storage();
   double force_unit() const;
+  bool in_records_now() const { return in_records; }
 
  private:
   enum class Message { STOCK, MEMBERS, STATES, LOADS };
