@@ -171,14 +171,15 @@ void FixRigidSmallTalus::make_table()
     incomplete = incomplete || table.first[c + 1] != body[table.body[c]].natoms;
     table.first[c + 1] += table.first[c];
   }
-  int mine[2] = {shares, incomplete}, any[2];
+  // spheres that have left the box are missing as well, and are missed by nobody
+  int mine[2] = {shares, incomplete && comm->mode != Comm::SINGLE}, any[2];
   MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
   shares_clumps = any[0];
   if (any[1])
     error->all(FLERR, Error::NOLASTLINE,
                "Fix {} {}: a clump has spheres that are farther from each other than ghosts reach: "
-               "use 'comm_modify cutoff {:.4g}' or more, and 'comm_modify mode single'",
-               style, id, 2.0 * maxextent);
+               "use 'comm_modify mode single'",
+               style, id);
 }
 
 void FixRigidSmallTalus::find_slots()
