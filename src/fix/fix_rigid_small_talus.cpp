@@ -93,7 +93,8 @@ std::string FixRigidSmallTalus::reason_of_spheres() const
 
 std::string FixRigidSmallTalus::needs_host_arrays()
 {
-  return reason;
+  if (!reason.empty()) return reason;
+  return system->turns_particles() ? "" : "it turns particles and the contacts between them do not";
 }
 
 int FixRigidSmallTalus::threads() const
@@ -149,7 +150,6 @@ void FixRigidSmallTalus::look_at_storage()
 FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpState &state) const
 {
   Loads sum{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  const bool turns = !in_records || records->stride == 2;
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
     Vector f{0.0, 0.0, 0.0}, t = f;
     if (!s->owned) {
@@ -160,9 +160,9 @@ FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpSta
       f = vector_of(atom->f[s->atom]);
       t = vector_of(atom->torque[s->atom]);
     } else if (records->velocity(s->slot).c[3] > 0.0) {
-      f = vector_of(records->load[records->stride * s->slot].c);
-      Talus::Record turn{};
-      if (turns) store(turn, records->torque(s->slot));
+      f = vector_of(records->load[2L * s->slot].c);
+      Talus::Record turn;
+      store(turn, records->torque(s->slot));
       t = vector_of(turn.c);
     }
     sum.force = sum.force + f;
@@ -192,8 +192,8 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     if (!s->owned) continue;
     const int i = s->atom;
     double *x = in_records ? records->position[s->slot].c : atom->x[i];
-    double *v = in_records ? records->motion[records->stride * s->slot].c : atom->v[i];
-    double *w = in_records ? records->motion[records->stride * s->slot + 1].c : atom->omega[i];
+    double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
+    double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
     const Vector x_old = vector_of(x), v_old = vector_of(v);
     const Vector arm = state.axes.to_space(s->place);
     Vector shift{0.0, 0.0, 0.0};
@@ -209,10 +209,10 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     put(state.velocity + cross(state.omega, arm), v);
     if (flat) v[2] = 0.0;
     if (flat && moves) x[2] = 0.0;
-    if (!in_records || records->stride == 2) put(state.omega, w);
+    put(state.omega, w);
     if (!tallies) continue;
 
-    const double *f = in_records ? records->load[records->stride * s->slot].c : atom->f[i];
+    const double *f = in_records ? records->load[2L * s->slot].c : atom->f[i];
     const Vector change = vector_of(v) - v_old - vector_of(kick.fall);
     const Vector holds = (atom->rmass[i] / kick.time) * change - vector_of(f);
     const Vector at = x_old + shift, part = kick.share * holds;
