@@ -30,6 +30,7 @@ template <class Real> struct ContactState {
   // velocity and surface_rotation in it, by the accelerations of the last step.
   Real lag{};
   Vector3<Real> velocity_change{}, rotation_change{};
+  Real parted{};    ///< 1 if the contact has ended in this step, see tangential/end_of_contact.h
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting

@@ -8,6 +8,7 @@
 #include "base/words.h"
 #include "laws/contact_words.h"
 #include "laws/second_order_laws.h"
+#include "laws/tangential/end_of_contact.h"
 #include "material/contact_spec.h"
 #include "material/law_table.h"
 
@@ -116,14 +117,15 @@ class Impact {
                             : dot(i.x - planes[0].point, planes[0].normal) * planes[0].normal;
     const double distance = length(r), overlap = i.radius + rj - distance;
     Twin::Vec force{}, moment{};
-    if (overlap > 0.0) {
+    const bool lasts = overlap > 0.0 || Talus::has_just_ended(batch.history[3][0], advance);
+    if (lasts) {
       set(batch.normal, (1.0 / distance) * r);
       set(batch.velocity, i.v - j.v);
       set(batch.surface_rotation, i.radius * i.w + rj * j.w);
       set(batch.velocity_change, lag * (i.a - j.a));
       set(batch.rotation_change, lag * (i.radius * i.alpha + rj * j.alpha));
       batch.lag = lag;
-      batch.overlap[0] = overlap;
+      batch.overlap[0] = its_overlap = overlap;
       batch.inverse_mass[0] = 1.0 / i.mass + (planes.empty() ? 1.0 / j.mass : 0.0);
       batch.inverse_radius[0] = 1.0 / i.radius + (planes.empty() ? 1.0 / j.radius : 0.0);
       batch.inverse_distance[0] = planes.empty() ? 1.0 / distance : 0.0;
@@ -132,7 +134,7 @@ class Impact {
       moment = get(batch.moment);
     } else
       for (auto &value : batch.history) value[0] = 0.0;
-    touched = overlap > 0.0;
+    touched = lasts;
     for (std::size_t n = 0; n < particles.size(); n++) {
       Twin::Particle &p = particles[n];
       p.a = gravity + (n == 0 ? 1.0 : -1.0) / p.mass * force;
@@ -145,6 +147,7 @@ class Impact {
   {
     if (!touched) return;
     const ContactBatch before = batch;
+    batch.overlap[0] = its_overlap;
     kernels.reading(batch, 0, Talus::lanes, &kernels.row, dt);
     for (int d = 0; d < 3; d++) {
       EXPECT_EQ(batch.force[d][0], before.force[d][0]);
@@ -158,7 +161,7 @@ class Impact {
   std::vector<Twin::Particle> particles;
   std::vector<Twin::Plane> planes;
   ContactBatch batch;
-  double dt, lag = 0.0;
+  double dt, lag = 0.0, its_overlap = 0.0;
   bool touched = false;
 };
 
@@ -199,7 +202,6 @@ void expect_same(Twin::System start, const Twin::Law &law, const std::string &wo
     const Impact engine(kernels, start, time, steps);
     Twin::System twin = start;
     twin.law = law;
-    twin.with.after = false;
     twin.run(time, steps);
     for (std::size_t n = 0; n < start.particles.size(); n++) {
       const Twin::Particle &a = engine.result()[n], &b = twin.particles[n];

@@ -124,7 +124,8 @@ struct Plane {
 struct Contact {
   bool touches = false;
   double force = 0.0;    // normal one of the last step, without the correction of its beginning
-  Vec s;                 // tangential displacement
+  bool slid = false;
+  Vec s;    // tangential displacement
 };
 
 /// Stiffness and damping of a contact with overlap d.
@@ -243,17 +244,40 @@ class System {
   /// The sum over the time steps of the force that a contact ends with, less its integral.
   void part(const Pair &p, Contact &c)
   {
-    const double speed = dot(p.v, p.n), apart = -p.d;
-    if (with.ends && with.after && speed * dt > apart) {
-      const double theta = 1.0 - apart / (speed * dt), reach = speed * dt;
-      const Coefficients most = coefficients(law, reach, p.mass, p.radius);
-      double error = -law.adhesion * zeta(0.0, theta);
-      if (!law.limit_damping || law.gn == 0.0)
-        error += most.kn * reach * zeta(law.elastic_exponent(), theta) -
-                 most.gn * speed * zeta(law.damping_exponent(), theta);
-      apply(p, -error * p.n, Vec{}, Vec{});
+    const double speed = dot(p.v, p.n), reach = speed * dt, before = p.d + reach;
+    if (with.ends && with.after && before > 0.0) {
+      const double theta = before / reach;
+      const double error = c.force == 0.0           ? 0.0
+                           : law.limit_damping ? limited_end(p, before, speed)
+                                               : unlimited_end(p, theta, speed);
+      Vec friction{};
+      if (c.slid) {
+        const Coefficients was = coefficients(law, before, p.mass, p.radius);
+        const Vec u = surface_velocity(p.v, p.spin, p.n);
+        friction = law.mu * error * unit(was.kt * turned(c.s, p.n) + was.gt * u);
+      }
+      const double pull = -law.adhesion * zeta(0.0, theta);
+      apply(p, -(error + pull) * p.n + friction, cross(p.n, friction), Vec{});
     }
     c = Contact{};
+  }
+
+  double unlimited_end(const Pair &p, double theta, double speed) const
+  {
+    const double reach = speed * dt;
+    const Coefficients most = coefficients(law, reach, p.mass, p.radius);
+    return most.kn * reach * zeta(law.elastic_exponent(), theta) -
+           most.gn * speed * zeta(law.damping_exponent(), theta);
+  }
+
+  /// The force ends where damping has made up for the elastic force.
+  double limited_end(const Pair &p, double before, double speed) const
+  {
+    const Coefficients was = coefficients(law, before, p.mass, p.radius);
+    const double rest = before - was.gn * speed / was.kn, exponent = law.elastic_exponent();
+    if (rest <= 0.0) return 0.0;
+    const double theta = rest / (speed * dt);
+    return (was.kn * before - was.gn * speed) * std::pow(theta, -exponent) * zeta(exponent, theta);
   }
 
   void touch(const Pair &p, Contact &c)
@@ -299,6 +323,7 @@ class System {
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
     c.force = pure;
+    c.slid = law.mu > 0.0 && slides;
   }
 
   static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }

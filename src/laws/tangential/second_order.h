@@ -13,6 +13,7 @@
 //     a force A t^p has the error A dt^p zeta(-p, theta), Hurwitz' zeta function (Euler-Maclaurin
 //     for a sum that does not begin on a grid point): it is subtracted. p: exponents of elastic
 //     force and damping. Only if the overlap is at most what one step brings;
+//   * where it ends the same, see end_of_contact.h;
 //   * the displacement of multistep midpoint;
 //   * a sliding contact moves along the mean of its old and its new force (generalized midpoint
 //     rule of plasticity: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561), and the spring
@@ -20,13 +21,15 @@
 //     step an L-stable rule of second order. Equal to the rule of Ortiz and Popov if gt = 0.
 //
 // The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
-// flags: it began in that step, it slid. So a force can be computed again without advancing.
+// flags: it began in that step, it slid. So a force can be computed again without advancing. Of a
+// contact that ended in that step it is above zero.
 
 #ifndef TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 #define TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 
 #include "base/flagged_number.h"
 #include "laws/tangential/common.h"
+#include "laws/tangential/end_of_contact.h"
 #include "laws/tangential/multistep.h"
 
 namespace Talus {
@@ -148,6 +151,9 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    EndOfContact<Real> end;
+    const bool any_ended = any((s.parted > zero) | (h[3] > zero));
+    if (any_ended) end = end_of<advance>(c, s, h, dt);
     const LastStep<Real> last = last_step(h[3]);
     Real pure = find_normal_force(s, last);
     if constexpr (!advance) pure = select(last.known, last.force, pure);
@@ -169,6 +175,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     s.force = force * s.normal;
 
     auto slides = last.slid;
+    Vector3<Real> t{zero, zero, zero};
     if constexpr (friction) {
       const Vector3<Real> u = surface_velocity_of(s.velocity + s.velocity_change,
                                                   s.surface_rotation + s.rotation_change, s.normal);
@@ -184,27 +191,29 @@ template <bool friction> struct SecondOrder : FrictionLaw {
         slides = slides | (dot(f, f) > limit * limit);
       }
       const Vector3<Real> within = -(s.kt * d + s.gt * u);
-      Vector3<Real> t = select(slides, with_length(limit, within), within);
+      t = select(slides, with_length(limit, within), within);
       if (any_begins) {
         const Real most = c.mu * s.critical_force;
         const Vector3<Real> early = start.elastic / start.ratio * dt * s.kt * u;
         const Vector3<Real> sticks = limited(t + early + start.damping * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
-      add_tangential(s, t);
-    } else
-      add_tangential(s, Vector3<Real>{zero, zero, zero});
+    }
     if constexpr (advance)
       h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
+    if (any_ended) end.replace(s, t, h);
+    add_tangential(s, t);
   }
 
  private:
+  static constexpr double least_force = 1.0e-200;
+
   /// Rounded to what is remembered of it, and above zero.
   template <class Real>
   TALUS_INLINE static Real find_normal_force(const ContactLanes<Real> &s,
                                              const LastStep<Real> &last)
   {
-    const Real one = splat<Real>(1.0), least = splat<Real>(1.0e-200);
+    const Real one = splat<Real>(1.0), least = splat<Real>(least_force);
     const Real by_others = dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force;
     const Real v = s.normal_velocity + by_others;
     const Real force = (s.elastic - s.gn * v) / (one + s.gn * s.lag * s.inverse_mass);
@@ -225,6 +234,41 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       return select(begins, power(ratio, p) * hurwitz_zeta(p, theta), zero);
     };
     return {ratio, error(c.elastic_exponent), error(c.damping_exponent)};
+  }
+
+  /// Of contacts that have parted. Those that touch again begin anew.
+  template <bool advance, class Real>
+  static EndOfContact<Real> end_of(const Row<Real> &c, const ContactLanes<Real> &s, Real *h,
+                                   double dt)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    const Real v = s.normal_velocity;
+    EndOfContact<Real> end;
+    end.parted = s.parted > zero;
+    const LastStep<Real> last = last_step(-magnitude(h[3]));
+    auto ends = end.parted & (s.overlap > zero) & (h[3] > zero);
+    if constexpr (advance) ends = end.parted & (s.overlap > zero) & (h[3] < zero);
+
+    // limited damping: the force ends before the overlap
+    const auto damped = s.gn * v > zero;
+    const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
+    const auto pressed = ends & (overlap > zero) & (last.force > splat<Real>(2.0 * least_force));
+    const Real sum = errors_of(c, overlap, dt * v, pressed).elastic * (s.elastic - s.gn * v);
+    end.normal_force = select(pressed, -sum, zero);
+
+    const Vector3<Real> d{h[0], h[1], h[2]};
+    end.tangential = {zero, zero, zero};
+    if constexpr (friction) {
+      const Vector3<Real> within = -(s.kt * turned(d, s.normal) + s.gt * surface_velocity(s));
+      end.tangential =
+          select(last.slid, with_length(c.mu * end.normal_force, within), end.tangential);
+    }
+    for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
+    const Real flags = select(last.slid, splat<Real>(2.0), zero);
+    end.history[3] = select(ends, with_flags(last.force, flags), zero);
+    const auto again = (h[3] > zero) & (s.parted <= zero);
+    for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
+    return end;
   }
 
   /// v_t of these velocities, n across the surface.
