@@ -133,8 +133,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// of a fix, after that of the pair style.
   std::string reason_against_second_order() const;
   /// Where integrators of second order keep the changes of velocities of particles in the arrays
-  /// of the host, rows of six; see ParticleRecords::change.
-  double *velocity_changes();
+  /// of the host; see ParticleRecords::change.
+  ChangeRecord *velocity_changes();
   /// The time by which velocities are behind positions, with an integrator of second order.
   double lag() const;
 

@@ -54,7 +54,7 @@ double GranularSystem::lag() const
   return 0.0;
 }
 
-double *GranularSystem::velocity_changes()
+ChangeRecord *GranularSystem::velocity_changes()
 {
   return store ? store->all_changes() : nullptr;
 }

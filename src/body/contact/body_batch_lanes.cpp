@@ -87,20 +87,12 @@ void BodyBatch::gather()
 
 void BodyBatch::gather_changes(const int *index, int k)
 {
-  for (int q = 0; q < lanes; q++) {
-    const double r = radius[k + q], *v = nullptr, *omega = nullptr;
-    if (task->view.records) {
-      const Record *its = &task->view.records->change[2L * index[q]];
-      v = its[0].c;
-      omega = its[1].c;
-    } else {
-      v = task->view.change + 6L * index[q];
-      omega = v + 3;
-    }
-    for (int d = 0; d < 3; d++) {
-      batch.velocity_change[d][k + q] = v[d];
-      batch.rotation_change[d][k + q] = r * omega[d];
-    }
+  const ChangeRecord *const change =
+      task->view.records ? task->view.records->change.data() : task->view.change;
+  for (int half = 0; half < lanes; half += 4) {
+    Float8 row[4];
+    for (int q = 0; q < 4; q++) row[q] = load8(change[index[half + q]]);
+    to_lanes(row, batch.velocity_change, batch.rotation_change, k + half);
   }
 }
 
