@@ -42,6 +42,7 @@ void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in
     s.overlap = load8(&b.overlap[k]);
     s.normal = load_vector<Vec8>(b.normal, k);
     s.velocity = load_vector<Vec8>(b.velocity, k);
+    s.inverse_distance = load8(&b.inverse_distance[k]);
     last_overlap(s, in.dt);
     store(&b.overlap[k], s.overlap);
     store(&b.parted[k], s.parted);

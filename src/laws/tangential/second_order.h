@@ -73,6 +73,21 @@ template <class Real> TALUS_INLINE Real hurwitz_zeta(Real p, Real t)
   return power(t, p) + sum;
 }
 
+/// Hurwitz' zeta(-p-1, t) for p = 1, 3/2 in the same way.
+template <class Real> TALUS_INLINE Real next_hurwitz_zeta(Real p, Real t)
+{
+  constexpr int terms = 8;
+  constexpr double of_2[terms] = {0.0, -1.0 / 6.0, -0.5, -1.0 / 3.0};
+  constexpr double of_5_halves[terms] = {0.00851693932511, -0.063714006929,  -0.389767136457,
+                                         -0.456516777643,  -0.101402024882,  0.0141888780042,
+                                         -0.0032726276339, 0.000483693683210};
+  const auto linear = p < splat<Real>(1.25);
+  Real sum = splat<Real>(0.0);
+  for (int n = terms - 1; n >= 0; n--)
+    sum = t * sum + select(linear, splat<Real>(of_2[n]), splat<Real>(of_5_halves[n]));
+  return t * power(t, p) + sum;
+}
+
 /// v shortened or stretched to a length; zero stays zero.
 template <class Real> TALUS_INLINE Vector3<Real> with_length(Real length, const Vector3<Real> &v)
 {
@@ -161,14 +176,19 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real approach = -dt * s.normal_velocity;
     auto begins = last.began;
     if constexpr (advance)
-      begins = (h[3] >= zero) & (s.lag > zero) & (approach >= s.overlap) & (s.overlap > zero);
+      begins = (h[3] >= zero) & (s.lag > zero) & (approach + approach >= s.overlap);
     Beginning<Real> start{one, zero, zero};
     Real force = pure, theta = one;
     const bool any_begins = any(begins);
     if (any_begins) {
-      start = errors_of(c, s.overlap, approach, begins);
-      theta = select(begins, s.overlap / select(begins, approach, one), one);
+      const Real others = 2.0 * dot(s.velocity_change, s.normal);
+      const Edge<Real> edge =
+          edge_of<Of::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
+      begins = edge.is;
+      start = errors_of<Of::BEGIN>(c, s.overlap, edge);
+      theta = edge.theta;
       force = pure - (start.elastic * s.elastic - start.damping * s.gn * s.normal_velocity);
+      force = force + second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
     }
     s.normal_force = force;
     s.critical_force = magnitude(force);
@@ -223,17 +243,30 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   // These two are seldom called: functions of their own, which are not given the whole state, so
   // that it can stay in registers.
 
-  template <class Real>
-  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, Real approach,
-                                   bool_of<Real> begins)
+  template <Of which, class Real>
+  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, const Edge<Real> &edge)
   {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    const Real ratio = select(begins, approach / select(begins, overlap, one), one);
-    const Real theta = one / ratio;
-    const auto error = [&](Real p) {
-      return select(begins, power(ratio, p) * hurwitz_zeta(p, theta), zero);
-    };
-    return {ratio, error(c.elastic_exponent), error(c.damping_exponent)};
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic_exponent;
+    const Real ratio = select(edge.is, edge.reach / select(edge.is, overlap, one), one);
+    const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
+    const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
+    const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
+    const Real damping = hurwitz_zeta(c.damping_exponent, edge.theta);
+    return {ratio, select(edge.is, power(ratio, p) * elastic, zero),
+            select(edge.is, power(ratio, c.damping_exponent) * damping, zero)};
+  }
+
+  /// push A dt^p times the second term, where `elastic` is the force now.
+  template <Of which, class Real>
+  static Real second_force(const Row<Real> &c, const ContactLanes<Real> &s,
+                           const Beginning<Real> &start, Real elastic, const Edge<Real> &edge,
+                           double dt)
+  {
+    const Real zero = splat<Real>(0.0);
+    const Real most = power(start.ratio, c.elastic_exponent) * elastic;
+    const Real push = dt * dt * s.inverse_mass * most / edge.reach;
+    const Real force = push * most * second_term<which>(c.elastic_exponent, edge.theta);
+    return select(edge.is, which == Of::BEGIN ? -force : force, zero);
   }
 
   /// Of contacts that have parted. Those that touch again begin anew.
@@ -252,9 +285,14 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     // limited damping: the force ends before the overlap
     const auto damped = s.gn * v > zero;
     const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
-    const auto pressed = ends & (overlap > zero) & (last.force > splat<Real>(2.0 * least_force));
-    const Real sum = errors_of(c, overlap, dt * v, pressed).elastic * (s.elastic - s.gn * v);
-    end.normal_force = select(pressed, -sum, zero);
+    const auto pressed = ends & (last.force > splat<Real>(2.0 * least_force));
+    const Real left = s.elastic - s.gn * v;
+    const Real others =
+        2.0 * (dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force);
+    const Edge<Real> edge = edge_of<Of::END>(s, overlap, v, others, pressed, dt);
+    const Beginning<Real> error = errors_of<Of::END>(c, overlap, edge);
+    const Real sum = error.elastic * left - second_force<Of::END>(c, s, error, left, edge, dt);
+    end.normal_force = select(edge.is, -sum, zero);
 
     const Vector3<Real> d{h[0], h[1], h[2]};
     end.tangential = {zero, zero, zero};
