@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spheres and planes by the simplest program that can be: every pair in every step, one contact at a
-// time, the leapfrog of `start half`, and the five measures by which contacts that dissipate become
+// Spheres and planes by the simplest program that can be: every pair in every step, one contact at
+// a time, the leapfrog of `start half`, and the five measures by which contacts that dissipate become
 // of second order in the time step, each of which can be left out. The reference that the laws of
 // the engine are compared with: it shares no code with them. Any consistent units.
 //

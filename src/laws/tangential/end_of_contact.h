@@ -14,16 +14,16 @@
 // step.
 //
 // With these corrections alone an elastic impact loses a share of its energy in proportion to
-// push^2, push = A dt^(p+1)/(m v): the change of the speed v by the force in a step from v dt on, in
-// parts of it. Begin and end of a contact take the next terms, push A dt^p times second_term(), so
+// push^2, push = A dt^(p+1)/(m v): the change of the speed v by the force in a step from v dt on,
+// in parts of it. Begin and end of a contact take the next terms, push A dt^p second_term(), so
 // that what is left is push^3. For p = 1 they follow from v_(n+1/2)^2 + k/m d_n d_(n+1), which
 // leapfrog keeps in a contact; for p = 3/2 they are fits, to 2e-5, to the corrections that give all
 // contacts the same largest overlap, whenever they begin, and the same speed at the end.
 //
 // The overlap is curved: d(t) = w t + a t^2/2 with the acceleration a by others and by the turning
-// of the contact (v_t^2 over the distance). With e = a dt/w the force A t^p (1 + p a t/(2 w)) and the
-// moment at which its error is made up for, s dt from touching on, change the error in work to that
-// of A dt^p (zeta(-p, theta) + e ((p/2 + 1) zeta(-p-1, theta) - s zeta(-p, theta))).
+// of the contact (v_t^2 over the distance). With e = a dt/w the force A t^p (1 + p a t/(2 w)) and
+// the moment at which its error is made up for, s dt from touching on, change the error in work to
+// that of A dt^p (zeta(-p, theta) + e ((p/2 + 1) zeta(-p-1, theta) - s zeta(-p, theta))).
 
 #ifndef TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
 #define TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
