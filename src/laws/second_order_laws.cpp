@@ -26,8 +26,9 @@ bool damps(const ContactLaw &law, const ContactCoefficients &row)
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
 {
   const Law &normal = law.normal(), &damping = law.damping(), &tangential = law.tangential();
-  if (normal.cohesive || law.cohesion().acts)
-    return "has adhesion, with which a contact ends with a jump of its force";
+  if (normal.cohesive)
+    return std::string("has the normal law ") + normal.name +
+           ", whose contacts tear: use hertz/material with 'adhesion constant F'";
   if (normal.exponent != 1.0 && normal.exponent != 1.5)
     return std::string("has the normal law ") + normal.name;
   if (law.history().keeps_impact || damping.damping_exponent(normal.exponent) < 0.0)

@@ -76,6 +76,16 @@ std::string GranularSystem::reason_against_second_order() const
   return "";
 }
 
+std::vector<std::string> GranularSystem::notes_on_second_order() const
+{
+  std::vector<std::string> notes;
+  for (LargeBody *body : bodies()) {
+    const std::string its = body->note_on_second_order();
+    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+  }
+  return notes;
+}
+
 HistoryStore &GranularSystem::histories()
 {
   return store->histories();

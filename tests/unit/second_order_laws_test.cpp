@@ -248,6 +248,20 @@ TEST(SecondOrderLaws, AreThoseOfTheTwin)
   expect_same(numbers(true, 1.75e5, 400, 0.0), "hertz 1.75e5 400 limit_damping");
 }
 
+TEST(SecondOrderLaws, WithAdhesion)
+{
+  for (double mu : {0.0, 0.3}) {
+    Twin::Law law = numbers(true, 1.75e5, 400, mu);
+    law.adhesion = 3.0;
+    const std::string friction =
+        mu > 0.0 ? " tangential multistep NULL NULL 0.3 slider midpoint" : "";
+    expect_same(law, "hertz 1.75e5 400" + friction + " adhesion constant 3 limit_damping");
+    law = numbers(false, 2e4, 0, mu);
+    law.adhesion = 3.0;
+    expect_same(law, "hooke 2e4 0" + friction + " adhesion constant 3");
+  }
+}
+
 TEST(SecondOrderLaws, WithDampingOfTheStiffness)
 {
   Twin::Law law = numbers(true, 0, 0, 0.4);
@@ -280,8 +294,8 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3 midpoint", "slider midpoint");
   expect_cure("hooke 2e4 0 tangential onestep 1e3 0 0.3", "slider midpoint");
   expect_cure("hertz 2e4 0 rolling 0.1", "rolling");
-  expect_cure("hertz 2e4 0 adhesion constant 1", "adhesion");
-  expect_cure("dmt 1e5 0 0.3 1", "adhesion");
+  EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
+  expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
   expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "flores");
   expect_cure("hertz 2e4 0 heat radius 1", "heat");
 }

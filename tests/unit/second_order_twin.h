@@ -341,9 +341,8 @@ class System {
 
     // normal
     const double forward = with.damping ? lag : 0.0;
-    const double own = with.implicit && c.touches ? (c.force - law.adhesion) / p.mass : 0.0;
-    const double v_p =
-        vn + forward * (dot(p.a, p.n) - own - (with.implicit ? law.adhesion / p.mass : 0.0));
+    const double own = with.implicit && c.touches ? c.force / p.mass : 0.0;
+    const double v_p = vn + forward * (dot(p.a, p.n) - own);
     double pure = now.kn * p.d - now.gn * v_p;
     if (with.implicit) pure /= 1.0 + now.gn * forward / p.mass;
     if (law.limit_damping) pure = std::max(pure, 0.0);

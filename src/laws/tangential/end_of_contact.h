@@ -108,7 +108,7 @@ template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta
 /// Forces of contacts that have parted, and what these remember from now on.
 template <class Real> struct EndOfContact {
   bool_of<Real> parted;
-  Real normal_force;
+  Real normal_force, adhesive_share;
   Vector3<Real> tangential;
   Real history[4];
 
@@ -116,6 +116,7 @@ template <class Real> struct EndOfContact {
   {
     s.normal_force = select(parted, normal_force, s.normal_force);
     s.critical_force = select(parted, magnitude(normal_force), s.critical_force);
+    s.adhesive_share = select(parted, adhesive_share, s.adhesive_share);
     s.force = select(parted, normal_force * s.normal, s.force);
     t = select(parted, tangential, t);
     for (int n = 0; n < 4; n++) h[n] = select(parted, history[n], h[n]);

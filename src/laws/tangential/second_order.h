@@ -131,7 +131,7 @@ template <class Real> struct Slide {
   Real old_limit;    ///< of the last step
   double dt;
   bool_of<Real> known;    ///< it was there a step ago
-  Vector3<Real> normal, velocity;
+  Vector3<Real> normal, velocity, turn;
   Vector3<Real> old_velocity, old_rotation;    ///< a step ago
 };
 
@@ -188,6 +188,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       start = errors_of<Of::BEGIN>(c, s.overlap, edge);
       theta = edge.theta;
       force = pure - (start.elastic * s.elastic - start.damping * s.gn * s.normal_velocity);
+      s.adhesive_share = select(begins, splat<Real>(0.5) + theta, one);    // p = 0
       force = force + second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
     }
     s.normal_force = force;
@@ -294,6 +295,9 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real sum = error.elastic * left - second_force<Of::END>(c, s, error, left, edge, dt);
     end.normal_force = select(edge.is, -sum, zero);
 
+    const Real way = select(ends, dt * (v - 0.5 * dt * centrifugal(s, v)), one);
+    end.adhesive_share = select(ends, s.overlap / way - splat<Real>(0.5), zero);
+
     const Vector3<Real> d{h[0], h[1], h[2]};
     end.tangential = {zero, zero, zero};
     if constexpr (friction) {
@@ -340,6 +344,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                             last.known,
                             s.normal,
                             s.velocity,
+                            s.turn,
                             s.velocity - s.velocity_change,
                             s.surface_rotation - s.rotation_change};
       d = select(slides, slide(c, its, before, slip, with_length(limit, f), time), d);
@@ -366,7 +371,8 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real kt_old = s.kt * power(x_old, of_kt), gt_old = s.gt * power(x_old, of_gt);
     const Real kt_mid = s.kt * power(x_mid, of_kt), gt_mid = s.gt * power(x_mid, of_gt);
 
-    const Vector3<Real> n_old = with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity);
+    const Vector3<Real> n_old =
+        with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity - s.turn);
     const Vector3<Real> u_old =
         turned(surface_velocity_of(s.old_velocity, s.old_rotation, n_old), s.normal);
     const Vector3<Real> f_old = limited(kt_old * before + gt_old * u_old, s.old_limit);
