@@ -166,6 +166,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    s.adhesive_share = one;
     EndOfContact<Real> end;
     const bool any_ended = any((s.parted > zero) | (h[3] > zero));
     if (any_ended) end = end_of<advance>(c, s, h, dt);

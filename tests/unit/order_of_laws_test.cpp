@@ -1,0 +1,185 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The order in the time step of every law, with `order 2` of the integrator: impacts of two spheres
+// head-on, oblique and with spin, a drop onto a plane that slides and rolls, a stack, many spheres.
+// A law that `order 2` takes has an error of order 1.8 or more in all of them.
+
+#include "second_order_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+using namespace Twin;
+
+namespace {
+
+Particle sphere(Vec x, Vec v, Vec w = {}, double radius = 0.5)
+{
+  Particle p;
+  p.x = x;
+  p.v = v;
+  p.w = w;
+  p.radius = radius;
+  p.mass = 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
+  return p;
+}
+
+struct Scene {
+  const char *name;
+  System start;
+  double time;
+  int fewest = 128;    ///< steps that the order is measured from
+};
+
+Scene head_on()
+{
+  Scene scene{"head-on", {}, 0.06};
+  scene.start.particles = {sphere({-0.507, 0, 0}, {0.5, 0, 0}), sphere({0.507, 0, 0}, {-0.5, 0, 0})};
+  return scene;
+}
+
+Scene oblique()
+{
+  Scene scene{"oblique", {}, 0.07};
+  scene.start.particles = {sphere({-0.505, -0.1, 0.05}, {0.5, 0.4, 0.1}, {1, 2, -3}),
+                           sphere({0.405, 0.1, -0.02}, {-0.5, -0.4, 0.2}, {-2, 0.5, 1.5}, 0.4)};
+  return scene;
+}
+
+Scene on_plane()
+{
+  Scene scene{"on a plane", {}, 0.12};
+  scene.start.gravity = {0, 0, -9.81};
+  scene.start.planes = {{{0, 0, 0}, {0, 0, 1}}};
+  scene.start.particles = {sphere({0, 0, 0.51}, {0.3, 0.1, -0.5}, {0, 3, 1})};
+  return scene;
+}
+
+Scene stack()
+{
+  Scene scene{"stack", {}, 0.2};
+  scene.start.gravity = {0, 0, -9.81};
+  scene.start.planes = {{{0, 0, 0}, {0, 0, 1}}};
+  scene.start.particles = {sphere({0, 0, 0.502}, {}), sphere({0.03, 0.02, 1.507}, {})};
+  return scene;
+}
+
+/// 8 spheres that fly at each other, with spins.
+Scene cluster()
+{
+  Scene scene{"cluster", {}, 0.12};
+  unsigned seed = 12345;
+  const auto random = [&seed] {
+    seed = seed * 1103515245U + 12345U;
+    return ((seed >> 16) & 0x7fffU) / 32768.0 - 0.5;
+  };
+  const auto some = [&random](double most) {
+    const double x = most * random(), y = most * random();
+    return Vec{x, y, most * random()};
+  };
+  for (int n = 0; n < 8; n++) {
+    const Vec site{n / 4 - 0.5, n / 2 % 2 - 0.5, n % 2 - 0.5};
+    const Vec x = 1.03 * site + some(0.02);
+    const Vec v = -1.0 * x + some(0.1);
+    scene.start.particles.push_back(sphere(x, v, some(2.0)));
+  }
+  return scene;
+}
+
+double square(Vec v)
+{
+  return dot(v, v);
+}
+
+using State = std::vector<Particle>;
+
+State result(const Engine::Kernels &law, const Scene &scene, int steps)
+{
+  return Engine::Motion(law, scene.start, scene.time, steps).result();
+}
+
+double squared_error(const State &a, const State &b)
+{
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.size(); n++)
+    sum += square(a[n].x - b[n].x) + square(a[n].v - b[n].v) +
+           square(a[n].radius * (a[n].w - b[n].w));
+  return sum / static_cast<double>(a.size());
+}
+
+/// Over nearby numbers of steps: where in a step a contact begins must not matter.
+double error(const Engine::Kernels &law, const Scene &scene, int steps, const State &exact)
+{
+  constexpr int around = 4;
+  double sum = 0.0;
+  for (int k = -around; k <= around; k++)
+    sum += squared_error(result(law, scene, steps + k * steps / 90), exact);
+  return std::sqrt(sum / (2.0 * around + 1.0));
+}
+
+double order(const Engine::Kernels &law, const Scene &scene)
+{
+  const int fewest = scene.fewest, most = 8 * fewest;
+  const State exact = result(law, scene, 128 * fewest);
+  const double coarse = error(law, scene, fewest, exact), fine = error(law, scene, most, exact);
+  return std::log(coarse / fine) / std::log(8.0);
+}
+
+const char *const normal_laws[] = {
+    "hooke 2e4 0",
+    "hertz 1.75e5 0",
+    "hertz/material 1.5e5 1 0.3",
+    "hooke 2e4 80 limit_damping",
+    "hertz 1.75e5 400 limit_damping",
+    "hertz/material 1.5e5 0.6 0.3 limit_damping",
+    "hooke 2e4 20 damping tsuji limit_damping",
+    "hertz 1.75e5 400 damping mass_velocity limit_damping",
+    "hertz 1.75e5 20 damping velocity limit_damping",
+    "hertz/material 1.5e5 0.6 0.3 damping coeff_restitution limit_damping",
+};
+const char *const frictions[] = {
+    "",
+    "tangential multistep NULL NULL 0.3 slider midpoint",
+    "tangential multistep NULL NULL 2 slider midpoint",
+};
+
+/// The words of friction stand before limit_damping.
+std::string words_of(std::string normal, const std::string &more)
+{
+  const std::string limit = "limit_damping";
+  const std::size_t at = normal.find(limit);
+  if (at == std::string::npos) return normal + " " + more;
+  return normal.substr(0, at) + more + " " + limit;
+}
+
+void expect_second_order(const std::string &words, const Scene &scene)
+{
+  const std::string reason = Engine::reason_against(words);
+  ASSERT_EQ(reason, "") << words;
+  const double found = order(Engine::Kernels(words), scene);
+  std::printf("%-12s %5.2f  %s\n", scene.name, found, words.c_str());
+  EXPECT_GT(found, 1.8) << scene.name << ": " << words;
+}
+
+}    // namespace
+
+TEST(OrderOfLaws, IsTwo)
+{
+  for (const char *normal : normal_laws)
+    for (const char *friction : frictions)
+      for (const Scene &scene : {head_on(), oblique(), on_plane(), stack(), cluster()})
+        expect_second_order(words_of(normal, friction), scene);
+}
+
+TEST(OrderOfLaws, IsTwoWithAdhesion)
+{
+  for (const char *normal : normal_laws)
+    for (const char *adhesion : {"adhesion constant 3", "adhesion dmt 3", "adhesion perko 3"})
+      for (const char *friction : {"", " tangential multistep NULL NULL 0.3 slider midpoint"})
+        for (const Scene &scene : {head_on(), oblique(), on_plane(), cluster()})
+          expect_second_order(words_of(normal, std::string(adhesion) + friction), scene);
+}
