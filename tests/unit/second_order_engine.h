@@ -168,7 +168,8 @@ class Motion {
 
   void flush(bool advance)
   {
-    const int end = (static_cast<int>(used.size()) + Talus::lanes - 1) / Talus::lanes * Talus::lanes;
+    const int end =
+        (static_cast<int>(used.size()) + Talus::lanes - 1) / Talus::lanes * Talus::lanes;
     (advance ? kernels.advancing : kernels.reading)(batch, 0, end, &kernels.row, dt);
     for (std::size_t k = 0; k < used.size(); k++) {
       const Lane &its = used[k];

@@ -297,5 +297,12 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
   expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
   expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "flores");
-  expect_cure("hertz 2e4 0 heat radius 1", "heat");
+  EXPECT_EQ(reason("hertz 2e4 0 heat radius 1"), "");
+  const std::string friction = " tangential multistep NULL ";
+  const std::string late = " 0.3 slider midpoint limit_damping";
+  expect_cure("hertz 2e4 1 damping mass_velocity" + friction + "NULL" + late,
+              "damping viscoelastic");
+  expect_cure("hertz 2e4 1 damping velocity" + friction + "NULL" + late, "damping viscoelastic");
+  EXPECT_EQ(reason("hertz 2e4 1 damping velocity" + friction + "0" + late), "");
+  EXPECT_EQ(reason("hooke 2e4 1 damping velocity" + friction + "NULL" + late), "");
 }
