@@ -117,7 +117,7 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (particles.keep_changes()) __builtin_prefetch(&particles.change[s]);
+    if (particles.keeps_changes()) __builtin_prefetch(&particles.change[s]);
     // nothing is added to copies
     if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
@@ -130,7 +130,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
-  if (step.particles.keep_changes())
+  if (step.particles.keeps_changes())
     gather<friction, history_kept, true>(step.particles, end);
   else
     gather<friction, history_kept, false>(step.particles, end);
@@ -407,7 +407,7 @@ void ContactChunk::add_work_left(const WorkAccount &to) const
 {
   for (const WorkLeft &left : work_left)
     for (double **rows : to.by_particle)
-      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][n] += left.half[n];
+      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][3 + n] += left.half[n];
 }
 
 double ContactChunk::memory_usage() const

@@ -215,8 +215,7 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
   if (system->residence() == Talus::Residence::RECORDS)
     system->advance(step);
   else
-    kick_spheres(lmp, igroup, step, frozenbits, true,
-                 its_order == 2 ? system->velocity_changes() : nullptr);
+    kick_spheres(lmp, igroup, step, frozenbits, true, system->velocity_changes());
   if (rotates) rotate(dt);
 }
 
@@ -225,7 +224,8 @@ Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
   Talus::RecordStep step{dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
-  step.extrapolation = time_behind / kick;    // time_behind is that after the step
+  // time_behind is that after the step; a plain start is one that is half a step off
+  step.extrapolation = half_start ? time_behind / kick : 0.5;
   return step;
 }
 

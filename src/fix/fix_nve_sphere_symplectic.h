@@ -66,6 +66,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool integrates() const override { return true; }
   int order() const override { return its_order; }
   double lag() const override { return time_behind; }
+  bool keeps_changes() const override { return true; }
 
   void write_restart(FILE *) override;
   void restart(char *) override;

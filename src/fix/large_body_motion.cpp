@@ -252,6 +252,8 @@ void LargeBodyMotion::evaluate_region(double dt)
   if (dt > 0.0) {
     state.velocity = 1.0 / dt * (state.position - now.state.position);
     state.omega = (turn.angle - region_angle) / dt * axis;
+    now.velocity_change = 0.5 * (state.velocity - now.state.velocity);
+    now.omega_change = 0.5 * (state.omega - now.state.omega);
   }
   region_angle = turn.angle;
   now.set(state);
@@ -304,6 +306,11 @@ void LargeBodyMotion::advance(const BodyLoad &load)
     const double *g = gravity.acceleration();
     rigid.advance(state, unit / rigid.mass * f + unit * Vector3<double>{g[0], g[1], g[2]}, unit * t,
                   dt);
+  }
+  if (kind != Kind::EXTERNAL) {    // whose velocities belong to the time of its position
+    now.velocity_change = 0.5 * (state.velocity - now.state.velocity);
+    now.omega_change = kind == Kind::FREE ? 0.5 * rigid.change_by_torque(now.state, state)
+                                          : 0.5 * (state.omega - now.state.omega);
   }
   now.set(state);
 }

@@ -10,6 +10,7 @@
 #include "laws/contact_batch.h"
 #include "laws/contact_kernel.h"
 
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -34,6 +35,7 @@ struct EnergyByCause {
   {
     return {share * e.normal, share * e.tangential, share * e.resistance, share * e.tearing};
   }
+  friend EnergyByCause operator+(EnergyByCause a, const EnergyByCause &b) { return a += b; }
   friend EnergyByCause operator-(const EnergyByCause &a, const EnergyByCause &b)
   {
     return {a.normal - b.normal, a.tangential - b.tangential, a.resistance - b.resistance,
@@ -82,20 +84,29 @@ double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &coeff
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficients, double overlap,
                      double mass_eff, double radius_eff);
 
-/// Where a step puts ContactBatch::work. Sums over contacts, and for each list one row of three by
+/// Where a step puts ContactBatch::work. Sums over contacts, and for each list one row of six by
 /// host's index: half of a contact between two particles belongs to each of them, that with a large
-/// body to the particle.
+/// body to the particle. The first three of a row are what the steps before have taken, the others
+/// what this step takes: velocities have not been changed by its forces yet.
 struct WorkAccount {
-  EnergyByCause sum;    ///< of this rank: half of contacts that others have as well
+  static constexpr int row_size = 6;
+
+  EnergyByCause sum;    ///< of this step and rank: half of contacts that others have as well
   std::vector<double **> by_particle;    ///< rows may be added to by several threads, each its own
 };
+
+/// The next step begins for a particle.
+inline void settle_work(double *row)
+{
+  for (int n = 0; n < 3; n++) row[n] += std::exchange(row[3 + n], 0.0);
+}
 
 /// Adds `share` of the work of one lane to a particle.
 inline void add_work(const WorkAccount &to, int atom, const ContactBatch &batch, int lane,
                      double share)
 {
   for (double **rows : to.by_particle)
-    for (int n = 0; n < 3; n++) rows[atom][n] += share * batch.work[n][lane];
+    for (int n = 0; n < 3; n++) rows[atom][3 + n] += share * batch.work[n][lane];
 }
 
 }    // namespace Talus

@@ -13,6 +13,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -149,7 +150,6 @@ BodyStep LargeBody::step_of(bool advance)
   account.sum = EnergyByCause{};
   account.by_particle = system.work_lists();
   step.account = accounts() ? &account : nullptr;
-  if (step.account) system.require_known_work();
   step.exact = moves ? &exact : nullptr;
   step.touched = touched;
   return step;
@@ -180,7 +180,7 @@ void LargeBody::compute(bool advance, double *virial)
   joined = reduced = total_is_known = false;
   has_forces = true;
   if (advance && accounts()) {
-    dissipated += account.sum.total();
+    dissipated += std::exchange(last_dissipated, account.sum.total());
     system.add_work(account.sum);
   }
   if (already_frozen) clear_frozen();
@@ -219,7 +219,7 @@ BodyFindings LargeBody::find_worst()
 double LargeBody::energy()
 {
   is_asked = true;
-  double here = dissipated, all;
+  double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
     here += one.stored.normal - one.stored.tearing;
   });

@@ -59,6 +59,13 @@ ChangeRecord *GranularSystem::velocity_changes()
   return store ? store->all_changes() : nullptr;
 }
 
+bool GranularSystem::needs_changes() const
+{
+  return order() == 2 || accounts_for_work() ||
+         std::any_of(large_bodies.begin(), large_bodies.end(),
+                     [](const auto &body) { return body->accounts(); });
+}
+
 std::string GranularSystem::reason_against_second_order() const
 {
   if (!pair_style_is_alone() || style.name != "gran/penalty")
@@ -112,21 +119,9 @@ bool GranularSystem::accounts_for_work() const
                      [](const ContactObserver *one) { return one->asks_for_work(); });
 }
 
-void GranularSystem::require_known_work() const
+double GranularSystem::counted_of_last_step() const
 {
-  if (order() == 2)
-    error->all(
-        FLERR,
-        "Fix nve/sphere/symplectic order 2: energies of contacts are only known with order 1: "
-        "leave compute penalty/stats and the energy of fix large/body out, or use order 1");
-}
-
-std::vector<double **> GranularSystem::work_lists() const
-{
-  std::vector<double **> lists;
-  for (ContactObserver *one : observers)
-    if (double **rows = one->work_by_particle()) lists.push_back(rows);
-  return lists;
+  return modify->n_final_integrate > 0 ? 0.5 : 0.0;
 }
 
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)

@@ -28,6 +28,9 @@ class SystemFix {
   virtual bool integrates() const { return false; }
   /// That moves particles, as its command says: of the time step, 1 or 2.
   virtual int order() const { return 1; }
+  /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
+  /// GranularSystem::velocity_changes(). In the records they are kept for all.
+  virtual bool keeps_changes() const { return false; }
   /// Of order 2: the time by which velocities are behind positions.
   virtual double lag() const { return 0.0; }
 

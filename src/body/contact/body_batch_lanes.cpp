@@ -76,24 +76,37 @@ void BodyBatch::gather()
     store(&batch.inverse_radius[k], m.inverse_radius);
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) store_at(batch.relative_omega, k, m.omega);
-    if (law.tangential().second_order) gather_changes(index, k);
+    if (law.tangential().second_order || task->account) gather_changes(index, k);
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
   if (!task->laws.uniform()) gather_coefficients();
 }
 
-/* The body does not move. */
+/* Those of the particles less those of the body. Without a pair style of ours nobody keeps them. */
 
 void BodyBatch::gather_changes(const int *index, int k)
 {
-  const ChangeRecord *const change =
-      task->view.records ? task->view.records->change.data() : task->view.change;
+  const ParticleRecords *const records = task->view.records;
+  const ChangeRecord *const change = records ? records->change.data() : task->view.change;
+  if (!change) return;
   for (int half = 0; half < lanes; half += 4) {
     Float8 row[4];
     for (int q = 0; q < 4; q++) row[q] = load8(change[index[half + q]]);
     to_lanes(row, batch.velocity_change, batch.rotation_change, k + half);
   }
+  const Vec8 r = load8(&radius[k]);
+  if (const BodyFrame &frame = task->frame; frame.moves) {
+    const Vector3<Vec8> arm = vector_at(place, k) - in_all_lanes<Vec8>(frame.state.position),
+                        omega = in_all_lanes<Vec8>(frame.omega_change);
+    const Vector3<Vec8> v = vector_at(batch.velocity_change, k) -
+                            in_all_lanes<Vec8>(frame.velocity_change) - cross(omega, arm);
+    store_at(batch.velocity_change, k, frame.to_body(v));
+    store_at(batch.rotation_change, k,
+             frame.to_body(vector_at(batch.rotation_change, k) - r * omega));
+  }
+  if (law.resists())
+    store_at(batch.omega_change, k, splat<Vec8>(1.0) / r * vector_at(batch.rotation_change, k));
 }
 
 BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const

@@ -35,6 +35,9 @@ struct BodyFrame {
   bool turned = false;                                       ///< the rotation is not 1
   Vector3<double> origin{0.0, 0.0, 0.0};    ///< the reference point in the frame of the body
   double inverse_mass = 0.0;                ///< 0: infinitely heavy
+  /// What velocity and omega of the state lack of those at the time of the position, as
+  /// ParticleRecords::change of particles; axes of space.
+  Vector3<double> velocity_change{0.0, 0.0, 0.0}, omega_change{0.0, 0.0, 0.0};
   /// The surface runs past the body that stays, like a belt: frame of the body; at each contact
   /// only the part that is tangential there counts. `runs` false: it does not.
   bool runs = false;

@@ -27,6 +27,11 @@ class RigidBody {
   void advance(BodyState &state, const Vector3<double> &acceleration, const Vector3<double> &torque,
                double dt) const;
 
+  /// Of omega from one step to the next, without what is due to the turn of the axes of inertia.
+  Vector3<double> change_by_torque(const BodyState &before, const BodyState &now) const
+  {
+    return omega_of(angular_momentum(now) - angular_momentum(before), now.orientation);
+  }
   /// Angular momentum about the center of mass, without the parts that locks take up.
   Vector3<double> angular_momentum(const BodyState &state) const;
   /// mass v^2/2 + omega . L/2.
