@@ -62,6 +62,9 @@ void ComputeDissipationGranAtom::setup()
   if (started) return;
   started = true;
   add_springs(store->astore, 1.0);
+  const double counted = system->counted_of_last_step();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int n = 0; n < size; n++) store->astore[i][n] -= counted * store->astore[i][size + n];
 }
 
 void ComputeDissipationGranAtom::add_springs(double **to, double sign) const

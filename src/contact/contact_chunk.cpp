@@ -150,7 +150,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
-  if (step.account && step.advance) account_block(step, block, count);
+  if (step.account) account_block(step, block, count);
 }
 
 void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
@@ -211,8 +211,12 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   batch.lag = step.lag;
   for (const LawRange &range : ranges) {
-    const ContactKernel &kernel = step.account && step.advance
-                                      ? laws.accounting_kernel(range.law)
+    const double time_at_setup = step.account ? step.account->time_at_setup : -1.0;
+    if (time_at_setup >= 0.0)
+      laws.accounting_kernel(range.law, false)(batch, range.begin, range.end, laws.coefficients(),
+                                               time_at_setup);
+    const ContactKernel &kernel = step.account && time_at_setup < 0.0
+                                      ? laws.accounting_kernel(range.law, true)
                                       : laws.kernel(range.law, step.advance);
     kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
     // not written by the kernels of laws that have none

@@ -152,7 +152,7 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
 {
   in_records = !step.deliver;
   for (const ContactChunk &chunk : chunks) {
-    if (!step.account || !step.advance) break;
+    if (!step.account) break;
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }

@@ -66,6 +66,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool integrates() const override { return true; }
   int order() const override { return its_order; }
   double lag() const override { return time_behind; }
+  double next_kick_in_steps() const override;
   bool keeps_changes() const override { return true; }
 
   void write_restart(FILE *) override;
@@ -86,6 +87,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
 
   void check_fix(Fix *);
   void check_order();
+  void announce_order();
   bigint count_members(const std::function<bool(int)> &);
 
   int nmoving() const;

@@ -91,14 +91,20 @@ double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficie
 struct WorkAccount {
   static constexpr int row_size = 6;
 
+  /// While a run is set up, of the kick that the forces will give in its first step; the work is
+  /// then found apart from the forces. Else -1, and that kick lasts as long as the step.
+  double time_at_setup = -1.0;
   EnergyByCause sum;    ///< of this step and rank: half of contacts that others have as well
   std::vector<double **> by_particle;    ///< rows may be added to by several threads, each its own
 };
 
-/// The next step begins for a particle.
-inline void settle_work(double *row)
+/// The next step begins for a particle; or the last one is looked at again.
+inline void begin_work(double *row, bool again)
 {
-  for (int n = 0; n < 3; n++) row[n] += std::exchange(row[3 + n], 0.0);
+  for (int n = 0; n < 3; n++) {
+    const double last = std::exchange(row[3 + n], 0.0);
+    if (!again) row[n] += last;
+  }
 }
 
 /// Adds `share` of the work of one lane to a particle.

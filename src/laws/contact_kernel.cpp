@@ -130,15 +130,15 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   return kernel;
 }
 
-ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   ContactKernel kernel;
   kernel.uniform = uniform;
-  if (const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr) {
+  if (const StageFunction fused = uniform && advance ? fused_accounting_function(law) : nullptr) {
     kernel.add(fused, 0, places_one_behind_the_other(law));
     return kernel;
   }
-  kernel.add(staged_kernel(law, uniform, true));
+  kernel.add(staged_kernel(law, uniform, advance));
   kernel.add(work_finder(law));
   return kernel;
 }

@@ -182,6 +182,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.velocity_change = load_vector<Real>(b.velocity_change, k);
   s.rotation_change = load_vector<Real>(b.rotation_change, k);
   s.omega_change = load_vector<Real>(b.omega_change, k);
+  s.turn = load_vector<Real>(b.turn, k);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -203,6 +204,15 @@ TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
     visit(s.normal_force, b.between.normal_force);
     visit(s.critical_force, b.between.critical_force);
   }
+}
+
+/// What tangential laws of second order find anew.
+template <class Lanes, class Batch, class Visit>
+TALUS_INLINE void visit_normal_force(Lanes &s, Batch &b, Visit visit)
+{
+  visit(s.elastic, b.between.elastic);
+  visit(s.normal_force, b.between.normal_force);
+  visit(s.critical_force, b.between.critical_force);
 }
 
 template <class Lanes, class Batch, class Visit>
@@ -262,6 +272,8 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
     for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
     L::template compute<advance>(c, s, history, in.dt);
     store_found<L::stage>(b, k, s);
+    if constexpr (L::second_order)
+      visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
     if (!advance) continue;
     for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
   }

@@ -132,6 +132,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// "", or which contacts of the run are not of second order, and the cure, for people. In init()
   /// of a fix, after that of the pair style.
   std::string reason_against_second_order() const;
+  /// What is of first order nevertheless.
+  std::vector<std::string> notes_on_second_order() const;
   /// Where integrators keep the changes of velocities of particles in the arrays of the host,
   /// nullptr if nobody needs them; see ParticleRecords::change.
   ChangeRecord *velocity_changes();
@@ -211,6 +213,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Of what the last step has taken that part is in the velocities by now: half of it if an
   /// integrator has given the second half of the kick, else nothing.
   double counted_of_last_step() const;
+  /// See WorkAccount.
+  double work_time_at_setup() const;
   /// Of a large body in a step.
   void add_work(const EnergyByCause &its) { account.sum += its; }
   /// visit(contact) for contacts of the last step on this rank, of pairs and large bodies, those
@@ -273,7 +277,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::vector<LargeBody *> bodies_that_may_join() const;
   double moved_in_arrays() const;
   void find_changes(const ContactStep &step);
-  void settle_work();
+  void begin_account(bool again);
   int groups_with_changes() const;
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();

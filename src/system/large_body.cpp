@@ -4,6 +4,8 @@
 
 #include "system/granular_system.h"
 
+#include "body/shape/plane.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "fix.h"
@@ -60,7 +62,8 @@ void LargeBody::keep_history()
   };
   with_history = any(&ContactLaw::has_history);
   if (with_history)
-    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact));
+    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact),
+                          !dynamic_cast<const Plane *>(its_shape.get()));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -74,6 +77,7 @@ void LargeBody::init()
   masses.find_fixes();
   find_frozen();
   set_laws();
+  if (system.order() == 1) contacts.history.forget_normals();
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its
@@ -148,6 +152,7 @@ BodyStep LargeBody::step_of(bool advance)
   step.advance = advance;
   step.threads = comm->nthreads;
   account.sum = EnergyByCause{};
+  account.time_at_setup = system.work_time_at_setup();
   account.by_particle = system.work_lists();
   step.account = accounts() ? &account : nullptr;
   step.exact = moves ? &exact : nullptr;
@@ -179,8 +184,9 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
-  if (advance && accounts()) {
-    dissipated += std::exchange(last_dissipated, account.sum.total());
+  if (accounts()) {
+    const double before = std::exchange(last_dissipated, account.sum.total());
+    if (advance) dissipated += before;
     system.add_work(account.sum);
   }
   if (already_frozen) clear_frozen();

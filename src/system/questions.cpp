@@ -83,6 +83,16 @@ std::string GranularSystem::reason_against_second_order() const
   return "";
 }
 
+std::vector<std::string> GranularSystem::notes_on_second_order() const
+{
+  std::vector<std::string> notes;
+  for (LargeBody *body : bodies()) {
+    const std::string its = body->note_on_second_order();
+    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+  }
+  return notes;
+}
+
 HistoryStore &GranularSystem::histories()
 {
   return store->histories();
@@ -117,6 +127,16 @@ bool GranularSystem::accounts_for_work() const
 {
   return std::any_of(observers.begin(), observers.end(),
                      [](const ContactObserver *one) { return one->asks_for_work(); });
+}
+
+double GranularSystem::work_time_at_setup() const
+{
+  if (update->setupflag == 0) return -1.0;
+  double share = 1.0;
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *ours = dynamic_cast<const SystemFix *>(fix); ours && ours->integrates())
+      share = std::min(share, ours->next_kick_in_steps());
+  return share * update->dt;
 }
 
 double GranularSystem::counted_of_last_step() const

@@ -24,7 +24,6 @@
 #include "update.h"
 
 #include <cmath>
-#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -109,7 +108,8 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
                    !setting_up || style.limits_at_setup, report,
                    accounts_for_work() ? &account : nullptr};
   account.by_particle.clear();
-  if (step.advance) settle_work();
+  account.time_at_setup = work_time_at_setup();
+  begin_account(setting_up);
   kept.reset();
   step.lag = lag();
   step.read = residence() == Residence::HOST;
@@ -139,16 +139,17 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   monitors.look(RunMonitor::Moment::SETUP);
 }
 
-/* The step before has been taken. */
+/* The step before has been taken; or its forces are found again for the next run. */
 
-void GranularSystem::settle_work()
+void GranularSystem::begin_account(bool again)
 {
-  settled += std::exchange(account.sum, EnergyByCause{});
+  if (!again) settled += account.sum;
+  account.sum = EnergyByCause{};
   for (ContactObserver *one : observers)
     if (double **rows = one->work_by_particle()) account.by_particle.push_back(rows);
   for (double **rows : account.by_particle)
-    in_ranges(atom->nlocal, comm->nthreads, [rows](int, int begin, int end) {
-      for (int i = begin; i < end; i++) Talus::settle_work(rows[i]);
+    in_ranges(atom->nlocal, comm->nthreads, [rows, again](int, int begin, int end) {
+      for (int i = begin; i < end; i++) begin_work(rows[i], again);
     });
 }
 
