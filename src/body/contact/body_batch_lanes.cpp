@@ -161,6 +161,20 @@ Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &veloci
   return nearest;
 }
 
+void BodyBatch::see_changes_from_body(int k)
+{
+  const BodyFrame &frame = task->frame;
+  const Vector3<Vec8> arm = vector_at(place, k) - in_all_lanes<Vec8>(frame.state.position),
+                      omega = in_all_lanes<Vec8>(frame.omega_change);
+  const Vector3<Vec8> velocity = vector_at(batch.velocity_change, k) -
+                                 in_all_lanes<Vec8>(frame.velocity_change) - cross(omega, arm);
+  const Vector3<Vec8> rotation = vector_at(batch.rotation_change, k) - load8(&radius[k]) * omega;
+  store_at(batch.velocity_change, k, frame.to_body(velocity));
+  store_at(batch.rotation_change, k, frame.to_body(rotation));
+}
+
+/* Without a pair style of ours nobody keeps them. */
+
 void BodyBatch::gather_changes(const int *index, int k)
 {
   const ParticleRecords *const records = task->view.records;
