@@ -115,7 +115,6 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    if (changes && its == RESTS) store(change[s], Float8{});
     const Moved now = its == MOVES  ? kick<rotation, changes>(first, s)
                       : its > MOVES ? kick<rotation, changes>(others[its - MOVES - 1], s)
                                     : Moved{load4(position[s]), load4(motion[its_stride * s])};
