@@ -112,8 +112,13 @@ template <class Real> struct EndOfContact {
   Vector3<Real> tangential;
   Real history[4];
 
+  /// A contact without overlap stores nothing, and its force dissipates nothing.
   void replace(ContactLanes<Real> &s, Vector3<Real> &t, Real *h) const
   {
+    const Real zero = splat<Real>(0.0);
+    s.overlap = select(parted, zero, s.overlap);
+    s.elastic = select(parted, normal_force, s.elastic);
+    s.kt = select(parted, zero, s.kt);
     s.normal_force = select(parted, normal_force, s.normal_force);
     s.critical_force = select(parted, magnitude(normal_force), s.critical_force);
     s.adhesive_share = select(parted, adhesive_share, s.adhesive_share);

@@ -188,9 +188,11 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       begins = edge.is;
       start = errors_of<Of::BEGIN>(c, s.overlap, edge);
       theta = edge.theta;
-      force = pure - (start.elastic * s.elastic - start.damping * s.gn * s.normal_velocity);
       s.adhesive_share = select(begins, splat<Real>(0.5) + theta, one);    // p = 0
-      force = force + second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
+      const Real early =
+          start.elastic * s.elastic - second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
+      force = pure - (early - start.damping * s.gn * s.normal_velocity);
+      if constexpr (advance) s.elastic = s.elastic - early;    // what does not store is work
     }
     s.normal_force = force;
     s.critical_force = magnitude(force);
