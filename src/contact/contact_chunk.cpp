@@ -3,6 +3,7 @@
 #include "contact/contact_chunk.h"
 
 #include "contact/narrow_phase.h"
+#include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
 #include <iterator>
@@ -72,7 +73,8 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::int64_t done = 0;
   touching = 0;
   const LastsBeyondContact lasts = [&](std::int64_t pair) {
-    return lasts_beyond_contact(step.scene, position, pair);
+    if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair);
+    return has_just_ended(history.record(pair).c[3], step.advance);
   };
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
@@ -117,7 +119,7 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (particles.keep_changes()) __builtin_prefetch(&particles.change[s]);
+    if (particles.keeps_changes()) __builtin_prefetch(&particles.change[s]);
     // nothing is added to copies
     if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
@@ -130,7 +132,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
-  if (step.particles.keep_changes())
+  if (step.particles.keeps_changes())
     gather<friction, history_kept, true>(step.particles, end);
   else
     gather<friction, history_kept, false>(step.particles, end);
@@ -150,7 +152,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
-  if (step.account && step.advance) account_block(step, block, count);
+  if (step.account) account_block(step, block, count);
 }
 
 void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
@@ -211,8 +213,12 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   batch.lag = step.lag;
   for (const LawRange &range : ranges) {
-    const ContactKernel &kernel = step.account && step.advance
-                                      ? laws.accounting_kernel(range.law)
+    const double time_at_setup = step.account ? step.account->time_at_setup : -1.0;
+    if (time_at_setup >= 0.0)
+      laws.accounting_kernel(range.law, false)(batch, range.begin, range.end, laws.coefficients(),
+                                               time_at_setup);
+    const ContactKernel &kernel = step.account && time_at_setup < 0.0
+                                      ? laws.accounting_kernel(range.law, true)
                                       : laws.kernel(range.law, step.advance);
     kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
     // not written by the kernels of laws that have none
@@ -407,7 +413,7 @@ void ContactChunk::add_work_left(const WorkAccount &to) const
 {
   for (const WorkLeft &left : work_left)
     for (double **rows : to.by_particle)
-      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][n] += left.half[n];
+      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][3 + n] += left.half[n];
 }
 
 double ContactChunk::memory_usage() const

@@ -15,8 +15,8 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
   scene.with_heat = table.conducts_heat();
-  scene.beyond_contact = table.lasts_beyond_contact();
   scene.second_order = table.second_order();
+  scene.beyond_contact = table.lasts_beyond_contact() || scene.second_order;
 }
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)
@@ -87,7 +87,7 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,
-                   shared_owned.size() + shared_ghosts.size(), scene.second_order);
+                   shared_owned.size() + shared_ghosts.size(), with_changes);
   deferred.make_room(particles);
 }
 
@@ -152,7 +152,7 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
 {
   in_records = !step.deliver;
   for (const ContactChunk &chunk : chunks) {
-    if (!step.account || !step.advance) break;
+    if (!step.account) break;
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }

@@ -26,13 +26,15 @@ template <class Real> struct ContactState {
   // where they do not: overlap/(r_1 + r_2), and overlap/2 (r_2 - r_1)/(r_1 + r_2).
   Real arm_loss{}, arm_difference{};
   Real temperature_difference{};    ///< T_2 - T_1; only for laws that conduct heat
-  // Only for laws of second order: time by which velocities are behind positions, and the change of
-  // velocity and surface_rotation in it, by the accelerations of the last step.
+  // Only for laws of second order, and of the changes for the work: time by which velocities are
+  // behind positions, and the change of velocity, surface_rotation, and of laws with resistance of
+  // relative_omega, in it, by the accelerations of the last step.
   Real lag{};
-  Vector3<Real> velocity_change{}, rotation_change{};
+  Vector3<Real> velocity_change{}, rotation_change{}, omega_change{};
   /// The same laws: what the normal has turned in the step that led here, of contacts with a large
   /// body, whose inverse_distance is 0; 0 in the first step.
   Vector3<Real> turn{};
+  Real parted{};    ///< 1 if the contact has ended in this step, see tangential/end_of_contact.h
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
@@ -57,6 +59,10 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Real gn{}, gt{};          ///< force/velocity
   Real normal_force{};      ///< repulsive if positive; without cohesion
   Real critical_force{};    ///< friction is limited to mu times this, see finish_normal_force()
+
+  /// What of an adhesion that is constant acts in this step: 1, but where a contact of second order
+  /// begins or ends, see tangential/second_order.h.
+  Real adhesive_share{};
 
   Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
 

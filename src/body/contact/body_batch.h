@@ -97,6 +97,7 @@ class BodyBatch {
   void load_spheres(const int *index, int low, int high);
   const EightSpheres &spheres_in_body();
   unsigned touching_eight(std::size_t first, int high);
+  unsigned just_ended(std::size_t first, const EightSpheres &its, unsigned bits);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
   void look_at_parts(std::size_t candidate, std::size_t last);
@@ -117,6 +118,7 @@ class BodyBatch {
   Motion motion_in_records(const int *index, int k) const;
   Motion motion_in_arrays(const int *index, int k) const;
   void gather_changes(const int *index, int k);
+  void see_changes_from_body(int k);
   void see_from_body(Motion &m, int k);
   void run_past(Motion &m, int k);
   Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;
