@@ -278,7 +278,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::size_t bodies_that_join();
   std::vector<LargeBody *> bodies_that_may_join() const;
   double moved_in_arrays() const;
-  void find_changes(const ContactStep &step);
+  void find_changes(ContactStep &step);
   void begin_account(bool again);
   int groups_with_changes() const;
   float weight_of_changes(bool setting_up) const;

@@ -121,7 +121,6 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
   find_changes(step);
-  step.weight_of_changes = weight_of_changes(setting_up);
   if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
@@ -160,7 +159,7 @@ void GranularSystem::begin_account(bool again)
 
 /* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
 
-void GranularSystem::find_changes(const ContactStep &step)
+void GranularSystem::find_changes(ContactStep &step)
 {
   if (const bool needed = needs_changes(); needed != pipeline->keeps_changes()) {
     pipeline->keep_changes(needed);
@@ -169,7 +168,8 @@ void GranularSystem::find_changes(const ContactStep &step)
   if (!pipeline->keeps_changes()) return;
   const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
   if (moved_in_arrays && !update->setupflag) store->follow_velocities(groups_with_changes());
-  if (step.read_ghosts) comm->forward_comm(store);
+  step.weight_of_changes = weight_of_changes(update->setupflag != 0);
+  if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(store);
 }
 
 /* The same steps on all ranks, and after a restart. */
