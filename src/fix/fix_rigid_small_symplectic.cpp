@@ -166,7 +166,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
       place_spheres(clump, s, b, true, kick);
     });
   }
-  if (in_records_now()) system->advance({dt, time, {0.0, 0.0, 0.0}, 0.4});
+  if (in_records_now()) system->advance(record_step(time));
 }
 
 /* The step is complete; but others may look at the clumps in the bodies of the stock class. */
@@ -177,6 +177,11 @@ void FixRigidSmallSymplectic::final_integrate()
 }
 
 /* ---------------------------------------------------------------------- */
+
+double FixRigidSmallSymplectic::next_kick_in_steps() const
+{
+  return start.coming_kick(update->dt) / update->dt;
+}
 
 void FixRigidSmallSymplectic::write_restart(FILE *fp)
 {
