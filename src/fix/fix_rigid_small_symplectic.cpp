@@ -12,10 +12,11 @@
 #include "update.h"
 
 #include <algorithm>
+#include <type_traits>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using Talus::ClumpState;
+using ClumpState = Talus::ClumpState<double>;
 using Talus::Words;
 
 namespace Talus {
@@ -89,7 +90,7 @@ FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, Settings settings)
 
 int FixRigidSmallSymplectic::setmask()
 {
-  return INITIAL_INTEGRATE | PRE_NEIGHBOR;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | PRE_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -148,16 +149,31 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
   const double dt = update->dt, time = start.next_kick(dt) * force_unit();
   const double *g = gravity.acceleration();
   const Kick kick{time, {time * g[0], time * g[1], time * g[2]}, 1.0};
-  for_each_clump([&](int clump, Body &b) {
-    ClumpState s = state_of(b);
-    const Loads sum = loads_on(clump, s);
+  const auto motion = [&](auto &s, const auto &sum) {
+    using Real = std::decay_t<decltype(s.mass)>;
     s.kick(time, sum.force, sum.torque);
-    s.velocity = s.velocity + Talus::Vector3<double>{kick.fall[0], kick.fall[1], kick.fall[2]};
+    s.velocity = s.velocity + Talus::in_all_lanes<Real>({kick.fall[0], kick.fall[1], kick.fall[2]});
     s.drift_exponential(dt);
-    put_state(s, b);
-    place_spheres(clump, s, b, true, kick);
-  });
+  };
+  if (moves_in_lanes()) {
+    move_in_records(motion);
+  } else {
+    take_from_lanes();
+    for_each_clump([&](int clump, Body &b) {
+      ClumpState s = state_of(b);
+      motion(s, loads_on(clump, s));
+      put_state(s, b);
+      place_spheres(clump, s, b, true, kick);
+    });
+  }
   if (in_records_now()) system->advance(record_step(time));
+}
+
+/* The step is complete; but others may look at the clumps in the bodies of the stock class. */
+
+void FixRigidSmallSymplectic::final_integrate()
+{
+  if (system->residence() == Talus::Residence::HOST) take_from_lanes();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -49,7 +49,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   int setmask() override;
   void init() override;
   void initial_integrate(int) override;
-  void final_integrate() override {}
+  void final_integrate() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   double next_kick_in_steps() const override;

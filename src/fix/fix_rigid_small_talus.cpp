@@ -15,7 +15,7 @@
 #include <algorithm>
 
 using namespace LAMMPS_NS;
-using Talus::ClumpState;
+using ClumpState = Talus::ClumpState<double>;
 using Talus::Residence;
 using Vector = Talus::Vector3<double>;
 
@@ -117,13 +117,14 @@ ClumpState FixRigidSmallTalus::state_of(const Body &b)
 {
   ClumpState s;
   s.mass = b.mass;
-  s.inertia = vector_of(b.inertia);
+  const auto inverse = [](double moment) { return moment == 0.0 ? 0.0 : 1.0 / moment; };
+  s.inverse_inertia = {inverse(b.inertia[0]), inverse(b.inertia[1]), inverse(b.inertia[2])};
   s.position = vector_of(b.xcm);
   s.velocity = vector_of(b.vcm);
   s.momentum = vector_of(b.angmom);
   s.omega = vector_of(b.omega);
   s.turn = {b.quat[0], b.quat[1], b.quat[2], b.quat[3]};
-  s.axes = {vector_of(b.ex_space), vector_of(b.ey_space), vector_of(b.ez_space)};
+  s.axes = s.turn.axes();
   return s;
 }
 
@@ -175,12 +176,38 @@ FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpSta
   return sum;
 }
 
-/* With `gravity ID` the stock style adds weights to the sums over spheres. */
-
-FixRigidSmallTalus::Loads FixRigidSmallTalus::with_weight(const Loads &loads, double mass) const
+Vector FixRigidSmallTalus::shift_of(const ClumpSphere &s) const
 {
-  if (!id_gravity) return loads;
-  return {loads.force + mass * vector_of(gvec), loads.torque};
+  if (!s.wrapped) return {0.0, 0.0, 0.0};
+  Vector shift{s.periods[0] * domain->xprd, s.periods[1] * domain->yprd,
+               s.periods[2] * domain->zprd};
+  if (domain->triclinic) {
+    shift.x += s.periods[1] * domain->xy + s.periods[2] * domain->xz;
+    shift.y += s.periods[2] * domain->yz;
+  }
+  return shift;
+}
+
+/* ----------------------------------------------------------------------
+   in the records
+------------------------------------------------------------------------- */
+
+bool FixRigidSmallTalus::moves_in_lanes() const
+{
+  return in_records && !evflag && domain->dimension == 3 && !records->keeps_changes();
+}
+
+void FixRigidSmallTalus::fill_lanes()
+{
+  lanes.make(table);
+  for (int c = 0; c < table.size(); c++) lanes.set(c, state_of(body[table.body[c]]));
+}
+
+void FixRigidSmallTalus::take_from_lanes()
+{
+  if (!lanes.are_current()) return;
+  for (int c = 0; c < table.size(); c++) put_state(lanes.get(c), body[table.body[c]]);
+  lanes.forget();
 }
 
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond
@@ -202,15 +229,7 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     const Talus::Vec4 before[2] = {keeps_change ? load4(records->velocity(s->slot)) : Talus::Vec4{},
                                    keeps_change ? load4(records->omega(s->slot)) : Talus::Vec4{}};
     const Vector arm = state.axes.to_space(s->place);
-    Vector shift{0.0, 0.0, 0.0};
-    if (s->wrapped) {
-      shift = {s->periods[0] * domain->xprd, s->periods[1] * domain->yprd,
-               s->periods[2] * domain->zprd};
-      if (domain->triclinic) {
-        shift.x += s->periods[1] * domain->xy + s->periods[2] * domain->xz;
-        shift.y += s->periods[2] * domain->yz;
-      }
-    }
+    const Vector shift = shift_of(*s);
     if (moves) put(arm + (state.position - shift), x);
     put(state.velocity + cross(state.omega, arm), v);
     if (flat) v[2] = 0.0;
@@ -260,7 +279,16 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
   if (!reason.empty()) return FixRigidSmall::initial_integrate(vflag);
   v_init(vflag);
   look_at_storage();
-  begin_step(in_records);
+  if (in_records) share_loads();
+  if (moves_in_lanes())
+    move_in_records([this](auto &s, auto loads) {
+      if (id_gravity) loads.force = loads.force + weight(s.mass);
+      s.kick(dtf, loads.force, loads.torque);
+      s.kick(dtf, loads.force, loads.torque);
+      s.drift_extrapolated(dtv);
+    });
+  else
+    begin_step(in_records);
   if (in_records) system->advance(record_step(dtf));
 }
 
@@ -275,13 +303,14 @@ Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
 
 void FixRigidSmallTalus::begin_step(bool completes)
 {
-  if (completes) share_loads();
+  take_from_lanes();
   const Kick no_share{dtf, {0.0, 0.0, 0.0}, 0.0}, kick{dtf, {0.0, 0.0, 0.0}, 0.5};
   for_each_clump([&](int clump, Body &b) {
     ClumpState s = state_of(b);
     Loads loads{vector_of(b.fcm), vector_of(b.torque)};
     if (completes) {
-      loads = with_weight(loads_on(clump, s), s.mass);
+      loads = loads_on(clump, s);
+      if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);
       s.omega = s.omega_now();
       if (evflag) place_spheres(clump, s, b, false, no_share);
@@ -300,10 +329,12 @@ void FixRigidSmallTalus::final_integrate()
   if (!reason.empty()) return FixRigidSmall::final_integrate();
   if (system->residence() == Residence::RECORDS) return;
   look_at_storage();
+  take_from_lanes();
   share_loads();
   for_each_clump([&](int clump, Body &b) {
     ClumpState s = state_of(b);
-    const Loads loads = with_weight(loads_on(clump, s), s.mass);
+    Loads loads = loads_on(clump, s);
+    if (id_gravity) loads.force = loads.force + weight(s.mass);
     put(loads.force, b.fcm);
     put(loads.torque, b.torque);
     s.kick(dtf, loads.force, loads.torque);

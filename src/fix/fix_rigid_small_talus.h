@@ -33,6 +33,7 @@ FixStyle(rigid/small/talus,FixRigidSmallTalus);
 
 #include "base/in_parallel.h"
 #include "body/motion/clump_motion.h"
+#include "fix/clump_lanes.h"
 #include "fix/clump_table.h"
 #include "fix_rigid_small.h"
 #include "system/granular_system.h"
@@ -68,6 +69,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
   void complete_step() override;
+  void leave_records() override { take_from_lanes(); }
 
  protected:
   std::shared_ptr<Talus::GranularSystem> system;
@@ -91,6 +93,28 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   };
   // ranks tell each other the forces on spheres of clumps that they share; collective
   void share_loads();
+  // motion(state, loads) for all clumps of this rank at the same time, in the records, where its
+  // spheres then get their places: eight clumps at a time
+  template <class Motion> void move_in_records(Motion motion)
+  {
+    if (!lanes.are_current()) fill_lanes();
+    constexpr int width = Talus::lanes;
+    const int n = table.size();
+    Talus::in_ranges((n + width - 1) / width, threads(), [&](int, int begin, int end) {
+      for (int g = begin; g < end; g++)
+        lanes.move(
+            table, *records, width * g, std::min(n, width * (g + 1)), motion,
+            [this](const ClumpSphere &s) { return row_of(s); },
+            [this](const ClumpSphere &s) {
+              const Talus::Vector3<double> its = shift_of(s);
+              return Talus::Record{{its.x, its.y, its.z, 0.0}};
+            });
+    });
+  }
+  // motions in the records are possible and nobody asks for more than they give
+  bool moves_in_lanes() const;
+  // what clumps did in the records since the bodies of the stock class were up to date
+  void take_from_lanes();
   // work(clump, body) for all clumps of this rank at the same time, by one thread if virials are
   // tallied; body: its record
   template <class Work> void for_each_clump(Work work)
@@ -99,11 +123,11 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
       for (int c = begin; c < end; c++) work(c, body[table.body[c]]);
     });
   }
-  static Talus::ClumpState state_of(const Body &b);
-  static void put_state(const Talus::ClumpState &s, Body &b);
-  Loads loads_on(int clump, const Talus::ClumpState &state) const;
+  static Talus::ClumpState<double> state_of(const Body &b);
+  static void put_state(const Talus::ClumpState<double> &s, Body &b);
+  Loads loads_on(int clump, const Talus::ClumpState<double> &state) const;
   // the spheres that this rank owns get velocities, and places on request, from the clump's state
-  void place_spheres(int clump, const Talus::ClumpState &state, Body &b, bool moves,
+  void place_spheres(int clump, const Talus::ClumpState<double> &state, Body &b, bool moves,
                      const Kick &kick);
   // for GranularSystem::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
@@ -117,6 +141,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   Message message = Message::STOCK;
 
   ClumpTable table;
+  ClumpLanes lanes;
   bool shares_clumps = false;         // some rank owns a part of a clump
   std::vector<tagint> ghost_clump;    // of ghosts: the body's ID, 0 if in none
   std::vector<double> ghost_rows;     // of ghosts: rows of what was sent last
@@ -138,6 +163,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
 
   void make_table();
   void find_slots();
+  void fill_lanes();
+  Talus::Vector3<double> shift_of(const ClumpSphere &sphere) const;
   void restore_bodies();
   void find_bodies();
   void find_body(int clump);
@@ -145,7 +172,11 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool is_kept(int clump) const;
 
   void begin_step(bool completes);
-  Loads with_weight(const Loads &loads, double mass) const;
+  template <class Real> Talus::Vector3<Real> weight(Real mass) const
+  {
+    const Talus::Vector3<double> g{gvec[0], gvec[1], gvec[2]};
+    return mass * Talus::in_all_lanes<Real>(g);
+  }
 };
 
 }    // namespace LAMMPS_NS

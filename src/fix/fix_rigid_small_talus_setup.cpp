@@ -19,7 +19,7 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using Talus::ClumpState;
+using ClumpState = Talus::ClumpState<double>;
 using Vector = Talus::Vector3<double>;
 
 namespace {
@@ -46,7 +46,7 @@ Eigen::Matrix3d inertia_of(const SphereState &s, const Vector &arm)
 
 /* Ascending principal moments and the turn to their axes; in two dimensions the last is z. */
 
-void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state)
+void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state, double *moments)
 {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (flat) {
@@ -54,15 +54,18 @@ void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state)
     axes.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
         std::cos(angle);
     const Eigen::Matrix3d turned = axes.transpose() * inertia * axes;
-    state.inertia = {turned(0, 0), turned(1, 1), inertia(2, 2)};
+    moments[0] = turned(0, 0);
+    moments[1] = turned(1, 1);
+    moments[2] = inertia(2, 2);
   } else {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
     axes = solver.eigenvectors();
     axes.col(2) = axes.col(0).cross(axes.col(1));
-    state.inertia = Talus::from_eigen(solver.eigenvalues());
+    for (int d = 0; d < 3; d++) moments[d] = solver.eigenvalues()(d);
   }
   const Eigen::Quaterniond q(axes);
-  state.turn = Talus::Turn{q.w(), q.x(), q.y(), q.z()}.normalized();
+  state.turn = Talus::Turn<double>{q.w(), q.x(), q.y(), q.z()}.normalized();
+  state.inverse_inertia = {1.0 / moments[0], 1.0 / moments[1], 1.0 / moments[2]};
   state.axes = state.turn.axes();
 }
 
@@ -146,7 +149,7 @@ bool FixRigidSmallTalus::is_kept(int clump) const
       return false;
   }
   if (given_masses_stay()) return true;
-  const Eigen::Vector3d moments = Talus::to_eigen(state.inertia);
+  const Eigen::Vector3d moments(b.inertia[0], b.inertia[1], b.inertia[2]);
   inertia.diagonal() -= moments;
   return std::fabs(mass - state.mass) <= of_masses * mass &&
          inertia.cwiseAbs().maxCoeff() <= of_masses * moments.maxCoeff();
@@ -189,17 +192,15 @@ void FixRigidSmallTalus::find_body(int clump)
     state.momentum = state.momentum +
                      (s.mass * cross(arm, s.v) + (0.4 * s.mass * s.radius * s.radius) * s.omega);
   }
-  find_axes(inertia, domain->dimension == 2, state);
+  Body &b = body[table.body[clump]];
+  find_axes(inertia, domain->dimension == 2, state, b.inertia);
   state.omega = state.omega_now();
 
-  Body &b = body[table.body[clump]];
   put_state(state, b);
   b.mass = state.mass;
   b.natoms = static_cast<int>(spheres.size());
   b.image = (static_cast<imageint>(IMGMAX) << IMG2BITS) |
             (static_cast<imageint>(IMGMAX) << IMGBITS) | IMGMAX;
-  const double moments[3] = {state.inertia.x, state.inertia.y, state.inertia.z};
-  std::copy(moments, moments + 3, b.inertia);
   const Vector off = middle - state.position, off_in_body = state.axes.to_body(off);
   const double center[3] = {middle.x, middle.y, middle.z};
   const double in_body[3] = {off_in_body.x, off_in_body.y, off_in_body.z};

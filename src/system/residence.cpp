@@ -203,6 +203,7 @@ void GranularSystem::return_to_host(bool with_forces)
   const bool between_steps = with_forces && !pipeline->is_moving();
   const bool any = atom->nlocal > 0;
   pipeline->complete_move();
+  for (Fix *fix : integrators) dynamic_cast<SystemFix *>(fix)->leave_records();
   if (pipeline->keeps_changes()) pipeline->write_changes(store->all_changes());
   pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
                          any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,

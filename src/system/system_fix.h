@@ -29,6 +29,9 @@ class SystemFix {
   /// That moves particles: it has placed those of its group in the records before it calls
   /// GranularSystem::advance(), which then moves none of them.
   virtual bool places_particles() const { return false; }
+  /// Particles go back to the arrays of LAMMPS, before anything else looks at them or migrates them:
+  /// so does what it keeps of them on its own.
+  virtual void leave_records() {}
   /// That moves particles, as its command says: of the time step, 1 or 2.
   virtual int order() const { return 1; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
