@@ -1,0 +1,85 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Narrow phase of convex bodies: contact points of a pair.
+//
+// Rounded bodies (at least one of both has a radius) whose cores are apart touch where parts of the
+// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (Galindo-Torres, Comput. Methods Appl.
+// Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core, and each
+// pair of edges that are nearest to each other inside of both. A contact is one of two spheres at
+// the nearest points. All are continuous functions of the poses; edges have the weight that their
+// ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so that nothing
+// jumps where an edge contact runs into a vertex or edges become parallel.
+//
+// Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
+// the normals of faces and the cross products of edges (theorem of the separating axis). The faces
+// that look along it most are projected along it; the contacts are the corners of the polygon that
+// they have in common, each with its own depth, so that a flat cube does not rock. Corners nearer
+// than `merging_length` share the weight of one.
+//
+// All numbers are computed in the frame of a from the pose of b relative to it, by the same code
+// on all instruction sets. Functions are thread-safe; they use buffers of their thread.
+
+#ifndef TALUS_SHAPE_COLLIDE_H
+#define TALUS_SHAPE_COLLIDE_H
+
+#include "shape/convex_contact.h"
+#include "shape/convex_shape.h"
+
+namespace Talus {
+
+enum class NarrowPhase {
+  FEATURES,    ///< as above
+  MPR          ///< one point per pair, by Minkowski Portal Refinement
+};
+
+/// Contacts of two convex bodies; returns whether there are any. The direction is read and written.
+bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
+             SeparatingDirection &direction, ConvexContacts &contacts,
+             NarrowPhase method = NarrowPhase::FEATURES);
+
+/// The lower bound of the distance of the surfaces that the direction proves: for lists of
+/// neighbors. Negative where they overlap or the direction separates nothing. Without a direction,
+/// that of bounding spheres.
+double distance_bound(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b,
+                      const Pose &pose_b, const SeparatingDirection &direction);
+
+/// Contacts with what is not convex bodies. The body is a, and the other b: normals point to the
+/// body. At most one contact with a sphere, at the point of the core that is nearest to its center;
+/// a center inside the core is pushed out through the nearest face.
+bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector3<double> &center,
+                    double radius, ConvexContacts &contacts);
+
+/// Every vertex of the core below the plane normal . x = offset, or nearer than the radius: the
+/// body is above it.
+bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<double> &normal,
+                   double offset, ConvexContacts &contacts);
+
+/// Inside of an infinite cylinder, such as a drum: every vertex of the core that is nearer to the
+/// wall than the radius, or beyond. `axis` is a unit vector through `point`.
+bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector3<double> &point,
+                      const Vector3<double> &axis, double cylinder_radius,
+                      ConvexContacts &contacts);
+
+/// A triangle as a flat body of two sides. Names of parts of b: vertex 0, 1, 2; edge k from corner
+/// k to the next. Triangles of one mesh that meet in an edge or corner touch a body with the same
+/// point twice; what counts is told by `owned`: bit k for vertex k, bit 3 + k for edge k. The
+/// mesh gives each vertex and edge to one of its triangles, and edges between triangles in one
+/// plane, or that are concave, to none. What a vertex of the body touches on a part that is not
+/// owned is left out as well.
+constexpr unsigned all_owned = 0x3f;
+bool collide_triangle(const ConvexShape &shape, const Pose &pose, const Triangle &triangle,
+                      unsigned owned, ConvexContacts &contacts);
+
+/// The effective radius of contacts, for laws that need one (hertz, dmt, jkr): 1/(1/r_a + 1/r_b)
+/// with contact_radius() of both. For a flat partner it is contact_radius() itself.
+inline double effective_radius(double contact_radius_a, double contact_radius_b)
+{
+  return contact_radius_a * contact_radius_b / (contact_radius_a + contact_radius_b);
+}
+
+/// Sharp contacts: corners of the common polygon nearer than this share the weight of one.
+double merging_length(const ConvexShape &a, const ConvexShape &b);
+
+}    // namespace Talus
+
+#endif
