@@ -34,12 +34,14 @@ FixStyle(shape/gran,FixShapeGran);
 #include "fix.h"
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
-#include "shaped/shaped_bodies.h"
 #include "shaped/shaped_pairs.h"
 #include "system/granular_system.h"
+#include "shaped/wall_points.h"
 #include "system/system_shapes.h"
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -84,46 +86,51 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   bool integrates() const override { return true; }
 
   // SystemShapes
-  bool is_shaped(int type) const override { return table.shape(type) != nullptr; }
-  double radius_of(int type) const override { return table.radius(type); }
+  bool is_shaped(int type) const override { return table.of(type) != nullptr; }
+  double radius_of(int type) const override { return table.bounding_radius(type); }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
-  std::string refusal_of(const Talus::LargeBody &body) const override;
+  std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
   double count_contacts() const override { return pairs.count_contacts(); }
 
  private:
   // fix_shape_gran.cpp
-  void parse(Talus::Words &words);
-  bool is_mine(int i) const { return table.shape(atom_type(i)) != nullptr; }
-  int atom_type(int i) const;
   void set_sizes(int first, int last);
   void orient_new(int first, int last);
-  void require_no_other_integrator() const;
   Talus::ShapedView view() const;
   void save_memories();
-  std::array<double, 8> sums() const;
+  void set_maxexchange();
+  void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
+  static std::int64_t name_of(const Talus::LargeBody &body);
+  static constexpr int size_sums = 7;
+  std::array<double, size_sums> sums() const;
 
   // fix_shape_gran_check.cpp
   void check_scene();
   void check_laws();
-  void check_insertion();
+  void check_fixes();
+  void check_computes();
+  void require_no_other_integrator() const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ShapeTable table;
   Talus::ShapedPairs pairs;
-  Talus::ShapedBodies bodies;
-  Talus::PointMemories memories;
-  double **quat = nullptr;       ///< w x y z of owned particles and ghosts; 0: not known yet
-  bool memories_current = true;  ///< `memories` of owned particles hold all that is remembered
-  int other_integrators = 0;     ///< bits of groups that other fixes move
+  std::map<const Talus::LargeBody *, std::unique_ptr<Talus::WallPoints>> walls;
+  double **quat = nullptr;      ///< w x y z of owned particles and ghosts; 0: not known yet
+  int other_integrators = 0;    ///< bits of groups that other fixes move
 
+  Talus::PointMemories memories;
+  bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+
+  // fix_shape_gran_store.cpp
+  void send_memories_to_ghosts();
+  static constexpr int block_size = 32;    ///< doubles of a piece of a list
   enum class Message { ORIENTATIONS, MEMORIES };
   Message message = Message::ORIENTATIONS;
-  int block = 0;                  ///< of memories, which part of the lists is sent
-  std::vector<std::vector<double>> received;
-  void send_memories_to_ghosts();
+  int piece = 0, pieces = 0;
+  std::vector<std::vector<double>> lists;    ///< of memories, on their way to ghosts
 };
 
 }    // namespace LAMMPS_NS

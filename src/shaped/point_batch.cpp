@@ -75,12 +75,13 @@ void PointBatch::flush()
 
 void PointBatch::hand_out(PointContact &point, int lane) const
 {
-  point.force = {batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
+  const double w = point.weight;
+  point.force = w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
   if (task->advance && remembers)
     for (int k = 0; k < ContactBatch::history_size; k++)
       point.memory.value[k] = batch.history[k][lane];
   if (task->advance && task->accounts)
-    point.work = {batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
+    point.work = w * EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
 }
 
 }    // namespace Talus

@@ -14,10 +14,11 @@ namespace Talus {
 /// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
 /// way through the laws.
 struct PointContact {
-  // geometry, see ContactPoint
+  // geometry, see ConvexContact
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
-  double overlap, inverse_radius;
-  std::uint64_t feature;
+  double overlap, weight;
+  double inverse_radius;    ///< 1/R_eff
+  std::uint64_t name;       ///< with the part of a large body in the upper half
 
   // motion
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`
@@ -26,7 +27,7 @@ struct PointContact {
 
   RememberedValues memory;    ///< in and out
 
-  // results
+  // results, with the weight
   Vector3<double> force;    ///< on the first body, at `place`
   EnergyByCause work;       ///< taken in the step, if asked for
 };
@@ -36,6 +37,15 @@ inline Vector3<double> velocity_at(const Vector3<double> &place, const Vector3<d
                                    const Vector3<double> &v, const Vector3<double> &omega)
 {
   return v + cross(omega, place - center);
+}
+
+/// Adds `share` of the work of a point to a particle, as the function of the same name does with
+/// that of a lane.
+inline void add_work(const WorkAccount &to, int atom, const EnergyByCause &work, double share)
+{
+  const double causes[3] = {work.normal, work.tangential, work.resistance};
+  for (double **rows : to.by_particle)
+    for (int n = 0; n < 3; n++) rows[atom][n] += share * causes[n];
 }
 
 }    // namespace Talus

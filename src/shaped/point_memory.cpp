@@ -20,7 +20,7 @@ int PointMemories::pack(int particle, double *to) const
   *next++ = static_cast<double>(lists[particle].size());
   for (const PointMemory &one : lists[particle]) {
     std::memcpy(next++, &one.partner, sizeof one.partner);
-    std::memcpy(next++, &one.feature, sizeof one.feature);
+    std::memcpy(next++, &one.name, sizeof one.name);
     next = std::copy(one.memory.value, one.memory.value + ContactBatch::history_size, next);
   }
   return static_cast<int>(next - to);
@@ -33,7 +33,7 @@ int PointMemories::unpack(int particle, const double *from)
   const double *next = from + 1;
   for (PointMemory &one : list) {
     std::memcpy(&one.partner, next++, sizeof one.partner);
-    std::memcpy(&one.feature, next++, sizeof one.feature);
+    std::memcpy(&one.name, next++, sizeof one.name);
     std::copy(next, next + ContactBatch::history_size, one.memory.value);
     next += ContactBatch::history_size;
   }

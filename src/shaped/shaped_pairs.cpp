@@ -22,8 +22,8 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
     if (tag[a] == tag[b]) continue;
     const bool in_order = tag[a] < tag[b];
     const int first = in_order ? a : b, second = in_order ? b : a;
-    list.push_back({first, second, laws.row(view.type[first], view.type[second]),
-                    tag[second]});
+    list.push_back(
+        {first, second, laws.row(view.type[first], view.type[second]), tag[second], {}});
   }
   std::sort(list.begin(), list.end(), [](const Pair &one, const Pair &other) {
     return one.first != other.first ? one.first < other.first : one.second < other.second;
@@ -32,7 +32,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
   chunks.clear();
   const int all = static_cast<int>(list.size());
   for (int begin = 0; begin < all; begin += pairs_of_chunk)
-    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}});
+    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}});
   set_sides(view, tag);
 }
 
@@ -84,7 +84,7 @@ void ShapedPairs::restore(const std::function<const std::vector<PointMemory> &(i
       for (const PointMemory &one : memory_of(list[p].first)) {
         if (one.partner != list[p].partner) continue;
         PointContact point{};
-        point.feature = one.feature;
+        point.name = one.name;
         point.memory = one.memory;
         chunk.points.push_back(point);
         chunk.pair_of_point.push_back(p);
@@ -98,7 +98,7 @@ void ShapedPairs::save(PointMemories &to) const
     for (std::size_t n = 0; n < chunk.points.size(); n++) {
       const int p = chunk.pair_of_point[n];
       if (list[p].first < owned)
-        to.add(list[p].first, {list[p].partner, chunk.points[n].feature, chunk.points[n].memory});
+        to.add(list[p].first, {list[p].partner, chunk.points[n].name, chunk.points[n].memory});
     }
 }
 
@@ -117,13 +117,8 @@ void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const St
   if (!step.account || !step.advance) return;
   for_each_point([&](int i, int j, const PointContact &point) {
     step.account->sum += (i < owned && j < owned ? 1.0 : 0.5) * point.work;
-    for (double **rows : step.account->by_particle)
-      for (const int particle : {i, j}) {
-        if (particle >= owned) continue;
-        rows[particle][0] += 0.5 * point.work.normal;
-        rows[particle][1] += 0.5 * point.work.tangential;
-        rows[particle][2] += 0.5 * point.work.resistance;
-      }
+    for (const int particle : {i, j})
+      if (particle < owned) add_work(*step.account, particle, point.work, 0.5);
   });
 }
 
@@ -132,7 +127,12 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
   in_ranges(static_cast<std::int64_t>(used.size()), threads, [&](int, int begin, int end) {
     for (int n = begin; n < end; n++) {
       const int i = used[n];
-      solids[i].place(shapes.shape(view.type[i]), view, i);
+      Solid &its = solids[i];
+      const ParticleShape *shape = shapes.of(view.type[i]);
+      its.shape = shape ? &shape->shape() : nullptr;
+      its.radius = view.radius[i];
+      its.pose.position = view.row(view.x, i);
+      if (shape) its.pose = shape->pose(its.pose.position, view.turn(i));
     }
   });
 }
@@ -148,45 +148,43 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
   for (int p = chunk.begin; p < chunk.end; p++) find_points(view, chunk, p, old);
   batch.compute({laws, step.dt, step.advance, step.account != nullptr}, chunk.points.data(),
                 chunk.points.size());
-  sum_points(view, chunk);
+  sum_points(chunk);
 }
 
 /* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
 
 void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::size_t &old)
 {
-  const Pair &pair = list[p];
+  Pair &pair = list[p];
   const std::size_t known = old;
   while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
   const Solid &a = solids[pair.first], &b = solids[pair.second];
-  if (!a.may_touch(b)) return;
-  FoundPoint found[most_points];
-  const int count = touch(a, b, found);
-  for (int k = 0; k < count; k++) {
-    const FoundPoint &one = found[k];
-    PointContact point{};
-    point.place = one.place;
+  if (!a.may_touch(b) || !touch(a, b, pair.direction, chunk.found)) return;
+  const int i = pair.first, j = pair.second;
+  const auto velocity = [&](int particle, const Vector3<double> &place) {
+    return velocity_at(place, solids[particle].center(), view.row(view.v, particle),
+                       view.row(view.omega, particle));
+  };
+  PointContact point{};
+  point.inverse_radius = 1.0 / a.contact_radius() + 1.0 / b.contact_radius();
+  point.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
+  point.row = pair.row;
+  for (const ConvexContact &one : chunk.found.points) {
+    point.place = one.position;
     point.normal = one.normal;
     point.overlap = one.overlap;
-    point.inverse_radius = one.inverse_radius;
-    point.feature = one.feature;
-    point.velocity = velocity_at(one.place, a.center, view.row(view.v, pair.first),
-                                 view.row(view.omega, pair.first)) -
-                     velocity_at(one.place, b.center, view.row(view.v, pair.second),
-                                 view.row(view.omega, pair.second));
-    point.inverse_mass = view.inverse_mass(pair.first) + view.inverse_mass(pair.second);
-    point.row = pair.row;
+    point.weight = one.weight;
+    point.name = one.name;
+    point.velocity = velocity(i, one.position) - velocity(j, one.position);
+    point.memory = RememberedValues{};
     for (std::size_t n = known; n < old; n++)
-      if (chunk.before[n].feature == one.feature) {
-        point.memory = chunk.before[n].memory;
-        break;
-      }
+      if (chunk.before[n].name == one.name) point.memory = chunk.before[n].memory;
     chunk.points.push_back(point);
     chunk.pair_of_point.push_back(p);
   }
 }
 
-void ShapedPairs::sum_points(const ShapedView & /*view*/, const Chunk &chunk)
+void ShapedPairs::sum_points(const Chunk &chunk)
 {
   for (int p = chunk.begin; p < chunk.end; p++) results[p] = Result{};
   for (std::size_t n = 0; n < chunk.points.size(); n++) {
@@ -195,9 +193,9 @@ void ShapedPairs::sum_points(const ShapedView & /*view*/, const Chunk &chunk)
     Result &sum = results[chunk.pair_of_point[n]];
     sum.force = sum.force + point.force;
     sum.torque_first =
-        sum.torque_first + cross(point.place - solids[pair.first].center, point.force);
+        sum.torque_first + cross(point.place - solids[pair.first].center(), point.force);
     sum.torque_second =
-        sum.torque_second - cross(point.place - solids[pair.second].center, point.force);
+        sum.torque_second - cross(point.place - solids[pair.second].center(), point.force);
     sum.points++;
   }
 }

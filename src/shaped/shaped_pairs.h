@@ -6,7 +6,7 @@
 //   every step     compute()
 //
 // The first body of a pair is the particle with the lower ID, on all ranks and for ever: so normals,
-// features and memories never change sides. Pairs are computed in chunks, each with its points, by
+// names and memories never change sides. Pairs are computed in chunks, each with its points, by
 // any number of threads; then each particle sums its pairs in ascending ID of the partner, a pair's
 // points in the order of the narrow phase. So forces have the same bits on any number of ranks and
 // threads. A pair across two ranks is computed by both.
@@ -78,6 +78,7 @@ class ShapedPairs {
     int first, second;    ///< host's indices
     int row;              ///< of the table of laws
     std::int64_t partner;    ///< ID of the second
+    SeparatingDirection direction{};
   };
   struct Result {
     Vector3<double> force, torque_first, torque_second;    ///< on the first particle; about centers
@@ -92,6 +93,7 @@ class ShapedPairs {
     int begin, end;    ///< pairs
     std::vector<PointContact> points, before;
     std::vector<int> pair_of_point, pair_before;
+    ConvexContacts found;
   };
 
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
@@ -99,7 +101,7 @@ class ShapedPairs {
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                      PointBatch &batch);
   void find_points(const ShapedView &view, Chunk &chunk, int pair, std::size_t &old);
-  void sum_points(const ShapedView &view, const Chunk &chunk);
+  void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
   double share(const Pair &pair) const { return pair.first < owned && pair.second < owned ? 1.0 : 0.5; }
 

@@ -9,6 +9,7 @@
 #ifndef TALUS_SYSTEM_SYSTEM_SHAPES_H
 #define TALUS_SYSTEM_SYSTEM_SHAPES_H
 
+#include "body/contact/body_contacts.h"
 #include "contact/contact_chunk.h"
 #include "system/system_fix.h"
 
@@ -37,12 +38,11 @@ class SystemShapes : public SystemFix {
   /// step, ghosts included. Collective.
   virtual void compute_contacts(const ContactStep &step) = 0;
 
-  /// Adds the forces between owned particles with a shape and a large body; returns what the body
-  /// bears. `exact`, if given, receives it without rounding.
-  virtual BodyLoad touch_body(LargeBody &body, const LawTable &laws, const BodyStep &step,
-                              double *virial) = 0;
   /// "" or why a large body cannot touch shapes, and the cure, for people.
-  virtual std::string refusal_of(const LargeBody &body) const = 0;
+  virtual std::string refusal_of(LargeBody &body) const = 0;
+  /// Adds the forces between owned particles with a shape and a large body; returns what the body
+  /// bears. `virial`: as for LargeBody::compute().
+  virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;
 
   /// Pairs that touch; what two ranks compute counts half.
   virtual double count_contacts() const = 0;
