@@ -82,7 +82,7 @@ class ConvexCore {
   double memory_usage() const;
 
  private:
-  void find_edges();
+  void find_edges(int num_points);
   void find_planes();
 
   VectorArray vertices, normals;

@@ -35,7 +35,7 @@ class ConvexShape {
   // in one plane, a vertex inside the hull of the others, an open mesh, a mesh that is not convex.
 
   /// In the frame in which it is stored: center of mass of the rounded body at the origin,
-  /// principal axes along x, y, z in the order of ascending moments.
+  /// principal axes along x, y, z, each where it was nearest to: a box stays as it was given.
   const ConvexCore &core() const { return polyhedron_; }
   double radius() const { return rounding; }
 

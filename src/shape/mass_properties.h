@@ -29,9 +29,9 @@ struct MassProperties {
 /// of the ball at each vertex, whose moments follow from the theorem of Gauss on the sphere.
 MassProperties mass_properties(const ConvexCore &core, double radius);
 
-/// Axes and moments: `axes` is a rotation whose columns are the principal axes, in the order of
-/// ascending moments; equal moments (to 1e-9) keep the axes of the frame as far as they can, so
-/// that the frame of a cube stays as it was.
+/// Axes and moments: `axes` is a rotation whose columns are the principal axes, each beside that of
+/// the frame to which it is nearest. Where moments are equal (to 1e-9) the axes of the frame are
+/// kept as far as they can: the frame of a box stays as it was.
 struct PrincipalAxes {
   Eigen::Matrix3d axes;
   Eigen::Vector3d moments;
