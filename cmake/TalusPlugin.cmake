@@ -5,7 +5,7 @@
 # particles/; then those of LAMMPS.
 set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-  body/contact shape vtk packing)
+  body/contact vtk packing shape shaped)
 set(talus_style_folders system pair fix compute dump fill comm run)
 
 function(talus_glob result)

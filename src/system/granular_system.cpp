@@ -106,7 +106,7 @@ void GranularSystem::init_pair_style()
   neighbors.init(pair);
   gravity = nullptr;    // its init() comes later
   masses.find_fixes();
-  radii.find(masses.frozen_groups());
+  radii.find(masses.frozen_groups(), shaped);
   require_sizes();
   create_store();
   monitors.start();
@@ -231,7 +231,7 @@ std::string GranularSystem::small_period() const
 std::string GranularSystem::reason_against_history()
 {
   masses.find_fixes();
-  radii.find(masses.frozen_groups());
+  radii.find(masses.frozen_groups(), shaped);
   return small_period();
 }
 
@@ -248,6 +248,18 @@ std::string GranularSystem::take_gravity(SystemGravity *field)
   if (gravity && gravity != field) return "another fix gravity comes before it";
   gravity = field;
   return "";
+}
+
+bool GranularSystem::take_shapes(SystemShapes *its)
+{
+  if (shaped) return false;
+  shaped = its;
+  return true;
+}
+
+void GranularSystem::drop_shapes(const SystemShapes *its)
+{
+  if (shaped == its) shaped = nullptr;
 }
 
 void GranularSystem::drop_gravity(const SystemGravity *field)

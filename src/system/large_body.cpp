@@ -100,12 +100,25 @@ void LargeBody::list_particles()
 {
   masses.update();
   const BodyParticleView particles = view();
+  const int *mask = mask_of_spheres();
   if (its_shape->wants_focus())
     its_shape->focus(BodyCandidates::bounds_of_search(
-        *frame, particles, atom->mask, group_bits(), neighbor->skin,
-        contacts.largest_reach(particles, atom->mask, group_bits())));
-  contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
+        *frame, particles, mask, group_bits(), neighbor->skin,
+        contacts.largest_reach(particles, mask, group_bits())));
+  contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+}
+
+/* Particles with a shape belong to no group here: the system computes their contacts. */
+
+const int *LargeBody::mask_of_spheres()
+{
+  const SystemShapes *shapes = system.shapes();
+  if (!shapes) return atom->mask;
+  spheres.assign(atom->mask, atom->mask + atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (shapes->is_shaped(atom->type[i])) spheres[i] = 0;
+  return spheres.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -175,7 +188,9 @@ void LargeBody::compute(bool advance, double *virial)
     }
     BodyParticleView particles = view();
     particles.virial = virial;
-    mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
+    const BodyStep step = step_of(advance);
+    mine = contacts.compute(*its_shape, *frame, particles, step);
+    if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step, virial));
   }
   joined = reduced = total_is_known = false;
   has_forces = true;

@@ -96,6 +96,11 @@ std::optional<RememberedValues> GranularSystem::remembered_of(int i, int j)
   return remembered_values(found.seen_by_a(), *found.impact);
 }
 
+double GranularSystem::count_contacts() const
+{
+  return pipeline->count_contacts() + (shaped ? shaped->count_contacts() : 0.0);
+}
+
 double GranularSystem::share_without_proxies() const
 {
   return pipeline->in_two_phases() ? pipeline->early_share() : 0.0;

@@ -130,6 +130,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
   if (step.deliver && !step.read && pipeline->keeps_changes())
     pipeline->write_changes(store->all_changes());
+  if (shaped) shaped->compute_contacts(step);
   store->pairs_are_current();
   if (!setting_up) return;
   time_step.judge_start(book, *pipeline);
