@@ -13,8 +13,10 @@
 // Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
 // the normals of faces and the cross products of edges (theorem of the separating axis). The faces
 // that look along it most are projected along it; the contacts are the corners of the polygon that
-// they have in common, each with its own depth, so that a flat cube does not rock. Corners nearer
-// than `merging_length` share the weight of one.
+// they have in common, each with its own depth, so that a flat cube does not rock. The weight of a
+// corner is the angle by which the polygon turns there, over a right angle: 1 for those of a square,
+// 4 for all of them, whatever their number; but all together bear as much as the deepest of them
+// would with the weight 1.
 //
 // All numbers are computed in the frame of a from the pose of b relative to it, by the same code
 // on all instruction sets. Functions are thread-safe; they use buffers of their thread.
@@ -77,7 +79,8 @@ inline double effective_radius(double contact_radius_a, double contact_radius_b)
   return contact_radius_a * contact_radius_b / (contact_radius_a + contact_radius_b);
 }
 
-/// Sharp contacts: corners of the common polygon nearer than this share the weight of one.
+/// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
+/// and those that are nearer to a vertex are named by it.
 double merging_length(const ConvexShape &a, const ConvexShape &b);
 
 }    // namespace Talus

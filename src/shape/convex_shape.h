@@ -27,7 +27,7 @@ class ConvexShape {
   /// The content of an STL file whose triangles enclose a convex body; coordinates are multiplied
   /// by `scale`.
   static ConvexShape stl(const std::string &content, double scale, double radius);
-  static constexpr double flatness = 1.0e-4;
+  static constexpr double flatness = 1.0e-5;
 
   // All throw std::runtime_error with a text that says what is wrong, with the number of the vertex
   // or triangle (from 1), and what to do: a radius that is negative or no number, lengths that are
