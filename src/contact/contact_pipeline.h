@@ -131,11 +131,10 @@ class ContactPipeline {
   /// Positions, velocities and angular velocities of some owned particles, for those who only read
   /// them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
-  /// The same of the changes of velocities, rows of six, if they are kept: of all owned particles,
-  /// or some.
+  /// The same of the changes of velocities, if they are kept: of all owned particles, or some.
   bool keeps_changes() const { return scene.second_order; }
-  void write_changes(double *changes) const;
-  void show_changes(const std::vector<int> &atoms, double *changes) const;
+  void write_changes(ChangeRecord *changes) const;
+  void show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const;
 
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.

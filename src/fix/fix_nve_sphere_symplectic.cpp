@@ -149,11 +149,19 @@ void FixNVESphereSymplectic::check_order()
   if (!reason.empty())
     error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic order 2: {}; or use order 1",
                reason);
-  if (comm->me == 0 && !announced)
-    utils::logmesg(
-        lmp, "Fix nve/sphere/symplectic {}: all contacts are of second order in the time step\n",
-        id);
+  if (!announced) announce_order();
   announced = true;
+}
+
+void FixNVESphereSymplectic::announce_order()
+{
+  const std::vector<std::string> notes = system->notes_on_second_order();
+  if (comm->me) return;
+  utils::logmesg(lmp,
+                 "Fix nve/sphere/symplectic {}: order 2: errors of {} contacts are of second order "
+                 "in the time step\n",
+                 id, notes.empty() ? "all" : "most");
+  for (const std::string &note : notes) utils::logmesg(lmp, "  {}\n", note);
 }
 
 /* ----------------------------------------------------------------------

@@ -85,6 +85,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
 
   void check_fix(Fix *);
   void check_order();
+  void announce_order();
   bigint count_members(const std::function<bool(int)> &);
 
   int nmoving() const;

@@ -133,9 +133,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// "", or which contacts of the run are not of second order, and the cure, for people. In init()
   /// of a fix, after that of the pair style.
   std::string reason_against_second_order() const;
+  /// What is of first order nevertheless.
+  std::vector<std::string> notes_on_second_order() const;
   /// Where integrators of second order keep the changes of velocities of particles in the arrays
-  /// of the host, rows of six; see ParticleRecords::change.
-  double *velocity_changes();
+  /// of the host; see ParticleRecords::change.
+  ChangeRecord *velocity_changes();
   /// The time by which velocities are behind positions, with an integrator of second order.
   double lag() const;
 

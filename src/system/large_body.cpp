@@ -4,6 +4,8 @@
 
 #include "system/granular_system.h"
 
+#include "body/shape/plane.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "fix.h"
@@ -59,7 +61,8 @@ void LargeBody::keep_history()
   };
   with_history = any(&ContactLaw::has_history);
   if (with_history)
-    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact));
+    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact),
+                          !dynamic_cast<const Plane *>(its_shape.get()));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -73,6 +76,7 @@ void LargeBody::init()
   masses.find_fixes();
   find_frozen();
   set_laws();
+  if (system.order() == 1) contacts.history.forget_normals();
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its

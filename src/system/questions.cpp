@@ -54,7 +54,7 @@ double GranularSystem::lag() const
   return 0.0;
 }
 
-double *GranularSystem::velocity_changes()
+ChangeRecord *GranularSystem::velocity_changes()
 {
   return store ? store->all_changes() : nullptr;
 }
@@ -74,6 +74,16 @@ std::string GranularSystem::reason_against_second_order() const
     if (!its.empty()) return body->name() + " " + its;
   }
   return "";
+}
+
+std::vector<std::string> GranularSystem::notes_on_second_order() const
+{
+  std::vector<std::string> notes;
+  for (LargeBody *body : bodies()) {
+    const std::string its = body->note_on_second_order();
+    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+  }
+  return notes;
 }
 
 HistoryStore &GranularSystem::histories()

@@ -219,7 +219,7 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
   const double stiffness = 1000.0;
   for (int n = 0; n < 4000; n++) {
     const double pressed = std::max(0.0, -0.1 - state.position.z) * stiffness;
-    servo.advance(state, {0, 0, pressed}, {0, 0, 0}, 1e-3);
+    servo.advance(state, servo.rate({0, 0, pressed}, {0, 0, 0}), 1e-3);
     fastest = std::max(fastest, std::fabs(state.velocity.z));
   }
   EXPECT_NEAR(state.position.z, -0.15, 1e-6);
@@ -228,7 +228,7 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
 
   servo.turns = true;
   state = BodyState{};
-  servo.advance(state, {9, 9, 9}, {0, 0, 0}, 1e-3);
+  servo.advance(state, servo.rate({9, 9, 9}, {0, 0, 0}), 1e-3);
   EXPECT_NEAR(length(state.omega - V{0, 0, -0.2}), 0.0, 1e-15);
   EXPECT_EQ(length(state.position), 0.0);
 }
