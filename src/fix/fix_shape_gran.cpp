@@ -2,6 +2,7 @@
 
 #include "fix/fix_shape_gran.h"
 
+#include "fix/orientations.h"
 #include "fix/particle_shapes.h"
 #include "base/in_parallel.h"
 #include "system/command_words.h"
@@ -23,33 +24,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace Talus;
-
-namespace {
-
-Vector3<double> row(const double *of)
-{
-  return {of[0], of[1], of[2]};
-}
-
-Eigen::Quaterniond quaternion(const double *q)
-{
-  return {q[0], q[1], q[2], q[3]};
-}
-
-void put(const Eigen::Quaterniond &q, double *to)
-{
-  to[0] = q.w();
-  to[1] = q.x();
-  to[2] = q.y();
-  to[3] = q.z();
-}
-
-bool is_known(const double *q)
-{
-  return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
-}
-
-}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -282,63 +256,4 @@ void FixShapeGran::initial_integrate(int /*vflag*/)
       w[2] = omega.z;
     }
   });
-}
-
-/* ---- output ---- */
-
-/* Of particles of the group: energies of translation and rotation, angular momentum about their
-   centers; and of all contacts between particles: pairs that touch, points. */
-
-std::array<double, FixShapeGran::size_sums> FixShapeGran::sums() const
-{
-  std::array<double, size_sums> mine{}, all{};
-  for (int i = 0; i < atom->nlocal; i++) {
-    const ParticleShape *its = table.of(atom->type[i]);
-    if (!its || !(atom->mask[i] & groupbit) || !is_known(quat[i])) continue;
-    const Vector3<double> v = row(atom->v[i]), omega = row(atom->omega[i]);
-    const Eigen::Quaterniond q = quaternion(quat[i]);
-    const Vector3<double> momentum = its->rotation().angular_momentum(q, omega);
-    mine[0] += 0.5 * force->mvv2e * atom->rmass[i] * dot(v, v);
-    mine[1] += 0.5 * force->mvv2e * dot(omega, momentum);
-    mine[2] += momentum.x;
-    mine[3] += momentum.y;
-    mine[4] += momentum.z;
-  }
-  mine[5] = pairs.count_contacts();
-  mine[6] = pairs.count_points();
-  MPI_Allreduce(mine.data(), all.data(), size_sums, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
-
-double FixShapeGran::compute_scalar()
-{
-  const auto all = sums();
-  return all[0] + all[1];
-}
-
-double FixShapeGran::compute_vector(int n)
-{
-  return sums()[n];
-}
-
-int FixShapeGran::modify_param(int narg, char **arg)
-{
-  if (strcmp(arg[0], "orient") != 0) return 0;
-  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
-  words.about("orient");
-  const int tag = words.integer("ID of a particle", 1);
-  double q[4];
-  for (double &component : q) component = words.number("w x y z");
-  Eigen::Quaterniond orientation = quaternion(q);
-  if (!(orientation.norm() > 0.0)) words.fail(1, "a quaternion must not be zero");
-  orientation.normalize();
-  int mine = 0, all = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->tag[i] == tag && is_shaped(atom->type[i])) {
-      put(orientation, quat[i]);
-      mine++;
-    }
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
-  if (!all) words.fail(5, "no particle with this ID has a shape");
-  return words.index();
 }

@@ -60,6 +60,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double compute_scalar() override;
   double compute_vector(int) override;
   int modify_param(int, char **) override;
+  int image(int *&, double **&) override;
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -91,6 +92,8 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
+  void for_each_triangle(const VisitTriangle &visit) const override;
+  void for_each_point(const VisitPoint &visit) const override;
   double count_contacts() const override { return pairs.count_contacts(); }
 
  private:
@@ -120,6 +123,10 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+
+  std::vector<double> image_values;
+  std::vector<double *> image_rows;
+  std::vector<int> image_kinds;
 
   // fix_shape_gran_store.cpp
   void send_memories_to_ghosts();

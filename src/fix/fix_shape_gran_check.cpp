@@ -103,7 +103,7 @@ void FixShapeGran::check_computes()
 {
   for (auto &compute : modify->get_compute_list())
     for (const char *style : {"contact/gran/atom", "contact/gran/local", "dissipation/gran/atom",
-                              "penalty/stats", "pair/local", "TALUS_CONTACT_LIST"})
+                              "penalty/stats", "pair/local"})
       if (strcmp(compute->style, style) == 0)
         error->all(FLERR, Error::NOLASTLINE,
                    "Fix shape/gran: compute {} ({}) knows contacts of spheres only: leave it out",
