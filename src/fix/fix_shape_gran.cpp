@@ -56,7 +56,7 @@ bool is_known(const double *q)
 FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), pairs(table)
 {
-  time_integrate = 1;
+  time_integrate = 0;    // of the group only some move: LAMMPS would warn of two integrators
   dynamic_group_allow = 0;
   create_attribute = 1;
   restart_global = restart_peratom = 1;
@@ -103,7 +103,7 @@ FixShapeGran::~FixShapeGran()
 
 int FixShapeGran::setmask()
 {
-  return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR;
+  return INITIAL_INTEGRATE | PRE_NEIGHBOR;
 }
 
 void FixShapeGran::init()
@@ -138,12 +138,7 @@ void FixShapeGran::orient_new(int first, int last)
 
 /* ---- a rebuild ---- */
 
-void FixShapeGran::pre_exchange()
-{
-  save_memories();
-}
-
-void FixShapeGran::save_memories()
+void FixShapeGran::keep_memories()
 {
   if (memories_are_current) return;
   memories.clear_all();
@@ -287,13 +282,6 @@ void FixShapeGran::initial_integrate(int /*vflag*/)
       w[2] = omega.z;
     }
   });
-}
-
-/* What is asked behind a run, and written to restart files, is in the lists. */
-
-void FixShapeGran::post_run()
-{
-  save_memories();
 }
 
 /* ---- output ---- */

@@ -54,12 +54,9 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   ~FixShapeGran() override;
   int setmask() override;
   void init() override;
-  void setup_pre_exchange() override { pre_exchange(); }
-  void pre_exchange() override;
   void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
   void initial_integrate(int) override;
-  void post_run() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   int modify_param(int, char **) override;
@@ -88,6 +85,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   // SystemShapes
   bool is_shaped(int type) const override { return table.of(type) != nullptr; }
   double radius_of(int type) const override { return table.bounding_radius(type); }
+  void keep_memories() override;
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
   std::string refusal_of(Talus::LargeBody &body) const override;
@@ -100,7 +98,6 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void set_sizes(int first, int last);
   void orient_new(int first, int last);
   Talus::ShapedView view() const;
-  void save_memories();
   void set_maxexchange();
   void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
   static std::int64_t name_of(const Talus::LargeBody &body);

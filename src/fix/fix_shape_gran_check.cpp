@@ -76,8 +76,7 @@ void FixShapeGran::check_fixes()
       error->all(FLERR, Error::NOLASTLINE,
                  "Fix shape/gran: fix {} ({}) cannot hold particles with a shape: leave it out",
                  fix->id, fix->style);
-    if (!utils::strmatch(fix->style, "^pour") && !utils::strmatch(fix->style, "^deposit"))
-      continue;
+    if (!utils::strmatch(fix->style, "^pour")) continue;    // fix deposit asks for distances
     for (int type = 1; type <= table.last_type(); type++) {
       int of_type = type;
       const auto *largest = static_cast<double *>(fix->extract("radius", of_type));

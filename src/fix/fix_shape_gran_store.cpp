@@ -117,8 +117,7 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
 
 void FixShapeGran::write_restart(FILE *fp)
 {
-  save_memories();    // on all ranks, before particles are packed
-  memories_are_current = false;
+  keep_memories();    // on all ranks, before particles are packed
   if (comm->me) return;
   const int size = sizeof restart_version;
   fwrite(&size, sizeof size, 1, fp);

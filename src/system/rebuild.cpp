@@ -34,6 +34,7 @@ void GranularSystem::look_at_contacts(bool run_is_over)
 void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
   pipeline->keep_history(to, scope, pairs_stay);
+  if (shaped) shaped->keep_memories();
 }
 
 void GranularSystem::release_records()

@@ -32,6 +32,9 @@ class SystemShapes : public SystemFix {
   /// Of the sphere around (length), 0 of a type of spheres.
   virtual double radius_of(int type) const = 0;
 
+  /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
+  /// puts what contacts remember to the particles. Collective.
+  virtual void keep_memories() = 0;
   /// At a rebuild, collective: the pairs with a shape (host's indices, at least one is owned).
   virtual void set_pairs(std::vector<std::array<int, 2>> pairs) = 0;
   /// Adds the forces of their contacts to the arrays of the host, which show all particles of this
