@@ -224,6 +224,26 @@ void strengthen(ConvexContact *first, ConvexContact *last)
   for (ConvexContact *c = first; c != last; ++c) c->weight *= deepest / sum;
 }
 
+/* Contacts of the same name become one at their common center. */
+
+void merge(std::vector<ConvexContact> &contacts, std::size_t from)
+{
+  std::size_t kept = from;
+  for (std::size_t k = from; k < contacts.size(); k++) {
+    const ConvexContact contact = contacts[k];
+    if (kept == from || contacts[kept - 1].name != contact.name) {
+      contacts[kept++] = contact;
+      continue;
+    }
+    ConvexContact &one = contacts[kept - 1];
+    const double sum = one.weight + contact.weight, part = contact.weight / sum;
+    one.position = one.position + part * (contact.position - one.position);
+    one.overlap += part * (contact.overlap - one.overlap);
+    one.weight = sum;
+  }
+  contacts.resize(kept);
+}
+
 /* What is left where the faces have nothing in common: the parts that made the direction. */
 
 ConvexContact single_contact(const CorePair &pair, Rounding radius, const LeastDepth &least)
@@ -272,7 +292,7 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
   for (std::size_t k = 0, count = of_b.corner.size(); k < count && !polygon.empty(); k++)
     cut(polygon, buffer, of_b.corner[k], of_b.corner[k + 1 < count ? k + 1 : 0], of_b.edge[k]);
 
-  join_corners(polygon, merging);
+  join_corners(polygon, 1.0e-5 * merging);
   const std::size_t first = contacts.size();
   for (std::size_t k = 0; k < polygon.size(); k++) {
     const Flat p = polygon[k].place;
@@ -287,8 +307,9 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
         name_of(polygon[k > 0 ? k - 1 : polygon.size() - 1], polygon[k], of_a, of_b, merging);
     contacts.push_back(contact);
   }
-  strengthen(contacts.data() + first, contacts.data() + contacts.size());
   sort_by_name(contacts);
+  merge(contacts, first);
+  strengthen(contacts.data() + first, contacts.data() + contacts.size());
   if (contacts.size() == first) contacts.push_back(single_contact(pair, radius, least));
 }
 

@@ -267,7 +267,7 @@ TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(touching, number_of_pairs() / 10);
   EXPECT_GT(apart, 100);
-  EXPECT_LT(worst, 1e-10);
+  EXPECT_LT(worst, 1e-6 * 0.2);    // edges that exceed their ends by less are left out
 }
 
 TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
