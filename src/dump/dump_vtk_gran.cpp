@@ -4,6 +4,7 @@
 
 #include "system/compute_contact_list.h"
 #include "system/present_time.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"

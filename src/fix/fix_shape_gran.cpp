@@ -117,7 +117,7 @@ void FixShapeGran::keep_memories()
   if (memories_are_current) return;
   memories.clear_all();
   pairs.save(memories);
-  for (auto &[body, points] : walls) points->save(memories);
+  for (auto &[body, its] : walls) its.points->save(memories);
   memories_are_current = true;
   set_maxexchange();
 }
@@ -147,7 +147,7 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   pairs.set_pairs(view(), found, tags, system->law_table());
   pairs.restore(
       [this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
-  for (auto &[body, points] : walls) list_particles(*body, *points);
+  for (auto &[body, its] : walls) list_particles(*body, *its.points);
 }
 
 void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
@@ -199,8 +199,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
-  if (flat_walls(body.shape()).empty())
-    return "its surface is not made for particles with a shape: use plane, or box inside";
+  if (BodyWalls(body.shape()).size() == 0)
+    return "particles with a shape touch no surface of this kind: use plane, box, ball outside, or cylinder inside";
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));
@@ -212,14 +212,15 @@ std::string FixShapeGran::refusal_of(LargeBody &body) const
 
 BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double *virial)
 {
-  auto &points = walls[&body];
-  if (!points) {
-    points = std::make_unique<WallPoints>(table, name_of(body));
-    list_particles(body, *points);
+  auto &its = walls[&body];
+  if (!its.points) {
+    its.surface = std::make_unique<BodyWalls>(body.shape());
+    its.points = std::make_unique<WallPoints>(table, name_of(body));
+    list_particles(body, *its.points);
   }
   if (step.advance) memories_are_current = false;
-  return points->compute(flat_walls(body.shape()), body.present_frame(), view(), body.law_table(),
-                         step, virial);
+  return its.points->compute(*its.surface, body.present_frame(), view(), body.law_table(), step,
+                             virial);
 }
 
 /* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */

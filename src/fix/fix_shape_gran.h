@@ -94,6 +94,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
                              double *virial) override;
   void for_each_triangle(const VisitTriangle &visit) const override;
   void for_each_point(const VisitPoint &visit) const override;
+  Talus::DeepestContact deepest_contact() const override;
   double count_contacts() const override { return pairs.count_contacts(); }
 
  private:
@@ -117,7 +118,11 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ShapeTable table;
   Talus::ShapedPairs pairs;
-  std::map<const Talus::LargeBody *, std::unique_ptr<Talus::WallPoints>> walls;
+  struct Wall {
+    std::unique_ptr<Talus::BodyWalls> surface;
+    std::unique_ptr<Talus::WallPoints> points;
+  };
+  std::map<const Talus::LargeBody *, Wall> walls;
   double **quat = nullptr;      ///< w x y z of owned particles and ghosts; 0: not known yet
   int other_integrators = 0;    ///< bits of groups that other fixes move
 

@@ -69,8 +69,7 @@ void FixShapeGran::check_fixes()
     if (fix->time_integrate) other_integrators |= fix->groupbit;
     if (utils::strmatch(fix->style, "^wall/gran"))
       error->all(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body "
-                 "plane, or box inside",
+                 "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body",
                  fix->id, fix->style);
     if (utils::strmatch(fix->style, "^rigid"))
       error->all(FLERR, Error::NOLASTLINE,

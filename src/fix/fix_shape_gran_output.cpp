@@ -11,6 +11,7 @@
 #include "atom.h"
 #include "force.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -94,6 +95,20 @@ void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const
       visit(i, {{pose.point_in_space(one.corner[0]), pose.point_in_space(one.corner[1]),
                  pose.point_in_space(one.corner[2])}});
   }
+}
+
+DeepestContact FixShapeGran::deepest_contact() const
+{
+  DeepestContact deepest;
+  const auto inside = [this](int i) {
+    const ParticleShape *its = table.of(atom->type[i]);
+    return its ? its->shape().inscribed_radius() : atom->radius[i];
+  };
+  pairs.for_each_point([&](int i, int j, const PointContact &point) {
+    const double ratio = point.overlap / std::min(inside(i), inside(j));
+    if (ratio > deepest.overlap_ratio) deepest = {ratio, i, j};
+  });
+  return deepest;
 }
 
 /* For dump image: the type, which may choose the color, and the corners. LAMMPS lights the side

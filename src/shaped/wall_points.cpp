@@ -46,7 +46,7 @@ void WallPoints::save(PointMemories &to) const
       to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
 }
 
-BodyLoad WallPoints::compute(const std::vector<FlatWall> &walls, const BodyFrame &frame,
+BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame,
                              const ShapedView &view, const LawTable &laws, const BodyStep &step,
                              double *virial)
 {
@@ -95,22 +95,10 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const int i = particles[n];
   const ParticleShape &particle = *shapes.of(view.type[i]);
   const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
-  Pose pose;
-  bool placed = false;
-  for (std::size_t w = 0; w < task.walls.size(); w++) {
-    const FlatWall &wall = task.walls[w];
-    const double height = dot(wall.normal, seen) - wall.offset;
-    const bool flip = wall.two_sided && height < 0.0;
-    // as a sphere does, what is further behind does not come back
-    if ((flip ? -height : height) >= view.radius[i] || height <= -view.radius[i]) continue;
-    if (!placed) {
-      pose = particle.pose(seen, view.turn(i));
-      if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
-      placed = true;
-    }
-    if (!collide_plane(particle.shape(), pose, flip ? -wall.normal : wall.normal,
-                       flip ? -wall.offset : wall.offset, chunk.found))
-      continue;
+  Pose pose = particle.pose(seen, view.turn(i));
+  if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
+  for (int w = 0; w < task.walls.size(); w++) {
+    if (!task.walls.touch(w, particle.shape(), pose, chunk.found)) continue;
     PointContact point{};
     point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;

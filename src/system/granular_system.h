@@ -32,7 +32,6 @@
 #include "system/run_monitor.h"
 #include "system/style_report.h"
 #include "system/system_fix.h"
-#include "system/system_shapes.h"
 #include "system/time_step_monitor.h"
 
 #include "lmptype.h"
@@ -51,6 +50,8 @@ class Pair;
 }    // namespace LAMMPS_NS
 
 namespace Talus {
+
+class SystemShapes;
 
 /// Where positions, velocities and forces of the owned particles are up to date.
 enum class Residence { HOST, RECORDS };

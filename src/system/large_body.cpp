@@ -3,6 +3,7 @@
 #include "system/large_body.h"
 
 #include "system/granular_system.h"
+#include "system/system_shapes.h"
 
 #include "body/shape/plane.h"
 

@@ -6,6 +6,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/private_member.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "bond.h"

@@ -9,6 +9,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -12,6 +12,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
 

@@ -10,7 +10,7 @@
 #define TALUS_SYSTEM_SYSTEM_SHAPES_H
 
 #include "body/contact/body_contacts.h"
-#include "contact/contact_chunk.h"
+#include "contact/contact_pipeline.h"
 #include "shaped/point_contact.h"
 #include "system/system_fix.h"
 
@@ -57,6 +57,8 @@ class SystemShapes : public SystemFix {
   virtual void for_each_triangle(const VisitTriangle &visit) const = 0;
   /// Pairs that touch; what two ranks compute counts half.
   virtual double count_contacts() const = 0;
+  /// Of these the deepest, over the radius of the smaller of the largest spheres inside.
+  virtual DeepestContact deepest_contact() const = 0;
 
  protected:
   ~SystemShapes() = default;
