@@ -2,9 +2,9 @@
 
 #include "fix/fix_shape_gran.h"
 
+#include "base/in_parallel.h"
 #include "fix/orientations.h"
 #include "fix/particle_shapes.h"
-#include "base/in_parallel.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -145,8 +145,7 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
-  pairs.restore(
-      [this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
+  pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
   for (auto &[body, its] : walls) list_particles(*body, *its.points);
 }
 
@@ -164,26 +163,19 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
 ShapedView FixShapeGran::view() const
 {
   if (atom->nlocal + atom->nghost == 0) return {};
-  return {atom->nlocal,
-          atom->nlocal + atom->nghost,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          system->mass_override(),
-          atom->type,
-          quat[0],
-          atom->f[0],
-          atom->torque[0]};
+  return {atom->nlocal,   atom->nlocal + atom->nghost,
+          atom->x[0],     atom->v[0],
+          atom->omega[0], atom->radius,
+          atom->rmass,    system->mass_override(),
+          atom->type,     quat[0],
+          atom->f[0],     atom->torque[0]};
 }
 
 void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
-  pairs.compute(view(), system->law_table(),
-                {step.dt, step.advance, comm->nthreads, step.account});
+  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads, step.account});
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
@@ -200,12 +192,14 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
   if (BodyWalls(body.shape()).size() == 0)
-    return "particles with a shape touch no surface of this kind: use plane, box, ball outside, or cylinder inside";
+    return "particles with a shape touch no surface of this kind: use plane, box, ball outside, or "
+           "cylinder inside";
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));
     if (!its.empty())
-      return fmt::format("its contact with particles of type {}, which have a shape, {}", type, its);
+      return fmt::format("its contact with particles of type {}, which have a shape, {}", type,
+                         its);
   }
   return "";
 }

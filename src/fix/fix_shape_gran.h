@@ -35,8 +35,8 @@ FixStyle(shape/gran,FixShapeGran);
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
-#include "system/granular_system.h"
 #include "shaped/wall_points.h"
+#include "system/granular_system.h"
 #include "system/system_shapes.h"
 
 #include <array>

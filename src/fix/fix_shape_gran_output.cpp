@@ -128,7 +128,8 @@ int FixShapeGran::image(int *&kinds, double **&values)
   const int count = static_cast<int>(image_values.size()) / size;
   image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
   image_rows.clear();
-  for (int k = 0; k < count; k++) image_rows.push_back(&image_values[static_cast<std::size_t>(size) * k]);
+  for (int k = 0; k < count; k++)
+    image_rows.push_back(&image_values[static_cast<std::size_t>(size) * k]);
   kinds = image_kinds.data();
   values = image_rows.data();
   return count;

@@ -40,7 +40,8 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
   }
 }
 
-void BodyWalls::add_flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided)
+void BodyWalls::add_flat(const Vector3<double> &normal, const Vector3<double> &point,
+                         bool two_sided)
 {
   flat.push_back({normal, dot(normal, point), two_sided});
 }

@@ -18,7 +18,10 @@ class BodyWalls {
   /// Has no walls if the body is of another kind.
   explicit BodyWalls(const LargeBodyShape &body);
 
-  int size() const { return static_cast<int>(flat.size() + round.size() + solid.size() + ball.size()); }
+  int size() const
+  {
+    return static_cast<int>(flat.size() + round.size() + solid.size() + ball.size());
+  }
 
   /// Contacts of a particle with wall 0 ... size()-1; returns whether there are any. Like a sphere,
   /// a particle is pushed out by a plane up to a center one bounding radius behind it.

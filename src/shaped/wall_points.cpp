@@ -46,9 +46,8 @@ void WallPoints::save(PointMemories &to) const
       to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
 }
 
-BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame,
-                             const ShapedView &view, const LawTable &laws, const BodyStep &step,
-                             double *virial)
+BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                             const LawTable &laws, const BodyStep &step, double *virial)
 {
   while (static_cast<int>(batches.size()) < step.threads)
     batches.push_back(std::make_unique<PointBatch>());
@@ -110,8 +109,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.weight = one.weight;
       point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
       const Vector3<double> place = frame.point_to_space(one.position);
-      Vector3<double> v =
-          velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
+      Vector3<double> v = velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
       if (frame.moves) v = v - frame.velocity_at(place);
       v = frame.to_body(v);
       if (frame.runs) {

@@ -37,9 +37,8 @@ class WallPoints {
 
   /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
   /// particle, added to.
-  BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame,
-                   const ShapedView &view, const LawTable &laws, const BodyStep &step,
-                   double *virial);
+  BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                   const LawTable &laws, const BodyStep &step, double *virial);
   double memory_usage() const;
 
  private:

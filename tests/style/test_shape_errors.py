@@ -76,13 +76,13 @@ class ShapeErrors(SceneCase):
                 (f"{FIX}\nfix w all wall/gran granular hooke 1e4 10 tangential linear_nohistory 0 0 zplane 0 NULL",
                  "fix large/body"),
                 (f"{FIX}\nfix w all large/body cylinder 0 0 0 0 0 1 8 8 outside {hooke}", "use plane, box, ball outside, or cylinder inside"),
-                (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke} rolling resistance 0.1", "rolling"),
-                (f"{FIX}\ncompute c all contact/gran/local i j\nthermo_style custom step", "spheres only"),
+                (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke} tangential multistep NULL NULL 0.5 rolling 0.1", "rolling"),
+                (f"{FIX}\ncompute c all contact/gran/local id1 id2", "spheres only"),
                 (f"{FIX}\ncompute c all penalty/stats", "spheres only"),
                 (f"{FIX}\nminimize 0 1e-4 10 10", "minimize"),
                 (f"{FIX}\nrun_style respa 1", "respa"),
                 (f"{FIX}\npair_style hybrid gran/penalty\npair_coeff * * gran/penalty hooke 1e4 10", "hybrid"),
-                (FIX, "rolling or twisting resistance", "hooke 1e4 10 rolling resistance 0.1"),
+                (FIX, "rolling or twisting resistance", "hooke 1e4 10 tangential multistep NULL NULL 0.5 rolling 0.1"),
                 (f"{FIX}\nfix p all pour 10 2 4711 vol 0.2 10 diam one 1.0 region top", "give it a diameter of 1.73205"),
                 (f"{FIX}\nfix_modify s orient 1 1 0 0 0", "no particle with this ID has a shape"))):
             if "fix p" in commands:
