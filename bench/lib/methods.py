@@ -86,7 +86,7 @@ def granular_law(law):
     return f"{law.kind} {law.kn!r} {law.gn!r} {shear} damping {damping}{limit(law)}"
 
 
-def _physics(scene, method):
+def physics(scene, method):
     law = scene.law
     if method in TALUS_METHODS:
         words = talus_law(law, " slider midpoint" if method == SECOND_ORDER else " midpoint" * ("midpoint" in method))
@@ -133,7 +133,7 @@ def _head(scene, method, data):
     speak = "communicate single vel yes" if old else "comm_modify vel yes"
     return (f"units si\natom_style {style}\natom_modify map array\nnewton off\n{speak}\n"
             f"boundary {scene.periodic}\nread_data {data}\nneighbor 0.1 bin\n"
-            "neigh_modify every 1 delay 0 check yes\n" + _physics(scene, method)
+            "neigh_modify every 1 delay 0 check yes\n" + physics(scene, method)
             + "thermo 1000000000\nthermo_modify norm no lost error\n")
 
 

@@ -6,6 +6,7 @@
 #include "system/system_shapes.h"
 
 #include "body/shape/plane.h"
+#include "laws/second_order_laws.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -56,9 +57,11 @@ void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
 
 void LargeBody::keep_history()
 {
-  const auto any = [this](bool (ContactLaw::*has)() const) {
-    return std::any_of(specs.begin(), specs.end(),
-                       [has](const ContactSpec &s) { return (s.law.*has)(); });
+  const bool second_order = system.order() == 2;
+  const auto any = [this, second_order](bool (ContactLaw::*has)() const) {
+    return std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
+      return (s.law.*has)() || (second_order && (second_order_law(s.law).*has)());
+    });
   };
   with_history = any(&ContactLaw::has_history);
   if (with_history)

@@ -46,10 +46,10 @@ std::string LargeBody::reason_against_second_order()
     const std::string its =
         Talus::reason_against_second_order(specs[type].law, coefficients_of(type));
     if (!its.empty()) return its;
-    if (!specs[type].law.tangential().acts)
-      return "keeps no history without friction: add 'tangential multistep NULL NULL 0 slider "
-             "midpoint'";
   }
+  if (!with_history)
+    return "was defined before the integrator and keeps no history without friction: define it "
+           "after";
   return "";
 }
 

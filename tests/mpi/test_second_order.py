@@ -42,7 +42,7 @@ fix belt all large/body rectangle 3 3 0.2  0 0 1  1 0 0  4 4 contact {LAW} surfa
 fix mixer all large/body cylinder 1.5 3 7  0 1 0  0.7 3 outside contact {LAW} move rotate 1.5 3 7  0 1 0  0.5
 fix stone all large/body box 4.5 3 7  1.5 2 1.5 outside contact {LAW} &
 move free mass 3 inertia 1 0.8 1.2 spin 1 2 0.5 gravity 2 vector 0 0 -1
-fix press all large/body rectangle 3 3 9  0 0 -1  1 0 0  6 6 contact {LAW} servo force 0 0 -1 3 1.5
+fix press all large/body rectangle 0.3 3 3  1 0 0  0 1 0  6 6 contact {LAW} servo force 1 0 0 20 0.5
 fix ball all large/body mesh ball.stl outside contact {LAW} move wiggle 0.2 0 0.3 0.4
 variable z equal 0.2*sin(30*step*dt)
 region r cylinder y 3 5.5 0.5 EDGE EDGE move NULL NULL v_z side out
@@ -60,8 +60,8 @@ class SecondOrder(SceneCase):
         spheres = [Sphere(tuple(c + 0.5 + e for c, e in zip((i, j, k), some(0.05))), some(2.0), some(2.0),
                           density=1.0, diameter=0.9) for i in range(SIDE) for j in range(SIDE) for k in range(SIDE)]
         draw.shuffle(spheres)
-        write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 4)), spheres)
-        body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((3, 1, 7), 0.7, 6))
+        write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 9)), spheres)
+        body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((3, 1, 6.4), 0.7, 6))
 
     def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, bodies="",
             **options):

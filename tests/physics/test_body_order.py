@@ -11,6 +11,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
+import body_twin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
@@ -27,8 +28,8 @@ neighbor 0.5 bin
 neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {LAW}
-{{body}}
 fix step all nve/sphere/symplectic {{order}} gravity 10 vector 0 0 -1
+{{body}}
 timestep {{dt!r}}
 thermo 100000
 run {{steps}}
@@ -105,6 +106,11 @@ class NormalsThatTurn(OrderCase):
         self.write(1.2, 0.6, (0.3, 1.5, -0.5), number=1)
         self.assert_second_order(f"fix b all large/body cone 0 {-COUNT} 0 0 0 1 1 3 4 open contact LAW", 0.4)
 
+    def test_without_friction(self):
+        self.write(0.5, -1.3)
+        self.assert_second_order("fix b all large/body cylinder 0 0 0 0 1 0 2 INF inside contact "
+                                 "hertz 2.0e4 300 limit_damping", 0.5)
+
     def test_edges(self):
         self.write(0.8, 0.52)
         self.assert_second_order("fix b all large/body rectangle 0 0 0 0 0 1 1 0 0 2 40 contact LAW", 0.4)
@@ -170,6 +176,55 @@ class BodiesThatMove(OrderCase):
                                  "surface_velocity 1 0.5 0", 0.4)
         body_meshes.write_stl(self.path("m.stl"), folded((-3, -0.5), (0, 0), (3, -0.5)))
         self.assert_second_order("fix b all large/body mesh m.stl contact LAW surface_velocity 1 0.5 0.3", 0.3)
+
+
+class LimitOfTheTwin(OrderCase):
+    """The engine with a moderate time step against the limit of a slow program of first order."""
+
+    def assert_limit(self, body, surface, x, v, time):
+        sphere = Sphere(x, v, (0.0, 3.0, 1.0), density=1.0, diameter=1.0)
+        write_sphere_data(self.path("data"), ((-20, 20), (-20, 20), (-20, 20)), [sphere])
+        expected = body_twin.limit(sphere, surface, time, 16000, kn=2.0e4, gn=300.0, mu=0.3)
+        found = self.end(body.replace("LAW", LAW), time, 4096)
+        # position, velocity and spin by component, in this order
+        found = [found[3 * d + k] for k in range(3) for d in range(3)]
+        self.assertLess(self.error(expected, found), 1.0e-4, f"{body}: {expected} {found}")
+
+    def test_edge(self):
+        def surface(t, x):
+            beyond = max(x[0] - 1.0, 0.0)
+            height = math.hypot(beyond, x[2])
+            return (beyond / height, 0.0, x[2] / height), height, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        self.assert_limit("fix b all large/body rectangle 0 0 0 0 0 1 1 0 0 2 40 contact LAW", surface,
+                          (0.8, 0.0, 0.52), (1.0, 0.5, -0.5), 0.4)
+
+    def test_drum(self):
+        rate = 2.0 * math.pi / 3.0
+
+        def surface(t, x):
+            a, c = x[0], x[2] - 2.0
+            r = math.hypot(a, c)
+            return (-a / r, 0.0, -c / r), 2.0 - r, (rate * c, 0.0, -rate * a), (0.0, rate, 0.0)
+        self.assert_limit("fix b all large/body cylinder 0 0 2 0 1 0 2 INF inside contact LAW move rotate 0 0 2 0 1 0 3",
+                          surface, (0.3, 0.1, 0.56), (1.0, 0.5, -0.5), 0.4)
+
+    def test_turntable(self):
+        rate = math.pi
+
+        def surface(t, x):
+            return (0.0, 0.0, 1.0), x[2], (-rate * x[1], rate * (x[0] - 0.2), 0.0), (0.0, 0.0, rate)
+        self.assert_limit("fix b all large/body plane 0 0 0 0 0 1 contact LAW move rotate 0.2 0 0 0 0 1 2", surface,
+                          (0.3, 0.1, 0.51), (1.0, 0.5, 0.0), 0.4)
+
+    def test_shaker(self):
+        rate = 2.0 * math.pi / 0.3
+
+        def surface(t, x):
+            speed = rate * math.cos(rate * t)
+            return ((0.0, 0.0, 1.0), x[2] - 0.03 * math.sin(rate * t),
+                    (0.05 * speed, 0.02 * speed, 0.03 * speed), (0.0, 0.0, 0.0))
+        self.assert_limit("fix b all large/body plane 0 0 0 0 0 1 contact LAW move wiggle 0.05 0.02 0.03 0.3", surface,
+                          (0.3, 0.1, 0.56), (1.0, 0.5, -0.5), 0.4)
 
 
 if __name__ == "__main__":
