@@ -121,7 +121,7 @@ bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector &ce
   const Vector apart = center - pose.position;
   const double bound = shape.bounding_radius() + radius, reach = shape.radius() + radius;
   if (dot(apart, apart) >= bound * bound) return false;
-  const NearestPoint near = nearest_point(shape.core(), pose.point_in_body(center));
+  const CorePoint near = nearest_point(shape.core(), pose.point_in_body(center));
   if (!(near.distance < reach)) return false;
   ConvexContact contact;
   contact.normal = -pose.direction_in_space(near.normal);

@@ -3,10 +3,10 @@
 // Narrow phase of convex bodies: contact points of a pair.
 //
 // Rounded bodies (at least one of both has a radius) whose cores are apart touch where parts of the
-// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (Galindo-Torres, Comput. Methods Appl.
-// Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core, and each
-// pair of edges that are nearest to each other inside of both. A contact is one of two spheres at
-// the nearest points. All are continuous functions of the poses; edges have the weight that their
+// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (S. A. Galindo-Torres, Comput. Methods
+// Appl. Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core,
+// and each pair of edges that are nearest to each other inside of both. A contact is one of two
+// spheres at the nearest points. All are continuous functions of the poses; edges have the weight that their
 // ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so that nothing
 // jumps where an edge contact runs into a vertex or edges become parallel.
 //
@@ -61,16 +61,6 @@ bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<dou
 bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector3<double> &point,
                       const Vector3<double> &axis, double cylinder_radius,
                       ConvexContacts &contacts);
-
-/// A triangle as a flat body of two sides. Names of parts of b: vertex 0, 1, 2; edge k from corner
-/// k to the next. Triangles of one mesh that meet in an edge or corner touch a body with the same
-/// point twice; what counts is told by `owned`: bit k for vertex k, bit 3 + k for edge k. The
-/// mesh gives each vertex and edge to one of its triangles, and edges between triangles in one
-/// plane, or that are concave, to none. What a vertex of the body touches on a part that is not
-/// owned is left out as well.
-constexpr unsigned all_owned = 0x3f;
-bool collide_triangle(const ConvexShape &shape, const Pose &pose, const Triangle &triangle,
-                      unsigned owned, ConvexContacts &contacts);
 
 /// The effective radius of contacts, for laws that need one (hertz, dmt, jkr): 1/(1/r_a + 1/r_b)
 /// with contact_radius() of both. For a flat partner it is contact_radius() itself.

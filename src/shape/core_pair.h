@@ -40,8 +40,8 @@ struct Gap {
 /// Looks for a direction in which the cores are apart by more than `enough`, and returns it as soon
 /// as it is found; else one whose width comes within `accuracy` of the distance of the cores; or,
 /// where the cores overlap or are too near to tell, one with a width <= 0. `start`: the first
-/// direction to be tried, not zero. By the algorithm of Gilbert, Johnson and Keerthi (IEEE J. Robot.
-/// Autom. 4, 193, 1988) on the vertices of the difference of both. The width is that of the
+/// direction to be tried, not zero. By the algorithm of Gilbert, Johnson and Keerthi (IEEE J.
+/// Robot. Autom. 4, 193, 1988) on the vertices of the difference of both. The width is that of the
 /// direction in any case.
 Gap find_gap(const CorePair &pair, const Vector3<double> &start, double enough, double accuracy);
 
@@ -59,14 +59,14 @@ struct LeastDepth {
 LeastDepth find_least_depth(const CorePair &pair, const Gap &known);
 
 /// The point of a core that is nearest to x; a point inside belongs to the nearest face.
-struct NearestPoint {
+struct CorePoint {
   enum { FACE, EDGE, VERTEX } kind;
   int part;
   Vector3<double> point;
   Vector3<double> normal;    ///< unit vector from the point to x; outward if x is inside
   double distance;           ///< negative inside
 };
-NearestPoint nearest_point(const ConvexCore &core, const Vector3<double> &x);
+CorePoint nearest_point(const ConvexCore &core, const Vector3<double> &x);
 
 }    // namespace Talus
 

@@ -66,8 +66,8 @@ struct Frame {
   Vector in_space(Flat p, double height) const { return p.x * x + p.y * y + height * normal; }
 };
 
-/* The face that looks along a direction most, among those that meet in the highest point of the core:
-   the face of the direction itself, or those of its edge (or -1), or of its highest vertex. */
+/* The face that looks along a direction most, among those that meet in the highest point of the
+   core: the face of the direction itself, or those of its edge (or -1), or of its highest vertex. */
 
 int face_along(const ConvexCore &core, const Vector &direction, int face, int edge)
 {

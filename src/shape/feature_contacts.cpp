@@ -114,7 +114,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
 
   for (const int v : of_a.vertices) {
     const Vector x = pair.a.vertex(v);
-    const NearestPoint near = nearest_point(pair.b, seen.point_in_body(x));
+    const CorePoint near = nearest_point(pair.b, seen.point_in_body(x));
     of_a.overlap[v] = std::max(0.0, radius.sum() - near.distance);
     if (!(of_a.overlap[v] > 0.0)) continue;
     contacts.push_back(sphere_contact(x, seen.point_in_space(near.point),
@@ -123,7 +123,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
   }
   for (const int v : of_b.vertices) {
     const Vector x = pair.vertex_of_b(v);
-    const NearestPoint near = nearest_point(pair.a, x);
+    const CorePoint near = nearest_point(pair.a, x);
     of_b.overlap[v] = std::max(0.0, radius.sum() - near.distance);
     if (!(of_b.overlap[v] > 0.0)) continue;
     contacts.push_back(sphere_contact(near.point, x, -near.normal, near.distance, radius));

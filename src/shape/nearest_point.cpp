@@ -33,11 +33,11 @@ int highest_face(const ConvexCore &core, const Vector &x, double &height)
 /* The nearest point of a face. Beyond the sides of a convex polygon, it is the nearest one of the
    sides beyond which x is. */
 
-NearestPoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
+CorePoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
 {
   const int count = core.num_corners(f), *corner = core.corners(f);
   const Vector n = core.normal(f);
-  NearestPoint found{NearestPoint::FACE, f, {}, n, 0.0};
+  CorePoint found{CorePoint::FACE, f, {}, n, 0.0};
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < count; k++) {
     const int v = corner[k], next = corner[k + 1 < count ? k + 1 : 0];
@@ -45,13 +45,13 @@ NearestPoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
     if (dot(cross(n, along), d) >= 0.0) continue;
     const double t = dot(d, along), size = dot(along, along);
     Vector point = from;
-    NearestPoint side{NearestPoint::VERTEX, v, {}, n, 0.0};
+    CorePoint side{CorePoint::VERTEX, v, {}, n, 0.0};
     if (t >= size) {
       point = core.vertex(next);
       side.part = next;
     } else if (t > 0.0) {
       point = from + (t / size) * along;
-      side.kind = NearestPoint::EDGE;
+      side.kind = CorePoint::EDGE;
       side.part = core.edges_of_face(f)[k];
     }
     const Vector away = x - point;
@@ -61,7 +61,7 @@ NearestPoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
     found = side;
     found.point = point;
   }
-  if (found.kind == NearestPoint::FACE) {
+  if (found.kind == CorePoint::FACE) {
     found.distance = dot(n, x) - core.offset(f);
     found.point = x - found.distance * n;
   } else {
@@ -71,13 +71,13 @@ NearestPoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
   return found;
 }
 
-/* A face on which there are points nearer to x than the nearest one of the last face, which is on an
-   edge or a vertex of it; -1: none, so that it is the nearest of the whole core. The way beyond an
+/* A face on which there are points nearer to x than the nearest one of the last face, which is on
+   an edge or a vertex of it; -1: none, so that it is the nearest of the whole core. The way beyond an
    edge leads into its other face, and that from a vertex along the edge that leads to x most. */
 
-int face_towards(const ConvexCore &core, const NearestPoint &near, int last)
+int face_towards(const ConvexCore &core, const CorePoint &near, int last)
 {
-  if (near.kind == NearestPoint::EDGE) {
+  if (near.kind == CorePoint::EDGE) {
     const ConvexCore::Edge &edge = core.edge(near.part);
     const int side = edge.face[0] == last ? 1 : 0;
     const Vector along = core.vertex(edge.vertex[1]) - core.vertex(edge.vertex[0]);
@@ -103,19 +103,19 @@ int face_towards(const ConvexCore &core, const NearestPoint &near, int last)
 /* From the face above which x is highest, face by face downhill: the distance from a convex body
    has no other minimum than the least. */
 
-NearestPoint nearest_point(const ConvexCore &core, const Vector &x)
+CorePoint nearest_point(const ConvexCore &core, const Vector &x)
 {
   double height;
   int face = highest_face(core, x, height);
   if (height <= 0.0) {
     const Vector n = core.normal(face);
-    return {NearestPoint::FACE, face, x - height * n, n, height};
+    return {CorePoint::FACE, face, x - height * n, n, height};
   }
-  NearestPoint near = nearest_of_face(core, face, x);
-  while (near.kind != NearestPoint::FACE) {
+  CorePoint near = nearest_of_face(core, face, x);
+  while (near.kind != CorePoint::FACE) {
     face = face_towards(core, near, face);
     if (face < 0) break;
-    const NearestPoint next = nearest_of_face(core, face, x);
+    const CorePoint next = nearest_of_face(core, face, x);
     if (!(next.distance < near.distance)) break;
     near = next;
   }
