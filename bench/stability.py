@@ -220,7 +220,9 @@ def extremes(bench, pool):
 bad, and nothing was said; `refused`: an error that says what stands in the way of the order. order 2: with limit_damping and slider
 midpoint. creep: largest way of a particle in the last nine tenths of the run. Time steps are .2 of the
 smallest critical one unless the name says otherwise, the same for both codes. Stock: pair granular with the same law, fix
-wall/gran, fix nve/sphere.""")
+wall/gran, fix nve/sphere. In `size ratio 20, wedged` the small sphere rolls down between
+the large ones, faster and faster: damping that may attract holds it on its way around them, with limit_damping (order 2) it takes off at their
+side and falls out of the box, at any time step.""")
     alarms = [scene.name + " (order 2)" * (code == SECOND) for code in (TALUS, SECOND) for scene in scenes
               if found[scene.name][code].warnings and found[scene.name][code].word() == "stable"]
     section.text("Warnings of Talus in scenes that stayed stable: " + ("; ".join(alarms) if alarms else "none") + "."

@@ -84,8 +84,6 @@ def _physics(scene, code):
         words = talus_law(scene.law, " slider midpoint" if second else " midpoint" * scene.midpoint, second)
         pull = " order 2" * second + (f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else "")
         text += f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic{pull}\n"
-        if second and not scene.law[-1]:      # without friction a body keeps nothing of its contacts, which order 2 needs
-            words += " tangential multistep NULL NULL 0 slider midpoint"
         for n, (axis, place, sign) in enumerate(scene.planes):
             point, normal = ([place if d == axis else 0 for d in range(3)], [sign if d == axis else 0 for d in range(3)])
             text += f"fix p{n} all large/body plane {' '.join(map(str, point + normal))} contact {words}\n"

@@ -22,6 +22,7 @@ class Flow:
     numbers: object
     steps: tuple
     seeds: int
+    reference: str = ""      # the method of the finest run, if all have the same law
 
 
 def gas(seed):
@@ -85,15 +86,34 @@ def rest(scene, states):
 
 FLOWS = {
     "gas": Flow("1000 spheres in a periodic box (linear, e = .8) lose a quarter of their energy", gas, energy_lost,
-                (4, 8, 16, 32, 64), 6),
+                (4, 8, 16, 32, 64), 6, "order 2"),
     "collapse": Flow("a column of 500 spheres without walls falls apart (Hertz, damped, friction), after 1.5 s", collapse, energy_lost,
                      (8, 12, 16, 32, 64, 128), 6),
     "bed": Flow("500 spheres have settled on a floor (Hertz, damped, friction)", bed, rest, (8, 12, 16, 32, 64, 128), 8),
 }
 
 
+@dataclasses.dataclass
+class Mean:
+    """Over the beginnings: value, and change against the finest run with the same beginning, with standard errors."""
+    value: float
+    error: float
+    change: float
+    change_error: float
+
+    def cell(self):
+        return f"{self.value:.4g} +- {self.error:.1g} ({self.change:+.1g} +- {self.change_error:.1g})"
+
+
+def _mean(values, finest):
+    def error(numbers):
+        return statistics.stdev(numbers) / math.sqrt(len(numbers))
+    changes = [a - b for a, b in zip(values, finest)]
+    return Mean(statistics.fmean(values), error(values), statistics.fmean(changes), error(changes))
+
+
 def measured(bench, flow, pool):
-    """{(method, steps per contact): {quantity: (mean, standard error)} or None if a run broke}."""
+    """{(method, steps per contact): {quantity: Mean} or None if a run broke}."""
     made = [flow.make(seed) for seed in range(1, bench.size(flow.seeds, 2) + 1)]
     steps = flow.steps[:bench.size(len(flow.steps), 3)]
 
@@ -107,11 +127,14 @@ def measured(bench, flow, pool):
         return flow.numbers(scene, states)
     jobs = [(name, n, k) for name in METHODS for n in steps for k in range(len(made))]
     found = dict(zip(jobs, pool.map(one, jobs)))
-    return {(name, n): _means([found[name, n, k] for k in range(len(made))]) for name in METHODS for n in steps}
 
-
-def _means(runs):
-    if None in runs:
-        return None
-    return {key: (statistics.fmean(run[key] for run in runs),
-                  statistics.stdev(run[key] for run in runs) / math.sqrt(len(runs))) for key in runs[0]}
+    def runs(name, n):
+        return [found[name, n, k] for k in range(len(made))]
+    table = {}
+    for name in METHODS:
+        finest = runs(flow.reference or name, steps[-1])
+        for n in steps:
+            here = runs(name, n)
+            table[name, n] = None if None in here + finest else {
+                key: _mean([run[key] for run in here], [run[key] for run in finest]) for key in here[0]}
+    return table

@@ -70,12 +70,18 @@ def limit(law):
 def talus_law(law, more=""):
     """more: words of the tangential law."""
     text = f"{law.kind} {law.kn!r} {law.gn!r}"
+    kt, gt = law.kt, law.gt
+    if law.kind == "hertz/material":
+        text, kt, gt = f"{text} {scenes.NU}", "NULL", "NULL"
     if law.mu:
-        text += f" tangential multistep {law.kt!r} {law.gt!r} {law.mu!r}{more}"
+        text += f" tangential multistep {kt} {gt} {law.mu!r}{more}"
     return text + limit(law)
 
 
 def granular_law(law):
+    if law.kind == "hertz/material":
+        shear = f"mindlin NULL 1.0 {law.mu!r}" if law.mu else "linear_nohistory 0.0 0.0"
+        return (f"hertz/material {law.kn!r} {law.gn!r} {scenes.NU} tangential {shear} damping coeff_restitution{limit(law)}")
     ratio = law.gt / law.gn if law.gn else 0.0
     tangential = {"hooke": "linear_history", "hertz": "mindlin"}[law.kind]
     damping = {"hooke": "mass_velocity", "hertz": "viscoelastic"}[law.kind]
@@ -95,9 +101,6 @@ def physics(scene, method):
         text = f"pair_style gran/penalty\npair_coeff * * {words}\n" \
                f"fix move all nve/sphere/symplectic {start}{pull}\n"
         if scene.floor:
-            # without friction a body keeps nothing of its contacts, which order 2 needs
-            if method == SECOND_ORDER and not law.mu:
-                words += " tangential multistep NULL NULL 0 slider midpoint"
             text += f"fix floor all large/body plane 0 0 0 0 0 1 contact {words}\n"
         return text
     text = f"fix gravity all gravity {scene.gravity!r} vector 0 0 -1\n" if scene.gravity else ""

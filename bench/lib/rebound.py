@@ -10,11 +10,12 @@ import lammps
 import methods
 import scenes
 
-METHODS = {"order 1": "half", "order 2": methods.SECOND_ORDER, "stock": "stock"}
+METHODS = {"order 1": "half", "order 2": methods.SECOND_ORDER, "stock": "stock"}      # stock: granular with a material
 STEPS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 80, 100, 128, 160, 200, 256, 320, 400, 512, 640)
 FINEST = 12800
 ACROSS, SPIN = 0.8, 1.0      # of the oblique impacts: speed along the surface, both spins
 
+YOUNG = 0.75 * scenes.HERTZ * 2 * (1 - scenes.NU**2)
 FRICTION = {"kt": scenes.KT_OF_KN * scenes.HERTZ, "mu": 0.3}
 CASES = {
     "linear, elastic": scenes.Law("hooke", scenes.HOOKE),
@@ -25,6 +26,9 @@ CASES = {
     "Hertz, damped": scenes.Law("hertz", scenes.HERTZ, 240.0),
     "Hertz, friction": scenes.Law("hertz", scenes.HERTZ, **FRICTION),
     "Hertz, damped, friction": scenes.Law("hertz", scenes.HERTZ, 240.0, gt=120.0, **FRICTION),
+    "hertz/material, e = .9": scenes.Law("hertz/material", YOUNG, 0.9),
+    "hertz/material, e = .5": scenes.Law("hertz/material", YOUNG, 0.5),
+    "hertz/material, e = .5, friction": scenes.Law("hertz/material", YOUNG, 0.5, gt=1.0, mu=0.3),
 }
 
 
@@ -47,7 +51,7 @@ def impacts(bench, name, law, method, steps, moments):
             rows.append((2 * n + k + 1, 1, 2 * scenes.R, scenes.DENSITY, 3.0 * n + 0.5 * sign * across * gap, 0.0,
                          sign * (scenes.R + gap / 2)))
             speeds.append((2 * n + k + 1, -0.5 * sign * across, 0.0, -0.5 * sign, 0.0, spin, 0.0))
-    name = f"rebound-{name}-{method}-{steps}".replace(" ", "_").replace(",", "")
+    name = f"rebound-{abs(hash(name)):x}-{method}-{steps}".replace(" ", "_")
     lammps.write_data(bench.path(name + ".data"), ((-2, 3 * moments), (-2, 2), (-2, 2)), rows, speeds)
     scene = scenes.Scene(name, "", law, [], [], dt, dt, dt)
     lammps.run(bench.workdir, name, f"""units si
@@ -80,12 +84,14 @@ class Ladder:
     def __init__(self, bench, name, method):
         law = CASES[name]
         moments = bench.size(32, 8)
-        # another law where friction has a dashpot: stock's, and with it a converged solution of its own
-        best = methods.SECOND_ORDER if not (law.mu and law.gt) else METHODS[method]
-        finest = impacts(bench, name, law, best, FINEST, 4)
+        material = law.kind == "hertz/material"
+        way = "granular" if material and method == "stock" else METHODS[method]
+        # with another law a converged solution of its own: where friction has a dashpot, and of granular's materials
+        own = law.mu and law.gt or material and method == "stock"
+        finest = impacts(bench, name, law, way if own else methods.SECOND_ORDER, FINEST, 4)
         self.restitution, self.angle = statistics.fmean(finest.restitution), statistics.fmean(finest.angle)
         self.steps = STEPS[::bench.size(1, 4)]
-        found = [impacts(bench, name, law, METHODS[method], n, moments) for n in self.steps]
+        found = [impacts(bench, name, law, way, n, moments) for n in self.steps]
         self.errors = {"restitution": [rms(f.restitution, self.restitution) for f in found]}
         if law.mu:
             self.errors["angle"] = [rms(f.angle, self.angle) for f in found]

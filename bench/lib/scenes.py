@@ -17,7 +17,8 @@ SPEED = 1.0
 
 @dataclasses.dataclass
 class Law:
-    """Coefficients of gran/hooke/history or gran/hertz/history; mu = 0: no tangential force."""
+    """Coefficients of gran/hooke/history or gran/hertz/history; mu = 0: no tangential force. With hertz/material kn is Young's
+    modulus and gn the restitution; Poisson's ratio is NU, kt and gt follow from them (gt > 0: has a dashpot)."""
     kind: str
     kn: float
     gn: float = 0.0
@@ -29,7 +30,8 @@ class Law:
         """Duration of an undamped impact of two spheres (s)."""
         if self.kind == "hooke":
             return math.pi * math.sqrt(MASS / 2 / self.kn)
-        depth = (1.25 * MASS / 2 * speed**2 / (self.kn * math.sqrt(R / 2)))**0.4
+        kn = self.kn if self.kind == "hertz" else 4 / 3 * self.kn / (2 * (1 - NU**2))
+        depth = (1.25 * MASS / 2 * speed**2 / (kn * math.sqrt(R / 2)))**0.4
         return 2.943 * depth / speed
 
 

@@ -87,6 +87,9 @@ class ContactPipeline {
   /// index who has no weight, asked by all threads after set_pairs(), empty: all have.
   void set_gravity(const double *acceleration) { particles.set_gravity(acceleration); }
   void set_weightless(const std::function<bool(int)> &is_weightless);
+  /// By host's index, after set_pairs(): the masses of particles, where contacts feel those of
+  /// rigid bodies; nullptr: masses are the particles' own.
+  void set_own_masses(const double *of_atom);
 
   /// Computes all contacts and adds their forces to the host's arrays.
   ///

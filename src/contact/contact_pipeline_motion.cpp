@@ -71,6 +71,13 @@ void ContactPipeline::set_weightless(const std::function<bool(int)> &is_weightle
   particles.set_weightless(std::move(marks));
 }
 
+void ContactPipeline::set_own_masses(const double *of_atom)
+{
+  std::vector<double> own(of_atom ? order.size() : 0);
+  for (std::size_t s = 0; s < own.size(); s++) own[s] = of_atom[order.atom_of_slot[s]];
+  particles.set_own_masses(std::move(own));
+}
+
 RecordTravel ContactPipeline::travel() const
 {
   RecordTravel all;

@@ -126,11 +126,14 @@ class ParticleRecords {
   bool have_weights() const { return has_gravity; }
   /// By slot of the present order; empty: none.
   void set_weightless(std::vector<unsigned char> marks) { weightless = std::move(marks); }
+  /// The same: masses of the particles where those of the records are those of rigid bodies.
+  void set_own_masses(std::vector<double> masses) { own_mass = std::move(masses); }
   /// Where the sum of forces of a slot begins, if its velocity record is that.
   Vec4 weight(std::size_t slot, Vec4 its_velocity) const
   {
     if (!has_gravity) return Vec4{};
-    const double inverse_mass = its_velocity[3], mass = 1.0 / inverse_mass;
+    const double inverse_mass = its_velocity[3];
+    const double mass = own_mass.empty() ? 1.0 / inverse_mass : own_mass[slot];
     const bool has_weight = inverse_mass > 0.0 && (weightless.empty() || !weightless[slot]);
     return kept_if(has_weight, mass * load4(gravity));
   }
@@ -262,6 +265,7 @@ class ParticleRecords {
   bool has_gravity = false;
   Record gravity{};    // fourth place 0
   std::vector<unsigned char> weightless;
+  std::vector<double> own_mass;
 };
 
 }    // namespace Talus

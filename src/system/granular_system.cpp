@@ -239,14 +239,11 @@ std::string GranularSystem::reason_against_history()
   return small_period();
 }
 
-/* Weights are those of the masses in contacts, so these have to be the particles' own. */
-
 std::string GranularSystem::take_gravity(SystemGravity *field)
 {
   if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pair->compute_flag) return "'pair_modify compute no' is set";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
-  if (masses.bodies_are_rigid()) return "a fix moves rigid bodies";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   if (gravity && gravity != field) return "another fix gravity comes before it";

@@ -245,6 +245,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const LawTable &law_table();
   /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
   double mass_in_contacts(int i) const { return masses.mass(i); }
+  /// The same with a wall of LAMMPS: of the rigid body, or its own; where unit of force is 1.
+  double mass_with_walls(int i) const { return masses.of_body(i); }
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
   ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }
