@@ -19,8 +19,12 @@ ShapeTable ParticleShapes::parse()
   ShapeTable table;
   while (!words.at_end()) {
     words.about("");
-    words.choice("keyword", {"type"});
-    parse_type(table);
+    if (words.choice("keyword", {"type", "contacts"}) == 0)
+      parse_type(table);
+    else
+      table.set_method(words.choice("way to find contacts", {"features", "mpr"}) == 0
+                           ? NarrowPhase::FEATURES
+                           : NarrowPhase::MPR);
   }
   if (table.is_empty()) words.fail(1, "no shape is given: add 'type N box a b c density rho'");
   return table;
@@ -41,7 +45,7 @@ void ParticleShapes::parse_type(ShapeTable &table)
   bool random = false;
   int seed = 0;
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  while (!words.at_end() && !words.is_next("type")) {
+  while (!words.at_end() && !words.is_next("type") && !words.is_next("contacts")) {
     words.about("type");
     const int which = words.choice("keyword", {"rounded", "scale", "density", "orient"});
     if (which == 0) {

@@ -19,7 +19,7 @@ class ParticleShapes : protected Pointers {
  public:
   ParticleShapes(LAMMPS *lmp, Talus::Words &words) : Pointers(lmp), words(words) {}
 
-  /// Reads `type N ...` until the end. Collective; errors end in Words::fail().
+  /// Reads `type N ...` and `contacts ...` until the end. Collective; errors end in Words::fail().
   Talus::ShapeTable parse();
 
  private:

@@ -3,20 +3,20 @@
 // Narrow phase of convex bodies: contact points of a pair.
 //
 // Rounded bodies (at least one of both has a radius) whose cores are apart touch where parts of the
-// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (S. A. Galindo-Torres, Comput. Methods
+// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (S. A. Galindo-Torres, Comput. Meth.
 // Appl. Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core,
 // and each pair of edges that are nearest to each other inside of both. A contact is one of two
-// spheres at the nearest points. All are continuous functions of the poses; edges have the weight that their
-// ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so that nothing
-// jumps where an edge contact runs into a vertex or edges become parallel.
+// spheres at the nearest points. All are continuous functions of the poses; edges have the weight
+// that their ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so
+// that nothing jumps where an edge contact runs into a vertex or edges become parallel.
 //
 // Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
 // the normals of faces and the cross products of edges (theorem of the separating axis). The faces
 // that look along it most are projected along it; the contacts are the corners of the polygon that
 // they have in common, each with its own depth, so that a flat cube does not rock. The weight of a
-// corner is the angle by which the polygon turns there, over a right angle: 1 for those of a square,
-// 4 for all of them, whatever their number; but all together bear as much as the deepest of them
-// would with the weight 1.
+// corner is the angle by which the polygon turns there, over a right angle: 1 for those of a
+// square, 4 for all of them, whatever their number; but all together bear as much as the deepest
+// of them would with the weight 1.
 //
 // All numbers are computed in the frame of a from the pose of b relative to it, by the same code
 // on all instruction sets. Functions are thread-safe; they use buffers of their thread.

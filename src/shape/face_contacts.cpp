@@ -67,7 +67,8 @@ struct Frame {
 };
 
 /* The face that looks along a direction most, among those that meet in the highest point of the
-   core: the face of the direction itself, or those of its edge (or -1), or of its highest vertex. */
+   core: the face of the direction itself, or those of its edge (or -1), or of its highest
+   vertex. */
 
 int face_along(const ConvexCore &core, const Vector &direction, int face, int edge)
 {

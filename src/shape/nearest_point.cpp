@@ -72,8 +72,8 @@ CorePoint nearest_of_face(const ConvexCore &core, int f, const Vector &x)
 }
 
 /* A face on which there are points nearer to x than the nearest one of the last face, which is on
-   an edge or a vertex of it; -1: none, so that it is the nearest of the whole core. The way beyond an
-   edge leads into its other face, and that from a vertex along the edge that leads to x most. */
+   an edge or a vertex of it; -1: none, so that it is the nearest of the whole core. The way beyond
+   an edge leads into its other face, and that from a vertex along the edge that leads to x most. */
 
 int face_towards(const ConvexCore &core, const CorePoint &near, int last)
 {

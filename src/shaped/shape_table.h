@@ -4,6 +4,7 @@
 #define TALUS_SHAPED_SHAPE_TABLE_H
 
 #include "body/motion/free_rotation.h"
+#include "shape/collide.h"
 #include "shape/convex_shape.h"
 
 #include <cstdint>
@@ -68,11 +69,15 @@ class ShapeTable {
     return of(type) ? of(type)->shape().bounding_radius() : 0.0;
   }
   bool is_empty() const { return shapes.empty(); }
+  /// How contacts of two shapes are found.
+  NarrowPhase method() const { return way; }
+  void set_method(NarrowPhase its) { way = its; }
   int last_type() const { return static_cast<int>(shapes.size()) - 1; }
   double memory_usage() const;
 
  private:
   std::vector<std::shared_ptr<const ParticleShape>> shapes;
+  NarrowPhase way = NarrowPhase::FEATURES;
 };
 
 }    // namespace Talus

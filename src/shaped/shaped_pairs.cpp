@@ -158,7 +158,7 @@ void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::
   const std::size_t known = old;
   while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
   const Solid &a = solids[pair.first], &b = solids[pair.second];
-  if (!a.may_touch(b) || !touch(a, b, pair.direction, chunk.found)) return;
+  if (!a.may_touch(b) || !touch(a, b, shapes.method(), pair.direction, chunk.found)) return;
   const int i = pair.first, j = pair.second;
   const auto velocity = [&](int particle, const Vector3<double> &place) {
     return velocity_at(place, solids[particle].center(), view.row(view.v, particle),

@@ -167,6 +167,20 @@ class Pairs(ShapeCase):
                   Sphere((0, 0, 0), v=(0, 0, 1), omega=(0, 1, 0)), Sphere((0.3, 0.1, 1.8), v=(0, 0, -1), type=2))
 
 
+    def test_mpr_has_one_point(self):
+        points = {}
+        for way in "features", "mpr":
+            rows = self.simulate([Sphere((0, 0, 0), v=(0, 0, 1)), Sphere((0.15, 0.1, 1.6), v=(0, 0, -1), type=2)],
+                                 "fix s all shape/gran type 1 box 1 1 1 density 1 type 2 box 1 0.8 1.2 density 2 "
+                                 f"contacts {way}", 30000, dt=2e-5, pair="hooke 1e6 0", every=20, size=9.0)
+            points[way] = max(row["f_s[7]"] for row in rows)
+            self.assertGreater(self.of("vz", 2), self.of("vz", 1))
+            self.assertAlmostEqual(rows[-1]["f_s[1]"] + rows[-1]["f_s[2]"], 1.46, delta=0.02)
+            for value, expected in zip(self.momentum({1: 1.0, 2: 1.92}), (0.0, 0.0, 1 - 1.92)):
+                self.assertAlmostEqual(value, expected, delta=1e-10)
+        self.assertEqual(points, {"features": 4.0, "mpr": 1.0})
+
+
 class SphereOnBox(ShapeCase):
 
     def test_impact(self):
