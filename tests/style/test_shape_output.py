@@ -30,6 +30,7 @@ fix floor all large/body plane 0 0 -0.5 0 0 1 contact hooke 1e4 0
 dump film all vtk/gran 1 run.pvd id type
 dump picture all image 1 run.*.png type diameter atom no fix s type 1 0.0 size 200 200
 dump text all custom 1 text id mass radius f_s[1] f_s[4] fx fy fz
+dump_modify text format float %.17g
 compute pairs all pair gran/penalty
 thermo_style custom step c_pairs[1] f_s[6] f_s[7] press
 thermo_modify norm no
