@@ -26,7 +26,7 @@ ComputeDissipationGranAtom::ComputeDissipationGranAtom(LAMMPS *lmp, int narg, ch
   size_peratom_cols = size;
   store_id = std::string(id) + "_DISSIPATION_STORE";
   store = dynamic_cast<FixStoreAtom *>(
-      modify->add_fix(store_id + " " + group->names[igroup] + " STORE/ATOM 3 0 no yes"));
+      modify->add_fix(store_id + " " + group->names[igroup] + " STORE/ATOM 6 0 no yes"));
   if (!store) error->all(FLERR, "Compute dissipation/gran/atom: cannot create fix {}", store_id);
   started = store->restart_reset;
   system->add_observer(this);
@@ -62,6 +62,9 @@ void ComputeDissipationGranAtom::setup()
   if (started) return;
   started = true;
   add_springs(store->astore, 1.0);
+  const double counted = system->counted_of_last_step();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int n = 0; n < size; n++) store->astore[i][n] -= counted * store->astore[i][size + n];
 }
 
 void ComputeDissipationGranAtom::add_springs(double **to, double sign) const
@@ -85,7 +88,10 @@ void ComputeDissipationGranAtom::compute_peratom()
     nmax = atom->nmax;
     memory->grow(array_atom, nmax, size, "dissipation/gran/atom:energy");
   }
-  for (int i = 0; i < atom->nlocal; i++) std::copy_n(store->astore[i], size, array_atom[i]);
+  const double counted = system->counted_of_last_step();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int n = 0; n < size; n++)
+      array_atom[i][n] = store->astore[i][n] + counted * store->astore[i][size + n];
   add_springs(array_atom, -1.0);
   for (int i = 0; i < atom->nlocal; i++)
     if (!(atom->mask[i] & groupbit)) std::fill_n(array_atom[i], size, 0.0);

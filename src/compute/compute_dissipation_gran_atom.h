@@ -33,7 +33,7 @@ class ComputeDissipationGranAtom : public Compute, private Talus::ContactObserve
   void add_springs(double **to, double sign) const;
 
   std::shared_ptr<Talus::GranularSystem> system;
-  class FixStoreAtom *store;    ///< work, less what springs have stored in the beginning
+  class FixStoreAtom *store;    ///< rows of WorkAccount, less what springs have stored first
   std::string store_id;
   bool started = false;
   int nmax = 0;

@@ -117,7 +117,7 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
-    if (particles.keep_changes()) __builtin_prefetch(&particles.change[s]);
+    if (particles.keeps_changes()) __builtin_prefetch(&particles.change[s]);
     // nothing is added to copies
     if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
@@ -130,7 +130,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
-  if (step.particles.keep_changes())
+  if (step.particles.keeps_changes())
     gather<friction, history_kept, true>(step.particles, end);
   else
     gather<friction, history_kept, false>(step.particles, end);
@@ -150,7 +150,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   }
   defer(step, block, count);
   if (step.report) report_block(step, block, count);
-  if (step.account && step.advance) account_block(step, block, count);
+  if (step.account) account_block(step, block, count);
 }
 
 void ContactChunk::give_lane(std::uint32_t contact, int position, int lane)
@@ -211,8 +211,12 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   batch.lag = step.lag;
   for (const LawRange &range : ranges) {
-    const ContactKernel &kernel = step.account && step.advance
-                                      ? laws.accounting_kernel(range.law)
+    const double time_at_setup = step.account ? step.account->time_at_setup : -1.0;
+    if (time_at_setup >= 0.0)
+      laws.accounting_kernel(range.law, false)(batch, range.begin, range.end, laws.coefficients(),
+                                               time_at_setup);
+    const ContactKernel &kernel = step.account && time_at_setup < 0.0
+                                      ? laws.accounting_kernel(range.law, true)
                                       : laws.kernel(range.law, step.advance);
     kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
     // not written by the kernels of laws that have none
@@ -407,7 +411,7 @@ void ContactChunk::add_work_left(const WorkAccount &to) const
 {
   for (const WorkLeft &left : work_left)
     for (double **rows : to.by_particle)
-      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][n] += left.half[n];
+      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][3 + n] += left.half[n];
 }
 
 double ContactChunk::memory_usage() const

@@ -53,7 +53,7 @@ struct ContactScene {
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
 /// `report`, if given, is called for every contact, not for use by several threads; `account`, if
-/// given, gets the work of all in a step that advances. `meanwhile`, if given, is called now and
+/// given, gets the work of all. `meanwhile`, if given, is called now and
 /// then, by the first thread: for messages that need someone to look after them. `add_more`, if
 /// given, adds other forces to the sums of slots begin ... end-1 when all contacts of these are
 /// added: called once by each thread, with its number and range.

@@ -159,6 +159,13 @@ void ContactChunk::gather_for_twisting(const ParticleRecords &particles, int end
     for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
     to_lanes(row, batch.relative_omega, nullptr, k);
   }
+  if (!particles.keeps_changes()) return;
+  for (int k = 0; k < end; k++) {
+    const std::uint32_t pair = pair_of_lane[k];
+    const ChangeRecord &i = particles.change[first[pair]], &j = particles.change[second[pair]];
+    for (int d = 0; d < 3; d++)
+      batch.omega_change[d][k] = i.c[4 + d] / first_radius[k] - j.c[4 + d] / second_radius[k];
+  }
 }
 
 /* Copies of a contact hold the same result, so writing them twice does no harm. */

@@ -87,7 +87,7 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,
-                   shared_owned.size() + shared_ghosts.size(), scene.second_order);
+                   shared_owned.size() + shared_ghosts.size(), with_changes);
   deferred.make_room(particles);
 }
 
@@ -152,7 +152,7 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
 {
   in_records = !step.deliver;
   for (const ContactChunk &chunk : chunks) {
-    if (!step.account || !step.advance) break;
+    if (!step.account) break;
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }

@@ -134,8 +134,10 @@ class ContactPipeline {
   /// Positions, velocities and angular velocities of some owned particles, for those who only read
   /// them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
+  /// Whether changes of velocities are kept from now on, see ParticleRecords::keep_changes().
+  void keep_changes(bool yes);
   /// The same of the changes of velocities, if they are kept: of all owned particles, or some.
-  bool keeps_changes() const { return scene.second_order; }
+  bool keeps_changes() const { return with_changes; }
   void write_changes(ChangeRecord *changes) const;
   void show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const;
 
@@ -238,6 +240,7 @@ class ContactPipeline {
   // particles in the records
   bool in_records = false, prepared = false, move_pending = false;
   std::vector<RecordStep> move;
+  bool with_changes = false;
   std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
   std::vector<int> moved_at_once;                ///< slots that are sent
   std::vector<int> moved_first;                  ///< others that several ranges read

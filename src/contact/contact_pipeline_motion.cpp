@@ -117,6 +117,12 @@ void ContactPipeline::write_state(double *x, double *v, double *omega) const
   });
 }
 
+void ContactPipeline::keep_changes(bool yes)
+{
+  with_changes = yes;
+  if (particles.has_room()) particles.keep_changes(yes);
+}
+
 void ContactPipeline::write_changes(ChangeRecord *changes) const
 {
   in_ranges(order.owned, [&](int begin, int end) {

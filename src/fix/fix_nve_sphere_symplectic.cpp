@@ -225,8 +225,7 @@ void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
   if (system->residence() == Talus::Residence::RECORDS)
     system->advance(step);
   else
-    kick_spheres(lmp, igroup, step, frozenbits, true,
-                 its_order == 2 ? system->velocity_changes() : nullptr);
+    kick_spheres(lmp, igroup, step, frozenbits, true, system->velocity_changes());
   if (rotates) rotate(dt);
 }
 
@@ -235,7 +234,8 @@ Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
   Talus::RecordStep step{dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
-  step.extrapolation = start.lag() / kick;    // the lag is that after the step
+  // the lag is that after the step; a plain start is one that is half a step off
+  step.extrapolation = start.is_half() ? start.lag() / kick : 0.5;
   return step;
 }
 
@@ -243,6 +243,11 @@ std::string FixNVESphereSymplectic::needs_host_arrays()
 {
   if (rotates) return "it turns orientations";
   return group->dynamic[igroup] ? "its group is dynamic" : "";
+}
+
+double FixNVESphereSymplectic::next_kick_in_steps() const
+{
+  return start.coming_kick(update->dt) / update->dt;
 }
 
 /* ---------------------------------------------------------------------- */

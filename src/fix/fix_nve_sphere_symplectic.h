@@ -67,6 +67,8 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool integrates() const override { return true; }
   int order() const override { return its_order; }
   double lag() const override { return start.lag(); }
+  double next_kick_in_steps() const override;
+  bool keeps_changes() const override { return true; }
 
   void write_restart(FILE *) override;
   void restart(char *) override;

@@ -48,6 +48,7 @@ Talus::RecordStep FixNVESphereTalus::half_step() const
 {
   Talus::RecordStep step{update->dt, 0.5 * update->dt * force->ftm2v, {0.0, 0.0, 0.0}, inertia};
   step.two_kicks = true;
+  step.extrapolation = 0.5;    // the second of them
   return step;
 }
 

@@ -157,10 +157,15 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
     put_state(s, b);
     place_spheres(clump, s, b, true, kick);
   });
-  if (in_records_now()) system->advance({dt, time, {0.0, 0.0, 0.0}, 0.4});
+  if (in_records_now()) system->advance(record_step(time));
 }
 
 /* ---------------------------------------------------------------------- */
+
+double FixRigidSmallSymplectic::next_kick_in_steps() const
+{
+  return start.coming_kick(update->dt) / update->dt;
+}
 
 void FixRigidSmallSymplectic::write_restart(FILE *fp)
 {

@@ -52,6 +52,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   void final_integrate() override {}
   void write_restart(FILE *) override;
   void restart(char *) override;
+  double next_kick_in_steps() const override;
 
  protected:
   std::string find_reason() override;

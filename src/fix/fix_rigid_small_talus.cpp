@@ -20,6 +20,8 @@ using Talus::Residence;
 using Vector = Talus::Vector3<double>;
 
 namespace {
+// see RecordStep::extrapolation: velocities are half a step behind positions
+constexpr double half_of_change = 0.5;
 
 Vector vector_of(const double *a)
 {
@@ -142,6 +144,7 @@ void FixRigidSmallTalus::look_at_storage()
 {
   in_records = system->residence() == Residence::RECORDS;
   records = &system->records();
+  if (in_records) records->extrapolation = half_of_change;
   if (in_records && !slots_known) find_slots();
 }
 
@@ -195,6 +198,9 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
     double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
     const Vector x_old = vector_of(x), v_old = vector_of(v);
+    const bool keeps_change = in_records && moves && records->keeps_changes();
+    const Talus::Vec4 before[2] = {keeps_change ? load4(records->velocity(s->slot)) : Talus::Vec4{},
+                                   keeps_change ? load4(records->omega(s->slot)) : Talus::Vec4{}};
     const Vector arm = state.axes.to_space(s->place);
     Vector shift{0.0, 0.0, 0.0};
     if (s->wrapped) {
@@ -210,6 +216,9 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     if (flat) v[2] = 0.0;
     if (flat && moves) x[2] = 0.0;
     put(state.omega, w);
+    if (keeps_change)
+      records->keep_change(s->slot, before[0], load4(records->velocity(s->slot)), before[1],
+                           load4(records->omega(s->slot)));
     if (!tallies) continue;
 
     const double *f = in_records ? records->load[2L * s->slot].c : atom->f[i];
@@ -252,7 +261,14 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
   v_init(vflag);
   look_at_storage();
   begin_step(in_records);
-  if (in_records) system->advance({update->dt, dtf, {0.0, 0.0, 0.0}, 0.4});
+  if (in_records) system->advance(record_step(dtf));
+}
+
+Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
+{
+  Talus::RecordStep step{update->dt, kick, {0.0, 0.0, 0.0}, 0.4};
+  step.extrapolation = half_of_change;
+  return step;
 }
 
 /* In the records the last step is completed first. */

@@ -105,6 +105,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   // the spheres that this rank owns get velocities, and places on request, from the clump's state
   void place_spheres(int clump, const Talus::ClumpState &state, Body &b, bool moves,
                      const Kick &kick);
+  // for GranularSystem::advance(), which moves none of the spheres
+  Talus::RecordStep record_step(double kick) const;
   // before the first of these in a step
   void look_at_storage();
   double force_unit() const;

@@ -175,7 +175,7 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
-  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads, step.account});
+  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads});
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {

@@ -282,6 +282,11 @@ void LargeBodyMotion::advance(const BodyLoad &load, double lag)
   if (kind == Kind::NONE) return;
   const BodyState old = now.state;
   move(load, lag);
+  if (kind == Kind::FREE || kind == Kind::SERVO || kind == Kind::REGION) {
+    now.velocity_change = 0.5 * (now.state.velocity - old.velocity);
+    now.omega_change = kind == Kind::FREE ? 0.5 * rigid.change_by_torque(old, now.state)
+                                          : 0.5 * (now.state.omega - old.omega);
+  }
   if (lag > 0.0) find_moments(old, lag);
   behind = lag;
 }

@@ -30,9 +30,8 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
 
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (bigint i = 0; i < n; i++) {
-    Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
-    if (change) *change = Talus::ChangeRecord{};
     if (!(mask[i] & groupbit)) continue;
+    Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
     const double per_mass = step.kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
     const double per_inertia =
         Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / step.inertia);

@@ -12,7 +12,7 @@ using namespace LAMMPS_NS;
 double StartTime::next_kick(double dt)
 {
   if (!half) return dt;
-  const double kick = time_behind + 0.5 * dt;
+  const double kick = coming_kick(dt);
   time_behind = 0.5 * dt;
   return kick;
 }

@@ -30,6 +30,8 @@ class StartTime : protected Pointers {
 
   // once in a step: the length of its kick (time)
   double next_kick(double dt);
+  // which that will be
+  double coming_kick(double dt) const { return half ? time_behind + 0.5 * dt : dt; }
 
   // of the fix
   void write_restart(FILE *fp) const;

@@ -27,7 +27,8 @@ struct ContactBatch {
   alignas(64) double inverse_distance[width];
   alignas(64) double arm_loss[width], arm_difference[width];
   alignas(64) double temperature_difference[width];
-  alignas(64) double velocity_change[3][width], rotation_change[3][width], turn[3][width];
+  alignas(64) double velocity_change[3][width], rotation_change[3][width], omega_change[3][width];
+  alignas(64) double turn[3][width];
   double lag = 0.0;                       ///< of all
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
@@ -42,10 +43,9 @@ struct ContactBatch {
   alignas(64) double heat_flow[width];    ///< only of laws that conduct heat
 
   /// Only of kernels that account for energies: work that normal damping, tangential forces and
-  /// resistance take from the bodies in the step, see contact_work.h; and `history` before it.
+  /// resistance take from the bodies in the step, see contact_work.h.
   static constexpr int num_causes = 3;
   alignas(64) double work[num_causes][width];
-  alignas(64) double before[history_size][width];
 
   /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
   struct Between {

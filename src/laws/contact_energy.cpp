@@ -72,6 +72,7 @@ ContactState<double> state_of_lane(const ContactBatch &b, int k)
   s.lag = b.lag;
   s.velocity_change = lane_of(b.velocity_change, k);
   s.rotation_change = lane_of(b.rotation_change, k);
+  s.omega_change = lane_of(b.omega_change, k);
   s.turn = lane_of(b.turn, k);
   return s;
 }

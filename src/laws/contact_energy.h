@@ -10,6 +10,7 @@
 #include "laws/contact_batch.h"
 #include "laws/contact_kernel.h"
 
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -34,6 +35,7 @@ struct EnergyByCause {
   {
     return {share * e.normal, share * e.tangential, share * e.resistance, share * e.tearing};
   }
+  friend EnergyByCause operator+(EnergyByCause a, const EnergyByCause &b) { return a += b; }
   friend EnergyByCause operator-(const EnergyByCause &a, const EnergyByCause &b)
   {
     return {a.normal - b.normal, a.tangential - b.tangential, a.resistance - b.resistance,
@@ -90,20 +92,35 @@ ContactResponse response(const ContactLaw &law, const ContactCoefficients &coeff
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficients, double overlap,
                      double mass_eff, double radius_eff);
 
-/// Where a step puts ContactBatch::work. Sums over contacts, and for each list one row of three by
+/// Where a step puts ContactBatch::work. Sums over contacts, and for each list one row of six by
 /// host's index: half of a contact between two particles belongs to each of them, that with a large
-/// body to the particle.
+/// body to the particle. The first three of a row are what the steps before have taken, the others
+/// what this step takes: velocities have not been changed by its forces yet.
 struct WorkAccount {
-  EnergyByCause sum;    ///< of this rank: half of contacts that others have as well
+  static constexpr int row_size = 6;
+
+  /// While a run is set up, of the kick that the forces will give in its first step; the work is
+  /// then found apart from the forces. Else -1, and that kick lasts as long as the step.
+  double time_at_setup = -1.0;
+  EnergyByCause sum;    ///< of this step and rank: half of contacts that others have as well
   std::vector<double **> by_particle;    ///< rows may be added to by several threads, each its own
 };
+
+/// The next step begins for a particle; or the last one is looked at again.
+inline void begin_work(double *row, bool again)
+{
+  for (int n = 0; n < 3; n++) {
+    const double last = std::exchange(row[3 + n], 0.0);
+    if (!again) row[n] += last;
+  }
+}
 
 /// Adds `share` of the work of one lane to a particle.
 inline void add_work(const WorkAccount &to, int atom, const ContactBatch &batch, int lane,
                      double share)
 {
   for (double **rows : to.by_particle)
-    for (int n = 0; n < 3; n++) rows[atom][n] += share * batch.work[n][lane];
+    for (int n = 0; n < 3; n++) rows[atom][3 + n] += share * batch.work[n][lane];
 }
 
 }    // namespace Talus

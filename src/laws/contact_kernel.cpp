@@ -130,22 +130,16 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   return kernel;
 }
 
-ContactKernel accounting_kernel(const ContactLaw &law, bool uniform)
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   ContactKernel kernel;
   kernel.uniform = uniform;
-  if (const StageFunction fused = uniform ? fused_accounting_function(law) : nullptr) {
+  if (const StageFunction fused = uniform && advance ? fused_accounting_function(law) : nullptr) {
     kernel.add(fused, 0, places_one_behind_the_other(law));
     return kernel;
   }
-  if (law.has_history()) kernel.add(history_copier(law));
-  kernel.add(staged_kernel(law, uniform, true));
+  kernel.add(staged_kernel(law, uniform, advance));
   kernel.add(work_finder(law));
-  const HistoryLayout history = law.history();
-  for_each_stage(law, [&](Stage stage, const Law &its) {
-    if (its.lag)
-      kernel.add(its.lag, law.first_coefficient(stage), history.of_stage[static_cast<int>(stage)]);
-  });
   return kernel;
 }
 

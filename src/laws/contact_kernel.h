@@ -37,7 +37,7 @@ class ContactKernel {
  private:
   friend ContactKernel contact_kernel(const ContactLaw &, bool, bool);
   friend ContactKernel staged_kernel(const ContactLaw &, bool, bool);
-  friend ContactKernel accounting_kernel(const ContactLaw &, bool);
+  friend ContactKernel accounting_kernel(const ContactLaw &, bool, bool);
   void add(StageFunction run, int first_coefficient = 0, const HistoryPlaces &places = {})
   {
     steps[count++] = {run, first_coefficient, places};
@@ -67,8 +67,8 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance);
 /// The same, stage by stage in any case.
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance);
 
-/// The kernel that advances, and finds ContactBatch::work: the same bits.
-ContactKernel accounting_kernel(const ContactLaw &law, bool uniform);
+/// The kernel that finds ContactBatch::work as well: forces and histories have the same bits.
+ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advance);
 
 /// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,

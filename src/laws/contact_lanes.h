@@ -26,10 +26,11 @@ template <class Real> struct ContactState {
   // where they do not: overlap/(r_1 + r_2), and overlap/2 (r_2 - r_1)/(r_1 + r_2).
   Real arm_loss{}, arm_difference{};
   Real temperature_difference{};    ///< T_2 - T_1; only for laws that conduct heat
-  // Only for laws of second order: time by which velocities are behind positions, and the change of
-  // velocity and surface_rotation in it, by the accelerations of the last step.
+  // Only for laws of second order, and of the changes for the work: time by which velocities are
+  // behind positions, and the change of velocity, surface_rotation, and of laws with resistance of
+  // relative_omega, in it, by the accelerations of the last step.
   Real lag{};
-  Vector3<Real> velocity_change{}, rotation_change{};
+  Vector3<Real> velocity_change{}, rotation_change{}, omega_change{};
   /// The same laws: what the normal has turned in the step that led here, of contacts with a large
   /// body, whose inverse_distance is 0; 0 in the first step.
   Vector3<Real> turn{};

@@ -8,13 +8,6 @@
 namespace Talus {
 namespace {
 
-template <int count>
-void copy_history(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
-{
-  for (int n = 0; n < count; n++)
-    for (int k = begin; k < end; k += lanes) store(&b.before[n][k], load8(&b.history[n][k]));
-}
-
 template <bool friction, bool twists, bool resists, bool tears>
 void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
@@ -37,11 +30,6 @@ template <bool tears> StageFunction work_finder_of(const ContactLaw &law)
 }
 
 }    // namespace
-
-StageFunction history_copier(const ContactLaw &law)
-{
-  return law.has_impact() ? copy_history<ContactBatch::history_size> : copy_history<4>;
-}
 
 StageFunction work_finder(const ContactLaw &law)
 {

@@ -74,9 +74,9 @@ struct Fused {
     ContactLanes<Real> s;
     load_state(b, k, s);
     approach<with_radius>(s);
-    Real history[remembered + 1], before[remembered + 1];    // none has no length 0
+    Real history[remembered + 1];    // none has no length 0
     for (int n = 0; n < remembered; n++)
-      history[n] = before[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
+      history[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
     Normal::template compute<true>(c.normal, s, history, in.dt);
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
@@ -89,25 +89,17 @@ struct Fused {
       if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
-    if constexpr (accounts) account(b, k, c, s, before, history, in.dt);
+    if constexpr (accounts) account(b, k, s, in.dt);
     for (int n = 0; n < remembered; n++)
       Memory<Real>::store(&b.history[in.places[n]][k], history[n]);
   }
 
   template <class Real>
-  TALUS_INLINE static void account(ContactBatch &b, int k, const Rows<Real> &c,
-                                   const ContactLanes<Real> &s, const Real *before, const Real *now,
-                                   double dt)
+  TALUS_INLINE static void account(ContactBatch &b, int k, const ContactLanes<Real> &s, double dt)
   {
-    constexpr int to_rolling = values_of<Tangential>, to_twisting = to_rolling + values_of<Rolling>;
     ContactWork<Real> work;
     find_work<Tangential::acts, twists, Rolling::acts || Twisting::acts,
               Normal::lasts_beyond_contact>(s, dt, work);
-    if constexpr (has_lag<Tangential>) take_lag<Tangential>(s, c.tangential, before, now, dt, work);
-    if constexpr (has_lag<Rolling>)
-      take_lag<Rolling>(s, c.rolling, before + to_rolling, now + to_rolling, dt, work);
-    if constexpr (has_lag<Twisting>)
-      take_lag<Twisting>(s, c.twisting, before + to_twisting, now + to_twisting, dt, work);
     for (int n = 0; n < ContactBatch::num_causes; n++) Memory<Real>::store(&b.work[n][k], work[n]);
   }
 

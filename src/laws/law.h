@@ -97,8 +97,6 @@ struct Law {
   bool reads(const char *coefficient) const;
 
   StageFunction reading, advancing;    ///< history only read; or advanced by this step
-  StageFunction lag;    ///< takes the lag of its spring from the work, see contact_work.h; nullptr
-                        ///< of laws without one
   OneContact one;
   StageFunction delay;    ///< normal: finds delayed_force, by Chrono's rule for this law
   OneContact one_delay;

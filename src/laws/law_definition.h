@@ -13,9 +13,6 @@
 //   read(reader)  its words; left out if it comes with another law's
 //   mix(m)        its row for a contact of two materials
 //   stored(s, c, history)   its energy, if it stores some
-//   rate(s, c, r) of laws that remember a spring in their first spring_size values: how fast these
-//                 change where the contact sticks. stored() is then for any Real.
-//   drag(s, c)    force/velocity of the dashpot beside it, of tangential laws
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
 // law_list.cpp makes it known to all.
@@ -24,7 +21,6 @@
 #define TALUS_LAWS_LAW_DEFINITION_H
 
 #include "base/simd.h"
-#include "laws/contact_work.h"
 #include "laws/given_law.h"
 #include "laws/law.h"
 
@@ -54,7 +50,6 @@ struct LawBase {
   static constexpr bool lasts_beyond_contact = false, second_order = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
-  static constexpr int spring_size = 0;
   static constexpr double exponent = 1.0;
 };
 
@@ -186,6 +181,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.lag = splat<Real>(b.lag);
   s.velocity_change = load_vector<Real>(b.velocity_change, k);
   s.rotation_change = load_vector<Real>(b.rotation_change, k);
+  s.omega_change = load_vector<Real>(b.omega_change, k);
   s.turn = load_vector<Real>(b.turn, k);
 }
 
@@ -208,6 +204,15 @@ TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
     visit(s.normal_force, b.between.normal_force);
     visit(s.critical_force, b.between.critical_force);
   }
+}
+
+/// What tangential laws of second order find anew.
+template <class Lanes, class Batch, class Visit>
+TALUS_INLINE void visit_normal_force(Lanes &s, Batch &b, Visit visit)
+{
+  visit(s.elastic, b.between.elastic);
+  visit(s.normal_force, b.between.normal_force);
+  visit(s.critical_force, b.between.critical_force);
 }
 
 template <class Lanes, class Batch, class Visit>
@@ -267,29 +272,10 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
     for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
     L::template compute<advance>(c, s, history, in.dt);
     store_found<L::stage>(b, k, s);
+    if constexpr (L::second_order)
+      visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
     if (!advance) continue;
     for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
-  }
-}
-
-template <class L> void run_lag(ContactBatch &b, int begin, int end, const StageInput &in)
-{
-  constexpr int remembered = history_size_of<L>;
-  auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
-  for (int k = begin; k < end; k += lanes) {
-    if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
-    ContactLanes<Vec8> s;
-    load_state(b, k, s);
-    load_found<Stage::TANGENTIAL>(b, k, s);
-    Vec8 before[remembered], now[remembered];
-    for (int n = 0; n < remembered; n++) {
-      before[n] = load8(&b.before[in.places[n]][k]);
-      now[n] = load8(&b.history[in.places[n]][k]);
-    }
-    ContactWork<Vec8> work;
-    for (int n = 0; n < ContactBatch::num_causes; n++) work[n] = load8(&b.work[n][k]);
-    take_lag<L>(s, c, before, now, in.dt, work);
-    for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 
@@ -382,7 +368,6 @@ template <class L> constexpr Law make_law()
   law.needs_gt = L::needs_gt;
   law.reading = run_stage<L, false>;
   law.advancing = run_stage<L, remembers>;
-  if constexpr (has_lag<L>) law.lag = run_lag<L>;
   law.one = compute_one<L>;
   law.read = L::read;
   law.mix = mix_row<L>;

@@ -38,10 +38,12 @@ void LawTable::finish()
   advancing.clear();
   reading.clear();
   accounting.clear();
+  accounting_at_rest.clear();
   for (const ContactLaw &law : distinct) {
     advancing.push_back(contact_kernel(law, one_row, true));
     reading.push_back(contact_kernel(law, one_row, false));
-    accounting.push_back(Talus::accounting_kernel(law, one_row));
+    accounting.push_back(Talus::accounting_kernel(law, one_row, true));
+    accounting_at_rest.push_back(Talus::accounting_kernel(law, one_row, false));
   }
 }
 

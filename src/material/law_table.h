@@ -36,7 +36,10 @@ class LawTable {
     return advance ? advancing[law_index] : reading[law_index];
   }
   /// Of a step: advances, and finds ContactBatch::work.
-  const ContactKernel &accounting_kernel(int law_index) const { return accounting[law_index]; }
+  const ContactKernel &accounting_kernel(int law_index, bool advance) const
+  {
+    return (advance ? accounting : accounting_at_rest)[law_index];
+  }
   const ContactLaw &distinct_law(int law_index) const { return distinct[law_index]; }
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
@@ -66,7 +69,7 @@ class LawTable {
   std::vector<ContactLaw> laws;
   std::vector<int> index_of_row;
   std::vector<ContactLaw> distinct;
-  std::vector<ContactKernel> advancing, reading, accounting;    // by law
+  std::vector<ContactKernel> advancing, reading, accounting, accounting_at_rest;    // by law
 };
 
 }    // namespace Talus

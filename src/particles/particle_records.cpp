@@ -32,6 +32,13 @@ void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques
   renew(twisting_torque, twisting_torques ? n : 0);
 }
 
+void ParticleRecords::keep_changes(bool yes)
+{
+  if (yes == keeps_changes()) return;
+  renew(change, yes ? position.size() : 0);
+  std::fill(change.begin(), change.end(), ChangeRecord{});
+}
+
 void ParticleRecords::release_sums()
 {
   for (AlignedVector<Record> *records : {&load, &twisting_torque}) release(*records);
@@ -64,7 +71,7 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
     store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
     store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
     if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
-    if (keep_changes()) change[s] = host.change[order.atom_of_slot[s]];
+    if (keeps_changes()) change[s] = host.change[order.atom_of_slot[s]];
     begin_sums(s, load4(motion[stride * s]));
   }
 }

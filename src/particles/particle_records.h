@@ -106,10 +106,12 @@ class ParticleRecords {
   /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
   /// in scenes without friction: omega records and moments are then neither read nor kept.
   /// `twisting_torques`: laws with resistance occur. `copies`: of the states of some particles,
-  /// behind those of all. `changes`: they are kept, which takes `rotation`.
+  /// behind those of all. `changes`: see keep_changes().
   void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0,
               bool changes = false);
-  bool keep_changes() const { return !change.empty(); }
+  /// From now on changes of velocities are kept, 0 before the next step, or are not.
+  void keep_changes(bool yes);
+  bool keeps_changes() const { return !change.empty(); }
 
   /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
   /// of what they need without sums, and allocating memory anew takes time.
@@ -173,7 +175,7 @@ class ParticleRecords {
     stream(position[to], load4(position[from]));
     for (std::size_t n = 0; n < stride; n++)
       stream(motion[stride * to + n], load4(motion[stride * from + n]));
-    if (keep_changes()) stream(change[to], load8(change[from]));
+    if (keeps_changes()) stream(change[to], load8(change[from]));
   }
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added
@@ -215,7 +217,7 @@ class ParticleRecords {
     __builtin_prefetch(moves + stride, 0, second_cache);
     __builtin_prefetch(sums, 0, second_cache);
     __builtin_prefetch(sums + stride, 0, second_cache);
-    if (keep_changes()) __builtin_prefetch(change.data() + slot, 0, second_cache);
+    if (keeps_changes()) __builtin_prefetch(change.data() + slot, 0, second_cache);
   }
 
   /// The same for what a contact reads and adds to, once its position is known.
@@ -223,7 +225,7 @@ class ParticleRecords {
   {
     __builtin_prefetch(motion.data() + stride * slot);
     __builtin_prefetch(load.data() + stride * slot, 1);
-    if (keep_changes()) __builtin_prefetch(change.data() + slot);
+    if (keeps_changes()) __builtin_prefetch(change.data() + slot);
   }
 
   const Record &velocity(int slot) const { return motion[stride * slot]; }
@@ -231,8 +233,8 @@ class ParticleRecords {
 
   std::size_t stride = 1;    ///< records per particle in motion and load: 2 with angular velocities
   AlignedVector<Record> position, motion, load, twisting_torque;    ///< see record.h
-  /// For laws of second order: changes of velocities in the time by which they are behind
-  /// positions, by the accelerations of the last step; one record per particle, or none.
+  /// For laws of second order and for energies: changes of velocities in the time by which they are
+  /// behind positions, by the accelerations of the last step; one record per particle, or none.
   AlignedVector<ChangeRecord> change;
   double extrapolation = 0.0;    ///< of the step that moves particles, see RecordStep
 

@@ -91,7 +91,8 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
     if (with.twice) w_new = turned(w_new, per_inertia, torque);
     store(moves[1], w_new);
     if constexpr (changes) keep_change(s, v, v_new, w, w_new);
-  }
+  } else if constexpr (changes)
+    keep_change(s, v, v_new, Vec4{}, Vec4{});
   const Vec4 x_new = drifted(x, with.dt, v_new);
   store(moves[0], v_new);
   store(position[s], x_new);
@@ -114,7 +115,6 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    if (changes && its == RESTS) store(change[s], Float8{});
     const Moved now = its == MOVES  ? kick<rotation, changes>(first, s)
                       : its > MOVES ? kick<rotation, changes>(others[its - MOVES - 1], s)
                                     : Moved{load4(position[s]), load4(motion[its_stride * s])};
@@ -130,7 +130,9 @@ RecordTravel ParticleRecords::advance(const std::vector<RecordStep> &steps,
                                       const std::vector<Role> &role, const Record *held,
                                       const SlotChoice &slots)
 {
-  if (keep_changes()) return advance_all<true, true>(steps, role, held, slots);
+  if (keeps_changes())
+    return stride == 2 ? advance_all<true, true>(steps, role, held, slots)
+                       : advance_all<false, true>(steps, role, held, slots);
   return stride == 2 ? advance_all<true, false>(steps, role, held, slots)
                      : advance_all<false, false>(steps, role, held, slots);
 }

@@ -62,9 +62,7 @@ void PointBatch::flush()
   if (!filled) return;
   const LawTable &laws = task->laws;
   const int end = (filled + lanes - 1) / lanes * lanes;
-  const bool accounts = task->accounts && task->advance;
-  const ContactKernel &kernel =
-      accounts ? laws.accounting_kernel(law_index) : laws.kernel(law_index, task->advance);
+  const ContactKernel &kernel = laws.kernel(law_index, task->advance);
   for (int lane = filled; lane < end; lane++) {    // a row of this law, whatever it was before
     gather(*of_lane[filled - 1], lane);
   }
@@ -81,8 +79,6 @@ void PointBatch::hand_out(PointContact &point, int lane) const
   if (task->advance && remembers)
     for (int k = 0; k < ContactBatch::history_size; k++)
       point.memory.value[k] = batch.history[k][lane];
-  if (task->advance && task->accounts)
-    point.work = w * EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
 }
 
 }    // namespace Talus

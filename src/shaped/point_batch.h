@@ -23,10 +23,9 @@ class PointBatch {
   struct Task {
     const LawTable &laws;
     double dt;
-    bool advance;     ///< false: memories are only read
-    bool accounts;    ///< work is asked for, in steps that advance
+    bool advance;    ///< false: memories are only read
   };
-  /// Forces, memories and work of all points. What a point yields does not depend on the others.
+  /// Forces and memories of all points. What a point yields does not depend on the others.
   void compute(const Task &task, PointContact *points, std::size_t count);
 
   /// "" or why points of shapes cannot have this law, and the cure, for people.

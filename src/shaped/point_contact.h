@@ -5,7 +5,6 @@
 
 #include "base/vector3.h"
 #include "laws/contact_batch.h"
-#include "laws/contact_energy.h"
 
 #include <cstdint>
 
@@ -27,9 +26,7 @@ struct PointContact {
 
   RememberedValues memory;    ///< in and out
 
-  // results, with the weight
-  Vector3<double> force;    ///< on the first body, at `place`
-  EnergyByCause work;       ///< taken in the step, if asked for
+  Vector3<double> force;    ///< result, with the weight: on the first body, at `place`
 };
 
 /// Velocity of the point `place` of a body with this center, velocity and angular velocity.
@@ -37,15 +34,6 @@ inline Vector3<double> velocity_at(const Vector3<double> &place, const Vector3<d
                                    const Vector3<double> &v, const Vector3<double> &omega)
 {
   return v + cross(omega, place - center);
-}
-
-/// Adds `share` of the work of a point to a particle, as the function of the same name does with
-/// that of a lane.
-inline void add_work(const WorkAccount &to, int atom, const EnergyByCause &work, double share)
-{
-  const double causes[3] = {work.normal, work.tangential, work.resistance};
-  for (double **rows : to.by_particle)
-    for (int n = 0; n < 3; n++) rows[atom][n] += share * causes[n];
 }
 
 }    // namespace Talus

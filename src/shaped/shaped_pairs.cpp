@@ -113,12 +113,6 @@ void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const St
     for (int c = begin; c < end; c++) compute_chunk(view, laws, step, chunks[c], *batches[t]);
   });
   add_to_particles(view, step.threads);
-  if (!step.account || !step.advance) return;
-  for_each_point([&](int i, int j, const PointContact &point) {
-    step.account->sum += (i < owned && j < owned ? 1.0 : 0.5) * point.work;
-    for (const int particle : {i, j})
-      if (particle < owned) add_work(*step.account, particle, point.work, 0.5);
-  });
 }
 
 void ShapedPairs::place_solids(const ShapedView &view, int threads)
@@ -145,7 +139,7 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
   chunk.pair_of_point.clear();
   std::size_t old = 0;
   for (int p = chunk.begin; p < chunk.end; p++) find_points(view, chunk, p, old);
-  batch.compute({laws, step.dt, step.advance, step.account != nullptr}, chunk.points.data(),
+  batch.compute({laws, step.dt, step.advance}, chunk.points.data(),
                 chunk.points.size());
   sum_points(chunk);
 }

@@ -45,7 +45,6 @@ class ShapedPairs {
     double dt;
     bool advance;    ///< false while a run is set up: memories are only read
     int threads;
-    WorkAccount *account = nullptr;    ///< receives the work of points, if it advances
   };
   /// Adds forces and torques to those of owned particles.
   void compute(const ShapedView &view, const LawTable &laws, const Step &step);

@@ -52,7 +52,6 @@ BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, con
   while (static_cast<int>(batches.size()) < step.threads)
     batches.push_back(std::make_unique<PointBatch>());
   const Task task{walls, frame, view, laws, step, virial};
-  const bool accounts = step.account && step.advance;
   in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
     for (int c = begin; c < end; c++) {
       Chunk &chunk = chunks[c];
@@ -62,7 +61,7 @@ BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, con
       chunk.of_point.clear();
       std::size_t old = 0;
       for (int n = chunk.begin; n < chunk.end; n++) find_points(task, chunk, n, old);
-      batches[t]->compute({laws, step.dt, step.advance, accounts}, chunk.points.data(),
+      batches[t]->compute({laws, step.dt, step.advance}, chunk.points.data(),
                           chunk.points.size());
       add_forces(task, chunk);
     }
@@ -73,11 +72,6 @@ BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, con
     if (step.exact) step.exact->add(chunk.exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), chunk.touched.begin(), chunk.touched.end());
-    for (std::size_t k = 0; accounts && k < chunk.points.size(); k++) {
-      const EnergyByCause &work = chunk.points[k].work;
-      step.account->sum += work;
-      add_work(*step.account, particles[chunk.of_point[k]], work, 1.0);
-    }
   }
   return load;
 }

@@ -16,7 +16,7 @@ class ContactObserver {
   ContactObserver &operator=(const ContactObserver &) = delete;
 
   virtual bool asks_for_work() const = 0;
-  /// Rows of three by host's index, asked for in each step: receive the work of each particle's
+  /// Rows of six by host's index, asked for in each step: receive the work of each particle's
   /// contacts, see WorkAccount. nullptr: only the sum is needed.
   virtual double **work_by_particle() { return nullptr; }
 

@@ -81,7 +81,7 @@ void FixContactStore::init()
                  Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
   }
   next_reneighbor = next_refresh(update->ntimestep);
-  keep_changes(Talus::GranularSystem::of(lmp)->order() == 2);
+  keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
   int mine = store.largest_list(atom->nlocal), largest = 0;    // from a restart file
@@ -277,18 +277,57 @@ void FixContactStore::agree_with_other_ranks()
 
 void FixContactStore::keep_changes(bool yes)
 {
-  if (yes)
+  with_changes = yes;
+  if (yes) {
     changes.resize(keys.size(), Talus::ChangeRecord{});
-  else
+  } else {
+    with_last = false;
     changes = {};
-  comm_border = size_border + (yes ? size_change : 0);
+    last = {};
+  }
 }
 
-/* Key, position and changes, and what the store packs. */
+/* An integrator unknown to us: the last kick, or both that there were, is taken as twice what the
+   velocity is behind. */
+
+void FixContactStore::follow_velocities(int mine)
+{
+  if (!with_last) return;
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [this, mine](int, int begin, int end) {
+    for (int i = begin; i < end; i++) {
+      if (atom->mask[i] & mine) continue;
+      for (int d = 0; d < 3; d++) {
+        changes[i].c[d] = static_cast<float>(0.5 * (atom->v[i][d] - last[i][d]));
+        changes[i].c[4 + d] =
+            static_cast<float>(atom->radius[i] * (0.5 * (atom->omega[i][d] - last[i][3 + d])));
+      }
+    }
+  });
+}
+
+void FixContactStore::remember_velocities(int mine)
+{
+  constexpr int all = 1;
+  if (mine & all) return;
+  with_last = true;
+  last.resize(keys.size());
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [this, mine](int, int begin, int end) {
+    for (int i = begin; i < end; i++)
+      if (!(atom->mask[i] & mine)) remember_velocity(i);
+  });
+}
+
+void FixContactStore::remember_velocity(int i)
+{
+  std::copy_n(atom->v[i], 3, last[i].data());
+  std::copy_n(atom->omega[i], 3, last[i].data() + 3);
+}
+
+/* Key, position, changes and velocities, and what the store packs. */
 
 void FixContactStore::set_maxexchange(int largest_list)
 {
-  maxexchange = 1 + 3 + size_change + HistoryStore::size_origin + largest_list;
+  maxexchange = 1 + 3 + size_change + size_last + HistoryStore::size_origin + largest_list;
 }
 
 void FixContactStore::refresh_key(int i)
@@ -322,6 +361,7 @@ double FixContactStore::memory_usage()
 {
   return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
                              positions.capacity() * sizeof(double) +
-                             changes.capacity() * sizeof(Talus::ChangeRecord)) +
+                             changes.capacity() * sizeof(Talus::ChangeRecord) +
+                             last.capacity() * sizeof(Velocities)) +
          store.memory_usage();
 }

@@ -25,6 +25,7 @@
 #include "particles/change_record.h"
 #include "system/run_monitor.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -55,7 +56,14 @@ class FixContactStore : public Fix {
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
   Talus::HistoryStore &histories() { return store; }
   /// Changes of velocities, of owned particles and ghosts; nullptr if none are kept.
-  Talus::ChangeRecord *all_changes() { return changes.empty() ? nullptr : changes.data(); }
+  Talus::ChangeRecord *all_changes() { return with_changes ? changes.data() : nullptr; }
+
+  void keep_changes(bool yes);
+  /// Where changes are kept: velocities as the present forces see them, of particles that others
+  /// move than those who keep changes; and before the next forces, what follows from them. `mine`:
+  /// bits of the groups of particles that are of no concern.
+  void remember_velocities(int mine);
+  void follow_velocities(int mine);
 
   /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
   /// The error, collective.
@@ -100,7 +108,7 @@ class FixContactStore : public Fix {
 
   /// Doubles of a message: of each ghost, and those of the changes.
   static constexpr int size_border = 1 + Talus::HistoryStore::size_origin + 1,
-                       size_change = Talus::ChangeRecord::doubles;
+                       size_change = Talus::ChangeRecord::doubles, size_last = 6;
 
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
@@ -109,9 +117,9 @@ class FixContactStore : public Fix {
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;
-  void keep_changes(bool yes);
   bool pairs_stay_after_run() const;
   void refresh_key(int i);
+  void remember_velocity(int i);
   void take_over_sorting();
   void give_sorting_back();
   void sort_particles();
@@ -123,8 +131,11 @@ class FixContactStore : public Fix {
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
-  std::vector<Talus::ChangeRecord> changes;    // empty: none are kept
-  std::vector<double> scratch;                 // a list whose size is asked for
+  bool with_changes = false, with_last = false;    // on all ranks alike, also without particles
+  std::vector<Talus::ChangeRecord> changes;
+  using Velocities = std::array<double, size_last>;
+  std::vector<Velocities> last;    // of particles that others move, by the last forces
+  std::vector<double> scratch;     // a list whose size is asked for
   Talus::HistoryStore store;
   Talus::SparseExchange exchange;
 

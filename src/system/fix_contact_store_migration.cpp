@@ -54,7 +54,8 @@ Talus::ChangeRecord read_change(const double *from)
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
-  if (!changes.empty()) changes.resize(nmax, Talus::ChangeRecord{});
+  if (with_changes) changes.resize(nmax, Talus::ChangeRecord{});
+  if (with_last) last.resize(nmax);
   if (guards_positions) positions.resize(3 * nmax);
   store.resize(nmax);
 }
@@ -62,7 +63,8 @@ void FixContactStore::grow_arrays(int nmax)
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
-  if (!changes.empty()) changes[j] = changes[i];
+  if (with_changes) changes[j] = changes[i];
+  if (with_last) last[j] = last[i];
   if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   store.copy(i, j);
 }
@@ -71,7 +73,8 @@ void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
-  if (!changes.empty()) changes[i] = Talus::ChangeRecord{};
+  if (with_changes) changes[i] = Talus::ChangeRecord{};
+  if (with_last) remember_velocity(i);
   store.forget(i);
 }
 
@@ -98,7 +101,6 @@ int FixContactStore::pack_border(int n, int *list, double *buf)
     buf[0] = as_double(keys[i]);
     HistoryStore::write(store.origin(i), buf + 1);
     buf[1 + HistoryStore::size_origin] = as_double(owner);
-    if (!changes.empty()) write_change(changes[i], buf + size_border);
   }
   return comm_border * n;
 }
@@ -110,7 +112,6 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
     store.set_ghost(
         atom->nlocal, first + k, HistoryStore::read(buf + 1),
         static_cast<int>(from_double<std::int64_t>(buf[1 + HistoryStore::size_origin])));
-    if (!changes.empty()) changes[first + k] = read_change(buf + size_border);
   }
   return comm_border * n;
 }
@@ -120,7 +121,8 @@ int FixContactStore::pack_exchange(int i, double *buf)
   int m = 0;
   buf[m++] = as_double(keys[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
-  if (!changes.empty()) m += write_change(changes[i], buf + m);
+  if (with_changes) m += write_change(changes[i], buf + m);
+  if (with_last) m += std::copy(last[i].begin(), last[i].end(), buf + m) - (buf + m);
   return m + store.pack(i, buf + m);
 }
 
@@ -129,9 +131,13 @@ int FixContactStore::unpack_exchange(int i, double *buf)
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
-  if (!changes.empty()) {
+  if (with_changes) {
     changes[i] = read_change(buf + m);
     m += size_change;
+  }
+  if (with_last) {
+    std::copy_n(buf + m, size_last, last[i].data());
+    m += size_last;
   }
   return m + store.unpack(i, buf + m);
 }
@@ -186,7 +192,7 @@ void FixContactStore::restart(char *buf)
 int FixContactStore::pack_restart(int i, double *buf)
 {
   int size = restart_header + store.pack_list(i, buf + restart_header);
-  if (!changes.empty()) size += write_change(changes[i], buf + size);
+  if (with_changes) size += write_change(changes[i], buf + size);
   buf[0] = size;
   buf[1] = as_double(keys[i]);
   buf[2] = as_double(store.origin(i).name);
@@ -221,7 +227,7 @@ void FixContactStore::unpack_restart(int i, int nth)
 int FixContactStore::size_restart(int i)
 {
   scratch.resize(store.list_size(i));
-  return restart_header + store.pack_list(i, scratch.data()) + (changes.empty() ? 0 : size_change);
+  return restart_header + store.pack_list(i, scratch.data()) + (with_changes ? size_change : 0);
 }
 
 int FixContactStore::maxsize_restart()

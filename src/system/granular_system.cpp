@@ -87,7 +87,7 @@ void GranularSystem::detach(const Pair *one)
   book = LawBook{};
   laws_current = false;
   announced.clear();
-  account.sum = EnergyByCause{};
+  settled = account.sum = EnergyByCause{};
   kept.reset();
   pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})

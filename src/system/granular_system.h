@@ -136,9 +136,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string reason_against_second_order() const;
   /// What is of first order nevertheless.
   std::vector<std::string> notes_on_second_order() const;
-  /// Where integrators of second order keep the changes of velocities of particles in the arrays
-  /// of the host; see ParticleRecords::change.
+  /// Where integrators keep the changes of velocities of particles in the arrays of the host,
+  /// nullptr if nobody needs them; see ParticleRecords::change.
   ChangeRecord *velocity_changes();
+  /// Second order does, and the work of contacts.
+  bool needs_changes() const;
   /// The time by which velocities are behind positions, with an integrator of second order.
   double lag() const;
 
@@ -216,12 +218,16 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void drop_observer(const ContactObserver *one);
   /// In this step the work of contacts is accounted for.
   bool accounts_for_work() const;
-  /// Where work is accounted for: an error if the laws of this run do not know theirs. Collective.
-  void require_known_work() const;
   /// For a step: where it goes by particle.
-  std::vector<double **> work_lists() const;
-  /// What contacts of this rank have taken in steps that were accounted for.
-  const EnergyByCause &work() const { return account.sum; }
+  const std::vector<double **> &work_lists() const { return account.by_particle; }
+  /// What contacts of this rank have taken in steps that were accounted for, up to the time of the
+  /// velocities.
+  EnergyByCause work() const { return settled + counted_of_last_step() * account.sum; }
+  /// Of what the last step has taken that part is in the velocities by now: half of it if an
+  /// integrator has given the second half of the kick, else nothing.
+  double counted_of_last_step() const;
+  /// See WorkAccount.
+  double work_time_at_setup() const;
   /// Of a large body in a step.
   void add_work(const EnergyByCause &its) { account.sum += its; }
   /// visit(contact) for contacts of the last step on this rank, of pairs and large bodies, those
@@ -286,6 +292,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::size_t bodies_that_join();
   std::vector<LargeBody *> bodies_that_may_join() const;
   double moved_in_arrays() const;
+  void find_changes(const ContactStep &step);
+  void begin_account(bool again);
+  int groups_with_changes() const;
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();
 
@@ -313,6 +322,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::TimeStepMonitor time_step;
   LAMMPS_NS::RunMonitor monitors;
   std::vector<ContactObserver *> observers;
+  EnergyByCause settled;    // before the step of the account
   WorkAccount account;
   std::optional<std::vector<SurveyedContact>> kept;    ///< behind a run
 

@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -17,6 +18,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -168,9 +170,9 @@ BodyStep LargeBody::step_of(bool advance)
   step.advance = advance;
   step.threads = comm->nthreads;
   account.sum = EnergyByCause{};
+  account.time_at_setup = system.work_time_at_setup();
   account.by_particle = system.work_lists();
   step.account = accounts() ? &account : nullptr;
-  if (step.account) system.require_known_work();
   step.exact = moves ? &exact : nullptr;
   step.touched = touched;
   return step;
@@ -202,8 +204,9 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
-  if (advance && accounts()) {
-    dissipated += account.sum.total();
+  if (accounts()) {
+    const double before = std::exchange(last_dissipated, account.sum.total());
+    if (advance) dissipated += before;
     system.add_work(account.sum);
   }
   if (already_frozen) clear_frozen();
@@ -241,8 +244,13 @@ BodyFindings LargeBody::find_worst()
 
 double LargeBody::energy()
 {
+  if (system.shapes())
+    error->all(FLERR,
+               "{}: the energy of its contacts with particles that have a shape is not known: leave "
+               "the scalar of this fix and 'fix_modify energy' out",
+               name());
   is_asked = true;
-  double here = dissipated, all;
+  double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
     here += one.stored.normal - one.stored.tearing;
   });

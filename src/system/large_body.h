@@ -115,6 +115,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// and the body less what it has stored. Work is accounted for from the first question on, until
   /// a run in which it is not asked for.
   double energy();
+  /// It is.
+  bool accounts() const;
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
   void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);
   /// On this rank, now and when particles were listed anew between two rebuilds.
@@ -156,12 +158,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before
 
-  bool accounts() const;
   /// The sum is only that of the questions to this body; the system has its own.
   bool is_asked = false, was_asked = false, has_forces = false;
   bool joined = false;    ///< forces of this step have been added by the threads of the system
   WorkAccount account;
-  double dissipated = 0.0;    ///< with what the springs of friction and resistance store
+  double dissipated = 0.0;         ///< with what the springs of friction and resistance store
+  double last_dissipated = 0.0;    ///< by the last step, and not in the other number
 
   BodyLoad mine, total;           ///< of this rank, and of all
   bool reduced = false;           ///< forces and torques of `total` are those of the last step

@@ -60,6 +60,13 @@ ChangeRecord *GranularSystem::velocity_changes()
   return store ? store->all_changes() : nullptr;
 }
 
+bool GranularSystem::needs_changes() const
+{
+  return order() == 2 || accounts_for_work() ||
+         std::any_of(large_bodies.begin(), large_bodies.end(),
+                     [](const auto &body) { return body->accounts(); });
+}
+
 std::string GranularSystem::reason_against_second_order() const
 {
   if (!pair_style_is_alone() || style.name != "gran/penalty")
@@ -128,21 +135,19 @@ bool GranularSystem::accounts_for_work() const
                      [](const ContactObserver *one) { return one->asks_for_work(); });
 }
 
-void GranularSystem::require_known_work() const
+double GranularSystem::work_time_at_setup() const
 {
-  if (order() == 2)
-    error->all(
-        FLERR,
-        "Fix nve/sphere/symplectic order 2: energies of contacts are only known with order 1: "
-        "leave compute penalty/stats and the energy of fix large/body out, or use order 1");
+  if (update->setupflag == 0) return -1.0;
+  double share = 1.0;
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *ours = dynamic_cast<const SystemFix *>(fix); ours && ours->integrates())
+      share = std::min(share, ours->next_kick_in_steps());
+  return share * update->dt;
 }
 
-std::vector<double **> GranularSystem::work_lists() const
+double GranularSystem::counted_of_last_step() const
 {
-  std::vector<double **> lists;
-  for (ContactObserver *one : observers)
-    if (double **rows = one->work_by_particle()) lists.push_back(rows);
-  return lists;
+  return modify->n_final_integrate > 0 ? 0.5 : 0.0;
 }
 
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)

@@ -112,15 +112,16 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
                    !setting_up || style.limits_at_setup, report,
                    accounts_for_work() ? &account : nullptr};
-  if (step.account) require_known_work();
-  account.by_particle = work_lists();
+  account.by_particle.clear();
+  account.time_at_setup = work_time_at_setup();
+  begin_account(setting_up);
   kept.reset();
   step.lag = lag();
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
-  if (step.read_ghosts && pipeline->keeps_changes()) comm->forward_comm(store);
+  find_changes(step);
   if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
@@ -133,13 +134,54 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   compute_around_proxies(step);
   if (step.deliver && !step.read && atom->nlocal)
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
-  if (step.deliver && !step.read && pipeline->keeps_changes())
-    pipeline->write_changes(store->all_changes());
+  if (step.deliver && pipeline->keeps_changes()) {
+    if (!step.read) pipeline->write_changes(store->all_changes());
+    store->remember_velocities(groups_with_changes());
+  }
   if (shaped) shaped->compute_contacts(step);
   store->pairs_are_current();
   if (!setting_up) return;
   time_step.judge_start(book, *pipeline);
   monitors.look(RunMonitor::Moment::SETUP);
+}
+
+/* The step before has been taken; or its forces are found again for the next run. */
+
+void GranularSystem::begin_account(bool again)
+{
+  if (!again) settled += account.sum;
+  account.sum = EnergyByCause{};
+  for (ContactObserver *one : observers)
+    if (double **rows = one->work_by_particle()) account.by_particle.push_back(rows);
+  for (double **rows : account.by_particle)
+    in_ranges(atom->nlocal, comm->nthreads, [rows, again](int, int begin, int end) {
+      for (int i = begin; i < end; i++) begin_work(rows[i], again);
+    });
+}
+
+/* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
+
+void GranularSystem::find_changes(const ContactStep &step)
+{
+  if (const bool needed = needs_changes(); needed != pipeline->keeps_changes()) {
+    pipeline->keep_changes(needed);
+    store->keep_changes(needed);
+  }
+  if (!pipeline->keeps_changes()) return;
+  const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
+  if (moved_in_arrays && !update->setupflag) store->follow_velocities(groups_with_changes());
+  if (step.read_ghosts) comm->forward_comm(store);
+}
+
+/* Bits of the groups whose integrators keep them. */
+
+int GranularSystem::groups_with_changes() const
+{
+  int bits = 0;
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *ours = dynamic_cast<const SystemFix *>(fix); ours && ours->keeps_changes())
+      bits |= fix->groupbit;
+  return bits;
 }
 
 /* In two phases pairs without proxies are computed while these are under way. */

@@ -79,6 +79,7 @@ class ShapeErrors(SceneCase):
                 (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke} tangential multistep NULL NULL 0.5 rolling 0.1", "rolling"),
                 (f"{FIX}\ncompute c all contact/gran/local id1 id2", "spheres only"),
                 (f"{FIX}\ncompute c all penalty/stats", "spheres only"),
+                (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke}\nthermo_style custom step f_w", "energy"),
                 (f"{FIX}\nminimize 0 1e-4 10 10", "minimize"),
                 (f"{FIX}\nrun_style respa 1", "respa"),
                 (f"{FIX}\npair_style hybrid gran/penalty\npair_coeff * * gran/penalty hooke 1e4 10", "hybrid"),

@@ -141,7 +141,7 @@ TEST_P(KernelBits, AccountingLeavesThem)
     for (const bool uniform : {false, true}) {
       slow::put(batch, lane, c, 0);
       const ContactCoefficients row = row_of(law, p);
-      accounting_kernel(law, uniform)(batch, begin, begin + lanes, &row, dt);
+      accounting_kernel(law, uniform, true)(batch, begin, begin + lanes, &row, dt);
       ASSERT_TRUE(same_bits(plain, result_of(batch, lane))) << n;
       for (int k = 0; k < ContactBatch::num_causes; k++) work[uniform][k] = batch.work[k][lane];
     }

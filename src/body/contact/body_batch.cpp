@@ -230,9 +230,14 @@ void BodyBatch::flush()
     filled = 0;
     return;
   }
-  const bool accounts = task->account && task->advance;
-  const ContactKernel &kernel = accounts ? task->laws.accounting_kernel(law_index)
-                                         : task->laws.kernel(law_index, task->advance);
+  const bool accounts = task->account != nullptr;
+  const double time_at_setup = accounts ? task->account->time_at_setup : -1.0;
+  if (time_at_setup >= 0.0)
+    task->laws.accounting_kernel(law_index, false)(batch, 0, end, task->laws.coefficients(),
+                                                   time_at_setup);
+  const ContactKernel &kernel = accounts && time_at_setup < 0.0
+                                    ? task->laws.accounting_kernel(law_index, true)
+                                    : task->laws.kernel(law_index, task->advance);
   kernel(batch, 0, end, task->laws.coefficients(), task->dt);
   if (task->with_history && task->advance) keep_histories();
   if (accounts) account();

@@ -117,6 +117,7 @@ class BodyBatch {
   Motion motion_in_records(const int *index, int k) const;
   Motion motion_in_arrays(const int *index, int k) const;
   void gather_changes(const int *index, int k);
+  void see_changes_from_body(int k);
   void see_from_body(Motion &m, int k);
   void run_past(Motion &m, int k);
   Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;

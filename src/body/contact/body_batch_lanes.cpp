@@ -62,13 +62,14 @@ void BodyBatch::gather()
     for (int q = 0; q < lanes; q++) index[q] = task->index[candidate_of_lane[k + q]];
     Motion m = task->view.records ? motion_in_records(index, k) : motion_in_arrays(index, k);
     const bool second_order = law.tangential().second_order;
-    if (second_order) gather_changes(index, k);
+    if (second_order || task->account) gather_changes(index, k);
     if (frame.moves) {
       if (second_order)
         see_from_body(m, k);
       else {
         m.velocity = frame.to_body(m.velocity - frame.velocity_at(vector_at(place, k)));
         m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
+        if (task->account) see_changes_from_body(k);
       }
       m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
     }
@@ -77,7 +78,10 @@ void BodyBatch::gather()
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius);
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
-    if (law.resists()) store_at(batch.relative_omega, k, m.omega);
+    if (law.resists()) {
+      store_at(batch.relative_omega, k, m.omega);
+      store_at(batch.omega_change, k, m.inverse_radius * vector_at(batch.rotation_change, k));
+    }
     if (turns() && !task->history.several()) gather_turns(k);
     if (task->with_history) gather_histories(k);
   }
@@ -157,13 +161,27 @@ Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &veloci
   return nearest;
 }
 
+void BodyBatch::see_changes_from_body(int k)
+{
+  const BodyFrame &frame = task->frame;
+  const Vector3<Vec8> arm = vector_at(place, k) - in_all_lanes<Vec8>(frame.state.position),
+                      omega = in_all_lanes<Vec8>(frame.omega_change);
+  const Vector3<Vec8> velocity = vector_at(batch.velocity_change, k) -
+                                 in_all_lanes<Vec8>(frame.velocity_change) - cross(omega, arm);
+  const Vector3<Vec8> rotation = vector_at(batch.rotation_change, k) - load8(&radius[k]) * omega;
+  store_at(batch.velocity_change, k, frame.to_body(velocity));
+  store_at(batch.rotation_change, k, frame.to_body(rotation));
+}
+
+/* Without a pair style of ours nobody keeps them. */
+
 void BodyBatch::gather_changes(const int *index, int k)
 {
-  const ChangeRecord *const change =
-      task->view.records ? task->view.records->change.data() : task->view.change;
+  const ParticleRecords *const records = task->view.records;
+  const ChangeRecord *const change = records ? records->change.data() : task->view.change;
   for (int half = 0; half < lanes; half += 4) {
     Float8 row[4];
-    for (int q = 0; q < 4; q++) row[q] = load8(change[index[half + q]]);
+    for (int q = 0; q < 4; q++) row[q] = change ? load8(change[index[half + q]]) : Float8{};
     to_lanes(row, batch.velocity_change, batch.rotation_change, k + half);
   }
 }

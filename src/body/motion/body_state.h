@@ -59,6 +59,9 @@ struct BodyFrame {
   bool turned = false;                                       ///< the rotation is not 1
   Vector3<double> origin{0.0, 0.0, 0.0};    ///< the reference point in the frame of the body
   double inverse_mass = 0.0;                ///< 0: infinitely heavy
+  /// Only for the work of contacts of first order: what velocity and omega of the state lack of
+  /// those at the time of the position, as ParticleRecords::change of particles; axes of space.
+  Vector3<double> velocity_change{0.0, 0.0, 0.0}, omega_change{0.0, 0.0, 0.0};
   /// Only for laws of second order: at the time of the velocities of particles, and at that of
   /// positions with velocities that are as far ahead.
   BodyMoment half_way, present;

@@ -33,6 +33,11 @@ class RigidBody {
     advance(state, acceleration, torque, dt, dt);
   }
 
+  /// Of omega from one step to the next, without what is due to the turn of the axes of inertia.
+  Vector3<double> change_by_torque(const BodyState &before, const BodyState &now) const
+  {
+    return omega_of(angular_momentum(now) - angular_momentum(before), now.orientation);
+  }
   /// Angular momentum about the center of mass, without the parts that locks take up.
   Vector3<double> angular_momentum(const BodyState &state) const;
   /// The inverse of it.

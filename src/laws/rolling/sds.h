@@ -17,7 +17,7 @@ namespace Talus {
 struct SdsRolling : RollingLaw {
   static constexpr const char *name = "sds", *label = "rolling sds";
   static constexpr bool needs_radius = true;
-  static constexpr int spring_size = 3, even_history = 3;    // v_r is the same for both bodies
+  static constexpr int even_history = 3;    // v_r is the same for both bodies
   template <class Real> struct Row {
     Real k, gamma, mu;
   };
@@ -35,15 +35,6 @@ struct SdsRolling : RollingLaw {
   static Real stored(const ContactLanes<Real> & /*s*/, const Row<Real> &c, const Real *h)
   {
     return 0.5 * c.k * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
-  {
-    const Vector3<Real> v = s.radius * cross(s.relative_omega, s.normal);
-    r[0] = v.x;
-    r[1] = v.y;
-    r[2] = v.z;
   }
 
   template <bool advance, class Real>

@@ -94,7 +94,6 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
   /// One that shrinks with the contact radius loses a good part of its energy.
   static constexpr bool has_spring = rescaled == Rescaled::NO;
   static constexpr bool stiffens = scaled == Scaled::YES && has_spring;
-  static constexpr int spring_size = 3;
   static constexpr int odd_history = 3, even_history = rescaled == Rescaled::YES ? 1 : 0;
   static constexpr bool of_force = kept == Kept::FORCE;
 
@@ -115,21 +114,6 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
                square = h[0] * h[0] + h[1] * h[1] + h[2] * h[2], zero = splat<Real>(0.0);
     if (of_force) return select(k > zero, 0.5 * square / k, zero);
     return 0.5 * k * square;
-  }
-
-  template <class Real> static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
-  {
-    return c.xt * s.gn;
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> &c, Real *r)
-  {
-    const Real unit = of_force ? -granular_stiffness<scaled>(c, s) : splat<Real>(1.0);
-    const Vector3<Real> v = unit * surface_velocity(s);
-    r[0] = v.x;
-    r[1] = v.y;
-    r[2] = v.z;
   }
 
   template <bool advance, class Real>
@@ -209,26 +193,12 @@ template <Scaled scaled, SetBack set_back = SetBack::BY_STIFFNESS>
 struct GranularClassic : GranularFriction {
   static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
   static constexpr bool stiffens = scaled == Scaled::YES;
-  static constexpr int odd_history = 3, spring_size = 3;
+  static constexpr int odd_history = 3;
 
   template <class Real>
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
     return 0.5 * granular_stiffness<scaled>(c, s) * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
-  }
-
-  template <class Real> static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
-  {
-    return c.xt * s.gn;
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
-  {
-    const Vector3<Real> v = surface_velocity(s);
-    r[0] = v.x;
-    r[1] = v.y;
-    r[2] = v.z;
   }
 
   template <bool advance, class Real>

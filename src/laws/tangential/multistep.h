@@ -52,7 +52,6 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
                  : "multistep";
   static constexpr const char *label = name;
   static constexpr int odd_history = 3, even_history = 1;    // see TangentialHistory
-  static constexpr int spring_size = 3;
   static constexpr bool has_spring = true, is_midpoint = midpoint;
 
   template <class Real>
@@ -60,20 +59,6 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   {
     const Vector3<Real> d{h[0], h[1], h[2]};
     return 0.5 * s.kt * dot(d, d);
-  }
-
-  template <class Real> static Real drag(const ContactLanes<Real> &s, const Row<Real> & /*c*/)
-  {
-    return s.gt;
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
-  {
-    const Vector3<Real> v = surface_velocity(s);
-    r[0] = v.x;
-    r[1] = v.y;
-    r[2] = v.z;
   }
 
   template <bool advance, class Real>

@@ -162,7 +162,9 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     if (any_begins) {
       start = errors_of(c, s.overlap, approach, begins);
       theta = select(begins, s.overlap / select(begins, approach, one), one);
-      force = pure - (start.elastic * s.elastic - start.damping * s.gn * s.normal_velocity);
+      const Real early = start.elastic * s.elastic;
+      force = pure - (early - start.damping * s.gn * s.normal_velocity);
+      if constexpr (advance) s.elastic = s.elastic - early;    // what does not store is work
     }
     s.normal_force = force;
     s.critical_force = magnitude(force);

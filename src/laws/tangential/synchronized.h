@@ -41,17 +41,6 @@ template <class L> struct Synchronized : L {
     return L::stored(s, GranularRow<Real>{c.kt, c.xt, c.mu}, h);
   }
 
-  template <class Real> static Real drag(const ContactLanes<Real> &s, const Row<Real> &c)
-  {
-    return L::drag(s, GranularRow<Real>{c.kt, c.xt, c.mu});
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> &c, Real *r)
-  {
-    L::rate(s, GranularRow<Real>{c.kt, c.xt, c.mu}, r);
-  }
-
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {

@@ -16,7 +16,7 @@ namespace Talus {
 struct MarshallTwist : TwistingLaw {
   static constexpr const char *name = "marshall", *label = "twisting marshall";
   static constexpr bool needs_radius = true;
-  static constexpr int spring_size = 1, even_history = 1;
+  static constexpr int even_history = 1;
   template <class Real> using Row = GranularRow<Real>;
   static constexpr CoefficientName coefficients[] = {
       {"kt", Shown::NEVER}, {"xt", Shown::NEVER}, {"mu", Shown::NEVER}};
@@ -33,12 +33,6 @@ struct MarshallTwist : TwistingLaw {
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
   {
     return 0.25 * c.kt * s.contact_radius * s.contact_radius * h[0] * h[0];
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
-  {
-    r[0] = dot(s.relative_omega, s.normal);
   }
 
   template <bool advance, class Real>

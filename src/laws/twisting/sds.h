@@ -12,7 +12,7 @@ namespace Talus {
 
 struct SdsTwist : TwistingLaw {
   static constexpr const char *name = "sds", *label = "twisting sds";
-  static constexpr int spring_size = 1, even_history = 1;
+  static constexpr int even_history = 1;
   template <class Real> struct Row {
     Real k, gamma, mu;
   };
@@ -30,12 +30,6 @@ struct SdsTwist : TwistingLaw {
   static Real stored(const ContactLanes<Real> & /*s*/, const Row<Real> &c, const Real *h)
   {
     return 0.5 * c.k * h[0] * h[0];
-  }
-
-  template <class Real>
-  TALUS_INLINE static void rate(const ContactLanes<Real> &s, const Row<Real> & /*c*/, Real *r)
-  {
-    r[0] = dot(s.relative_omega, s.normal);
   }
 
   template <bool advance, class Real>
