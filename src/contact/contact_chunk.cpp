@@ -3,6 +3,7 @@
 #include "contact/contact_chunk.h"
 
 #include "contact/narrow_phase.h"
+#include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
 #include <iterator>
@@ -72,7 +73,8 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::int64_t done = 0;
   touching = 0;
   const LastsBeyondContact lasts = [&](std::int64_t pair) {
-    return lasts_beyond_contact(step.scene, position, pair);
+    if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair);
+    return has_just_ended(history.record(pair).c[3], step.advance);
   };
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);

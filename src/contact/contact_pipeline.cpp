@@ -15,8 +15,8 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
   scene.with_heat = table.conducts_heat();
-  scene.beyond_contact = table.lasts_beyond_contact();
   scene.second_order = table.second_order();
+  scene.beyond_contact = table.lasts_beyond_contact() || scene.second_order;
 }
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)

@@ -49,6 +49,7 @@ template <bool with_radius, class Real> TALUS_INLINE void approach(ContactLanes<
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   s.normal_velocity = dot(s.velocity, s.normal);
   s.impact_speed = s.age = s.radius = zero;
+  s.adhesive_share = one;
   const auto finite = s.inverse_mass > zero;
   if constexpr (with_radius) {    // two quotients for the price of one
     const Real inverse_mass = select(finite, s.inverse_mass, one);

@@ -15,6 +15,7 @@ void ContactBatch::clear()
   for (auto &value : history) std::fill(std::begin(value), std::end(value), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
+  std::fill(std::begin(parted), std::end(parted), 0.0);
   std::fill(std::begin(circle), std::end(circle), 0.0);
   std::fill(std::begin(temperature_difference), std::end(temperature_difference), 0.0);
   std::fill(std::begin(heat_flow), std::end(heat_flow), 0.0);
@@ -22,6 +23,7 @@ void ContactBatch::clear()
   std::fill(std::begin(arm_difference), std::end(arm_difference), 0.0);
   std::fill(std::begin(inverse_mass), std::end(inverse_mass), 1.0);
   std::fill(std::begin(inverse_radius), std::end(inverse_radius), 1.0);
+  std::fill(std::begin(between.adhesive_share), std::end(between.adhesive_share), 1.0);
   std::fill(std::begin(coefficients), std::end(coefficients), 0);
 }
 

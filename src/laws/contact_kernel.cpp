@@ -5,6 +5,7 @@
 #include "laws/contact_work.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
+#include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
 
@@ -29,6 +30,23 @@ void return_to_full_step(ContactBatch &b, int begin, int end, const StageInput &
 {
   for (int k = begin; k < end; k += lanes)
     store_vector(b.normal, k, load_vector<Vec8>(b.between.full_normal, k));
+}
+
+/// Few contacts have ended.
+void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  for (int k = begin; k < end; k += lanes) {
+    store(&b.parted[k], splat<Vec8>(0.0));
+    if (!any(load8(&b.overlap[k]) <= splat<Vec8>(0.0))) continue;
+    ContactState<Vec8> s;
+    s.overlap = load8(&b.overlap[k]);
+    s.normal = load_vector<Vec8>(b.normal, k);
+    s.velocity = load_vector<Vec8>(b.velocity, k);
+    s.inverse_distance = load8(&b.inverse_distance[k]);
+    last_overlap(s, in.dt);
+    store(&b.overlap[k], s.overlap);
+    store(&b.parted[k], s.parted);
+  }
 }
 
 template <bool with_radius, bool impact, bool advance>
@@ -95,6 +113,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
   ContactKernel kernel;
   kernel.uniform = uniform;
   if (law.synchronized()) kernel.add(go_half_way_back, law.place_of_time_step());
+  if (law.tangential().second_order) kernel.add(find_last_overlap);
   kernel.add(law.needs_radius() ? approach_function<true>(history.keeps_impact, advance)
                                 : approach_function<false>(history.keeps_impact, advance),
              0, history.impact);
@@ -126,6 +145,7 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
+  if (law.tangential().second_order) kernel.add(find_last_overlap);
   kernel.add(fused, 0, places_one_behind_the_other(law));
   return kernel;
 }
@@ -135,6 +155,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
   ContactKernel kernel;
   kernel.uniform = uniform;
   if (const StageFunction fused = uniform && advance ? fused_accounting_function(law) : nullptr) {
+    if (law.tangential().second_order) kernel.add(find_last_overlap);
     kernel.add(fused, 0, places_one_behind_the_other(law));
     return kernel;
   }
@@ -151,6 +172,7 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   static_cast<ContactState<double> &>(s) = state;
   s.full_normal = s.normal;
   if (law.synchronized()) s.normal = normal_half_way(s, coefficients.c[law.place_of_time_step()]);
+  if (law.tangential().second_order) last_overlap(s, dt);
   if (law.needs_radius())
     approach<true>(s);
   else

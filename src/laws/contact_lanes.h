@@ -34,6 +34,7 @@ template <class Real> struct ContactState {
   /// The same laws: what the normal has turned in the step that led here, of contacts with a large
   /// body, whose inverse_distance is 0; 0 in the first step.
   Vector3<Real> turn{};
+  Real parted{};    ///< 1 if the contact has ended in this step, see tangential/end_of_contact.h
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
@@ -58,6 +59,10 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   Real gn{}, gt{};          ///< force/velocity
   Real normal_force{};      ///< repulsive if positive; without cohesion
   Real critical_force{};    ///< friction is limited to mu times this, see finish_normal_force()
+
+  /// What of an adhesion that is constant acts in this step: 1, but where a contact of second order
+  /// begins or ends, see tangential/second_order.h.
+  Real adhesive_share{};
 
   Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
 

@@ -95,10 +95,11 @@ struct TwistingLaw : LawBase {
   static constexpr Stage stage = Stage::TWISTING;
 };
 
-/// Adds to force.
+/// Adds to force, for a pull that is constant while the bodies touch: with adhesive_share.
 struct CohesionLaw : LawBase {
   static constexpr Stage stage = Stage::COHESION;
   static constexpr const char *label = "adhesion";
+  static constexpr double exponent = 0.0;
   static constexpr bool needs_radius = true;
 };
 
@@ -183,6 +184,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.rotation_change = load_vector<Real>(b.rotation_change, k);
   s.omega_change = load_vector<Real>(b.omega_change, k);
   s.turn = load_vector<Real>(b.turn, k);
+  s.parted = In::load(&b.parted[k]);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -235,6 +237,7 @@ TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s
   visit_written<Stage::NORMAL>(s, b, load);
   if (stage == Stage::DAMPING) return;
   visit_written<Stage::DAMPING>(s, b, load);
+  load(s.adhesive_share, b.between.adhesive_share);
   load(s.delayed_force, b.between.delayed_force);
   s.full_normal = load_vector<Real>(b.between.full_normal, k);
   s.force = load_vector<Real>(b.force, k);
@@ -272,8 +275,10 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
     for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
     L::template compute<advance>(c, s, history, in.dt);
     store_found<L::stage>(b, k, s);
-    if constexpr (L::second_order)
+    if constexpr (L::second_order) {    // finds the normal force anew
       visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
+      store(&b.between.adhesive_share[k], s.adhesive_share);
+    }
     if (!advance) continue;
     for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
   }

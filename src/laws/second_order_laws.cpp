@@ -26,8 +26,9 @@ bool damps(const ContactLaw &law, const ContactCoefficients &row)
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
 {
   const Law &normal = law.normal(), &damping = law.damping(), &tangential = law.tangential();
-  if (normal.cohesive || law.cohesion().acts)
-    return "has adhesion, with which a contact ends with a jump of its force";
+  if (normal.cohesive)
+    return std::string("has the normal law ") + normal.name +
+           ", whose contacts tear: use hertz/material with 'adhesion constant F'";
   if (normal.exponent != 1.0 && normal.exponent != 1.5)
     return std::string("has the normal law ") + normal.name;
   if (law.history().keeps_impact || damping.damping_exponent(normal.exponent) < 0.0)
@@ -36,11 +37,17 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
   if (damps(law, row) && std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
     return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";
   if (law.resists())
-    return "has resistance to rolling or spinning, whose direction is that of half a time step ago";
-  if (law.conducts_heat()) return "conducts heat";
+    return "has resistance to rolling or spinning, which holds a body a few time steps late: use "
+           "'rolling 0 spinning 0'";
   if (tangential.acts && !is_named(tangential, "multistep slider midpoint"))
     return std::string("has the tangential law ") + tangential.name +
            ": use 'tangential multistep kt gt mu slider midpoint'";
+  // the spring of a new contact is soft, the dashpot is not: friction follows its velocity late
+  const bool stiff_dashpot = normal.exponent > 1.0 && damping.damping_exponent(1.5) == 0.0;
+  if (tangential.acts && stiff_dashpot && law.coefficient(Stage::DAMPING, "gt", row) != 0.0)
+    return std::string("has the damping ") + damping.name +
+           " with a tangential dashpot, which is stiffer than the spring where a contact begins: "
+           "use gt = 0 or 'damping viscoelastic'";
   return "";
 }
 

@@ -8,6 +8,7 @@
 #include "pair/pair_of_system.h"
 
 #include "laws/circle_of_intersection.h"
+#include "laws/tangential/end_of_contact.h"
 
 #include "atom.h"
 #include "update.h"
@@ -50,7 +51,9 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   const auto remembered = system->remembered_of(i, j);
   const int row_of_types = laws.row(itype, jtype);
   const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
-  if (rsq >= touch * touch || rsq == 0.0) return {};
+  const bool ended = remembered && laws.law(row_of_types).tangential().second_order &&
+                     Talus::has_just_ended(remembered->value[3], false);
+  if ((rsq >= touch * touch && !ended) || rsq == 0.0) return {};
 
   const double r = std::sqrt(rsq);
   Talus::ContactState<double> s;

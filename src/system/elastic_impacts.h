@@ -10,7 +10,8 @@
 // random, with the root of the number of impacts. Limits are those of `scripts/bench stability`,
 // section "Elastic impacts without friction", where 1e-3 counts. They are fractions of the critical
 // time step, that of Hertzian contacts at an overlap of 1 %; deeper ones, up to 10 %, are allowed
-// for.
+// for. Integrators of second order make up for the kinks (laws/tangential/end_of_contact.h):
+// nothing is said of them.
 
 #ifndef TALUS_SYSTEM_ELASTIC_IMPACTS_H
 #define TALUS_SYSTEM_ELASTIC_IMPACTS_H

@@ -23,12 +23,13 @@ comm_modify vel yes
 read_data data
 """
 CONTINUE = "units lj\nnewton off\natom_style sphere\natom_modify map array\ncomm_modify vel yes\nread_restart half\n"
-PHYSICS = f"""
+UNDAMPED = "hooke 2.0e4 0.0 tangential multistep NULL 0 0.2 slider midpoint"      # contacts end with a correction
+PHYSICS = """
 neighbor 0.1 bin
 pair_style gran/penalty
-pair_coeff * * {LAW}
-fix floor all large/body plane 0 0 0  0 0 1 contact {LAW}
-fix step all nve/sphere/symplectic {{order}} gravity 2.0 vector 0.2 0 -1
+pair_coeff * * {law}
+fix floor all large/body plane 0 0 0  0 0 1 contact {law}
+fix step all nve/sphere/symplectic {order} gravity 2.0 vector 0.2 0 -1
 timestep 0.0005
 thermo 100
 """
@@ -63,11 +64,11 @@ class SecondOrder(SceneCase):
         write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 9)), spheres)
         body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((3, 1, 6.4), 0.7, 6))
 
-    def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, bodies="",
-            **options):
-        script = (head or START.format(boundary=boundary)) + style + PHYSICS.format(order=order)
+    def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, law=LAW,
+            bodies="", **options):
+        script = (head or START.format(boundary=boundary)) + style + PHYSICS.format(order=order, law=law)
         walls = "" if boundary.startswith("p") else "".join(
-            f"fix w{n} all large/body plane {x} contact {LAW}\n"
+            f"fix w{n} all large/body plane {x} contact {law}\n"
             for n, x in enumerate((f"0 0 0 1 0 0", f"{SIDE} 0 0 -1 0 0", "0 0 0 0 1 0", f"0 {SIDE} 0 0 -1 0")))
         self.run_lammps(script + bodies + walls + OUTPUT.format(every=options.pop("every", 100), name=name) + runs, np=np,
                         name=name, **options)
@@ -99,6 +100,13 @@ class SecondOrder(SceneCase):
         for np in (1, 4):
             self.assert_same(self.end(f"second{np}", "run 250\n", boundary="f f f", head=CONTINUE, np=np), one)
 
+    def test_contacts_that_end(self):
+        one = self.end("one", boundary="f f f", law=UNDAMPED)
+        self.assert_same(self.end("ranks", boundary="f f f", law=UNDAMPED, np=4), one)
+        self.assert_same(self.end("runs", "run 150\nrun 1\nrun 1\nrun 1\nrun 247\n", boundary="f f f", law=UNDAMPED), one)
+        self.end("first", "run 171\nwrite_restart half\n", boundary="f f f", law=UNDAMPED)
+        self.assert_same(self.end("second", "run 229\n", boundary="f f f", law=UNDAMPED, head=CONTINUE, np=3), one)
+
     def test_large_bodies_that_move(self):
         one = self.end("one", bodies=BODIES)
         for name, options in {
@@ -115,6 +123,11 @@ class SecondOrder(SceneCase):
         self.assert_same(self.end("two", "run 150\nrun 250\n", **f), one)
         self.end("first", "run 150\nwrite_restart half\n", **f)
         self.assert_same(self.end("second", "run 250\n", head=CONTINUE, np=3, **f), one)
+
+    def test_adhesion(self):
+        law = "hertz 2.0e4 50.0 adhesion constant 0.5 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
+        one = self.end("one", law=law, boundary="f f f")
+        self.assert_same(self.end("other", "run 153\nrun 247\n", law=law, np=4, boundary="f f f"), one)
 
     def test_it_is_another_method(self):
         one, other = self.end("one"), self.end("other", order="start half")

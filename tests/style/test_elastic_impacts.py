@@ -86,6 +86,14 @@ class ElasticImpacts(SceneCase):
             self.impacts(law(name), 1.01 * limit, steps=1)
             self.assertIsNotNone(self.said())
 
+    def test_order_2_makes_up_for_the_kinks(self):
+        for name in LAWS:
+            for fraction, limit in (0.199, 5e-6), (0.1, 1e-7):
+                error = self.impacts(law(name), fraction, start="half order 2")
+                print(f"{name}, order 2, dt {fraction:.3g} critical: up to {error:.1e}")
+                self.assertIsNone(self.said())
+                self.assertLess(error, limit)
+
     def test_what_loses_energy(self):
         friction = "tangential multistep NULL NULL 0.1"
         for name in LAWS:

@@ -100,7 +100,7 @@ REFUSED += [
     (f"{PAIR}hooke 1e4 0 tangential multistep NULL NULL 0.5\n{SECOND}\nrun 0",
      O + "the contact of types 1 and 1 has the tangential law multistep: use .*slider midpoint"),
     (f"{PAIR}hertz 1e4 0 rolling 0.1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance"),
-    (f"{PAIR}hertz 1e4 0 adhesion constant 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has adhesion"),
+    (f"{PAIR}dmt 1e5 0 0.3 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has the normal law dmt"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
      O + r"fix other \(nve/sphere\) moves particles as well"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix w all wall/gran/region hertz/history 1e4 NULL 0 NULL 0.5 1 region box\nrun 0",

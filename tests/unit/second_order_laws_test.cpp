@@ -8,6 +8,7 @@
 #include "base/words.h"
 #include "laws/contact_words.h"
 #include "laws/second_order_laws.h"
+#include "laws/tangential/end_of_contact.h"
 #include "material/contact_spec.h"
 #include "material/law_table.h"
 
@@ -116,14 +117,15 @@ class Impact {
                             : dot(i.x - planes[0].point, planes[0].normal) * planes[0].normal;
     const double distance = length(r), overlap = i.radius + rj - distance;
     Twin::Vec force{}, moment{};
-    if (overlap > 0.0) {
+    const bool lasts = overlap > 0.0 || Talus::has_just_ended(batch.history[3][0], advance);
+    if (lasts) {
       set(batch.normal, (1.0 / distance) * r);
       set(batch.velocity, i.v - j.v);
       set(batch.surface_rotation, i.radius * i.w + rj * j.w);
       set(batch.velocity_change, lag * (i.a - j.a));
       set(batch.rotation_change, lag * (i.radius * i.alpha + rj * j.alpha));
       batch.lag = lag;
-      batch.overlap[0] = overlap;
+      batch.overlap[0] = its_overlap = overlap;
       batch.inverse_mass[0] = 1.0 / i.mass + (planes.empty() ? 1.0 / j.mass : 0.0);
       batch.inverse_radius[0] = 1.0 / i.radius + (planes.empty() ? 1.0 / j.radius : 0.0);
       batch.inverse_distance[0] = planes.empty() ? 1.0 / distance : 0.0;
@@ -132,7 +134,7 @@ class Impact {
       moment = get(batch.moment);
     } else
       for (auto &value : batch.history) value[0] = 0.0;
-    touched = overlap > 0.0;
+    touched = lasts;
     for (std::size_t n = 0; n < particles.size(); n++) {
       Twin::Particle &p = particles[n];
       p.a = gravity + (n == 0 ? 1.0 : -1.0) / p.mass * force;
@@ -145,6 +147,7 @@ class Impact {
   {
     if (!touched) return;
     const ContactBatch before = batch;
+    batch.overlap[0] = its_overlap;
     kernels.reading(batch, 0, Talus::lanes, &kernels.row, dt);
     for (int d = 0; d < 3; d++) {
       EXPECT_EQ(batch.force[d][0], before.force[d][0]);
@@ -158,7 +161,7 @@ class Impact {
   std::vector<Twin::Particle> particles;
   std::vector<Twin::Plane> planes;
   ContactBatch batch;
-  double dt, lag = 0.0;
+  double dt, lag = 0.0, its_overlap = 0.0;
   bool touched = false;
 };
 
@@ -199,7 +202,6 @@ void expect_same(Twin::System start, const Twin::Law &law, const std::string &wo
     const Impact engine(kernels, start, time, steps);
     Twin::System twin = start;
     twin.law = law;
-    twin.with.after = false;
     twin.run(time, steps);
     for (std::size_t n = 0; n < start.particles.size(); n++) {
       const Twin::Particle &a = engine.result()[n], &b = twin.particles[n];
@@ -246,6 +248,20 @@ TEST(SecondOrderLaws, AreThoseOfTheTwin)
   expect_same(numbers(true, 1.75e5, 400, 0.0), "hertz 1.75e5 400 limit_damping");
 }
 
+TEST(SecondOrderLaws, WithAdhesion)
+{
+  for (double mu : {0.0, 0.3}) {
+    Twin::Law law = numbers(true, 1.75e5, 400, mu);
+    law.adhesion = 3.0;
+    const std::string friction =
+        mu > 0.0 ? " tangential multistep NULL NULL 0.3 slider midpoint" : "";
+    expect_same(law, "hertz 1.75e5 400" + friction + " adhesion constant 3 limit_damping");
+    law = numbers(false, 2e4, 0, mu);
+    law.adhesion = 3.0;
+    expect_same(law, "hooke 2e4 0" + friction + " adhesion constant 3");
+  }
+}
+
 TEST(SecondOrderLaws, WithDampingOfTheStiffness)
 {
   Twin::Law law = numbers(true, 0, 0, 0.4);
@@ -278,8 +294,15 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3 midpoint", "slider midpoint");
   expect_cure("hooke 2e4 0 tangential onestep 1e3 0 0.3", "slider midpoint");
   expect_cure("hertz 2e4 0 rolling 0.1", "rolling");
-  expect_cure("hertz 2e4 0 adhesion constant 1", "adhesion");
-  expect_cure("dmt 1e5 0 0.3 1", "adhesion");
+  EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
+  expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
   expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "flores");
-  expect_cure("hertz 2e4 0 heat radius 1", "heat");
+  EXPECT_EQ(reason("hertz 2e4 0 heat radius 1"), "");
+  const std::string friction = " tangential multistep NULL ";
+  const std::string late = " 0.3 slider midpoint limit_damping";
+  expect_cure("hertz 2e4 1 damping mass_velocity" + friction + "NULL" + late,
+              "damping viscoelastic");
+  expect_cure("hertz 2e4 1 damping velocity" + friction + "NULL" + late, "damping viscoelastic");
+  EXPECT_EQ(reason("hertz 2e4 1 damping velocity" + friction + "0" + late), "");
+  EXPECT_EQ(reason("hooke 2e4 1 damping velocity" + friction + "NULL" + late), "");
 }

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spheres and planes by the simplest program that can be: every pair in every step, one contact at a
-// time, the leapfrog of `start half`, and the five measures by which contacts that dissipate become
+// Spheres and planes by the simplest program that can be: every pair in every step, one contact at
+// a time, the leapfrog of `start half`, and the five measures by which contacts that dissipate become
 // of second order in the time step, each of which can be left out. The reference that the laws of
 // the engine are compared with: it shares no code with them. Any consistent units.
 //
@@ -82,6 +82,22 @@ inline double zeta(double p, double t)
          p * (p - 1.0) * (p - 2.0) * (p - 3.0) * (p - 4.0) * std::pow(a, p - 5.0) / 30240.0;
 }
 
+/// Next terms in push = A dt^(p+1)/(m v), in parts of push A dt^p, for p = 1 (from the invariant
+/// v_(n+1/2)^2 + k/m d_n d_(n+1)) and 3/2 (found by trial).
+inline double second_at_begin(double p, double t)
+{
+  if (p == 1.0) return t * t / 12.0 - t * t * t * t / 8.0;
+  return 0.000834058 + t * (-0.0195192 + t * (-0.000165652 +
+                                              t * (0.0916618 + t * (0.000220944 - t * 0.0801479))));
+}
+inline double second_at_end(double p, double t)
+{
+  if (p == 1.0)
+    return (1.0 - 6.0 * t - 12.0 * t * t + 36.0 * t * t * t - 18.0 * t * t * t * t) / 144.0;
+  return 0.000166992 +
+         t * (0.0303978 + t * (-0.0539675 + t * (-0.0992979 + t * (0.2033 - t * 0.0804567))));
+}
+
 enum class Damping { MASS, RADIUS, ROOT };    // m g; a m g; g sqrt(m dF/dd)
 
 struct Law {
@@ -124,7 +140,8 @@ struct Plane {
 struct Contact {
   bool touches = false;
   double force = 0.0;    // normal one of the last step, without the correction of its beginning
-  Vec s;                 // tangential displacement
+  bool slid = false;
+  Vec s;    // tangential displacement
 };
 
 /// Stiffness and damping of a contact with overlap d.
@@ -240,42 +257,102 @@ class System {
     p.j->torque = p.j->torque - p.j->radius * moment - twist;
   }
 
+  /// The step in which bodies touch (sign -1) or part (+1): time from touching on or to parting
+  /// over dt, overlap that the speed at that moment brings in a step, its change in the step by
+  /// others and the turning of the contact.
+  struct Edge {
+    bool is = false;
+    double theta = 1.0, reach = 1.0, bend = 0.0;
+  };
+
+  Edge edge(const Pair &p, double d, double sign, double others) const
+  {
+    const double vn = dot(p.v, p.n);
+    const double turning = p.j ? (dot(p.v, p.v) - vn * vn) / p.distance : 0.0;
+    const double step = sign * dt * (vn - 0.5 * dt * turning);
+    if (d <= 0.0 || step < d) return {};
+    const double straight = d / step;
+    const double bend = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
+    const double theta = straight * (1.0 - 0.5 * bend * (1.0 - straight));
+    return {true, theta, step * (1.0 + bend * (0.5 - theta)), bend};
+  }
+
+  /// In parts of A dt^p; `later`: from touching or parting to the correction.
+  double elastic_error(const Edge &e, double later) const
+  {
+    const double p = law.elastic_exponent(), first = zeta(p, e.theta);
+    return first + e.bend * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
+  }
+
   /// The sum over the time steps of the force that a contact ends with, less its integral.
   void part(const Pair &p, Contact &c)
   {
-    const double speed = dot(p.v, p.n), apart = -p.d;
-    if (with.ends && with.after && speed * dt > apart) {
-      const double theta = 1.0 - apart / (speed * dt), reach = speed * dt;
-      const Coefficients most = coefficients(law, reach, p.mass, p.radius);
-      double error = -law.adhesion * zeta(0.0, theta);
-      if (!law.limit_damping || law.gn == 0.0)
-        error += most.kn * reach * zeta(law.elastic_exponent(), theta) -
-                 most.gn * speed * zeta(law.damping_exponent(), theta);
-      apply(p, -error * p.n, Vec{}, Vec{});
+    const double speed = dot(p.v, p.n);
+    const double turning = p.j ? (dot(p.v, p.v) - speed * speed) / p.distance : 0.0;
+    const double before = p.d + dt * (speed - 0.5 * dt * turning);
+    if (with.ends && with.after && before > 0.0) {
+      const double theta = before / (before - p.d);
+      const double error = c.force == 0.0      ? 0.0
+                           : law.limit_damping ? limited_end(p, c, before, speed)
+                                               : unlimited_end(p, theta, speed);
+      Vec friction{};
+      if (c.slid) {
+        const Coefficients was = coefficients(law, before, p.mass, p.radius);
+        const Vec u = surface_velocity(p.v, p.spin, p.n);
+        friction = law.mu * error * unit(was.kt * turned(c.s, p.n) + was.gt * u);
+      }
+      const double pull = -law.adhesion * zeta(0.0, theta);
+      apply(p, -(error + pull) * p.n + friction, cross(p.n, friction), Vec{});
     }
     c = Contact{};
+  }
+
+  double unlimited_end(const Pair &p, double theta, double speed) const
+  {
+    const double reach = speed * dt;
+    const Coefficients most = coefficients(law, reach, p.mass, p.radius);
+    const double push = most.kn * reach * dt / (p.mass * speed);
+    return -push * most.kn * reach * second_at_end(law.elastic_exponent(), theta) +
+           most.kn * reach * zeta(law.elastic_exponent(), theta) -
+           most.gn * speed * zeta(law.damping_exponent(), theta);
+  }
+
+  /// The force ends where damping has made up for the elastic force.
+  double limited_end(const Pair &p, const Contact &c, double before, double speed) const
+  {
+    const Coefficients was = coefficients(law, before, p.mass, p.radius);
+    const double rest = before - was.gn * speed / was.kn, exponent = law.elastic_exponent();
+    const Edge e = edge(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    if (!e.is) return 0.0;
+    const double most = (was.kn * before - was.gn * speed) * std::pow(e.reach / rest, exponent);
+    const double push = most * dt * dt / (p.mass * e.reach);
+    return most * (elastic_error(e, e.theta - 1.0) - push * second_at_end(exponent, e.theta));
   }
 
   void touch(const Pair &p, Contact &c)
   {
     const Coefficients now = coefficients(law, p.d, p.mass, p.radius);
-    const double vn = dot(p.v, p.n), approach = -vn * dt;
-    const bool begins = lag > 0.0 && !c.touches && p.d <= approach;
-    const double theta = begins ? p.d / approach : 1.0;
+    const double vn = dot(p.v, p.n);
+    const Edge start = lag > 0.0 && !c.touches ? edge(p, p.d, -1.0, dot(p.a, p.n)) : Edge{};
+    const bool begins = start.is;
+    const double theta = start.theta, approach = start.reach;
     const Coefficients most =
         begins ? coefficients(law, approach, p.mass, p.radius) : Coefficients{};
 
     // normal
     const double forward = with.damping ? lag : 0.0;
-    const double own = with.implicit && c.touches ? (c.force - law.adhesion) / p.mass : 0.0;
-    const double v_p =
-        vn + forward * (dot(p.a, p.n) - own - (with.implicit ? law.adhesion / p.mass : 0.0));
+    const double own = with.implicit && c.touches ? c.force / p.mass : 0.0;
+    const double v_p = vn + forward * (dot(p.a, p.n) - own);
     double pure = now.kn * p.d - now.gn * v_p;
     if (with.implicit) pure /= 1.0 + now.gn * forward / p.mass;
     if (law.limit_damping) pure = std::max(pure, 0.0);
     double force = pure;
+    if (begins && with.ends && with.after) {
+      const double elastic = most.kn * approach, push = elastic * dt * dt / (p.mass * approach);
+      force -= push * elastic * second_at_begin(law.elastic_exponent(), theta);
+    }
     if (begins && with.ends)
-      force -= most.kn * approach * zeta(law.elastic_exponent(), theta) -
+      force -= most.kn * approach * elastic_error(start, theta) -
                most.gn * vn * zeta(law.damping_exponent(), theta);
     double pull = law.adhesion;
     if (begins && with.ends) pull *= 1.0 - zeta(0.0, theta);
@@ -287,7 +364,7 @@ class System {
       const Vec wanted = friction_of(p, c, now, u, theta, law.mu * std::fabs(pure));
       friction = wanted;
       if (begins && with.ends)
-        friction = friction + zeta(law.elastic_exponent(), theta) * most.kt * dt * u +
+        friction = friction + elastic_error(start, theta) * most.kt * dt * u +
                    zeta(law.damping_exponent(), theta) * most.gt * u;
       friction = capped(friction, law.mu * std::fabs(force));
       // sliding all the time: the share of the normal force
@@ -299,6 +376,7 @@ class System {
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
     c.force = pure;
+    c.slid = law.mu > 0.0 && slides;
   }
 
   static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }

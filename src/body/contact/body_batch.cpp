@@ -2,6 +2,8 @@
 
 #include "body/contact/body_batch.h"
 
+#include "laws/tangential/end_of_contact.h"
+
 #include <algorithm>
 
 namespace Talus {
@@ -121,6 +123,10 @@ const EightSpheres &BodyBatch::spheres_in_body()
 unsigned BodyBatch::touching_eight(std::size_t first, int high)
 {
   const EightSpheres &its = spheres_in_body();
+  if (law.tangential().second_order) {
+    const unsigned bits = task->shape.touches_eight(its, high, contacts);
+    return bits | just_ended(first, its, task->history.touched(first / width) & ~bits);
+  }
   if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(its, high, contacts);
   double reach[width] = {};
   widened = its;
@@ -136,6 +142,29 @@ unsigned BodyBatch::touching_eight(std::size_t first, int high)
     if (!(contacts.overlap[k] > 0.0)) bits &= begun | ~(1U << k);
   }
   return bits;
+}
+
+/* Of those contacts that were there, `bits`, those that last for the step in which they end: looked
+   for with radii twice as large. */
+
+unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &its, unsigned bits)
+{
+  unsigned ended = 0;
+  for (unsigned rest = bits; rest; rest &= rest - 1U) {
+    const int k = __builtin_ctz(rest);
+    if (has_just_ended(task->history.record(first + k).c[3], task->advance)) ended |= 1U << k;
+  }
+  if (!ended) return 0;
+  widened = its;
+  for (int k = 0; k < width; k++) widened.radius[k] *= 2.0;
+  EightContacts far;
+  ended &= task->shape.touches_eight(widened, width, far);
+  for (unsigned rest = ended; rest; rest &= rest - 1U) {
+    const int k = __builtin_ctz(rest);
+    for (int d = 0; d < 3; d++) contacts.normal[d][k] = far.normal[d][k];
+    contacts.overlap[k] = far.overlap[k] - its.radius[k];
+  }
+  return ended;
 }
 
 /* What the laws need of particles besides their positions is prefetched of those that probably

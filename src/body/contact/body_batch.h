@@ -97,6 +97,7 @@ class BodyBatch {
   void load_spheres(const int *index, int low, int high);
   const EightSpheres &spheres_in_body();
   unsigned touching_eight(std::size_t first, int high);
+  unsigned just_ended(std::size_t first, const EightSpheres &its, unsigned bits);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
   void look_at_parts(std::size_t candidate, std::size_t last);

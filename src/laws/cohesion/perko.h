@@ -31,7 +31,7 @@ struct PerkoAdhesion : CohesionLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    s.force = s.force - pull(c, s) * s.normal;
+    s.force = s.force - (s.adhesive_share * pull(c, s)) * s.normal;
   }
 
  private:

@@ -19,6 +19,14 @@ struct Conduction : HeatLaw {
 
   static void read(LawReader &r) { r.set_not_negative("heat"); }
   static ConductionRow<double> mix(const Mixing &m) { return {m.geometric("heat")}; }
+
+ protected:
+  /// T_2 - T_1, but 0 of a contact of second order that has just ended.
+  template <class Real> TALUS_INLINE static Real difference(const ContactLanes<Real> &s)
+  {
+    const Real zero = splat<Real>(0.0);
+    return select(s.parted > zero, zero, s.temperature_difference);
+  }
 };
 
 }    // namespace Talus

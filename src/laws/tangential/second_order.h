@@ -13,6 +13,7 @@
 //     a force A t^p has the error A dt^p zeta(-p, theta), Hurwitz' zeta function (Euler-Maclaurin
 //     for a sum that does not begin on a grid point): it is subtracted. p: exponents of elastic
 //     force and damping. Only if the overlap is at most what one step brings;
+//   * where it ends the same, see end_of_contact.h;
 //   * the displacement of multistep midpoint;
 //   * a sliding contact moves along the mean of its old and its new force (generalized midpoint
 //     rule of plasticity: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561), and the spring
@@ -20,13 +21,15 @@
 //     step an L-stable rule of second order. Equal to the rule of Ortiz and Popov if gt = 0.
 //
 // The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
-// flags: it began in that step, it slid. So a force can be computed again without advancing.
+// flags: it began in that step, it slid. So a force can be computed again without advancing. Of a
+// contact that ended in that step it is above zero.
 
 #ifndef TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 #define TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 
 #include "base/flagged_number.h"
 #include "laws/tangential/common.h"
+#include "laws/tangential/end_of_contact.h"
 #include "laws/tangential/multistep.h"
 
 namespace Talus {
@@ -68,6 +71,21 @@ template <class Real> TALUS_INLINE Real hurwitz_zeta(Real p, Real t)
                                          chosen(1.25, of_1[n], splat<Real>(of_3_halves[n])))));
   }
   return power(t, p) + sum;
+}
+
+/// Hurwitz' zeta(-p-1, t) for p = 1, 3/2 in the same way.
+template <class Real> TALUS_INLINE Real next_hurwitz_zeta(Real p, Real t)
+{
+  constexpr int terms = 8;
+  constexpr double of_2[terms] = {0.0, -1.0 / 6.0, -0.5, -1.0 / 3.0};
+  constexpr double of_5_halves[terms] = {0.00851693932511, -0.063714006929,  -0.389767136457,
+                                         -0.456516777643,  -0.101402024882,  0.0141888780042,
+                                         -0.0032726276339, 0.000483693683210};
+  const auto linear = p < splat<Real>(1.25);
+  Real sum = splat<Real>(0.0);
+  for (int n = terms - 1; n >= 0; n--)
+    sum = t * sum + select(linear, splat<Real>(of_2[n]), splat<Real>(of_5_halves[n]));
+  return t * power(t, p) + sum;
 }
 
 /// v shortened or stretched to a length; zero stays zero.
@@ -148,6 +166,10 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    s.adhesive_share = one;
+    EndOfContact<Real> end;
+    const bool any_ended = any((s.parted > zero) | (h[3] > zero));
+    if (any_ended) end = end_of<advance>(c, s, h, dt);
     const LastStep<Real> last = last_step(h[3]);
     Real pure = find_normal_force(s, last);
     if constexpr (!advance) pure = select(last.known, last.force, pure);
@@ -155,14 +177,20 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real approach = -dt * s.normal_velocity;
     auto begins = last.began;
     if constexpr (advance)
-      begins = (h[3] >= zero) & (s.lag > zero) & (approach >= s.overlap) & (s.overlap > zero);
+      begins = (h[3] >= zero) & (s.lag > zero) & (approach + approach >= s.overlap);
     Beginning<Real> start{one, zero, zero};
     Real force = pure, theta = one;
     const bool any_begins = any(begins);
     if (any_begins) {
-      start = errors_of(c, s.overlap, approach, begins);
-      theta = select(begins, s.overlap / select(begins, approach, one), one);
-      const Real early = start.elastic * s.elastic;
+      const Real others = 2.0 * dot(s.velocity_change, s.normal);
+      const Edge<Real> edge =
+          edge_of<Of::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
+      begins = edge.is;
+      start = errors_of<Of::BEGIN>(c, s.overlap, edge);
+      theta = edge.theta;
+      s.adhesive_share = select(begins, splat<Real>(0.5) + theta, one);    // p = 0
+      const Real early =
+          start.elastic * s.elastic - second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
       force = pure - (early - start.damping * s.gn * s.normal_velocity);
       if constexpr (advance) s.elastic = s.elastic - early;    // what does not store is work
     }
@@ -171,6 +199,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     s.force = force * s.normal;
 
     auto slides = last.slid;
+    Vector3<Real> t{zero, zero, zero};
     if constexpr (friction) {
       const Vector3<Real> u = surface_velocity_of(s.velocity + s.velocity_change,
                                                   s.surface_rotation + s.rotation_change, s.normal);
@@ -186,27 +215,29 @@ template <bool friction> struct SecondOrder : FrictionLaw {
         slides = slides | (dot(f, f) > limit * limit);
       }
       const Vector3<Real> within = -(s.kt * d + s.gt * u);
-      Vector3<Real> t = select(slides, with_length(limit, within), within);
+      t = select(slides, with_length(limit, within), within);
       if (any_begins) {
         const Real most = c.mu * s.critical_force;
         const Vector3<Real> early = start.elastic / start.ratio * dt * s.kt * u;
         const Vector3<Real> sticks = limited(t + early + start.damping * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
-      add_tangential(s, t);
-    } else
-      add_tangential(s, Vector3<Real>{zero, zero, zero});
+    }
     if constexpr (advance)
       h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
+    if (any_ended) end.replace(s, t, h);
+    add_tangential(s, t);
   }
 
  private:
+  static constexpr double least_force = 1.0e-200;
+
   /// Rounded to what is remembered of it, and above zero.
   template <class Real>
   TALUS_INLINE static Real find_normal_force(const ContactLanes<Real> &s,
                                              const LastStep<Real> &last)
   {
-    const Real one = splat<Real>(1.0), least = splat<Real>(1.0e-200);
+    const Real one = splat<Real>(1.0), least = splat<Real>(least_force);
     const Real by_others = dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force;
     const Real v = s.normal_velocity + by_others;
     const Real force = (s.elastic - s.gn * v) / (one + s.gn * s.lag * s.inverse_mass);
@@ -216,17 +247,73 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   // These two are seldom called: functions of their own, which are not given the whole state, so
   // that it can stay in registers.
 
-  template <class Real>
-  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, Real approach,
-                                   bool_of<Real> begins)
+  template <Of which, class Real>
+  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, const Edge<Real> &edge)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic_exponent;
+    const Real ratio = select(edge.is, edge.reach / select(edge.is, overlap, one), one);
+    const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
+    const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
+    const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
+    const Real damping = hurwitz_zeta(c.damping_exponent, edge.theta);
+    return {ratio, select(edge.is, power(ratio, p) * elastic, zero),
+            select(edge.is, power(ratio, c.damping_exponent) * damping, zero)};
+  }
+
+  /// push A dt^p times the second term, where `elastic` is the force now.
+  template <Of which, class Real>
+  static Real second_force(const Row<Real> &c, const ContactLanes<Real> &s,
+                           const Beginning<Real> &start, Real elastic, const Edge<Real> &edge,
+                           double dt)
+  {
+    const Real zero = splat<Real>(0.0);
+    const Real most = power(start.ratio, c.elastic_exponent) * elastic;
+    const Real push = dt * dt * s.inverse_mass * most / edge.reach;
+    const Real force = push * most * second_term<which>(c.elastic_exponent, edge.theta);
+    return select(edge.is, which == Of::BEGIN ? -force : force, zero);
+  }
+
+  /// Of contacts that have parted. Those that touch again begin anew.
+  template <bool advance, class Real>
+  static EndOfContact<Real> end_of(const Row<Real> &c, const ContactLanes<Real> &s, Real *h,
+                                   double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    const Real ratio = select(begins, approach / select(begins, overlap, one), one);
-    const Real theta = one / ratio;
-    const auto error = [&](Real p) {
-      return select(begins, power(ratio, p) * hurwitz_zeta(p, theta), zero);
-    };
-    return {ratio, error(c.elastic_exponent), error(c.damping_exponent)};
+    const Real v = s.normal_velocity;
+    EndOfContact<Real> end;
+    end.parted = s.parted > zero;
+    const LastStep<Real> last = last_step(-magnitude(h[3]));
+    auto ends = end.parted & (s.overlap > zero) & (h[3] > zero);
+    if constexpr (advance) ends = end.parted & (s.overlap > zero) & (h[3] < zero);
+
+    // limited damping: the force ends before the overlap
+    const auto damped = s.gn * v > zero;
+    const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
+    const auto pressed = ends & (last.force > splat<Real>(2.0 * least_force));
+    const Real left = s.elastic - s.gn * v;
+    const Real others =
+        2.0 * (dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force);
+    const Edge<Real> edge = edge_of<Of::END>(s, overlap, v, others, pressed, dt);
+    const Beginning<Real> error = errors_of<Of::END>(c, overlap, edge);
+    const Real sum = error.elastic * left - second_force<Of::END>(c, s, error, left, edge, dt);
+    end.normal_force = select(edge.is, -sum, zero);
+
+    const Real way = select(ends, dt * (v - 0.5 * dt * centrifugal(s, v)), one);
+    end.adhesive_share = select(ends, s.overlap / way - splat<Real>(0.5), zero);
+
+    const Vector3<Real> d{h[0], h[1], h[2]};
+    end.tangential = {zero, zero, zero};
+    if constexpr (friction) {
+      const Vector3<Real> within = -(s.kt * turned(d, s.normal) + s.gt * surface_velocity(s));
+      end.tangential =
+          select(last.slid, with_length(c.mu * end.normal_force, within), end.tangential);
+    }
+    for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
+    const Real flags = select(last.slid, splat<Real>(2.0), zero);
+    end.history[3] = select(ends, with_flags(last.force, flags), zero);
+    const auto again = (h[3] > zero) & (s.parted <= zero);
+    for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
+    return end;
   }
 
   /// v_t of these velocities, n across the surface.

@@ -1,0 +1,133 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The end of a contact to second order in the time step. A force A t^p that ends a time t = theta
+// dt after a step is summed by the steps with the error A dt^p zeta(-p, theta), see second_order.h.
+// When it ends is only known in the first step without overlap: there it is made up for, by a force
+// that acts in this step alone. Contacts of second order last until then:
+//
+//   last_overlap()     before the laws are computed: that of a step ago takes the place of the one
+//                      that is not there any more, and the laws give the forces that end
+//   EndOfContact       what to add for them
+//
+// Damping with `limit_damping` ends the normal force before the overlap, by gn v/kn. A contact
+// remembers that it has ended, so that a set-up finds the same force, and is forgotten in the next
+// step.
+//
+// With these corrections alone an elastic impact loses a share of its energy in proportion to
+// push^2, push = A dt^(p+1)/(m v): the change of the speed v by the force in a step from v dt on,
+// in parts of it. Begin and end of a contact take the next terms, push A dt^p second_term(), so
+// that what is left is push^3. For p = 1 they follow from v_(n+1/2)^2 + k/m d_n d_(n+1), which
+// leapfrog keeps in a contact; for p = 3/2 they are fits, to 2e-5, to the corrections that give all
+// contacts the same largest overlap, whenever they begin, and the same speed at the end.
+//
+// The overlap is curved: d(t) = w t + a t^2/2 with the acceleration a by others and by the turning
+// of the contact (v_t^2 over the distance). With e = a dt/w the force A t^p (1 + p a t/(2 w)) and
+// the moment at which its error is made up for, s dt from touching on, change the error in work to
+// that of A dt^p (zeta(-p, theta) + e ((p/2 + 1) zeta(-p-1, theta) - s zeta(-p, theta))).
+
+#ifndef TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
+#define TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
+
+#include "base/flagged_number.h"
+#include "base/simd.h"
+#include "laws/contact_lanes.h"
+
+namespace Talus {
+
+/// Whether a contact without overlap, which remembers `stored` (see second_order.h), lasts for this
+/// step: it has ended on the way here, or, in a set-up, in the last step.
+inline bool has_just_ended(double stored, bool advance)
+{
+  return advance ? stored < 0.0 : stored != 0.0;
+}
+
+/// v_t^2 over the distance of the centers.
+template <class Real> TALUS_INLINE Real centrifugal(const ContactState<Real> &s, Real v_n)
+{
+  return s.inverse_distance * (dot(s.velocity, s.velocity) - v_n * v_n);
+}
+
+/// Sets `parted`, and in the place of the overlap that of the last step where the bodies are apart.
+template <class Real> TALUS_INLINE void last_overlap(ContactState<Real> &s, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  const auto touches = s.overlap > zero;
+  const Real v = dot(s.velocity, s.normal);
+  const Real before = s.overlap + dt * (v - 0.5 * dt * centrifugal(s, v));
+  s.parted = select(touches, zero, one);
+  s.overlap = select(touches, s.overlap, select(before > zero, before, zero));
+}
+
+enum class Of : bool { BEGIN, END };
+
+/// The step in which bodies touch or part.
+template <class Real> struct Edge {
+  bool_of<Real> is;
+  Real theta;    ///< time from touching on, or to parting, over dt; in (0, 1]
+  Real reach;    ///< overlap that the speed at that moment brings in a step
+  Real bend;     ///< e
+};
+
+/// `others`: change of velocity along the normal in dt, by others. Where `may` is.
+template <Of which, class Real>
+Edge<Real> edge_of(const ContactState<Real> &s, Real overlap, Real v_n, Real others,
+                   bool_of<Real> may, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), half = splat<Real>(0.5);
+  const Real turning = dt * centrifugal(s, v_n), apart = v_n - half * turning;
+  const Real half_way = dt * (which == Of::END ? apart : -apart);
+  Edge<Real> edge;
+  edge.is = may & (overlap > zero) & (half_way >= overlap);
+  const Real step = select(edge.is, half_way, one);
+  const Real bend = select(edge.is, -dt * (others + turning) / step, zero);
+  edge.bend = select(bend > one, one, select(bend < -one, -one, bend));
+  const Real straight = select(edge.is, overlap / step, one);
+  edge.theta = straight * (one - half * edge.bend * (one - straight));
+  edge.reach = step * (one + edge.bend * (half - edge.theta));
+  return edge;
+}
+
+/// For p = 1 and 3/2, 0 < theta <= 1; a decelerating force at the begin of a contact, an
+/// accelerating one at its end.
+template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta)
+{
+  constexpr int terms = 6;
+  constexpr double linear[2][terms] = {{0.0, 0.0, 1.0 / 12.0, 0.0, -0.125, 0.0},
+                                       {1.0 / 144.0, -1.0 / 24.0, -1.0 / 12.0, 0.25, -0.125, 0.0}};
+  constexpr double hertzian[2][terms] = {
+      {0.000834058, -0.0195192, -0.000165652, 0.0916618, 0.000220944, -0.0801479},
+      {0.000166992, 0.0303978, -0.0539675, -0.0992979, 0.2033, -0.0804567}};
+  constexpr int at = which == Of::END ? 1 : 0;
+  Real sum = splat<Real>(0.0);
+  for (int n = terms - 1; n >= 0; n--)
+    sum = theta * sum +
+          select(p < splat<Real>(1.25), splat<Real>(linear[at][n]), splat<Real>(hertzian[at][n]));
+  return sum;
+}
+
+/// Forces of contacts that have parted, and what these remember from now on.
+template <class Real> struct EndOfContact {
+  bool_of<Real> parted;
+  Real normal_force, adhesive_share;
+  Vector3<Real> tangential;
+  Real history[4];
+
+  /// A contact without overlap stores nothing, and its force dissipates nothing.
+  void replace(ContactLanes<Real> &s, Vector3<Real> &t, Real *h) const
+  {
+    const Real zero = splat<Real>(0.0);
+    s.overlap = select(parted, zero, s.overlap);
+    s.elastic = select(parted, normal_force, s.elastic);
+    s.kt = select(parted, zero, s.kt);
+    s.normal_force = select(parted, normal_force, s.normal_force);
+    s.critical_force = select(parted, magnitude(normal_force), s.critical_force);
+    s.adhesive_share = select(parted, adhesive_share, s.adhesive_share);
+    s.force = select(parted, normal_force * s.normal, s.force);
+    t = select(parted, tangential, t);
+    for (int n = 0; n < 4; n++) h[n] = select(parted, history[n], h[n]);
+  }
+};
+
+}    // namespace Talus
+
+#endif
