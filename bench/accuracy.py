@@ -201,9 +201,9 @@ Talus is run with its run style, which
 changes no bit of these scenes. A sphere of the impacts has half a pair in the neighbor list and touches during half of the time, so that
 most of the time is that of moving spheres through memory, which differs less between codes than that of contacts does. In a
 settled bed, with 3.5 pairs and 2.2 contacts for each sphere, it differs by more (section on one core).""")
-    section.text("""Without damping and friction all methods are of second order, and `order 2` is worth nothing: the errors of
+    section.text("""Without damping and friction all methods are of second order, and `order 2` gains little: the errors of
 `hooke`, `hertz`, `chain` are those of the middle of the contact, not of its ends. `slip` is the same: a contact that slides from beginning to
-end in one direction has no first-order error. In `stick` the spring that is left at the end limits the order, with every method.""")
+end in one direction has no first-order error. In `stick` the spring that is left at the end limits the order.""")
     if missed:
         section.headline("accuracy: order 2 against the faster stock style, run time at equal error: " + "; ".join(missed) + ".")
     if slow:

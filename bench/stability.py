@@ -163,7 +163,7 @@ one, up to a factor that goes up and down with the number of steps in a contact 
 Nothing brings it back: without damping or friction the energy walks at random, with the root of the number of
 impacts ({root:.1f} times as far in 10 times as many steps, on average over the rows; root 10 is 3.2).
 It is the same for velocity Verlet of the stock styles and for both starts of fix nve/sphere/symplectic, whose impacts have the same errors. With `order 2`, which
-corrects the beginning of a contact but not its end, the energy of the gas walks {shrinks:.1f} times less far (mean over the rows). Cure: a smaller time
+makes up for the kinks, the energy of the gas walks {shrinks:.1f} times less far (mean over the rows). Cure: a smaller time
 step, .03 of the critical one with a linear law, .07 with a Hertzian one, whose kinks are weaker; or e below .995, with which an impact loses more.
 Talus says so at the start of a run above these time steps, if no contact of the scene has damping or friction.""")
 

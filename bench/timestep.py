@@ -46,9 +46,8 @@ which the contact begins, stays below the mark. Impacts of two spheres at speed 
 normal of oblique impacts (speed {rebound.ACROSS} along the surface, both spins {rebound.SPIN}, mu = .3). In laws with damping it does not attract
 (`limit_damping`). Stock: gran/*/history, and pair granular for hertz/material, whose restitution is another one. The 20 % of the critical time step that is advised is 16 steps per contact with a linear law, 20
 with a Hertzian one whose overlap reaches 1 % of the radius. Order 1 and stock see the damping half a step late, and do not see where in a
-step a contact begins: the first error goes with the damping, the second with the law, weak with Hertz. Order 2 corrects the
-beginning, and the end where damping is limited; of an elastic linear contact it does not correct the end, whose error order 1 cancels with
-that of the beginning: there order 1 is the better one.""")
+step a contact begins: the first error goes with the damping, the second with the law, weak with Hertz. Order 2 sees
+both, and the end of a contact.""")
     shown = [n for n in (4, 6, 10, 16, 25, 50, 100) if n in next(iter(found.values())).steps]
     section.heading("Restitution: relative error")
     section.table(["law", "method", "value", *(f"{n} steps" for n in shown)], rows)

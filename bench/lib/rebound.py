@@ -4,6 +4,7 @@
 import dataclasses
 import math
 import statistics
+import threading
 
 import errors
 import lammps
@@ -51,7 +52,8 @@ def impacts(bench, name, law, method, steps, moments):
             rows.append((2 * n + k + 1, 1, 2 * scenes.R, scenes.DENSITY, 3.0 * n + 0.5 * sign * across * gap, 0.0,
                          sign * (scenes.R + gap / 2)))
             speeds.append((2 * n + k + 1, -0.5 * sign * across, 0.0, -0.5 * sign, 0.0, spin, 0.0))
-    name = f"rebound-{abs(hash(name)):x}-{method}-{steps}".replace(" ", "_")
+    # several threads may run the same case, for the reference of different methods
+    name = f"rebound-{abs(hash(name)):x}-{method}-{steps}-{threading.get_ident()}".replace(" ", "_")
     lammps.write_data(bench.path(name + ".data"), ((-2, 3 * moments), (-2, 2), (-2, 2)), rows, speeds)
     scene = scenes.Scene(name, "", law, [], [], dt, dt, dt)
     lammps.run(bench.workdir, name, f"""units si

@@ -13,6 +13,11 @@
 
 namespace Talus {
 
+static void clear_lanes(double (*vector)[ContactBatch::width], int begin, int end)
+{
+  for (int d = 0; d < 3; d++) std::fill(vector[d] + begin, vector[d] + end, 0.0);
+}
+
 ContactChunk::ContactChunk()
 {
   batch.clear();
@@ -47,6 +52,9 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   reported = 0;
   its_work = EnergyByCause{};
   work_left.clear();
+  if (step.weight_of_changes == 0.0F)
+    for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
+      clear_lanes(vector, 0, ContactBatch::width);
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
@@ -132,14 +140,13 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
-  if (step.particles.keeps_changes())
-    gather<friction, history_kept, true>(step.particles, end);
+  if (step.weight_of_changes > 0.0F)
+    gather<friction, history_kept, true>(step, end);
   else
-    gather<friction, history_kept, false>(step.particles, end);
+    gather<friction, history_kept, false>(step, end);
   if (scene.with_impact) gather_impacts(end);
   finish_geometry(end, friction);
-  if (scene.with_twisting)
-    gather_for_twisting(step.particles, end, scene.with_resistance || step.account);
+  if (scene.with_twisting) gather_for_twisting(step, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(end);
@@ -202,10 +209,6 @@ double sum_of(Vec8 lane)
   return sum;
 }
 
-void clear_lanes(double (&vector)[3][ContactBatch::width], int begin, int end)
-{
-  for (auto &component : vector) std::fill(component + begin, component + end, 0.0);
-}
 }    // namespace
 
 void ContactChunk::run_kernels(const Step &step)

@@ -67,6 +67,10 @@ struct ContactStep {
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
   const double *temperature = nullptr;    ///< by host's index, in scenes that conduct heat
   double lag = 0.0;    ///< time by which velocities are behind positions; for second order
+  /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work alone
+  /// a few steps may be looked at with the weight of all, the others with 0: a correction that is of
+  /// first order in the step stays so to second order.
+  float weight_of_changes = 0.0F;
 };
 
 class ContactChunk {
@@ -136,9 +140,8 @@ class ContactChunk {
   TALUS_INLINE void prefetch_own(const ParticleRecords &particles);
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
   void give_lane(std::uint32_t contact, int position, int lane);
-  template <bool friction, bool history_kept, bool changes>
-  void gather(const ParticleRecords &particles, int end);
-  void gather_for_twisting(const ParticleRecords &particles, int end, bool resistance);
+  template <bool friction, bool history_kept, bool changes> void gather(const Step &step, int end);
+  void gather_for_twisting(const Step &step, int end, bool resistance);
   void gather_impacts(int end);
   void gather_temperatures(const double *temperature, int end);
   void finish_geometry(int end, bool radii_known);

@@ -47,8 +47,9 @@ void ContactChunk::prefetch_own(const ParticleRecords &particles)
 /* Geometry and kinematics of the block. The sums of records give everything but the normal. */
 
 template <bool friction, bool history_kept, bool changes>
-void ContactChunk::gather(const ParticleRecords &particles, int end)
+void ContactChunk::gather(const Step &step, int end)
 {
+  const ParticleRecords &particles = step.particles;
   constexpr std::size_t stride = friction ? 2 : 1;
   const Record *x = particles.position.data(), *motion = particles.motion.data();
   const ChangeRecord *change = particles.change.data();
@@ -72,7 +73,8 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
         c[q] = surface_velocity(xi, load4(mi[1])) + surface_velocity(xj, load4(mj[1]));
       if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
       if constexpr (history_kept) d[q] = load4(h[place[pair]]);
-      if constexpr (changes) e[q] = change_of_contact(change[i], change[j]);
+      if constexpr (changes)
+        e[q] = step.weight_of_changes * change_of_contact(change[i], change[j]);
     }
     if constexpr (history_kept) prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
     to_lanes(a, batch.normal, batch.overlap, k);
@@ -133,8 +135,9 @@ void ContactChunk::finish_geometry(int end, bool radii_known)
    overlap differ from radii; with resistance also omega_i - omega_j and the circle in which the
    surfaces intersect. */
 
-void ContactChunk::gather_for_twisting(const ParticleRecords &particles, int end, bool resistance)
+void ContactChunk::gather_for_twisting(const Step &step, int end, bool resistance)
 {
+  const ParticleRecords &particles = step.particles;
   const Record *x = particles.position.data();
   const int *first = pairs.state_of_first(), *second = pairs.second.data();
   for (int k = 0; k < end; k++) {
@@ -159,12 +162,13 @@ void ContactChunk::gather_for_twisting(const ParticleRecords &particles, int end
     for (int q = 0; q < 4; q++) row[q] = relative_omega(k + q);
     to_lanes(row, batch.relative_omega, nullptr, k);
   }
-  if (!particles.keeps_changes()) return;
+  if (step.weight_of_changes == 0.0F) return;
   for (int k = 0; k < end; k++) {
     const std::uint32_t pair = pair_of_lane[k];
     const ChangeRecord &i = particles.change[first[pair]], &j = particles.change[second[pair]];
     for (int d = 0; d < 3; d++)
-      batch.omega_change[d][k] = i.c[4 + d] / first_radius[k] - j.c[4 + d] / second_radius[k];
+      batch.omega_change[d][k] =
+          step.weight_of_changes * (i.c[4 + d] / first_radius[k] - j.c[4 + d] / second_radius[k]);
   }
 }
 
@@ -202,12 +206,12 @@ template <bool friction> void ContactChunk::transpose_results(int end, const Con
   }
 }
 
-template void ContactChunk::gather<true, true, true>(const ParticleRecords &, int);
-template void ContactChunk::gather<true, true, false>(const ParticleRecords &, int);
-template void ContactChunk::gather<true, false, true>(const ParticleRecords &, int);
-template void ContactChunk::gather<true, false, false>(const ParticleRecords &, int);
-template void ContactChunk::gather<false, false, true>(const ParticleRecords &, int);
-template void ContactChunk::gather<false, false, false>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, true, true>(const Step &, int);
+template void ContactChunk::gather<true, true, false>(const Step &, int);
+template void ContactChunk::gather<true, false, true>(const Step &, int);
+template void ContactChunk::gather<true, false, false>(const Step &, int);
+template void ContactChunk::gather<false, false, true>(const Step &, int);
+template void ContactChunk::gather<false, false, false>(const Step &, int);
 template void ContactChunk::transpose_results<true>(int, const ContactScene &);
 template void ContactChunk::transpose_results<false>(int, const ContactScene &);
 

@@ -15,6 +15,7 @@ void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &i
     ContactLanes<Vec8> s;
     load_state(b, k, s);
     load_found<Stage::HEAT>(b, k, s);
+    s.tangential = s.force - dot(s.force, s.normal) * s.normal;
     ContactWork<Vec8> work;
     find_work<friction, twists, resists, tears>(s, in.dt, work);
     for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);

@@ -30,7 +30,7 @@ enum class Cause : int { DAMPING, FRICTION, RESISTANCE };
 
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
-/// The work, when all stages have run. `twists`: ContactLaw::twists(); `resists`: the same; `tears`:
+/// The work, when all stages have run: s.tangential is that of the tangential stage. `twists`: ContactLaw::twists(); `resists`: the same; `tears`:
 /// as Law::lasts_beyond_contact of the normal law.
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
 /// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.
@@ -43,16 +43,15 @@ TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<
   work[1] = work[2] = splat<Real>(0.0);
   if constexpr (!friction) return;
   const Vector3<Real> rotation = s.surface_rotation + s.rotation_change;
-  const Vector3<Real> tangential = s.force - dot(s.force, s.normal) * s.normal;
-  const Vector3<Real> lever = cross(s.normal, tangential);
   if constexpr (!twists) {
-    work[1] = -dt * (dot(tangential, velocity) - dot(lever, rotation));
+    work[1] = -dt * (dot(s.tangential, velocity) - dot(s.moment, rotation));
     return;
   }
+  const Vector3<Real> lever = cross(s.normal, s.tangential);
   const Vector3<Real> omega = s.relative_omega + s.omega_change;
   const Vector3<Real> moment = (splat<Real>(1.0) - s.arm_loss) * lever,
                       twist = s.arm_difference * lever;
-  work[1] = -dt * (dot(tangential, velocity) - dot(moment, rotation) + dot(twist, omega));
+  work[1] = -dt * (dot(s.tangential, velocity) - dot(moment, rotation) + dot(twist, omega));
   if constexpr (!resists) return;
   work[2] = dt * (dot(s.moment - moment, rotation) - dot(s.twisting_torque - twist, omega));
 }

@@ -295,6 +295,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void find_changes(const ContactStep &step);
   void begin_account(bool again);
   int groups_with_changes() const;
+  float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();
 

@@ -20,10 +20,12 @@ import arrays
 import errors
 import function_stages
 import lammps
+import limits
 import main
 import paired
 import projection
 import report
+import scenes
 import two_cores
 import verdict
 
@@ -92,6 +94,36 @@ class Numbers(unittest.TestCase):
         self.assertIsNone(errors.step_for(1e-6, steps, second))
         # a run that failed, or was good by chance, does not count
         self.assertLess(errors.step_for(1e-3, steps, [1e-9] * 3 + [math.inf] + second[4:]), steps[3])
+
+    def test_an_error_beyond_the_finest_step_is_extrapolated(self):
+        steps = [2.0**-k for k in range(8)]
+        ladder = main.load("accuracy").Ladder([(h, dict.fromkeys(errors.QUANTITIES, h**2)) for h in steps], 10.0)
+        within, beyond = ladder.needs(1e-2), ladder.needs(1e-8)
+        self.assertTrue(within.measured)
+        self.assertFalse(beyond.measured)
+        self.assertAlmostEqual(beyond.dt, 1e-4, places=9)
+        self.assertEqual([cell[0] for cell in beyond.cells()], ["~", "~"])
+
+    def test_exact_impact_ends_without_attraction(self):
+        """Velocity and position are continuous where the damped force has come to zero, and constant after."""
+        state, h = scenes.exact_hooke(22.0), 1e-7
+        gaps = [state(0.01 + 0.03 + 1e-4 * k)[0][1][0] for k in range(300)]
+        rates = [(state(t + h)[0][1][0] - state(t - h)[0][1][0]) / (2 * h) for t in (0.02, 0.05, 0.055, 0.07)]
+        for t, rate in zip((0.02, 0.05, 0.055, 0.07), rates):
+            self.assertAlmostEqual(rate, state(t)[1][1][0], places=6)
+        self.assertLess(max(abs(b - a) for a, b in zip(gaps, gaps[1:])), 1e-4)
+        self.assertEqual(state(0.07)[1], state(0.2)[1])
+
+    def test_limits_of_both_orders(self):
+        if limits.theory(limits.cases(True)[0]) is None:
+            self.skipTest("no numpy")
+        for zeta in 0.1, 0.7:
+            one, cage = (limits.Case("", "", *limits.cage(n), zeta=zeta) for n in (1, 12))
+            self.assertAlmostEqual(limits.theory(one, 1), 2 * (math.sqrt(1 + zeta**2) - zeta), places=3)
+            self.assertAlmostEqual(limits.theory(one, 2), 2.0, places=3)
+            # four contacts' worth of damping in each direction, of which one is implicit
+            spread = 2 * zeta * 0.75
+            self.assertAlmostEqual(limits.theory(cage, 2), (math.sqrt(1 + 4 * spread**2) - 2 * spread), places=3)
 
     def test_loops_of_both_codes(self):
         new = "Loop time of 1.5 on 1 procs for 100 steps with 10 atoms\nPair    | 1.0 | 1.2 | 1.3 | 0.0 | 80\nOther | | 0.3 | | | 20\n"

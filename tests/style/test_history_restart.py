@@ -90,12 +90,16 @@ class HistoryRestart(SceneCase):
         with open(self.path("half"), "rb") as file:
             content = file.read()
         self.run_lammps(START + "read_restart half\n" + REST + body + "run 0\n")
-        # bytes, number of values, and the first one, which is the version; in the first one the number of particles
-        found = [k for k in range(len(content) - 20) if content[k + 12:k + 20] == struct.pack("<d", -3.0)
-                 and struct.unpack("<i", content[k:k + 4])[0] == 8 + 8 * struct.unpack("<d", content[k + 4:k + 12])[0]]
+        # bytes, number of values, and the first one, which is the version, below zero; in the first version the number
+        # of particles
+        def version_at(k):
+            size, entries, first = struct.unpack("<idd", content[k:k + 20])
+            return first if size == 8 + 8 * entries and first in range(-9, 0) else None
+        found = [(k, version_at(k)) for k in range(len(content) - 20) if version_at(k)]
         self.assertEqual(len(found), 1)
-        for first in -4.0, -2.0, float(len(GRAINS)):
-            self.refuse(content[:found[0] + 12] + struct.pack("<d", first) + content[found[0] + 20:], REST + body,
+        at, version = found[0]
+        for first in version - 1, version + 1, float(len(GRAINS)):
+            self.refuse(content[:at + 12] + struct.pack("<d", first) + content[at + 20:], REST + body,
                         "Fix large/body floor: the restart file was written by another version of Talus, which kept other "
                         "data of large bodies: go on with that version")
 
