@@ -225,8 +225,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
-  if (flat_walls(body.shape()).empty())
-    return "its surface is not made for particles with a shape: use plane, or box inside";
+  if (hollow_walls(body.shape()).empty())
+    return "its surface is not made for particles with a shape: use plane, box inside, or cylinder inside";
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));
@@ -244,7 +244,7 @@ BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double 
     list_particles(body, *points);
   }
   if (step.advance) memories_are_current = false;
-  return points->compute(flat_walls(body.shape()), body.present_frame(), view(), body.law_table(),
+  return points->compute(hollow_walls(body.shape()), body.present_frame(), view(), body.law_table(),
                          step, virial);
 }
 

@@ -5,11 +5,33 @@
 #include "base/in_parallel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace Talus {
 namespace {
 
 constexpr int particles_of_chunk = 64;
+
+/* As of a sphere, what is further behind than the radius around does not come back. */
+
+bool is_near(const HollowWall &wall, const Vector3<double> &x, double radius)
+{
+  if (wall.radius > 0.0) {
+    const Vector3<double> d = x - wall.point;
+    return std::fabs(wall.radius - length(d - dot(d, wall.normal) * wall.normal)) < radius;
+  }
+  return std::fabs(dot(wall.normal, x) - wall.offset) < radius;
+}
+
+bool touches(const HollowWall &wall, const ConvexShape &shape, const Pose &pose,
+             ConvexContacts &found)
+{
+  if (wall.radius > 0.0)
+    return collide_cylinder(shape, pose, wall.point, wall.normal, wall.radius, found);
+  const bool flip = wall.two_sided && dot(wall.normal, pose.position) < wall.offset;
+  const double side = flip ? -1.0 : 1.0;
+  return collide_plane(shape, pose, side * wall.normal, side * wall.offset, found);
+}
 
 }    // namespace
 
@@ -46,7 +68,7 @@ void WallPoints::save(PointMemories &to) const
       to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
 }
 
-BodyLoad WallPoints::compute(const std::vector<FlatWall> &walls, const BodyFrame &frame,
+BodyLoad WallPoints::compute(const std::vector<HollowWall> &walls, const BodyFrame &frame,
                              const ShapedView &view, const LawTable &laws, const BodyStep &step,
                              double *virial)
 {
@@ -98,19 +120,14 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   Pose pose;
   bool placed = false;
   for (std::size_t w = 0; w < task.walls.size(); w++) {
-    const FlatWall &wall = task.walls[w];
-    const double height = dot(wall.normal, seen) - wall.offset;
-    const bool flip = wall.two_sided && height < 0.0;
-    // as a sphere does, what is further behind does not come back
-    if ((flip ? -height : height) >= view.radius[i] || height <= -view.radius[i]) continue;
+    const HollowWall &wall = task.walls[w];
+    if (!is_near(wall, seen, view.radius[i])) continue;
     if (!placed) {
       pose = particle.pose(seen, view.turn(i));
       if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
       placed = true;
     }
-    if (!collide_plane(particle.shape(), pose, flip ? -wall.normal : wall.normal,
-                       flip ? -wall.offset : wall.offset, chunk.found))
-      continue;
+    if (!touches(wall, particle.shape(), pose, chunk.found)) continue;
     PointContact point{};
     point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
@@ -122,8 +139,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.weight = one.weight;
       point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
       const Vector3<double> place = frame.point_to_space(one.position);
-      Vector3<double> v =
-          velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
+      Vector3<double> v = velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
       if (frame.moves) v = v - frame.velocity_at(place);
       v = frame.to_body(v);
       if (frame.runs) {

@@ -13,7 +13,7 @@
 #include "body/contact/body_batch.h"
 #include "body/contact/body_contacts.h"
 #include "shape/collide.h"
-#include "shaped/flat_walls.h"
+#include "shaped/hollow_walls.h"
 #include "shaped/point_batch.h"
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
@@ -38,7 +38,7 @@ class WallPoints {
 
   /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
   /// particle, added to.
-  BodyLoad compute(const std::vector<FlatWall> &walls, const BodyFrame &frame,
+  BodyLoad compute(const std::vector<HollowWall> &walls, const BodyFrame &frame,
                    const ShapedView &view, const LawTable &laws, const BodyStep &step,
                    double *virial);
   double memory_usage() const;
@@ -54,7 +54,7 @@ class WallPoints {
     std::vector<TouchedPart> touched;
   };
   struct Task {
-    const std::vector<FlatWall> &walls;
+    const std::vector<HollowWall> &walls;
     const BodyFrame &frame;
     const ShapedView &view;
     const LawTable &laws;

@@ -30,6 +30,10 @@ class Frustum : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
+  const Vector3<double> &unit_axis() const { return axis; }
+  double half_length() const { return half; }
+  /// Of a cylinder whose inside acts, alone; 0 of others.
+  double inner_radius() const { return inside && !open && low == high ? low : 0.0; }
   int most_contacts() const override { return inside && !endless && !open ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
