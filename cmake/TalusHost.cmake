@@ -32,7 +32,7 @@ function(talus_read_host_cache)
       "with CMake and pass that directory as LAMMPS_BINARY_DIR, or run scripts/build.")
   endif()
   set(wanted CMAKE_HOME_DIRECTORY LAMMPS_SIZES LAMMPS_MACHINE BUILD_MPI BUILD_OMP
-    BUILD_SHARED_LIBS PKG_PLUGIN PKG_GRANULAR)
+    BUILD_SHARED_LIBS PKG_PLUGIN PKG_GRANULAR PKG_RIGID)
   load_cache("${dir}" READ_WITH_PREFIX HOST_ ${wanted})
   foreach(name IN LISTS wanted)
     set(HOST_${name} "${HOST_${name}}" PARENT_SCOPE)
@@ -63,7 +63,7 @@ function(talus_ask_host_program)
     set(HOST_LAMMPS_SIZES "${sizes}" PARENT_SCOPE)
   endif()
   string(REGEX MATCH "Installed packages:.*" packages "${text}")
-  foreach(name PLUGIN GRANULAR)
+  foreach(name PLUGIN GRANULAR RIGID)
     string(REGEX MATCH "[ \n]${name}[ \n]" HOST_PKG_${name} "${packages}")
     set(HOST_PKG_${name} "${HOST_PKG_${name}}" PARENT_SCOPE)
   endforeach()
@@ -243,17 +243,25 @@ if(HOST_PKG_GRANULAR)
   set(talus_granular_headers "${LAMMPS_SOURCE_DIR}/src/GRANULAR")
 endif()
 
+set(TALUS_HOST_HAS_RIGID 0)
+set(talus_rigid_headers "")
+if(HOST_PKG_RIGID)
+  set(TALUS_HOST_HAS_RIGID 1)
+  set(talus_rigid_headers "${LAMMPS_SOURCE_DIR}/src/RIGID")
+endif()
+
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.
 string(TOUPPER "${TALUS_HOST_SIZES}" talus_sizes_upper)
 add_library(lammps_host INTERFACE)
 target_include_directories(lammps_host SYSTEM INTERFACE
-  "${LAMMPS_SOURCE_DIR}/src" ${talus_granular_headers} ${MPI_CXX_INCLUDE_DIRS})
+  "${LAMMPS_SOURCE_DIR}/src" ${talus_granular_headers} ${talus_rigid_headers} ${MPI_CXX_INCLUDE_DIRS})
 target_compile_definitions(lammps_host INTERFACE
   TALUS_LAMMPS_VERSION=${TALUS_LAMMPS_VERSION}
   TALUS_HOST_HAS_ATOM2CUT=${TALUS_HOST_HAS_ATOM2CUT}
   TALUS_HOST_HAS_RUN_PLUGINS=${TALUS_HOST_HAS_RUN_PLUGINS}
   TALUS_HOST_HAS_GRANULAR=${TALUS_HOST_HAS_GRANULAR}
+  TALUS_HOST_HAS_RIGID=${TALUS_HOST_HAS_RIGID}
   TALUS_HOST_TELLS_FORMULAS=${TALUS_HOST_TELLS_FORMULAS}
   TALUS_HOST_HAS_WALL_CYLINDER=${TALUS_HOST_HAS_WALL_CYLINDER}
   TALUS_HOST_DRAWS_GRAN_WALLS=${TALUS_HOST_DRAWS_GRAN_WALLS}

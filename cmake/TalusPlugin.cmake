@@ -37,6 +37,11 @@ if(NOT TALUS_HOST_HAS_GRANULAR)
   endforeach()
 endif()
 
+# The same of package RIGID.
+if(NOT TALUS_HOST_HAS_RIGID)
+  list(FILTER talus_style_sources EXCLUDE REGEX "/fix_rigid_small")
+endif()
+
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
 

@@ -33,6 +33,10 @@
 #include "system/system_run_style.h"
 #include "talus_abi.h"
 
+#if TALUS_HOST_HAS_RIGID
+#include "fix/fix_rigid_small_symplectic.h"
+#include "fix/fix_rigid_small_talus.h"
+#endif
 #if TALUS_HOST_HAS_GRANULAR
 #include "fix/fix_wall_gran_region_talus.h"
 #include "fix/fix_wall_gran_talus.h"
@@ -183,6 +187,11 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.fix<FixWallGranTalus>("wall/gran/talus", "Talus fix style wall/gran/talus");
   registry.fix<FixWallGranRegionTalus>("wall/gran/region/talus",
                                        "Talus fix style wall/gran/region/talus");
+#endif
+#if TALUS_HOST_HAS_RIGID
+  registry.fix<FixRigidSmallSymplectic>("rigid/small/symplectic",
+                                        "Talus fix style rigid/small/symplectic");
+  registry.fix<FixRigidSmallTalus>("rigid/small/talus", "Talus fix style rigid/small/talus");
 #endif
   registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
   registry.compute<ComputeContactGranAtom>("contact/gran/atom",

@@ -10,7 +10,7 @@ import methods
 import plot
 import scenes
 
-NAMES = ("plain", "half", "stock", "granular")
+NAMES = ("plain", "half", methods.SECOND_ORDER, "stock", "granular")
 
 
 def coordination(state, side):

@@ -11,6 +11,7 @@ import tempfile
 import extreme
 import lammps
 from extreme import NU, YOUNG, Ball, Extreme
+from lammps import SECOND
 
 R, MASS = 0.5, 1000 * math.pi / 6
 DEPTH = 0.05       # overlap of the single impacts over the radius: that of the fast ones in the gas
@@ -40,8 +41,8 @@ class Errors:
         return max(map(abs, self.values))
 
 
-def single(bench, law, fraction, moments):
-    """Errors of head-on impacts of two spheres with Talus that begin at different moments within a step."""
+def single(bench, code, law, fraction, moments):
+    """Errors of head-on impacts of two spheres that begin at different moments within a step, with an order of Talus."""
     dt = fraction * CRITICAL
     speed = extreme.speed_for(DEPTH) if law == "Hertz" else DEPTH * R / CRITICAL
     rows, speeds = [], []
@@ -50,7 +51,7 @@ def single(bench, law, fraction, moments):
         for k, sign in enumerate((-1, 1)):
             rows.append((2 * n + k + 1, 1, 2 * R, 1000.0, 3.0 * n, 0.0, sign * (R + gap / 2)))
             speeds.append((2 * n + k + 1, 0.0, 0.0, -sign * speed / 2, 0.0, 0.0, 0.0))
-    name = f"single-{law}-{fraction}"
+    name = f"single-{code}-{law}-{fraction}"
     lammps.write_data(bench.path(name + ".data"), ((-2, 3 * moments), (-2, 2), (-2, 2)), rows, speeds)
     steps = math.ceil(6 * CRITICAL / dt)
     lammps.run(bench.workdir, name, f"""units si
@@ -62,7 +63,7 @@ read_data {name}.data
 neighbor 0.1 bin
 pair_style gran/penalty
 pair_coeff * * {extreme.talus_law(LAWS[law])}
-fix move all nve/sphere/symplectic
+fix move all nve/sphere/symplectic{" order 2" * (code == SECOND)}
 timestep {dt!r}
 thermo {steps}
 run {steps}
@@ -81,9 +82,9 @@ def walk(bench, code, law, fraction, steps, seed):
     return outcome.growth, any("no contact has damping" in warning for warning in outcome.warnings)
 
 
-def singles(bench, pool, cases):
+def singles(bench, pool, code, cases):
     """{(law, fraction): Errors of single impacts}."""
-    return dict(zip(cases, pool.map(lambda case: single(bench, *case, bench.size(64, 8)), cases)))
+    return dict(zip(cases, pool.map(lambda case: single(bench, code, *case, bench.size(64, 8)), cases)))
 
 
 def gases(bench, pool, code, cases, steps):

@@ -6,7 +6,7 @@ import math
 
 import lammps
 import verdict
-from lammps import TALUS
+from lammps import SECOND, STOCK, TALUS
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
 YOUNG, NU = 1.0e7, 0.3
@@ -54,12 +54,15 @@ class Extreme:
         return self.law[1]
 
 
-def talus_law(law):
+def talus_law(law, more="", limited=False):
+    """more: words of the tangential law; limited: damping does not attract."""
     if law[0] == "material":
         _, young, e, nu, mu = law
-        return f"hertz/material {young!r} {e!r} {nu!r}" + (f" tangential multistep NULL NULL {mu!r}" if mu else "")
-    kind, kn, gn, kt, gt, mu = law
-    return f"{kind} {kn!r} {gn!r}" + (f" tangential multistep {kt!r} {gt!r} {mu!r}" if mu else "")
+        text, kt, gt, damped = f"hertz/material {young!r} {e!r} {nu!r}", "NULL", "NULL", e < 1
+    else:
+        kind, kn, gn, kt, gt, mu = law
+        text, damped = f"{kind} {kn!r} {gn!r}", gn > 0
+    return text + (f" tangential multistep {kt} {gt} {mu!r}{more}" if mu else "") + " limit_damping" * (limited and damped)
 
 
 def granular_law(law):
@@ -76,9 +79,10 @@ def granular_law(law):
 
 def _physics(scene, code):
     text = ""
-    if code == TALUS:
-        words = talus_law(scene.law) + (" midpoint" if scene.midpoint else "")
-        pull = f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else ""
+    if code != STOCK:
+        second = code == SECOND
+        words = talus_law(scene.law, " slider midpoint" if second else " midpoint" * scene.midpoint, second)
+        pull = " order 2" * second + (f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else "")
         text += f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic{pull}\n"
         for n, (axis, place, sign) in enumerate(scene.planes):
             point, normal = ([place if d == axis else 0 for d in range(3)], [sign if d == axis else 0 for d in range(3)])
@@ -130,7 +134,7 @@ def run(bench, scene, code, folder, dt):
               "dump_modify d format float %.17g sort id\n" + f"run {scene.steps}\n")
     result = lammps.run(folder, f"scene-{code}", script, code, check=False, timeout=bench.size(900, 60))
     frames = lammps.read_frames(f"{folder}/frames.{code}")
-    if code == TALUS:
+    if code != STOCK:
         for _, frame in frames:
             synchronise(scene, frame, dt)
     outcome = verdict.judge(frames, result, grains(scene))

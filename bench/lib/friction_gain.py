@@ -8,7 +8,7 @@ import math
 import statistics
 
 import lammps
-from lammps import STOCK, TALUS
+from lammps import SECOND, STOCK, TALUS
 
 R, DENSITY, YOUNG, NU = 0.5, 1000.0, 1.0e7, 0.3
 MASS = DENSITY * math.pi / 6
@@ -24,7 +24,8 @@ def critical():
 def laws(code, mu, mu_roll, midpoint):
     if code == STOCK:
         return f"hertz/material {YOUNG!r} 1.0 {NU} tangential mindlin NULL 1.0 {mu!r} damping coeff_restitution"
-    return (f"hertz/material {YOUNG!r} 1.0 {NU} tangential multistep NULL NULL {mu!r}" + " midpoint" * midpoint
+    way = " slider midpoint" if code == SECOND else " midpoint" * midpoint
+    return (f"hertz/material {YOUNG!r} 1.0 {NU} tangential multistep NULL NULL {mu!r}{way}"
             + (f" rolling {mu_roll!r}" if mu_roll else ""))
 
 
@@ -57,7 +58,8 @@ def gains(bench, code, kinds, fraction, midpoint=False, phases=8):
     coefficients = "\n".join(f"pair_coeff {t} {t} {laws(code, *kind, midpoint)}" for t, kind in enumerate(kinds, 1))
     if code == STOCK:      # particles of unlike types never meet
         coefficients += f"\npair_coeff * * {laws(code, 0.5, 0.0, False)}\n" + coefficients
-    style, move = ("granular", "nve/sphere") if code == STOCK else ("gran/penalty", "nve/sphere/symplectic")
+    style, move = {STOCK: ("granular", "nve/sphere"), TALUS: ("gran/penalty", "nve/sphere/symplectic"),
+                   SECOND: ("gran/penalty", "nve/sphere/symplectic order 2")}[code]
     steps = math.ceil((FLIGHT + CONTACT) / dt)
     lammps.run(bench.workdir, name, f"""units si
 atom_style sphere
@@ -90,7 +92,7 @@ def _judge(cases, before, frame, types):
     return [(max(statistics.fmean(g) for g in of.values()), max(max(g) for g in of.values())) for of in found]
 
 
-def warned(bench, mu, mu_roll, fraction, midpoint):
+def warned(bench, code, mu, mu_roll, fraction, midpoint):
     """What Talus says at the start of a run with this law: "", "time step", "any time step" or both."""
     dt = fraction * critical()
     lammps.write_data(bench.path("said.data"), ((-2, 2),) * 3, [(1, 1, 2 * R, DENSITY, 0.0, 0.0, 0.0)])
@@ -102,8 +104,8 @@ boundary f f f
 read_data said.data
 neighbor 0.1 bin
 pair_style gran/penalty
-pair_coeff * * {laws(TALUS, mu, mu_roll, midpoint)}
-fix move all nve/sphere/symplectic
+pair_coeff * * {laws(code, mu, mu_roll, midpoint)}
+fix move all nve/sphere/symplectic{" order 2" * (code == SECOND)}
 timestep {dt!r}
 run 0
 """)

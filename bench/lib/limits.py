@@ -9,7 +9,7 @@ import itertools
 import math
 
 import lammps
-from lammps import TALUS
+from lammps import SECOND, STOCK, TALUS
 
 OVERLAP, KICK, GROWTH = 1e-3, 1e-9, 1e4
 DENSITY = 6 / math.pi
@@ -19,7 +19,8 @@ INERTIA = 0.4 * 0.25
 @dataclasses.dataclass
 class Case:
     """moving, fixed: lists of (position, radius). period: box edge if it is a lattice. zeta: damping ratio
-    of one contact against a fixed sphere; friction: kt/kn, None without; mu is so large that nothing slides."""
+    of one contact against a fixed sphere; friction: kt/kn, None without; mu is so large that nothing slides.
+    drag: gt/gn."""
     group: str
     name: str
     moving: list
@@ -27,6 +28,7 @@ class Case:
     period: float = 0.0
     zeta: float = 0.0
     friction: float = None
+    drag: float = 0.0
     hertz: bool = False      # with the same tangent stiffness at the overlap
 
 
@@ -54,6 +56,11 @@ def lattice(kind):
 
 def cases(quick):
     found = [Case("damping", f"damping ratio {z}", *cage(1), zeta=z) for z in (0.0, 0.1, 0.3, 0.7)]
+    for n in (12,) if quick else (2, 4, 12):
+        found += [Case("damping", f"{n} contacts, damping ratio {z}", *cage(n), zeta=z) for z in (0.1, 0.3, 0.7)]
+    for z in (0.3,) if quick else (0.1, 0.3, 0.7):
+        found.append(Case("damping", f"12 contacts, damping ratio {z}, kt/kn .286, gt/gn .5", *cage(12), zeta=z, friction=2 / 7,
+                          drag=0.5))
     for n in (2, 6, 12) if quick else (2, 4, 6, 8, 12):
         for friction in (None, 2 / 7, 1.0):
             words = "no friction" if friction is None else f"kt/kn {friction:.3g}"
@@ -69,36 +76,53 @@ def cases(quick):
         for friction in (None, 2 / 7) if kind == "fcc" else (2 / 7,):
             words = "no friction" if friction is None else "kt/kn .286"
             found.append(Case("lattice", f"{kind} lattice, {words}", spheres, [], edge, friction=friction))
+    spheres, edge = lattice("fcc")
+    found.append(Case("lattice", "fcc lattice, damping ratio 0.3, kt/kn .286, gt/gn .5", spheres, [], edge, zeta=0.3, friction=2 / 7,
+                      drag=0.5))
     return found
 
 
 # ---- theory -----------------------------------------------------------------------------------
 
-def theory(case):
-    """Largest stable time step of symplectic Euler for the linear system; None without numpy.
+def theory(case, order=1):
+    """Largest stable time step for the linear system, by order of the integrator; None without numpy.
 
-    Undamped: 2/omega with the largest eigenfrequency of translation and rotation; one damped contact:
-    2 (sqrt(1 + zeta^2) - zeta)."""
-    if case.zeta:
-        return 2 * (math.sqrt(1 + case.zeta**2) - case.zeta)
+    With the stiffness and damping k, g of each normal and kt, gt of each tangential contact, the roots of the
+    difference equation leave the unit circle at -1, where the largest eigenvalue of
+
+        dt^2 sum B^T B (k + 2 order g/dt)/(1 + g dt/m_eff if order 2) + T^T T (kt + 2 order gt/dt)
+
+    is 4; B and T: normal and tangential displacement of a contact by translations and rotations of spheres of
+    mass 1. Order 2 is implicit in the normal damping of each contact and extrapolates the velocity else. Without
+    damping this is 2/omega, for one damped contact 2 (sqrt(1 + zeta^2) - zeta) with order 1 and 2/omega with order 2."""
     try:
         import numpy as np
     except ImportError:
         return None
     n = len(case.moving)
-    k = np.zeros((6 * n, 6 * n))
-    for i, j, normal in _touching(case):
+    normal, tangential = np.zeros((6 * n, 6 * n)), np.zeros((6 * n, 6 * n))
+    mass = 0.5 if case.period else 1.0        # effective mass of every contact
+    for i, j, along in _touching(case):
         rows = np.zeros((3, 6 * n))      # relative displacement of the surfaces
-        cross = np.array([[0, -normal[2], normal[1]], [normal[2], 0, -normal[0]], [-normal[1], normal[0], 0]])
+        cross = np.array([[0, -along[2], along[1]], [along[2], 0, -along[0]], [-along[1], along[0], 0]])
         rows[:, 6 * i:6 * i + 3] += np.eye(3)
         rows[:, 6 * i + 3:6 * i + 6] += 0.5 * cross       # theta x (-r n) = r n x theta
         if j is not None:
             rows[:, 6 * j:6 * j + 3] -= np.eye(3)
             rows[:, 6 * j + 3:6 * j + 6] += 0.5 * cross
-        along = np.outer(normal, normal)
-        k += rows.T @ (along + (case.friction or 0.0) * (np.eye(3) - along)) @ rows
+        projector = np.outer(along, along)
+        normal += rows.T @ projector @ rows
+        tangential += rows.T @ (np.eye(3) - projector) @ rows
     scale = np.tile([1.0] * 3 + [INERTIA**-0.5] * 3, n)
-    return 2 / math.sqrt(np.linalg.eigvalsh(k * np.outer(scale, scale))[-1])
+    normal, tangential = normal * np.outer(scale, scale), tangential * np.outer(scale, scale)
+    kt, g = case.friction or 0.0, 2 * case.zeta * mass
+    low, high = 1e-3, 4.0
+    while high - low > 1e-4:
+        dt = 0.5 * (low + high)
+        shared = 1 + g * dt / mass if order > 1 else 1.0
+        square = dt * dt * ((1 + 2 * order * g / dt) / shared * normal + (kt + 2 * order * case.drag * g / dt) * tangential)
+        low, high = (dt, high) if np.linalg.eigvalsh(square)[-1] < 4 else (low, dt)
+    return low
 
 
 def _touching(case):
@@ -121,6 +145,8 @@ def _touching(case):
 SCRIPT = """variable low string {low!r}
 variable high string {high!r}
 variable critical string 0
+variable allowed string 0
+variable known string 0
 variable k loop {halvings}
 label again
 variable h equal 0.5*(v_low+v_high)
@@ -140,6 +166,7 @@ group base type 2
 timestep ${{here}}
 thermo 1000000000
 thermo_modify lost ignore
+{settle}
 compute k moving ke
 compute r moving erotate/sphere
 fix ke moving ave/time 1 1 1 c_k c_r
@@ -153,21 +180,23 @@ run {steps} post no
 if "${{unstable}}" then "variable high string ${{here}}" else "variable low string ${{here}}"
 next k
 jump SELF again
-print "RESULT ${{low}} ${{high}} ${{critical}}"
+print "RESULT ${{low}} ${{high}} ${{critical}} ${{allowed}}"
 """
 
 
 def _physics(case, code):
     gn = 2 * case.zeta
-    kt, gt = (case.friction or 0.0), 0.0
+    kt, gt = (case.friction or 0.0), case.drag * 2 * case.zeta
     law, kn = "hooke", 1.0
     if case.hertz:      # F = kn sqrt(R overlap) overlap; kt is multiplied with the same root
         root = math.sqrt(0.25 * OVERLAP)
         law, kn, kt = "hertz", 1 / (1.5 * root), kt / root
-    if code == TALUS:
-        words = f"{law} {kn!r} {gn!r}" + (f" tangential multistep {kt!r} {gt!r} 1e4" if case.friction else "")
-        text = f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic\n" \
-               "compute t all timestep/gran\n"
+    if code != STOCK:
+        second = code == SECOND
+        words = f"{law} {kn!r} {gn!r}" + (f" tangential multistep {kt!r} {gt!r} 1e4" + " slider midpoint" * second
+                                          if case.friction else "") + " limit_damping" * (second and gn > 0)
+        text = f"pair_style gran/penalty\npair_coeff * * {words}\n" \
+               f"fix move moving nve/sphere/symplectic{' order 2' * second}\ncompute t all timestep/gran\n"
     else:
         mu = 1e4 if case.friction else 0.0
         text = f"pair_style gran/{law}/history {kn!r} {kt or 1.0!r} {gn!r} {gt!r} {mu!r} 1\npair_coeff * *\n" \
@@ -175,6 +204,14 @@ def _physics(case, code):
     if len(case.fixed) == 1:      # what a single contact pushes away
         text += f"fix weight moving addforce 0.0 0.0 {-OVERLAP / (1.5 if case.hertz else 1.0)!r}\n"
     return text + "fix hold base freeze\nneigh_modify exclude group base base\n"
+
+
+def _settle(case, code):
+    """A contact that begins a run with a load has no force of a last step, which order 2 needs: time to come to rest,
+    then the disturbance."""
+    if code != SECOND or not (case.zeta and len(case.fixed) == 1):
+        return ""
+    return f"timestep 0.05\nrun 8000 post no\nvelocity moving set 0 0 {KICK}\ntimestep ${{here}}\n"
 
 
 def write_case(case, path):
@@ -191,13 +228,13 @@ def write_case(case, path):
 
 
 def measured(bench, case, code, steps):
-    """(largest stable time step, critical one of compute timestep/gran or None)."""
+    """(largest stable time step; the critical and the stable one of compute timestep/gran, None of stock)."""
     name = f"limit-{abs(hash((case.name, code))):x}"
     write_case(case, bench.path(name + ".data"))
-    critical = "if \"${critical} == 0\" then \"run 0 post no\" \"variable critical string $(c_t[1])\"" if code == TALUS else ""
+    critical = "if \"${known} == 0\" then \"variable known string 1\" \"run 0 post no\" \"variable critical string $(c_t[1])\" \"variable allowed string $(c_t[7])\"" if code != STOCK else ""
     result = lammps.run(bench.workdir, name, SCRIPT.format(
-        low=0.1, high=2.5, halvings=12 if not bench.quick else 9, boundary="p p p" if case.period else "f f f",
-        data=name + ".data", physics=_physics(case, code), steps=steps, square=GROWTH**2,
+        low=0.03, high=2.5, halvings=12 if not bench.quick else 9, boundary="p p p" if case.period else "f f f",
+        data=name + ".data", physics=_physics(case, code), settle=_settle(case, code), steps=steps, square=GROWTH**2,
         moving=len(case.moving), critical=critical), code)
-    low, high, found = result.printed("RESULT")[0]
-    return 0.5 * (low + high), found or None
+    low, high, critical, stable = result.printed("RESULT")[0]
+    return 0.5 * (low + high), critical or None, stable or None

@@ -3,9 +3,12 @@
 
     plain, half                    Talus with its run style, the two starts of its integrator
     plain midpoint, half midpoint  the same with the second-order update of tangential displacements
+    order 2                        its contacts that dissipate of second order
     stock                          gran/hooke/history or gran/hertz/history, fix nve/sphere
     granular                       pair granular with the same coefficients, fix nve/sphere
-    liggghts                       LIGGGHTS, only undamped Hertz scenes: its damping is another one"""
+    liggghts                       LIGGGHTS, only undamped Hertz scenes: its damping is another one
+
+Where there is damping it is not allowed to attract, with the word limit_damping in every code."""
 
 import dataclasses
 import math
@@ -17,12 +20,14 @@ import scenes
 from lammps import LIGGGHTS, STOCK, TALUS
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
-TALUS_METHODS = ("plain", "half", "plain midpoint", "half midpoint")
+FIRST_ORDER = ("plain", "half", "plain midpoint", "half midpoint")
+SECOND_ORDER = "order 2"
+TALUS_METHODS = (*FIRST_ORDER, SECOND_ORDER)
 OTHER_METHODS = ("stock", "granular", "liggghts")
 
 
 def family(method):
-    return method.split()[0] if method in TALUS_METHODS else "verlet"
+    return method.split()[0] if method in FIRST_ORDER else method if method in TALUS_METHODS else "verlet"
 
 
 def code_of(method):
@@ -31,13 +36,23 @@ def code_of(method):
 
 def law_of(method, scene):
     """Methods with the same word solve the same equations. Pair granular and LIGGGHTS shorten the lever
-    arm of friction by half the overlap."""
-    return method if scene.law.mu and method in ("granular", "liggghts") else "talus"
+    arm of friction by half the overlap. `order 2` asks for the rule `slider`, which is another one only where
+    friction has a dashpot."""
+    if scene.law.mu and method in ("granular", "liggghts"):
+        return method
+    return "slider" if scene.law.gt and scene.law.mu and method == SECOND_ORDER else "talus"
+
+
+def finest(law, scene):
+    """The method whose converged solution is the reference of a law."""
+    if law in OTHER_METHODS:
+        return law
+    return "half midpoint" if law == "talus" and scene.law.gt and scene.law.mu else SECOND_ORDER
 
 
 def methods_for(scene):
     """Methods that have the scene's law. Without friction there is one tangential update: none."""
-    found = ["plain", "half"] + (["plain midpoint", "half midpoint"] if scene.law.mu else [])
+    found = ["plain", "half"] + (["plain midpoint", "half midpoint"] if scene.law.mu else []) + [SECOND_ORDER]
     # with a floor the other wall styles of 4 Feb 2025 have another law than the pair styles
     found += ["granular"] if scene.floor else ["stock", "granular"]
     law = scene.law
@@ -48,14 +63,25 @@ def methods_for(scene):
 
 # ---- laws -------------------------------------------------------------------------------------
 
-def talus_law(law, midpoint=False):
+def limit(law):
+    return " limit_damping" if law.gn else ""
+
+
+def talus_law(law, more=""):
+    """more: words of the tangential law."""
     text = f"{law.kind} {law.kn!r} {law.gn!r}"
+    kt, gt = law.kt, law.gt
+    if law.kind == "hertz/material":
+        text, kt, gt = f"{text} {scenes.NU}", "NULL", "NULL"
     if law.mu:
-        text += f" tangential multistep {law.kt!r} {law.gt!r} {law.mu!r}" + (" midpoint" if midpoint else "")
-    return text
+        text += f" tangential multistep {kt} {gt} {law.mu!r}{more}"
+    return text + limit(law)
 
 
 def granular_law(law):
+    if law.kind == "hertz/material":
+        shear = f"mindlin NULL 1.0 {law.mu!r}" if law.mu else "linear_nohistory 0.0 0.0"
+        return (f"hertz/material {law.kn!r} {law.gn!r} {scenes.NU} tangential {shear} damping coeff_restitution{limit(law)}")
     ratio = law.gt / law.gn if law.gn else 0.0
     tangential = {"hooke": "linear_history", "hertz": "mindlin"}[law.kind]
     damping = {"hooke": "mass_velocity", "hertz": "viscoelastic"}[law.kind]
@@ -63,16 +89,17 @@ def granular_law(law):
         shear = f"tangential {tangential} {law.kt!r} {ratio!r} {law.mu!r}"
     else:
         shear = "tangential linear_nohistory 0.0 0.0"
-    return f"{law.kind} {law.kn!r} {law.gn!r} {shear} damping {damping}"
+    return f"{law.kind} {law.kn!r} {law.gn!r} {shear} damping {damping}{limit(law)}"
 
 
-def _physics(scene, method):
+def physics(scene, method):
     law = scene.law
     if method in TALUS_METHODS:
-        words = talus_law(law, "midpoint" in method)
+        words = talus_law(law, " slider midpoint" if method == SECOND_ORDER else " midpoint" * ("midpoint" in method))
+        start = method if method == SECOND_ORDER else f"start {family(method)}"
         pull = f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else ""
         text = f"pair_style gran/penalty\npair_coeff * * {words}\n" \
-               f"fix move all nve/sphere/symplectic start {family(method)}{pull}\n"
+               f"fix move all nve/sphere/symplectic {start}{pull}\n"
         if scene.floor:
             text += f"fix floor all large/body plane 0 0 0 0 0 1 contact {words}\n"
         return text
@@ -80,7 +107,7 @@ def _physics(scene, method):
     text += "fix move all nve/sphere\n"
     if method == "stock":
         kt = law.kt if law.mu else 1.0      # a number must be given
-        return text + f"pair_style gran/{law.kind}/history {law.kn!r} {kt!r} {law.gn!r} {law.gt!r} {law.mu!r} 1\n" \
+        return text + f"pair_style gran/{law.kind}/history {law.kn!r} {kt!r} {law.gn!r} {law.gt!r} {law.mu!r} 1{limit(law)}\n" \
                       "pair_coeff * *\n"
     if method == "granular":
         text += f"pair_style granular\npair_coeff * * {granular_law(law)}\n"
@@ -109,7 +136,7 @@ def _head(scene, method, data):
     speak = "communicate single vel yes" if old else "comm_modify vel yes"
     return (f"units si\natom_style {style}\natom_modify map array\nnewton off\n{speak}\n"
             f"boundary {scene.periodic}\nread_data {data}\nneighbor 0.1 bin\n"
-            "neigh_modify every 1 delay 0 check yes\n" + _physics(scene, method)
+            "neigh_modify every 1 delay 0 check yes\n" + physics(scene, method)
             + "thermo 1000000000\nthermo_modify norm no lost error\n")
 
 
@@ -166,7 +193,7 @@ def _state(scene, method, dt, frame):
     v, w = triples("vx", "vy", "vz"), triples("omegax", "omegay", "omegaz")
     if method not in TALUS_METHODS:   # fix gravity is part of their forces
         f = [(a, b, c + scenes.MASS * scene.gravity) for a, b, c in f]
-    if family(method) == "half":      # these velocities belong to half a step earlier
+    if family(method) in ("half", SECOND_ORDER):      # these velocities belong to half a step earlier
         g = (0.0, 0.0, -scene.gravity)
         v = [tuple(a + 0.5 * dt * (b / scenes.MASS + c) for a, b, c in zip(*row, g)) for row in zip(v, f)]
         w = [tuple(a + 0.5 * dt * b / scenes.INERTIA for a, b in zip(*row)) for row in zip(w, torque)]

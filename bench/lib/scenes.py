@@ -17,7 +17,8 @@ SPEED = 1.0
 
 @dataclasses.dataclass
 class Law:
-    """Coefficients of gran/hooke/history or gran/hertz/history; mu = 0: no tangential force."""
+    """Coefficients of gran/hooke/history or gran/hertz/history; mu = 0: no tangential force. With hertz/material kn is Young's
+    modulus and gn the restitution; Poisson's ratio is NU, kt and gt follow from them (gt > 0: has a dashpot)."""
     kind: str
     kn: float
     gn: float = 0.0
@@ -29,7 +30,8 @@ class Law:
         """Duration of an undamped impact of two spheres (s)."""
         if self.kind == "hooke":
             return math.pi * math.sqrt(MASS / 2 / self.kn)
-        depth = (1.25 * MASS / 2 * speed**2 / (self.kn * math.sqrt(R / 2)))**0.4
+        kn = self.kn if self.kind == "hertz" else 4 / 3 * self.kn / (2 * (1 - NU**2))
+        depth = (1.25 * MASS / 2 * speed**2 / (kn * math.sqrt(R / 2)))**0.4
         return 2.943 * depth / speed
 
 
@@ -67,8 +69,8 @@ class Scene:
         return SPEED * self.law.contact_time()
 
 
-SECOND = {"plain": 1, "half": 2, "verlet": 2}
-FIRST = {"plain": 1, "half": 1, "verlet": 1}
+SECOND = {"plain": 1, "half": 2, "order 2": 2, "verlet": 2}
+FIRST = {"plain": 1, "half": 1, "order 2": 2, "verlet": 1}
 
 HOOKE = 7.0e5
 HERTZ = 1.0e7
@@ -82,14 +84,14 @@ def _impact(name, what, law, tangential=0.0, spin=0.0, exact=None, order=None):
 
 
 def exact_hooke(gn):
-    """Solution of the head-on impact of _impact() with a linear law."""
+    """Solution of the head-on impact of _impact() with a linear law that does not attract."""
     omega = math.sqrt(2 * HOOKE / MASS)
     zeta = gn / (2 * omega)
     damped = omega * math.sqrt(1 - zeta * zeta)
 
     def state(time):
         t = time - 0.01
-        end = math.pi / damped
+        end = (math.pi - 2 * math.atan(zeta * omega / damped)) / damped      # no force any more, overlap still
         if t <= 0:
             gap, rate = 0.01 - time, -1.0
         elif t <= end:
@@ -97,8 +99,9 @@ def exact_hooke(gn):
             gap = -decay * math.sin(damped * t) / damped
             rate = decay * (zeta * omega * math.sin(damped * t) / damped - math.cos(damped * t))
         else:
-            rate = math.exp(-zeta * omega * end)
-            gap = rate * (t - end)
+            decay = math.exp(-zeta * omega * end)
+            rate = decay * (zeta * omega * math.sin(damped * end) / damped - math.cos(damped * end))
+            gap = rate * (t - end) - decay * math.sin(damped * end) / damped
         half = 0.5 * (1 + gap)
         return [(-half, 0, 0), (half, 0, 0)], [(-0.5 * rate, 0, 0), (0.5 * rate, 0, 0)]
     return state

@@ -12,7 +12,7 @@ ComputeTimestepGran::ComputeTimestepGran(LAMMPS *lmp, int narg, char **arg) :
 {
   if (narg > 3) error->all(FLERR, 3, "compute timestep/gran: surplus word '{}'", arg[3]);
   vector_flag = 1;
-  size_vector = 6;
+  size_vector = 8;
   extvector = 0;
   vector = new double[size_vector]();
 }
@@ -40,4 +40,6 @@ void ComputeTimestepGran::compute_vector()
     vector[n] = steps[n];
     vector[n + 3] = steps[n] > 0.0 ? update->dt / steps[n] : 0.0;
   }
+  vector[6] = critical.stable;
+  vector[7] = critical.stable > 0.0 ? update->dt / critical.stable : 0.0;
 }

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// compute ID group timestep/gran: critical time steps (see pair/critical_time_step.h) and the
+// compute ID group timestep/gran: critical time steps (see system/critical_time_step.h) and the
 // present time step as a fraction of each. doc/compute_timestep_gran.md is the user's page.
 
 #ifndef LMP_COMPUTE_TIMESTEP_GRAN_H
@@ -20,7 +20,7 @@ class ComputeTimestepGran : public Compute {
   ~ComputeTimestepGran() override;
   void init() override;
 
-  /// contact, rayleigh, hertz, then dt over each of them; 0 where it is not defined.
+  /// contact, rayleigh, hertz, then dt over each of them; stable, dt over it. 0 where not defined.
   void compute_vector() override;
 
  private:

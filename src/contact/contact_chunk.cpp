@@ -117,6 +117,7 @@ void ContactChunk::prefetch_distant(const ParticleRecords &particles, std::size_
     const std::size_t s = pairs.distant[next].slot;
     __builtin_prefetch(&particles.position[s]);
     __builtin_prefetch(&particles.motion[particles.stride * s]);
+    if (particles.keep_changes()) __builtin_prefetch(&particles.change[s]);
     // nothing is added to copies
     if (s < static_cast<std::size_t>(pairs.order().size()))
       __builtin_prefetch(&particles.load[particles.stride * s]);
@@ -129,9 +130,11 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
-  gather<friction, history_kept>(step.particles, end);
+  if (step.particles.keep_changes())
+    gather<friction, history_kept, true>(step.particles, end);
+  else
+    gather<friction, history_kept, false>(step.particles, end);
   if (scene.with_impact) gather_impacts(end);
-  if (scene.second_order) gather_changes(step.particles, end);
   finish_geometry(end, friction);
   if (scene.with_twisting)
     gather_for_twisting(step.particles, end, scene.with_resistance || step.account);

@@ -136,11 +136,10 @@ class ContactChunk {
   TALUS_INLINE void prefetch_own(const ParticleRecords &particles);
   int arrange(const ContactScene &scene, const std::uint32_t *contacts, int count);
   void give_lane(std::uint32_t contact, int position, int lane);
-  template <bool friction, bool history_kept>
+  template <bool friction, bool history_kept, bool changes>
   void gather(const ParticleRecords &particles, int end);
   void gather_for_twisting(const ParticleRecords &particles, int end, bool resistance);
   void gather_impacts(int end);
-  void gather_changes(const ParticleRecords &particles, int end);
   void gather_temperatures(const double *temperature, int end);
   void finish_geometry(int end, bool radii_known);
   void run_kernels(const Step &step);

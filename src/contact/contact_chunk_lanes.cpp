@@ -46,11 +46,12 @@ void ContactChunk::prefetch_own(const ParticleRecords &particles)
 
 /* Geometry and kinematics of the block. The sums of records give everything but the normal. */
 
-template <bool friction, bool history_kept>
+template <bool friction, bool history_kept, bool changes>
 void ContactChunk::gather(const ParticleRecords &particles, int end)
 {
   constexpr std::size_t stride = friction ? 2 : 1;
   const Record *x = particles.position.data(), *motion = particles.motion.data();
+  const ChangeRecord *change = particles.change.data();
   const Record *h = history.all_records();
   const std::uint32_t *place = history.all_places();
 
@@ -59,6 +60,7 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
   for (int k = 0; k < end; k += 4) {
     prefetch_own(particles);
     Vec4 a[4], b[4], c[4], d[4];
+    Float8 e[4];
     for (int q = 0; q < 4; q++) {
       const std::uint32_t pair = pair_of_lane[k + q];
       const int i = first[pair], j = second[pair];
@@ -70,12 +72,14 @@ void ContactChunk::gather(const ParticleRecords &particles, int end)
         c[q] = surface_velocity(xi, load4(mi[1])) + surface_velocity(xj, load4(mj[1]));
       if constexpr (!friction) batch.inverse_radius[k + q] = x[i].c[3] * x[j].c[3];
       if constexpr (history_kept) d[q] = load4(h[place[pair]]);
+      if constexpr (changes) e[q] = change_of_contact(change[i], change[j]);
     }
     if constexpr (history_kept) prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
     to_lanes(a, batch.normal, batch.overlap, k);
     to_lanes(b, batch.velocity, batch.inverse_mass, k);
     if constexpr (friction) to_lanes(c, batch.surface_rotation, batch.inverse_radius, k);
     if constexpr (history_kept) to_lanes(d, batch.history, batch.history[3], k);
+    if constexpr (changes) to_lanes(e, batch.velocity_change, batch.rotation_change, k);
   }
 }
 
@@ -86,25 +90,6 @@ void ContactChunk::gather_impacts(int end)
     Vec4 row[4];
     for (int q = 0; q < 4; q++) row[q] = impact(k + q);
     to_lanes(row, batch.history + 4, batch.history[7], k);
-  }
-}
-
-void ContactChunk::gather_changes(const ParticleRecords &particles, int end)
-{
-  const Record *x = particles.position.data(), *change = particles.change.data();
-  const int *first = pairs.state_of_first(), *second = pairs.second.data();
-  for (int k = 0; k < end; k += 4) {
-    Vec4 v[4], turn[4];
-    for (int q = 0; q < 4; q++) {
-      const std::uint32_t pair = pair_of_lane[k + q];
-      const int i = first[pair], j = second[pair];
-      const Record *ci = change + 2L * i, *cj = change + 2L * j;
-      v[q] = load4(ci[0]) - load4(cj[0]);
-      turn[q] =
-          surface_velocity(load4(x[i]), load4(ci[1])) + surface_velocity(load4(x[j]), load4(cj[1]));
-    }
-    to_lanes(v, batch.velocity_change, nullptr, k);
-    to_lanes(turn, batch.rotation_change, nullptr, k);
   }
 }
 
@@ -210,9 +195,12 @@ template <bool friction> void ContactChunk::transpose_results(int end, const Con
   }
 }
 
-template void ContactChunk::gather<true, true>(const ParticleRecords &, int);
-template void ContactChunk::gather<true, false>(const ParticleRecords &, int);
-template void ContactChunk::gather<false, false>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, true, true>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, true, false>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, false, true>(const ParticleRecords &, int);
+template void ContactChunk::gather<true, false, false>(const ParticleRecords &, int);
+template void ContactChunk::gather<false, false, true>(const ParticleRecords &, int);
+template void ContactChunk::gather<false, false, false>(const ParticleRecords &, int);
 template void ContactChunk::transpose_results<true>(int, const ContactScene &);
 template void ContactChunk::transpose_results<false>(int, const ContactScene &);
 

@@ -87,6 +87,9 @@ class ContactPipeline {
   /// index who has no weight, asked by all threads after set_pairs(), empty: all have.
   void set_gravity(const double *acceleration) { particles.set_gravity(acceleration); }
   void set_weightless(const std::function<bool(int)> &is_weightless);
+  /// By host's index, after set_pairs(): the masses of particles, where contacts feel those of
+  /// rigid bodies; nullptr: masses are the particles' own.
+  void set_own_masses(const double *of_atom);
 
   /// Computes all contacts and adds their forces to the host's arrays.
   ///
@@ -131,11 +134,10 @@ class ContactPipeline {
   /// Positions, velocities and angular velocities of some owned particles, for those who only read
   /// them.
   void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
-  /// The same of the changes of velocities, rows of six, if they are kept: of all owned particles,
-  /// or some.
+  /// The same of the changes of velocities, if they are kept: of all owned particles, or some.
   bool keeps_changes() const { return scene.second_order; }
-  void write_changes(double *changes) const;
-  void show_changes(const std::vector<int> &atoms, double *changes) const;
+  void write_changes(ChangeRecord *changes) const;
+  void show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const;
 
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.

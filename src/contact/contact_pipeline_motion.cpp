@@ -71,6 +71,13 @@ void ContactPipeline::set_weightless(const std::function<bool(int)> &is_weightle
   particles.set_weightless(std::move(marks));
 }
 
+void ContactPipeline::set_own_masses(const double *of_atom)
+{
+  std::vector<double> own(of_atom ? order.size() : 0);
+  for (std::size_t s = 0; s < own.size(); s++) own[s] = of_atom[order.atom_of_slot[s]];
+  particles.set_own_masses(std::move(own));
+}
+
 RecordTravel ContactPipeline::travel() const
 {
   RecordTravel all;
@@ -110,18 +117,16 @@ void ContactPipeline::write_state(double *x, double *v, double *omega) const
   });
 }
 
-void ContactPipeline::write_changes(double *changes) const
+void ContactPipeline::write_changes(ChangeRecord *changes) const
 {
   in_ranges(order.owned, [&](int begin, int end) {
-    for (int a = begin; a < end; a++)
-      particles.write_change(order.slot_of_atom[a], changes + 6L * a);
+    for (int a = begin; a < end; a++) changes[a] = particles.change[order.slot_of_atom[a]];
   });
 }
 
-void ContactPipeline::show_changes(const std::vector<int> &atoms, double *changes) const
+void ContactPipeline::show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const
 {
-  for (const int atom : atoms)
-    particles.write_change(order.slot_of_atom[atom], changes + 6L * atom);
+  for (const int a : atoms) changes[a] = particles.change[order.slot_of_atom[a]];
 }
 
 void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,

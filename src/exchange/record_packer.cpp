@@ -143,7 +143,7 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
     Record &last =
         rotation ? moves[1] : moves[0];    // one number earlier: it ends with the message
     store(last, last_three_with_fourth_of(load_anywhere(in + width - 4), load4(last)));
-    if (!rotation || !records->keep_changes()) continue;
-    for (int n = 0; n < 2; n++) records->follow_change(s, n, before[n], load4(moves[n]));
+    if (rotation && records->keep_changes())
+      records->keep_change(s, before[0], load4(moves[0]), before[1], load4(moves[1]));
   }
 }

@@ -18,7 +18,7 @@ using namespace Talus;
 namespace {
 
 // Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -3.0;
+constexpr double restart_version = -4.0;
 constexpr int size_head = 3;
 
 }    // namespace

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ using Talus::Words;
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)), gravity(lmp)
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
+    start(lmp, "Fix nve/sphere/symplectic"), gravity(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -52,11 +54,11 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
   }
 
   const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
-  if (its_order == 2 && says_start && !half_start)
+  if (its_order == 2 && says_start && !start.is_half())
     error->all(FLERR,
                "Fix nve/sphere/symplectic order 2: velocities of 'start plain' have an error "
                "of first order: use 'start half', or leave 'start' out");
-  if (its_order == 2) half_start = true;
+  if (its_order == 2) start.set_half(true);
 
   if (gravity.given()) {
     scalar_flag = 1;
@@ -77,7 +79,7 @@ void FixNVESphereSymplectic::parse_keyword(Words &words)
   const std::string keyword = keywords[words.choice("keyword", keywords)];
   words.about(keyword);
   if (keyword == "start") {
-    half_start = words.choice("value", {"half", "plain"}) == 0;
+    start.set_half(words.choice("value", {"half", "plain"}) == 0);
   } else if (keyword == "order") {
     its_order = 1 + words.choice("value", {"1", "2"});
   } else if (keyword == "gravity") {
@@ -149,11 +151,19 @@ void FixNVESphereSymplectic::check_order()
   if (!reason.empty())
     error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic order 2: {}; or use order 1",
                reason);
-  if (comm->me == 0 && !announced)
-    utils::logmesg(
-        lmp, "Fix nve/sphere/symplectic {}: all contacts are of second order in the time step\n",
-        id);
+  if (!announced) announce_order();
   announced = true;
+}
+
+void FixNVESphereSymplectic::announce_order()
+{
+  const std::vector<std::string> notes = system->notes_on_second_order();
+  if (comm->me) return;
+  utils::logmesg(lmp,
+                 "Fix nve/sphere/symplectic {}: order 2: errors of {} contacts are of second order "
+                 "in the time step\n",
+                 id, notes.empty() ? "all" : "most");
+  for (const std::string &note : notes) utils::logmesg(lmp, "  {}\n", note);
 }
 
 /* ----------------------------------------------------------------------
@@ -211,7 +221,7 @@ bigint FixNVESphereSymplectic::count_members(const std::function<bool(int)> &con
 void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
-  const Talus::RecordStep step = step_of(next_kick(), dt);
+  const Talus::RecordStep step = step_of(start.next_kick(dt), dt);
   if (system->residence() == Talus::Residence::RECORDS)
     system->advance(step);
   else
@@ -225,7 +235,7 @@ Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
   const double kick_f = kick * force->ftm2v;
   const double *const g = gravity.acceleration();
   Talus::RecordStep step{dt, kick_f, {kick_f * g[0], kick_f * g[1], kick_f * g[2]}, inertia};
-  step.extrapolation = time_behind / kick;    // time_behind is that after the step
+  step.extrapolation = start.lag() / kick;    // the lag is that after the step
   return step;
 }
 
@@ -233,18 +243,6 @@ std::string FixNVESphereSymplectic::needs_host_arrays()
 {
   if (rotates) return "it turns orientations";
   return group->dynamic[igroup] ? "its group is dynamic" : "";
-}
-
-/* ----------------------------------------------------------------------
-   length of this step's kick: from the time of v to half way between the times of x
-------------------------------------------------------------------------- */
-
-double FixNVESphereSymplectic::next_kick()
-{
-  if (!half_start) return update->dt;
-  const double kick = time_behind + 0.5 * update->dt;
-  time_behind = 0.5 * update->dt;
-  return kick;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -305,34 +303,14 @@ double FixNVESphereSymplectic::compute_scalar()
   return all;
 }
 
-/* ----------------------------------------------------------------------
-   restart: start word and lag
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixNVESphereSymplectic::write_restart(FILE *fp)
 {
-  const double state[2] = {half_start ? 1.0 : 0.0, time_behind};
-  const int size = sizeof(state);
-  if (comm->me == 0) {
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(state, sizeof(double), 2, fp);
-  }
+  start.write_restart(fp);
 }
 
 void FixNVESphereSymplectic::restart(char *buf)
 {
-  double state[2];
-  memcpy(state, buf, sizeof(state));
-  const bool was_half = state[0] != 0.0;
-
-  if (was_half == half_start) {
-    time_behind = state[1];
-  } else if (comm->me == 0) {
-    error->warning(FLERR,
-                   "Fix nve/sphere/symplectic start {}: the restart file was written with "
-                   "start {}: {}",
-                   half_start ? "half" : "plain", was_half ? "half" : "plain",
-                   was_half ? "velocities stay behind positions by half a time step"
-                            : "velocities count as those of the present step");
-  }
+  start.restart(buf);
 }

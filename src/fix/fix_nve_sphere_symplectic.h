@@ -45,6 +45,7 @@ FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
 
 #include "constant_gravity.h"
 #include "fix.h"
+#include "start_time.h"
 #include "system/granular_system.h"
 
 #include <functional>
@@ -65,19 +66,18 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   std::string needs_host_arrays() override;
   bool integrates() const override { return true; }
   int order() const override { return its_order; }
-  double lag() const override { return time_behind; }
+  double lag() const override { return start.lag(); }
 
   void write_restart(FILE *) override;
   void restart(char *) override;
 
  private:
   std::shared_ptr<Talus::GranularSystem> system;
-  bool half_start = false;
+  StartTime start;
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
   int its_order = 1;
   bool announced = false;
-  double time_behind = 0.0;    // by which v is behind x
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only
 
@@ -85,10 +85,10 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
 
   void check_fix(Fix *);
   void check_order();
+  void announce_order();
   bigint count_members(const std::function<bool(int)> &);
 
   int nmoving() const;
-  double next_kick();
   Talus::RecordStep step_of(double, double) const;
   void rotate(double);
 };

@@ -2,8 +2,9 @@
 
 #include "fix/fix_shape_gran.h"
 
-#include "fix/particle_shapes.h"
 #include "base/in_parallel.h"
+#include "fix/orientations.h"
+#include "fix/particle_shapes.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -23,33 +24,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace Talus;
-
-namespace {
-
-Vector3<double> row(const double *of)
-{
-  return {of[0], of[1], of[2]};
-}
-
-Eigen::Quaterniond quaternion(const double *q)
-{
-  return {q[0], q[1], q[2], q[3]};
-}
-
-void put(const Eigen::Quaterniond &q, double *to)
-{
-  to[0] = q.w();
-  to[1] = q.x();
-  to[2] = q.y();
-  to[3] = q.z();
-}
-
-bool is_known(const double *q)
-{
-  return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
-}
-
-}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -143,7 +117,7 @@ void FixShapeGran::keep_memories()
   if (memories_are_current) return;
   memories.clear_all();
   pairs.save(memories);
-  for (auto &[body, points] : walls) points->save(memories);
+  for (auto &[body, its] : walls) its.points->save(memories);
   memories_are_current = true;
   set_maxexchange();
 }
@@ -171,9 +145,8 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
-  pairs.restore(
-      [this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
-  for (auto &[body, points] : walls) list_particles(*body, *points);
+  pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
+  for (auto &[body, its] : walls) list_particles(*body, *its.points);
 }
 
 void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
@@ -190,26 +163,19 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
 ShapedView FixShapeGran::view() const
 {
   if (atom->nlocal + atom->nghost == 0) return {};
-  return {atom->nlocal,
-          atom->nlocal + atom->nghost,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          system->mass_override(),
-          atom->type,
-          quat[0],
-          atom->f[0],
-          atom->torque[0]};
+  return {atom->nlocal,   atom->nlocal + atom->nghost,
+          atom->x[0],     atom->v[0],
+          atom->omega[0], atom->radius,
+          atom->rmass,    system->mass_override(),
+          atom->type,     quat[0],
+          atom->f[0],     atom->torque[0]};
 }
 
 void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
-  pairs.compute(view(), system->law_table(),
-                {step.dt, step.advance, comm->nthreads, step.account});
+  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads, step.account});
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
@@ -225,27 +191,30 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
-  if (hollow_walls(body.shape()).empty())
-    return "its surface is not made for particles with a shape: use plane, box inside, or cylinder inside";
+  if (BodyWalls(body.shape()).size() == 0)
+    return "particles with a shape touch no surface of this kind: use plane, box, ball outside, or "
+           "cylinder inside";
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));
     if (!its.empty())
-      return fmt::format("its contact with particles of type {}, which have a shape, {}", type, its);
+      return fmt::format("its contact with particles of type {}, which have a shape, {}", type,
+                         its);
   }
   return "";
 }
 
 BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double *virial)
 {
-  auto &points = walls[&body];
-  if (!points) {
-    points = std::make_unique<WallPoints>(table, name_of(body));
-    list_particles(body, *points);
+  auto &its = walls[&body];
+  if (!its.points) {
+    its.surface = std::make_unique<BodyWalls>(body.shape());
+    its.points = std::make_unique<WallPoints>(table, name_of(body));
+    list_particles(body, *its.points);
   }
   if (step.advance) memories_are_current = false;
-  return points->compute(hollow_walls(body.shape()), body.present_frame(), view(), body.law_table(),
-                         step, virial);
+  return its.points->compute(*its.surface, body.present_frame(), view(), body.law_table(), step,
+                             virial);
 }
 
 /* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */
@@ -282,63 +251,4 @@ void FixShapeGran::initial_integrate(int /*vflag*/)
       w[2] = omega.z;
     }
   });
-}
-
-/* ---- output ---- */
-
-/* Of particles of the group: energies of translation and rotation, angular momentum about their
-   centers; and of all contacts between particles: pairs that touch, points. */
-
-std::array<double, FixShapeGran::size_sums> FixShapeGran::sums() const
-{
-  std::array<double, size_sums> mine{}, all{};
-  for (int i = 0; i < atom->nlocal; i++) {
-    const ParticleShape *its = table.of(atom->type[i]);
-    if (!its || !(atom->mask[i] & groupbit) || !is_known(quat[i])) continue;
-    const Vector3<double> v = row(atom->v[i]), omega = row(atom->omega[i]);
-    const Eigen::Quaterniond q = quaternion(quat[i]);
-    const Vector3<double> momentum = its->rotation().angular_momentum(q, omega);
-    mine[0] += 0.5 * force->mvv2e * atom->rmass[i] * dot(v, v);
-    mine[1] += 0.5 * force->mvv2e * dot(omega, momentum);
-    mine[2] += momentum.x;
-    mine[3] += momentum.y;
-    mine[4] += momentum.z;
-  }
-  mine[5] = pairs.count_contacts();
-  mine[6] = pairs.count_points();
-  MPI_Allreduce(mine.data(), all.data(), size_sums, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
-
-double FixShapeGran::compute_scalar()
-{
-  const auto all = sums();
-  return all[0] + all[1];
-}
-
-double FixShapeGran::compute_vector(int n)
-{
-  return sums()[n];
-}
-
-int FixShapeGran::modify_param(int narg, char **arg)
-{
-  if (strcmp(arg[0], "orient") != 0) return 0;
-  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
-  words.about("orient");
-  const int tag = words.integer("ID of a particle", 1);
-  double q[4];
-  for (double &component : q) component = words.number("w x y z");
-  Eigen::Quaterniond orientation = quaternion(q);
-  if (!(orientation.norm() > 0.0)) words.fail(1, "a quaternion must not be zero");
-  orientation.normalize();
-  int mine = 0, all = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->tag[i] == tag && is_shaped(atom->type[i])) {
-      put(orientation, quat[i]);
-      mine++;
-    }
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
-  if (!all) words.fail(5, "no particle with this ID has a shape");
-  return words.index();
 }

@@ -35,8 +35,8 @@ FixStyle(shape/gran,FixShapeGran);
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
-#include "system/granular_system.h"
 #include "shaped/wall_points.h"
+#include "system/granular_system.h"
 #include "system/system_shapes.h"
 
 #include <array>
@@ -60,6 +60,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double compute_scalar() override;
   double compute_vector(int) override;
   int modify_param(int, char **) override;
+  int image(int *&, double **&) override;
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -91,6 +92,9 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
+  void for_each_triangle(const VisitTriangle &visit) const override;
+  void for_each_point(const VisitPoint &visit) const override;
+  Talus::DeepestContact deepest_contact() const override;
   double count_contacts() const override { return pairs.count_contacts(); }
 
  private:
@@ -114,12 +118,20 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ShapeTable table;
   Talus::ShapedPairs pairs;
-  std::map<const Talus::LargeBody *, std::unique_ptr<Talus::WallPoints>> walls;
+  struct Wall {
+    std::unique_ptr<Talus::BodyWalls> surface;
+    std::unique_ptr<Talus::WallPoints> points;
+  };
+  std::map<const Talus::LargeBody *, Wall> walls;
   double **quat = nullptr;      ///< w x y z of owned particles and ghosts; 0: not known yet
   int other_integrators = 0;    ///< bits of groups that other fixes move
 
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+
+  std::vector<double> image_values;
+  std::vector<double *> image_rows;
+  std::vector<int> image_kinds;
 
   // fix_shape_gran_store.cpp
   void send_memories_to_ghosts();

@@ -69,8 +69,7 @@ void FixShapeGran::check_fixes()
     if (fix->time_integrate) other_integrators |= fix->groupbit;
     if (utils::strmatch(fix->style, "^wall/gran"))
       error->all(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body "
-                 "plane, or box inside",
+                 "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body",
                  fix->id, fix->style);
     if (utils::strmatch(fix->style, "^rigid"))
       error->all(FLERR, Error::NOLASTLINE,
@@ -103,7 +102,7 @@ void FixShapeGran::check_computes()
 {
   for (auto &compute : modify->get_compute_list())
     for (const char *style : {"contact/gran/atom", "contact/gran/local", "dissipation/gran/atom",
-                              "penalty/stats", "pair/local", "TALUS_CONTACT_LIST"})
+                              "penalty/stats", "pair/local"})
       if (strcmp(compute->style, style) == 0)
         error->all(FLERR, Error::NOLASTLINE,
                    "Fix shape/gran: compute {} ({}) knows contacts of spheres only: leave it out",

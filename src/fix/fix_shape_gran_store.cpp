@@ -80,8 +80,7 @@ void FixShapeGran::send_memories_to_ghosts()
   lists = {};
 }
 
-int FixShapeGran::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
-                                    int * /*pbc*/)
+int FixShapeGran::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
   if (message == Message::ORIENTATIONS) return pack_border(n, list, buf);
   for (int k = 0; k < n; k++)
@@ -113,7 +112,7 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
   return 4 + memories.unpack(i, buf + 4);
 }
 
-/* ---- restart files: a version; of each particle the number of doubles, and what it carries ---- */
+/* Restart files hold a version; of each particle the number of doubles, and what it carries. */
 
 void FixShapeGran::write_restart(FILE *fp)
 {
@@ -166,6 +165,6 @@ double FixShapeGran::memory_usage()
 {
   double bytes = 4.0 * sizeof(double) * atom->nmax + memories.memory_usage() +
                  pairs.memory_usage() + table.memory_usage();
-  for (const auto &[body, points] : walls) bytes += points->memory_usage();
+  for (const auto &[body, its] : walls) bytes += its.points->memory_usage();
   return bytes;
 }

@@ -6,8 +6,7 @@
 // of the same contact law compute the contacts: the numbers are those of the stock class but for
 // rounding.
 //
-// Where the stock class needs the arrays in every step (rigid bodies) its own methods are
-// used.
+// Where that is not possible the methods of the stock class are used, with the reason in the log.
 
 #ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 #define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
@@ -20,6 +19,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "fix.h"
+#include "force.h"
 #include "gran_sub_mod.h"
 #include "granular_model.h"
 #include "group.h"
@@ -159,7 +159,9 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (!system->has_pair_style()) return system->reason_of_pair_style();
     if (!LAMMPS_NS::utils::strmatch(this->update->integrate_style, "^verlet"))
       return "run_style is not verlet";
-    if (this->fix_rigid) return std::string("fix ") + this->fix_rigid->id + " moves rigid bodies";
+    if (this->fix_rigid && this->force->ftm2v != 1.0)
+      return std::string("fix ") + this->fix_rigid->id +
+             " moves rigid bodies, and the unit of force is not that of mass times acceleration";
     if (this->group->dynamic[this->igroup]) return "its group is dynamic";
     const std::string its = reason_of_model(*this->model);
     return its.empty() ? what_only_stock_does() : its;

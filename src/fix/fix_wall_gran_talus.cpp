@@ -166,9 +166,9 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
     }
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
-    batch.add({i, g.d, std::sqrt(squared), radius, atom->rmass[i], g.radius, particles.velocity(i),
-               velocity, particles.omega(i), temperature_difference(particles, i),
-               use_history ? history_one[i] : nullptr});
+    batch.add({i, g.d, std::sqrt(squared), radius, system->mass_with_walls(i), g.radius,
+               particles.velocity(i), velocity, particles.omega(i),
+               temperature_difference(particles, i), use_history ? history_one[i] : nullptr});
     if (batch.is_full()) deliver(batch, particles);
   }
   deliver(batch, particles);

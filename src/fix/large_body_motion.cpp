@@ -274,11 +274,20 @@ void LargeBodyMotion::place()
   if (kind == Kind::REGION) evaluate_region(0.0);
   if (kind == Kind::VARIABLE) evaluate_state();
   if (kind == Kind::PRESCRIBED) now.set(prescribed->at(clock.at(update->ntimestep), now.origin));
+  if (behind == 0.0) stand_still();
 }
 
-void LargeBodyMotion::advance(const BodyLoad &load)
+void LargeBodyMotion::advance(const BodyLoad &load, double lag)
 {
   if (kind == Kind::NONE) return;
+  const BodyState old = now.state;
+  move(load, lag);
+  if (lag > 0.0) find_moments(old, lag);
+  behind = lag;
+}
+
+void LargeBodyMotion::move(const BodyLoad &load, double lag)
+{
   if (kind == Kind::PRESCRIBED) clock.read(update->ntimestep, update->dt);
   if (kind == Kind::REGION) {
     evaluate_region(update->dt);
@@ -288,24 +297,40 @@ void LargeBodyMotion::advance(const BodyLoad &load)
     place();
     return;
   }
-  const double dt = update->dt, unit = force->ftm2v;
   BodyState state = now.state;
-  if (kind == Kind::EXTERNAL) guided.advance(state, dt);
-  if (kind == Kind::SERVO) servo.advance(state, load.force, load.torque, dt);
-  if (kind == Kind::FREE) {
-    double given[6] = {};
-    if (has_load) {
-      modify->clearstep_compute();
-      for (int k = 0; k < 6; k++) given[k] = evaluate(given_load[k]);
-      modify->addstep_compute(update->ntimestep + 1);
-    }
-    const Vector3<double> f = load.force + Vector3<double>{given[0], given[1], given[2]};
-    const Vector3<double> t = load.torque + Vector3<double>{given[3], given[4], given[5]};
-    const double *g = gravity.acceleration();
-    rigid.advance(state, unit / rigid.mass * f + unit * Vector3<double>{g[0], g[1], g[2]}, unit * t,
-                  dt);
-  }
+  if (kind == Kind::EXTERNAL) guided.advance(state, update->dt);
+  if (kind == Kind::SERVO) move_servo(state, load, lag);
+  if (kind == Kind::FREE) move_free(state, load, lag);
   now.set(state);
+}
+
+/* To second order the rate is that half way through the step, of the last two loads (Adams and
+   Bashforth). */
+
+void LargeBodyMotion::move_servo(BodyState &state, const BodyLoad &load, double lag)
+{
+  const double rate = servo.rate(load.force, load.torque);
+  const double ahead = lag > 0.0 && behind > 0.0 ? lag / (2.0 * behind) * (rate - servo_rate) : 0.0;
+  servo.advance(state, rate + ahead, update->dt);
+  servo_rate = rate;
+}
+
+/* To second order velocities go from half a step before to half a step behind. */
+
+void LargeBodyMotion::move_free(BodyState &state, const BodyLoad &load, double lag)
+{
+  const double dt = update->dt, unit = force->ftm2v;
+  double given[6] = {};
+  if (has_load) {
+    modify->clearstep_compute();
+    for (int k = 0; k < 6; k++) given[k] = evaluate(given_load[k]);
+    modify->addstep_compute(update->ntimestep + 1);
+  }
+  const Vector3<double> f = load.force + Vector3<double>{given[0], given[1], given[2]};
+  const Vector3<double> t = load.torque + Vector3<double>{given[3], given[4], given[5]};
+  const double *g = gravity.acceleration();
+  rigid.advance(state, unit / rigid.mass * f + unit * Vector3<double>{g[0], g[1], g[2]}, unit * t,
+                lag > 0.0 ? behind + lag : dt, dt);
 }
 
 double LargeBodyMotion::energy() const
@@ -364,6 +389,7 @@ int LargeBodyMotion::set_state(int narg, char **arg, double way, double reach)
   BodyState state = now.state;
   guided.guide(state, target, steps);
   now.set(state);
+  if (steps == 0) stand_still();
   const bool has_after =
       narg > 1 + BodyState::size && strcmp(arg[1 + BodyState::size], "after") == 0;
   return 1 + BodyState::size + (has_after ? 2 : 0);
@@ -380,6 +406,11 @@ void LargeBodyMotion::to_array(double *a) const
   *a++ = static_cast<double>(clock.step);
   *a++ = clock.dt;
   guided.to_array(a);
+  a += GuidedMotion::size;
+  *a++ = behind;
+  *a++ = servo_rate;
+  half_way.to_array(a);
+  present.to_array(a + BodyState::size);
 }
 
 bool LargeBodyMotion::from_array(const double *a)
@@ -391,5 +422,11 @@ bool LargeBodyMotion::from_array(const double *a)
   clock.step = static_cast<std::int64_t>(*a++);
   clock.dt = *a++;
   guided.from_array(a);
+  a += GuidedMotion::size;
+  behind = *a++;
+  servo_rate = *a++;
+  half_way = BodyState::from_array(a);
+  present = BodyState::from_array(a + BodyState::size);
+  show_moments();
   return true;
 }

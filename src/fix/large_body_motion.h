@@ -55,7 +55,9 @@ class LargeBodyMotion : protected Pointers {
   /// Before the first forces of a run: the state at this step.
   void place();
   /// To this step from the one before. `load`: of all ranks, at the step before, if driven by it.
-  void advance(const Talus::BodyLoad &load);
+  /// `lag`: time by which the velocities of particles are behind now, with integrators of second
+  /// order, else 0. With those velocities of free and servo bodies are behind as well.
+  void advance(const Talus::BodyLoad &load, double lag);
 
   /// Kinetic energy and that in the field of gravity of a free body, otherwise 0.
   double energy() const;
@@ -64,8 +66,9 @@ class LargeBodyMotion : protected Pointers {
   /// in a step; `reach`: how far from the reference point its particles are.
   int set_state(int narg, char **arg, double way, double reach);
 
-  /// kind, state, clock, guide
-  static constexpr int size_restart = 1 + Talus::BodyState::size + 3 + Talus::GuidedMotion::size;
+  /// kind, state, clock, guide; lag, rate of a servo and what contacts of second order see
+  static constexpr int size_restart =
+      1 + Talus::BodyState::size + 3 + Talus::GuidedMotion::size + 2 + 2 * Talus::BodyState::size;
   void to_array(double *a) const;
   /// False if the motion was of another kind: the body then begins where its words put it.
   bool from_array(const double *a);
@@ -87,6 +90,12 @@ class LargeBodyMotion : protected Pointers {
   double evaluate(const Quantity &q);
   void evaluate_state();
   void evaluate_region(double dt);
+  void move(const Talus::BodyLoad &load, double lag);
+  void move_free(Talus::BodyState &state, const Talus::BodyLoad &load, double lag);
+  void move_servo(Talus::BodyState &state, const Talus::BodyLoad &load, double lag);
+  void find_moments(const Talus::BodyState &old, double lag);
+  void stand_still();
+  void show_moments();
   Talus::BodyState state_from(int narg, char **arg, int &steps) const;
 
   Kind kind = Kind::NONE;
@@ -101,6 +110,9 @@ class LargeBodyMotion : protected Pointers {
   Talus::RigidBody rigid;
   Talus::Servo servo;
   Talus::BodyState initial;    // velocities of a free body
+  // of the last step, with integrators of second order: see BodyFrame, and advance()
+  Talus::BodyState half_way, present;
+  double behind = 0.0, servo_rate = 0.0;
   std::unique_ptr<Talus::Vector3<double>> center_of_mass;
   ConstantGravity gravity;
   bool has_load = false;

@@ -8,12 +8,10 @@
 #include "lammps.h"
 #include "particles/kick_and_drift.h"
 
-#include <algorithm>
-
 using namespace LAMMPS_NS;
 
 void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
-                             bool drifts, double *changes)
+                             bool drifts, Talus::ChangeRecord *changes)
 {
   const Atom *const atom = lmp->atom;
   const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
@@ -32,11 +30,9 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
 
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (bigint i = 0; i < n; i++) {
-    double *const change = changes ? changes + 6 * i : nullptr;
-    if (!(mask[i] & groupbit)) {
-      if (change) std::fill_n(change, 6, 0.0);
-      continue;
-    }
+    Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
+    if (change) *change = Talus::ChangeRecord{};
+    if (!(mask[i] & groupbit)) continue;
     const double per_mass = step.kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
     const double per_inertia =
         Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / step.inertia);
@@ -47,8 +43,9 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
       v[k] = Talus::kicked(v[k], per_mass, f[k], falls * step.fall[d]);
       omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
       if (change) {
-        change[d] = step.extrapolation * (v[k] - v_old);
-        change[3 + d] = step.extrapolation * (omega[k] - omega_old);
+        change->c[d] = static_cast<float>(step.extrapolation * (v[k] - v_old));
+        change->c[4 + d] =
+            static_cast<float>(radius[i] * (step.extrapolation * (omega[k] - omega_old)));
       }
       if (drifts) x[k] = Talus::drifted(x[k], step.dt, v[k]);
     }

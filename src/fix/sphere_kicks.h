@@ -22,7 +22,7 @@ class LAMMPS;
 ------------------------------------------------------------------------- */
 
 void kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
-                  bool drifts, double *changes = nullptr);
+                  bool drifts, Talus::ChangeRecord *changes = nullptr);
 
 }    // namespace LAMMPS_NS
 

@@ -30,13 +30,14 @@ inline void follow_impact(ContactImpact<Real> &impact, Real normal_velocity, dou
   impact.begun = one;
 }
 
-/// The normal half a step before, dt/2: centers came here along straight lines. Where they coincide
-/// there is none.
+/// The normal half a step before, dt/2: centers came here along straight lines, or a large body
+/// tells how it has turned. Where centers coincide there is none.
 template <class Real>
 TALUS_INLINE Vector3<Real> normal_half_way(const ContactState<Real> &s, Real dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const Vector3<Real> half_way = s.normal - (0.5 * dt * s.inverse_distance) * s.velocity;
+  const Vector3<Real> half_way =
+      s.normal - (0.5 * dt * s.inverse_distance) * s.velocity - splat<Real>(0.5) * s.turn;
   const Real length = square_root(dot(half_way, half_way));
   return select(length > zero, one / length, zero) * half_way;
 }

@@ -10,7 +10,7 @@ namespace Talus {
 void ContactBatch::clear()
 {
   for (auto *vector : {normal, velocity, surface_rotation, relative_omega, velocity_change,
-                       rotation_change, force, moment, twisting_torque})
+                       rotation_change, turn, force, moment, twisting_torque})
     for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
   for (auto &value : history) std::fill(std::begin(value), std::end(value), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);

@@ -27,7 +27,7 @@ struct ContactBatch {
   alignas(64) double inverse_distance[width];
   alignas(64) double arm_loss[width], arm_difference[width];
   alignas(64) double temperature_difference[width];
-  alignas(64) double velocity_change[3][width], rotation_change[3][width];
+  alignas(64) double velocity_change[3][width], rotation_change[3][width], turn[3][width];
   double lag = 0.0;                       ///< of all
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 

@@ -13,8 +13,8 @@ Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
 }
 
 /// Normal law and damping of a contact at rest with nothing remembered.
-ContactLanes<double> response_of(const ContactLaw &law, const ContactCoefficients &row,
-                                 double overlap, double mass_eff, double radius_eff)
+ContactLanes<double> at_rest(const ContactLaw &law, const ContactCoefficients &row, double overlap,
+                             double mass_eff, double radius_eff)
 {
   ContactLanes<double> s;
   s.overlap = overlap;
@@ -72,19 +72,37 @@ ContactState<double> state_of_lane(const ContactBatch &b, int k)
   s.lag = b.lag;
   s.velocity_change = lane_of(b.velocity_change, k);
   s.rotation_change = lane_of(b.rotation_change, k);
+  s.turn = lane_of(b.turn, k);
   return s;
 }
 
 double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                          double mass_eff, double radius_eff)
 {
-  return response_of(law, row, overlap, mass_eff, radius_eff).tangent_n;
+  return at_rest(law, row, overlap, mass_eff, radius_eff).tangent_n;
+}
+
+/* The laws of pair granular have coefficients of their own: kt, times the contact radius of those
+   of Mindlin, and the share xt of the normal damping. */
+
+ContactResponse response(const ContactLaw &law, const ContactCoefficients &row, double overlap,
+                         double mass_eff, double radius_eff)
+{
+  const ContactLanes<double> s = at_rest(law, row, overlap, mass_eff, radius_eff);
+  const Law &tangential = law.tangential();
+  const bool springs = tangential.has_spring || tangential.odd_history > 0;
+  if (!tangential.acts) return {s.tangent_n, s.gn, 0.0, 0.0};
+  if (tangential.reads_stiffness) return {s.tangent_n, s.gn, springs ? s.kt : 0.0, s.gt};
+  const double kt = law.coefficient(Stage::TANGENTIAL, "kt", row);
+  const double gt = law.coefficient(Stage::TANGENTIAL, "xt", row) * s.gn;
+  return {s.tangent_n, s.gn,
+          springs ? kt * (tangential.needs_radius ? s.contact_radius : 1.0) : 0.0, gt};
 }
 
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                      double mass_eff, double radius_eff)
 {
-  const ContactLanes<double> s = response_of(law, row, overlap, mass_eff, radius_eff);
+  const ContactLanes<double> s = at_rest(law, row, overlap, mass_eff, radius_eff);
   return s.tangent_n > 0.0 ? s.gn / (2.0 * std::sqrt(mass_eff * s.tangent_n)) : 0.0;
 }
 

@@ -77,6 +77,14 @@ ContactState<double> state_of_lane(const ContactBatch &batch, int lane);
 double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &coefficients,
                          double overlap, double mass_eff, double radius_eff);
 
+/// How a contact at rest answers to small motions: stiffness (force/distance) and damping
+/// (force/velocity) of its normal force and, as long as it sticks, of its tangential force.
+struct ContactResponse {
+  double kn, gn, kt, gt;
+};
+ContactResponse response(const ContactLaw &law, const ContactCoefficients &coefficients,
+                         double overlap, double mass_eff, double radius_eff);
+
 /// Normal damping over the critical one of that stiffness, gn/(2 sqrt(m_eff dF_n/d overlap)), 0
 /// without stiffness.
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &coefficients, double overlap,

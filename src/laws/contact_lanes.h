@@ -21,7 +21,7 @@ template <class Real> struct ContactState {
   Real inverse_radius{};    ///< 1/r_1 + 1/r_2; only for laws that need it
   Vector3<Real> relative_omega{};    ///< omega_1 - omega_2; only for laws with resistance
   Real circle{};                     ///< radius of the circle of intersection; only for the same
-  Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a flat body; only for midpoint laws
+  Real inverse_distance{};    ///< 1/|x_1 - x_2|, 0 against a large body; only for midpoint laws
   // Only for laws whose lever arms end in the middle of the overlap, and 0 against a large body,
   // where they do not: overlap/(r_1 + r_2), and overlap/2 (r_2 - r_1)/(r_1 + r_2).
   Real arm_loss{}, arm_difference{};
@@ -30,6 +30,9 @@ template <class Real> struct ContactState {
   // velocity and surface_rotation in it, by the accelerations of the last step.
   Real lag{};
   Vector3<Real> velocity_change{}, rotation_change{};
+  /// The same laws: what the normal has turned in the step that led here, of contacts with a large
+  /// body, whose inverse_distance is 0; 0 in the first step.
+  Vector3<Real> turn{};
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting

@@ -186,6 +186,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.lag = splat<Real>(b.lag);
   s.velocity_change = load_vector<Real>(b.velocity_change, k);
   s.rotation_change = load_vector<Real>(b.rotation_change, k);
+  s.turn = load_vector<Real>(b.turn, k);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)

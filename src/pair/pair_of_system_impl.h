@@ -65,11 +65,11 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.inverse_distance = 1.0 / r;
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
-  if (const double *changes = system->velocity_changes()) {
-    const double *di = changes + 6L * i, *dj = changes + 6L * j;
+  if (const Talus::ChangeRecord *changes = system->velocity_changes()) {
+    const Talus::Float8 change = Talus::change_of_contact(changes[i], changes[j]);
     s.lag = system->lag();
-    s.velocity_change = row(di) - row(dj);
-    s.rotation_change = ri * row(di + 3) + rj * row(dj + 3);
+    s.velocity_change = {change[0], change[1], change[2]};
+    s.rotation_change = {change[4], change[5], change[6]};
   }
   if (atom->temperature_flag)
     s.temperature_difference = atom->temperature[j] - atom->temperature[i];

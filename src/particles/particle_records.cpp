@@ -27,7 +27,7 @@ void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques
   stride = rotation ? 2 : 1;
   renew(position, n + copies);
   renew(motion, stride * (n + copies));
-  renew(change, changes ? 2 * (n + copies) : 0);
+  renew(change, changes ? n + copies : 0);
   renew(load, stride * n);
   renew(twisting_torque, twisting_torques ? n : 0);
 }
@@ -64,11 +64,7 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
     store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
     store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
     if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
-    if (keep_changes()) {
-      const double *its = host.change + 2 * a;
-      store(change[2 * s], record_of(its, 0.0));
-      store(change[2 * s + 1], record_of(its + 3, 0.0));
-    }
+    if (keep_changes()) change[s] = host.change[order.atom_of_slot[s]];
     begin_sums(s, load4(motion[stride * s]));
   }
 }
@@ -95,9 +91,9 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &hos
 
 double ParticleRecords::memory_usage() const
 {
-  return static_cast<double>(sizeof(Record) *
-                             (position.capacity() + motion.capacity() + change.capacity() +
-                              load.capacity() + twisting_torque.capacity()));
+  return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
+                                               load.capacity() + twisting_torque.capacity()) +
+                             sizeof(ChangeRecord) * change.capacity());
 }
 
 }    // namespace Talus

@@ -12,6 +12,7 @@
 #define TALUS_PARTICLES_PARTICLE_RECORDS_H
 
 #include "base/aligned_vector.h"
+#include "particles/change_record.h"
 #include "particles/particle_order.h"
 #include "particles/record.h"
 
@@ -29,9 +30,8 @@ struct ParticleView {
   const double
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   double *f, *torque;    ///< added to; torque may be nullptr like omega
-  double *heat_flow = nullptr;    ///< added to, if given: scalars, of owned particles
-  /// Rows of six, see ParticleRecords::change; if these are kept.
-  const double *change = nullptr;
+  double *heat_flow = nullptr;             ///< added to, if given: scalars, of owned particles
+  const ChangeRecord *change = nullptr;    ///< see ParticleRecords::change; if these are kept
 };
 
 /// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),
@@ -126,11 +126,14 @@ class ParticleRecords {
   bool have_weights() const { return has_gravity; }
   /// By slot of the present order; empty: none.
   void set_weightless(std::vector<unsigned char> marks) { weightless = std::move(marks); }
+  /// The same: masses of the particles where those of the records are those of rigid bodies.
+  void set_own_masses(std::vector<double> masses) { own_mass = std::move(masses); }
   /// Where the sum of forces of a slot begins, if its velocity record is that.
   Vec4 weight(std::size_t slot, Vec4 its_velocity) const
   {
     if (!has_gravity) return Vec4{};
-    const double inverse_mass = its_velocity[3], mass = 1.0 / inverse_mass;
+    const double inverse_mass = its_velocity[3];
+    const double mass = own_mass.empty() ? 1.0 / inverse_mass : own_mass[slot];
     const bool has_weight = inverse_mass > 0.0 && (weightless.empty() || !weightless[slot]);
     return kept_if(has_weight, mass * load4(gravity));
   }
@@ -145,12 +148,13 @@ class ParticleRecords {
   /// Sets the host's row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
-  /// Writes the changes of a slot to a row of six.
-  void write_change(int slot, double *row) const;
-  /// Of a proxy whose record of velocities is followed by `now` in a step: what its owner finds.
-  void follow_change(std::size_t slot, bool of_omega, Vec4 before, Vec4 now)
+  /// Keeps the changes of a slot whose records of velocities and angular velocities were replaced
+  /// in a step: also of proxies, to which it happens what has happened to their owners.
+  TALUS_INLINE void keep_change(std::size_t slot, Vec4 v_old, Vec4 v, Vec4 w_old, Vec4 w)
   {
-    store(change[2 * slot + of_omega], extrapolation * (now - before));
+    const Vec4 x = load4(position[slot]), radius = __builtin_shufflevector(x, x, 3, 3, 3, 3);
+    store(change[slot],
+          change_of(extrapolation * (v - v_old), radius * (extrapolation * (w - w_old))));
   }
 
   /// Moves the particles of some slots and begins their sums anew. `role` of each slot: a ghost, at
@@ -169,8 +173,7 @@ class ParticleRecords {
     stream(position[to], load4(position[from]));
     for (std::size_t n = 0; n < stride; n++)
       stream(motion[stride * to + n], load4(motion[stride * from + n]));
-    if (!keep_changes()) return;
-    for (std::size_t n = 0; n < 2; n++) stream(change[2 * to + n], load4(change[2 * from + n]));
+    if (keep_changes()) stream(change[to], load8(change[from]));
   }
 
   /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added
@@ -212,6 +215,7 @@ class ParticleRecords {
     __builtin_prefetch(moves + stride, 0, second_cache);
     __builtin_prefetch(sums, 0, second_cache);
     __builtin_prefetch(sums + stride, 0, second_cache);
+    if (keep_changes()) __builtin_prefetch(change.data() + slot, 0, second_cache);
   }
 
   /// The same for what a contact reads and adds to, once its position is known.
@@ -219,6 +223,7 @@ class ParticleRecords {
   {
     __builtin_prefetch(motion.data() + stride * slot);
     __builtin_prefetch(load.data() + stride * slot, 1);
+    if (keep_changes()) __builtin_prefetch(change.data() + slot);
   }
 
   const Record &velocity(int slot) const { return motion[stride * slot]; }
@@ -226,10 +231,9 @@ class ParticleRecords {
 
   std::size_t stride = 1;    ///< records per particle in motion and load: 2 with angular velocities
   AlignedVector<Record> position, motion, load, twisting_torque;    ///< see record.h
-  /// For laws of second order: changes of velocity and angular velocity in the time by which they
-  /// are behind positions, by the accelerations of the last step; two records per particle, or
-  /// none. The fourth places are 0.
-  AlignedVector<Record> change;
+  /// For laws of second order: changes of velocities in the time by which they are behind
+  /// positions, by the accelerations of the last step; one record per particle, or none.
+  AlignedVector<ChangeRecord> change;
   double extrapolation = 0.0;    ///< of the step that moves particles, see RecordStep
 
  private:
@@ -261,6 +265,7 @@ class ParticleRecords {
   bool has_gravity = false;
   Record gravity{};    // fourth place 0
   std::vector<unsigned char> weightless;
+  std::vector<double> own_mass;
 };
 
 }    // namespace Talus

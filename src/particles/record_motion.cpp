@@ -48,12 +48,6 @@ void ParticleRecords::write_state(int slot, double *x, double *v, double *omega)
   if (stride == 2) std::copy(moves[1].c, moves[1].c + 3, omega);
 }
 
-void ParticleRecords::write_change(int slot, double *row) const
-{
-  const Record *its = &change[2 * static_cast<std::size_t>(slot)];
-  for (int n = 0; n < 2; n++) std::copy(its[n].c, its[n].c + 3, row + 3L * n);
-}
-
 void ParticleRecords::write_forces(int slot, double *f, double *torque_row) const
 {
   const Record &force = load[stride * slot];
@@ -96,11 +90,10 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
     Vec4 w_new = turned(w, per_inertia, torque);
     if (with.twice) w_new = turned(w_new, per_inertia, torque);
     store(moves[1], w_new);
-    if constexpr (changes) store(change[2 * s + 1], extrapolation * (w_new - w));
+    if constexpr (changes) keep_change(s, v, v_new, w, w_new);
   }
   const Vec4 x_new = drifted(x, with.dt, v_new);
   store(moves[0], v_new);
-  if constexpr (changes) store(change[2 * s], extrapolation * (v_new - v));
   store(position[s], x_new);
   return {x_new, v_new};
 }
@@ -121,8 +114,7 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     __builtin_prefetch(load.data() + its_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
     const Role its = roles ? roles[s] : MOVES;
-    if (changes && its == RESTS)
-      for (std::size_t n = 0; n < 2; n++) store(change[2 * s + n], Vec4{});
+    if (changes && its == RESTS) store(change[s], Float8{});
     const Moved now = its == MOVES  ? kick<rotation, changes>(first, s)
                       : its > MOVES ? kick<rotation, changes>(others[its - MOVES - 1], s)
                                     : Moved{load4(position[s]), load4(motion[its_stride * s])};

@@ -198,7 +198,7 @@ void straighten(Matrix &axes, int from, int to)
 
 /* Each axis beside that of the frame it is nearest to, and in the same sense. */
 
-PrincipalAxes in_order(const PrincipalAxes &found)
+PrincipalFrame in_order(const PrincipalFrame &found)
 {
   int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
   double most = 0.0;
@@ -210,7 +210,7 @@ PrincipalAxes in_order(const PrincipalAxes &found)
       std::copy(order, order + 3, best);
     }
   } while (std::next_permutation(order, order + 3));
-  PrincipalAxes sorted;
+  PrincipalFrame sorted;
   for (int k = 0; k < 3; k++) {
     const Vector axis = found.axes.col(best[k]);
     sorted.axes.col(k) = axis[k] < 0.0 ? Vector(-axis) : axis;
@@ -227,11 +227,11 @@ PrincipalAxes in_order(const PrincipalAxes &found)
 
 }    // namespace
 
-PrincipalAxes principal_axes(const Matrix &inertia)
+PrincipalFrame principal_axes(const Matrix &inertia)
 {
   constexpr double equal = 1.0e-9;
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(inertia);
-  PrincipalAxes found{solver.eigenvectors(), solver.eigenvalues()};
+  PrincipalFrame found{solver.eigenvectors(), solver.eigenvalues()};
   const double tolerance = equal * found.moments[2];
   for (int from = 0; from < 3;) {
     int to = from + 1;

@@ -32,11 +32,11 @@ MassProperties mass_properties(const ConvexCore &core, double radius);
 /// Axes and moments: `axes` is a rotation whose columns are the principal axes, each beside that of
 /// the frame to which it is nearest. Where moments are equal (to 1e-9) the axes of the frame are
 /// kept as far as they can: the frame of a box stays as it was.
-struct PrincipalAxes {
+struct PrincipalFrame {
   Eigen::Matrix3d axes;
   Eigen::Vector3d moments;
 };
-PrincipalAxes principal_axes(const Eigen::Matrix3d &inertia);
+PrincipalFrame principal_axes(const Eigen::Matrix3d &inertia);
 
 }    // namespace Talus
 

@@ -40,7 +40,7 @@ void PointBatch::compute(const Task &its_task, PointContact *points, std::size_t
 
 void PointBatch::gather(const PointContact &point, int lane)
 {
-  const auto put = [lane](double (&to)[3][ContactBatch::width], const Vector3<double> &v) {
+  const auto put = [lane](double(&to)[3][ContactBatch::width], const Vector3<double> &v) {
     to[0][lane] = v.x;
     to[1][lane] = v.y;
     to[2][lane] = v.z;
@@ -76,7 +76,8 @@ void PointBatch::flush()
 void PointBatch::hand_out(PointContact &point, int lane) const
 {
   const double w = point.weight;
-  point.force = w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
+  point.force =
+      w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
   if (task->advance && remembers)
     for (int k = 0; k < ContactBatch::history_size; k++)
       point.memory.value[k] = batch.history[k][lane];

@@ -22,8 +22,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
     if (tag[a] == tag[b]) continue;
     const bool in_order = tag[a] < tag[b];
     const int first = in_order ? a : b, second = in_order ? b : a;
-    list.push_back(
-        {first, second, laws.row(view.type[first], view.type[second]), tag[second], {}});
+    list.push_back({first, second, laws.row(view.type[first], view.type[second]), tag[second], {}});
   }
   std::sort(list.begin(), list.end(), [](const Pair &one, const Pair &other) {
     return one.first != other.first ? one.first < other.first : one.second < other.second;
@@ -241,9 +240,10 @@ double ShapedPairs::count_points() const
 
 double ShapedPairs::memory_usage() const
 {
-  std::size_t bytes = list.capacity() * sizeof(Pair) + results.capacity() * sizeof(Result) +
-                      sides.capacity() * sizeof(Side) + solids.capacity() * sizeof(Solid) +
-                      (used.capacity() + particles.capacity() + first_side.capacity()) * sizeof(int);
+  std::size_t bytes =
+      list.capacity() * sizeof(Pair) + results.capacity() * sizeof(Result) +
+      sides.capacity() * sizeof(Side) + solids.capacity() * sizeof(Solid) +
+      (used.capacity() + particles.capacity() + first_side.capacity()) * sizeof(int);
   for (const Chunk &chunk : chunks)
     bytes += (chunk.points.capacity() + chunk.before.capacity()) * sizeof(PointContact);
   return static_cast<double>(bytes);

@@ -5,9 +5,9 @@
 //   at a rebuild   save() (if the old pairs are current), set_pairs(), restore()
 //   every step     compute()
 //
-// The first body of a pair is the particle with the lower ID, on all ranks and for ever: so normals,
-// names and memories never change sides. Pairs are computed in chunks, each with its points, by
-// any number of threads; then each particle sums its pairs in ascending ID of the partner, a pair's
+// The first body of a pair is the particle with the lower ID, on all ranks and for ever: so
+// normals, names and memories never change sides. Pairs are computed in chunks, each with its
+// points, by any number of threads; then each particle sums its pairs in ascending ID of the partner, a pair's
 // points in the order of the narrow phase. So forces have the same bits on any number of ranks and
 // threads. A pair across two ranks is computed by both.
 
@@ -54,8 +54,7 @@ class ShapedPairs {
   template <class Visit> void for_each_force(Visit visit) const
   {
     for (std::size_t p = 0; p < list.size(); p++)
-      if (results[p].points)
-        visit(list[p].first, list[p].second, results[p].force);
+      if (results[p].points) visit(list[p].first, list[p].second, results[p].force);
   }
   /// visit(i, j, point) for each contact point of the last compute().
   template <class Visit> void for_each_point(Visit visit) const
@@ -75,8 +74,8 @@ class ShapedPairs {
 
  private:
   struct Pair {
-    int first, second;    ///< host's indices
-    int row;              ///< of the table of laws
+    int first, second;       ///< host's indices
+    int row;                 ///< of the table of laws
     std::int64_t partner;    ///< ID of the second
     SeparatingDirection direction{};
   };
@@ -103,18 +102,21 @@ class ShapedPairs {
   void find_points(const ShapedView &view, Chunk &chunk, int pair, std::size_t &old);
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
-  double share(const Pair &pair) const { return pair.first < owned && pair.second < owned ? 1.0 : 0.5; }
+  double share(const Pair &pair) const
+  {
+    return pair.first < owned && pair.second < owned ? 1.0 : 0.5;
+  }
 
   const ShapeTable &shapes;
   int owned = 0;
   std::vector<Pair> list;
   std::vector<Result> results;
   std::vector<Chunk> chunks;
-  std::vector<int> particles;    ///< owned ones that have pairs
+  std::vector<int> particles;     ///< owned ones that have pairs
   std::vector<int> first_side;    ///< of each of these in `sides`, and one more
   std::vector<Side> sides;
-  std::vector<int> used;          ///< all that have pairs, owned or ghosts
-  std::vector<Solid> solids;      ///< by host's index, of those that have pairs
+  std::vector<int> used;        ///< all that have pairs, owned or ghosts
+  std::vector<Solid> solids;    ///< by host's index, of those that have pairs
   std::vector<std::unique_ptr<PointBatch>> batches;    ///< by thread
 };
 

@@ -5,33 +5,11 @@
 #include "base/in_parallel.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace Talus {
 namespace {
 
 constexpr int particles_of_chunk = 64;
-
-/* As of a sphere, what is further behind than the radius around does not come back. */
-
-bool is_near(const HollowWall &wall, const Vector3<double> &x, double radius)
-{
-  if (wall.radius > 0.0) {
-    const Vector3<double> d = x - wall.point;
-    return std::fabs(wall.radius - length(d - dot(d, wall.normal) * wall.normal)) < radius;
-  }
-  return std::fabs(dot(wall.normal, x) - wall.offset) < radius;
-}
-
-bool touches(const HollowWall &wall, const ConvexShape &shape, const Pose &pose,
-             ConvexContacts &found)
-{
-  if (wall.radius > 0.0)
-    return collide_cylinder(shape, pose, wall.point, wall.normal, wall.radius, found);
-  const bool flip = wall.two_sided && dot(wall.normal, pose.position) < wall.offset;
-  const double side = flip ? -1.0 : 1.0;
-  return collide_plane(shape, pose, side * wall.normal, side * wall.offset, found);
-}
 
 }    // namespace
 
@@ -68,9 +46,8 @@ void WallPoints::save(PointMemories &to) const
       to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
 }
 
-BodyLoad WallPoints::compute(const std::vector<HollowWall> &walls, const BodyFrame &frame,
-                             const ShapedView &view, const LawTable &laws, const BodyStep &step,
-                             double *virial)
+BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                             const LawTable &laws, const BodyStep &step, double *virial)
 {
   while (static_cast<int>(batches.size()) < step.threads)
     batches.push_back(std::make_unique<PointBatch>());
@@ -117,17 +94,10 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const int i = particles[n];
   const ParticleShape &particle = *shapes.of(view.type[i]);
   const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
-  Pose pose;
-  bool placed = false;
-  for (std::size_t w = 0; w < task.walls.size(); w++) {
-    const HollowWall &wall = task.walls[w];
-    if (!is_near(wall, seen, view.radius[i])) continue;
-    if (!placed) {
-      pose = particle.pose(seen, view.turn(i));
-      if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
-      placed = true;
-    }
-    if (!touches(wall, particle.shape(), pose, chunk.found)) continue;
+  Pose pose = particle.pose(seen, view.turn(i));
+  if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
+  for (int w = 0; w < task.walls.size(); w++) {
+    if (!task.walls.touch(w, particle.shape(), pose, chunk.found)) continue;
     PointContact point{};
     point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;

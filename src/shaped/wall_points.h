@@ -12,8 +12,7 @@
 
 #include "body/contact/body_batch.h"
 #include "body/contact/body_contacts.h"
-#include "shape/collide.h"
-#include "shaped/hollow_walls.h"
+#include "shaped/body_walls.h"
 #include "shaped/point_batch.h"
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
@@ -38,9 +37,8 @@ class WallPoints {
 
   /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
   /// particle, added to.
-  BodyLoad compute(const std::vector<HollowWall> &walls, const BodyFrame &frame,
-                   const ShapedView &view, const LawTable &laws, const BodyStep &step,
-                   double *virial);
+  BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                   const LawTable &laws, const BodyStep &step, double *virial);
   double memory_usage() const;
 
  private:
@@ -54,7 +52,7 @@ class WallPoints {
     std::vector<TouchedPart> touched;
   };
   struct Task {
-    const std::vector<HollowWall> &walls;
+    const BodyWalls &walls;
     const BodyFrame &frame;
     const ShapedView &view;
     const LawTable &laws;

@@ -3,6 +3,7 @@
 #include "system/critical_time_step.h"
 
 #include "system/granular_system.h"
+#include "system/stable_time_step.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"
@@ -24,6 +25,7 @@ using namespace Talus;
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr int around_a_particle = 12, in_a_corner = 3;    // contacts
 
 /// 0 stands for "not defined".
 double smaller_defined(double a, double b)
@@ -60,7 +62,8 @@ void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
 
 void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
 {
-  law_period = rayleigh = hertz = 0.0;
+  law_period = rayleigh = hertz = stable = 0.0;
+  order = GranularSystem::of(lmp)->order();
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
 }
@@ -140,6 +143,7 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
   if (looks_at_damping)
     consider_damping(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
 
+  consider_stability(law, c, overlap, m, r, around_a_particle);
   const double k = tangent_stiffness(law, c, overlap, m, r);
   if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
   const double modulus = law.normal().modulus(law.coefficients(Stage::NORMAL, c));
@@ -157,6 +161,14 @@ void CriticalTimeStep::consider_damping(const std::string &who, const ContactLaw
   elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
 }
 
+void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCoefficients &c,
+                                          double overlap, double mass_eff, double radius_eff,
+                                          int contacts)
+{
+  const ContactResponse its = response(law, c, overlap, mass_eff, radius_eff);
+  stable = smaller_defined(stable, largest_stable_time_step(its, mass_eff, contacts, order));
+}
+
 /* Of particles that a body can touch. */
 
 double CriticalTimeStep::smallest_body_period(int types, int group)
@@ -170,6 +182,8 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
     for (int type = 1; type <= types; type++) {
       if (std::isinf(radius[type])) continue;
       smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
+      consider_stability(body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
+                         mass[type], radius[type], in_a_corner);
       if (looks_at_damping)
         consider_damping(fmt::format("type {} with {}", type, body->name()), body->law_of(type),
                          body->coefficients_of(type), 0.01 * radius[type], mass[type],

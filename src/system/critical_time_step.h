@@ -12,6 +12,10 @@
 //   hertz      2.87 (m_eff^2/(r_eff E_eff^2 v))^(1/5), the duration of a Hertzian impact at the
 //              largest relative speed v of neighboring particles; only laws with Hertzian
 //              stiffness, and only if v > 0
+//   stable     largest one with which a particle among twelve contacts of the kind is stable, with
+//              the damping and the friction of the law and the order of the integrator: smallest
+//              over the pairs of types; among three contacts with each large body. Overlaps as
+//              without contacts; see stable_time_step.h
 //
 // Collective: all ranks of `world` must call compute().
 
@@ -33,7 +37,7 @@ class CriticalTimeStep : protected Pointers {
  public:
   explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp), elastic(lmp) {}
 
-  double contact = 0.0, rayleigh = 0.0, hertz = 0.0;
+  double contact = 0.0, rayleigh = 0.0, hertz = 0.0, stable = 0.0;
   /// Of the laws that compute() has met.
   UndampedFriction undamped;
   ElasticImpacts elastic;
@@ -50,7 +54,7 @@ class CriticalTimeStep : protected Pointers {
   /// each large body can touch; infinite where there is none.
   std::vector<double> sizes_here(int types, int group) const;
 
-  /// Smallest of those that are defined, 0 if none is.
+  /// Smallest of the first three that are defined, 0 if none is.
   double smallest() const;
 
  private:
@@ -68,11 +72,14 @@ class CriticalTimeStep : protected Pointers {
                         const Talus::ContactCoefficients &c, double overlap, double mass_eff,
                         double radius_eff);
   double smallest_body_period(int types, int group);
+  void consider_stability(const Talus::ContactLaw &law, const Talus::ContactCoefficients &c,
+                          double overlap, double mass_eff, double radius_eff, int contacts);
   double rayleigh_of(const Talus::ContactSpec &spec, int type) const;
 
   Sizes sizes;
   double law_period = 0.0;
   bool looks_at_damping = false;
+  int order = 1;    ///< of the integrator
 };
 
 }    // namespace LAMMPS_NS

@@ -8,6 +8,7 @@
 #include "modify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace LAMMPS_NS;
@@ -45,6 +46,12 @@ void EffectiveMasses::update()
 double EffectiveMasses::unit() const
 {
   return 1.0 / force->ftm2v;
+}
+
+double EffectiveMasses::of_body(int i) const
+{
+  const bool replaced = !masses.empty() && masses[i] > 0.0 && std::isfinite(masses[i]);
+  return replaced ? masses[i] : atom->rmass[i];
 }
 
 double EffectiveMasses::mass(int i) const

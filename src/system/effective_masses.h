@@ -35,6 +35,9 @@ class EffectiveMasses : protected Pointers {
   double *override_or_null() { return masses.empty() ? nullptr : masses.data(); }
   const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
 
+  /// Of an owned particle that is a member of a rigid body: that of the body, else its own; as
+  /// walls of LAMMPS see it, frozen or not, where no mass is converted.
+  double of_body(int i) const;
   /// Of an owned or ghost particle, converted.
   double mass(int i) const;
 

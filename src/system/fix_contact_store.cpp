@@ -278,7 +278,7 @@ void FixContactStore::agree_with_other_ranks()
 void FixContactStore::keep_changes(bool yes)
 {
   if (yes)
-    changes.resize(keys.size() * size_change, 0.0);
+    changes.resize(keys.size(), Talus::ChangeRecord{});
   else
     changes = {};
   comm_border = size_border + (yes ? size_change : 0);
@@ -321,6 +321,7 @@ void FixContactStore::put_positions_back()
 double FixContactStore::memory_usage()
 {
   return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
-                             (positions.capacity() + changes.capacity()) * sizeof(double)) +
+                             positions.capacity() * sizeof(double) +
+                             changes.capacity() * sizeof(Talus::ChangeRecord)) +
          store.memory_usage();
 }

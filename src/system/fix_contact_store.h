@@ -22,6 +22,7 @@
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
 #include "history/history_store.h"
+#include "particles/change_record.h"
 #include "system/run_monitor.h"
 
 #include <cstdint>
@@ -53,8 +54,8 @@ class FixContactStore : public Fix {
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
   Talus::HistoryStore &histories() { return store; }
-  /// Changes of velocities, rows of six, of owned particles and ghosts; nullptr if none are kept.
-  double *all_changes() { return changes.empty() ? nullptr : changes.data(); }
+  /// Changes of velocities, of owned particles and ghosts; nullptr if none are kept.
+  Talus::ChangeRecord *all_changes() { return changes.empty() ? nullptr : changes.data(); }
 
   /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
   /// The error, collective.
@@ -98,7 +99,8 @@ class FixContactStore : public Fix {
   static constexpr int refresh_interval = 1000;
 
   /// Doubles of a message: of each ghost, and those of the changes.
-  static constexpr int size_border = 1 + Talus::HistoryStore::size_origin + 1, size_change = 6;
+  static constexpr int size_border = 1 + Talus::HistoryStore::size_origin + 1,
+                       size_change = Talus::ChangeRecord::doubles;
 
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
@@ -121,8 +123,8 @@ class FixContactStore : public Fix {
   bool current = false;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
-  std::vector<double> changes;    // empty: none are kept
-  std::vector<double> scratch;    // a list whose size is asked for
+  std::vector<Talus::ChangeRecord> changes;    // empty: none are kept
+  std::vector<double> scratch;                 // a list whose size is asked for
   Talus::HistoryStore store;
   Talus::SparseExchange exchange;
 

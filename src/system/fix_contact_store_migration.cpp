@@ -35,12 +35,26 @@ template <class Integer> Integer from_double(double bits)
   return value;
 }
 
+/// As they are, bit by bit.
+int write_change(const Talus::ChangeRecord &change, double *to)
+{
+  std::memcpy(to, &change, sizeof change);
+  return Talus::ChangeRecord::doubles;
+}
+
+Talus::ChangeRecord read_change(const double *from)
+{
+  Talus::ChangeRecord change;
+  std::memcpy(&change, from, sizeof change);
+  return change;
+}
+
 }    // namespace
 
 void FixContactStore::grow_arrays(int nmax)
 {
   keys.resize(nmax);
-  if (!changes.empty()) changes.resize(static_cast<std::size_t>(nmax) * size_change, 0.0);
+  if (!changes.empty()) changes.resize(nmax, Talus::ChangeRecord{});
   if (guards_positions) positions.resize(3 * nmax);
   store.resize(nmax);
 }
@@ -48,7 +62,7 @@ void FixContactStore::grow_arrays(int nmax)
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
   keys[j] = keys[i];
-  if (double *all = all_changes()) std::copy_n(all + 6L * i, 6, all + 6L * j);
+  if (!changes.empty()) changes[j] = changes[i];
   if (guards_positions) std::copy(&positions[3 * i], &positions[3 * i] + 3, &positions[3 * j]);
   store.copy(i, j);
 }
@@ -57,7 +71,7 @@ void FixContactStore::set_arrays(int i)
 {
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
-  if (double *all = all_changes()) std::fill_n(all + 6L * i, 6, 0.0);
+  if (!changes.empty()) changes[i] = Talus::ChangeRecord{};
   store.forget(i);
 }
 
@@ -66,13 +80,13 @@ void FixContactStore::set_arrays(int i)
 int FixContactStore::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
                                        int * /*pbc*/)
 {
-  for (int k = 0; k < n; k++) std::copy_n(&changes[6L * list[k]], 6, buf + 6L * k);
-  return 6 * n;
+  for (int k = 0; k < n; k++, buf += size_change) write_change(changes[list[k]], buf);
+  return size_change * n;
 }
 
 void FixContactStore::unpack_forward_comm(int n, int first, double *buf)
 {
-  std::copy_n(buf, 6L * n, &changes[6L * first]);
+  for (int k = 0; k < n; k++, buf += size_change) changes[first + k] = read_change(buf);
 }
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
@@ -84,7 +98,7 @@ int FixContactStore::pack_border(int n, int *list, double *buf)
     buf[0] = as_double(keys[i]);
     HistoryStore::write(store.origin(i), buf + 1);
     buf[1 + HistoryStore::size_origin] = as_double(owner);
-    if (const double *all = all_changes()) std::copy_n(all + 6L * i, 6, buf + size_border);
+    if (!changes.empty()) write_change(changes[i], buf + size_border);
   }
   return comm_border * n;
 }
@@ -96,7 +110,7 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
     store.set_ghost(
         atom->nlocal, first + k, HistoryStore::read(buf + 1),
         static_cast<int>(from_double<std::int64_t>(buf[1 + HistoryStore::size_origin])));
-    if (double *all = all_changes()) std::copy_n(buf + size_border, 6, all + 6L * (first + k));
+    if (!changes.empty()) changes[first + k] = read_change(buf + size_border);
   }
   return comm_border * n;
 }
@@ -106,7 +120,7 @@ int FixContactStore::pack_exchange(int i, double *buf)
   int m = 0;
   buf[m++] = as_double(keys[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
-  if (const double *all = all_changes()) m += std::copy_n(all + 6L * i, 6, buf + m) - (buf + m);
+  if (!changes.empty()) m += write_change(changes[i], buf + m);
   return m + store.pack(i, buf + m);
 }
 
@@ -115,9 +129,9 @@ int FixContactStore::unpack_exchange(int i, double *buf)
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
-  if (double *all = all_changes()) {
-    std::copy_n(buf + m, 6, all + 6L * i);
-    m += 6;
+  if (!changes.empty()) {
+    changes[i] = read_change(buf + m);
+    m += size_change;
   }
   return m + store.unpack(i, buf + m);
 }
@@ -172,10 +186,7 @@ void FixContactStore::restart(char *buf)
 int FixContactStore::pack_restart(int i, double *buf)
 {
   int size = restart_header + store.pack_list(i, buf + restart_header);
-  if (const double *all = all_changes()) {
-    std::copy_n(all + 6L * i, 6, buf + size);
-    size += 6;
-  }
+  if (!changes.empty()) size += write_change(changes[i], buf + size);
   buf[0] = size;
   buf[1] = as_double(keys[i]);
   buf[2] = as_double(store.origin(i).name);
@@ -202,7 +213,7 @@ void FixContactStore::unpack_restart(int i, int nth)
   const int read = restart_header + store.unpack_list(i, extra + m + restart_header);
   if (static_cast<int>(extra[m]) == read) return;
   keep_changes(true);    // init() may drop them
-  std::copy_n(extra + m + read, 6, &changes[6L * i]);
+  changes[i] = read_change(extra + m + read);
 }
 
 /* Exactly, not an upper limit: the host writes as much, and reads it as further particles. */
@@ -210,12 +221,12 @@ void FixContactStore::unpack_restart(int i, int nth)
 int FixContactStore::size_restart(int i)
 {
   scratch.resize(store.list_size(i));
-  return restart_header + store.pack_list(i, scratch.data()) + (changes.empty() ? 0 : 6);
+  return restart_header + store.pack_list(i, scratch.data()) + (changes.empty() ? 0 : size_change);
 }
 
 int FixContactStore::maxsize_restart()
 {
-  int mine = restart_header + store.largest_list(atom->nlocal) + 6, most = 0;
+  int mine = restart_header + store.largest_list(atom->nlocal) + size_change, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;
 }

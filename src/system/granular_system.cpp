@@ -4,6 +4,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/system_run_style.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -65,7 +66,10 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
                    store->say_no_number(found);
                    return true;
                  }}});
-  monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
+  monitors.add(pair, monitor.checks([this] {
+    const DeepestContact spheres = pipeline->deepest_contact();
+    return shaped ? std::max(spheres, shaped->deepest_contact()) : spheres;
+  }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);
@@ -235,14 +239,11 @@ std::string GranularSystem::reason_against_history()
   return small_period();
 }
 
-/* Weights are those of the masses in contacts, so these have to be the particles' own. */
-
 std::string GranularSystem::take_gravity(SystemGravity *field)
 {
   if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pair->compute_flag) return "'pair_modify compute no' is set";
   if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
-  if (masses.bodies_are_rigid()) return "a fix moves rigid bodies";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   if (gravity && gravity != field) return "another fix gravity comes before it";

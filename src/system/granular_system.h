@@ -32,7 +32,6 @@
 #include "system/run_monitor.h"
 #include "system/style_report.h"
 #include "system/system_fix.h"
-#include "system/system_shapes.h"
 #include "system/time_step_monitor.h"
 
 #include "lmptype.h"
@@ -51,6 +50,8 @@ class Pair;
 }    // namespace LAMMPS_NS
 
 namespace Talus {
+
+class SystemShapes;
 
 /// Where positions, velocities and forces of the owned particles are up to date.
 enum class Residence { HOST, RECORDS };
@@ -133,9 +134,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// "", or which contacts of the run are not of second order, and the cure, for people. In init()
   /// of a fix, after that of the pair style.
   std::string reason_against_second_order() const;
+  /// What is of first order nevertheless.
+  std::vector<std::string> notes_on_second_order() const;
   /// Where integrators of second order keep the changes of velocities of particles in the arrays
-  /// of the host, rows of six; see ParticleRecords::change.
-  double *velocity_changes();
+  /// of the host; see ParticleRecords::change.
+  ChangeRecord *velocity_changes();
   /// The time by which velocities are behind positions, with an integrator of second order.
   double lag() const;
 
@@ -242,6 +245,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const LawTable &law_table();
   /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
   double mass_in_contacts(int i) const { return masses.mass(i); }
+  /// The same with a wall of LAMMPS: of the rigid body, or its own; where unit of force is 1.
+  double mass_with_walls(int i) const { return masses.of_body(i); }
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
   ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }

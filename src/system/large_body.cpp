@@ -3,6 +3,10 @@
 #include "system/large_body.h"
 
 #include "system/granular_system.h"
+#include "system/system_shapes.h"
+
+#include "body/shape/plane.h"
+#include "laws/second_order_laws.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -53,13 +57,16 @@ void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
 
 void LargeBody::keep_history()
 {
-  const auto any = [this](bool (ContactLaw::*has)() const) {
-    return std::any_of(specs.begin(), specs.end(),
-                       [has](const ContactSpec &s) { return (s.law.*has)(); });
+  const bool second_order = system.order() == 2;
+  const auto any = [this, second_order](bool (ContactLaw::*has)() const) {
+    return std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
+      return (s.law.*has)() || (second_order && (second_order_law(s.law).*has)());
+    });
   };
   with_history = any(&ContactLaw::has_history);
   if (with_history)
-    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact));
+    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact),
+                          !dynamic_cast<const Plane *>(its_shape.get()));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -73,6 +80,7 @@ void LargeBody::init()
   masses.find_fixes();
   find_frozen();
   set_laws();
+  if (system.order() == 1) contacts.history.forget_normals();
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its

@@ -91,6 +91,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void compute(bool advance, double *virial);
   /// "", or why contacts with the body are not of second order, and the cure.
   std::string reason_against_second_order();
+  /// "", or where contacts with the body are not of second order nevertheless, for people.
+  std::string note_on_second_order() const;
   /// Why steps with this body cannot be made in the records; "" if they can.
   std::string needs_host_arrays() const;
 

@@ -6,7 +6,7 @@
 
 #include "system/granular_system.h"
 
-#include "body/shape/plane.h"
+#include "body/shape/mesh_shape.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -42,18 +42,23 @@ void LargeBody::set_laws()
 
 std::string LargeBody::reason_against_second_order()
 {
-  if (moves || frame->runs) return "or its surface moves";
-  if (!dynamic_cast<const Plane *>(its_shape.get()))
-    return "is not a plane: its normal turns as a particle goes along it";
   for (int type = 1; type <= atom->ntypes; type++) {
     const std::string its =
         Talus::reason_against_second_order(specs[type].law, coefficients_of(type));
     if (!its.empty()) return its;
-    if (!specs[type].law.tangential().acts)
-      return "keeps no history without friction: add 'tangential multistep NULL NULL 0 slider "
-             "midpoint'";
   }
+  if (!with_history)
+    return "was defined before the integrator and keeps no history without friction: define it "
+           "after";
   return "";
+}
+
+std::string LargeBody::note_on_second_order() const
+{
+  const auto *mesh = dynamic_cast<const MeshShape *>(its_shape.get());
+  if (!mesh || !mesh->has_jumps()) return "";
+  return "where particles go from facet to facet of a hollow that stands for a curved surface the "
+         "force turns at once, and the error is of first order: less with more facets";
 }
 
 /* A body given by numbers is used as given; a body given by its material is mixed with the material

@@ -44,7 +44,6 @@ std::string NeighborSource::reason_for_host() const
   if (force->pair_match("^hybrid", 0)) return "pair style hybrid";
   if (atom->molecular != Atom::ATOMIC) return "bonds may scale forces";
   if (neighbor->includegroup || atom->firstgroupname) return "they are those of a group";
-  if (neighbor->nex_mol) return "neigh_modify exclude molecule";
   return "";
 }
 
@@ -59,6 +58,7 @@ void NeighborSource::init(Pair *pair)
   bins_left_out = false;
   types_excluded = neighbor->nex_type > 0;
   groups_excluded = neighbor->nex_group;
+  molecules_excluded = neighbor->nex_mol;
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
       (own ? ": finds neighbors itself, as often as neigh_modify says\n"
@@ -85,8 +85,9 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
     search.find(
         {atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin + reach},
         comm->nthreads,
-        types_excluded || groups_excluded ? [this](int i, int j) { return excludes(i, j); }
-                                          : std::function<bool(int, int)>());
+        types_excluded || groups_excluded || molecules_excluded
+            ? [this](int i, int j) { return excludes(i, j); }
+            : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
                GranularSystem::of(lmp)->style_name(), problem.what());
@@ -112,7 +113,7 @@ void NeighborSource::leave_bins_out()
   builder->nb = none;
 }
 
-/* `neigh_modify exclude type` and `group`, as the host's lists heed them: as they were when a run
+/* `neigh_modify exclude type`, `group` and `molecule/intra` or `inter`, as the host's lists heed them: as they were when a run
    was set up, for the tables of the host are made then. */
 
 bool NeighborSource::excludes(int i, int j) const
@@ -122,6 +123,11 @@ bool NeighborSource::excludes(int i, int j) const
   for (int m = 0; m < groups_excluded; m++) {
     const int one = neighbor->ex1_bit[m], other = neighbor->ex2_bit[m];
     if ((a & one && b & other) || (a & other && b & one)) return true;
+  }
+  for (int m = 0; m < molecules_excluded; m++) {
+    const int bit = neighbor->ex_mol_bit[m];
+    const bool same = atom->molecule[i] == atom->molecule[j];
+    if (a & bit && b & bit && same == (neighbor->ex_mol_intra[m] != 0)) return true;
   }
   return false;
 }

@@ -44,7 +44,7 @@ class NeighborSource : protected Pointers {
 
   Talus::NeighborSearch search;
   bool own = false, bins_left_out = false, types_excluded = false;
-  int groups_excluded = 0;
+  int groups_excluded = 0, molecules_excluded = 0;
   std::string said;
 };
 

@@ -6,6 +6,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/private_member.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "bond.h"
@@ -54,7 +55,7 @@ double GranularSystem::lag() const
   return 0.0;
 }
 
-double *GranularSystem::velocity_changes()
+ChangeRecord *GranularSystem::velocity_changes()
 {
   return store ? store->all_changes() : nullptr;
 }
@@ -74,6 +75,16 @@ std::string GranularSystem::reason_against_second_order() const
     if (!its.empty()) return body->name() + " " + its;
   }
   return "";
+}
+
+std::vector<std::string> GranularSystem::notes_on_second_order() const
+{
+  std::vector<std::string> notes;
+  for (LargeBody *body : bodies()) {
+    const std::string its = body->note_on_second_order();
+    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+  }
+  return notes;
 }
 
 HistoryStore &GranularSystem::histories()

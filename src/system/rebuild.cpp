@@ -9,6 +9,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -74,6 +75,7 @@ void GranularSystem::renumber_pairs()
   find_weightless();
   store->pairs_are_numbered(pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
+  pipeline->set_own_masses(masses.bodies_are_rigid() ? atom->rmass : nullptr);
   masses.update();
   if (masses.needed()) comm->forward_comm(pair);
 }

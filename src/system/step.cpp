@@ -12,6 +12,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
 
@@ -44,12 +45,16 @@ void GranularSystem::advance(const RecordStep &step)
   steps.clear();
 }
 
-/* Of the integrators of the run, -1 if none does: their groups have no common members. */
+/* Of the integrators of the run, -1 if none does, or does not any more: their groups have no
+   common members. */
 
 int GranularSystem::mover_of(int i) const
 {
-  for (std::size_t n = 0; n < integrators.size(); n++)
-    if (atom->mask[i] & integrators[n]->groupbit) return static_cast<int>(n);
+  for (std::size_t n = 0; n < integrators.size(); n++) {
+    if (!(atom->mask[i] & integrators[n]->groupbit)) continue;
+    const auto *its = dynamic_cast<const SystemFix *>(integrators[n]);
+    return its->places_particles() ? -1 : static_cast<int>(n);
+  }
   return -1;
 }
 

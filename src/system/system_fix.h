@@ -26,6 +26,9 @@ class SystemFix {
 
   /// It moves particles.
   virtual bool integrates() const { return false; }
+  /// That moves particles: it has placed those of its group in the records before it calls
+  /// GranularSystem::advance(), which then moves none of them.
+  virtual bool places_particles() const { return false; }
   /// That moves particles, as its command says: of the time step, 1 or 2.
   virtual int order() const { return 1; }
   /// Of order 2: the time by which velocities are behind positions.

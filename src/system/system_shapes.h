@@ -10,7 +10,8 @@
 #define TALUS_SYSTEM_SYSTEM_SHAPES_H
 
 #include "body/contact/body_contacts.h"
-#include "contact/contact_chunk.h"
+#include "contact/contact_pipeline.h"
+#include "shaped/point_contact.h"
 #include "system/system_fix.h"
 
 #include <array>
@@ -47,8 +48,17 @@ class SystemShapes : public SystemFix {
   /// bears. `virial`: as for LargeBody::compute().
   virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;
 
+  /// visit(i, j, point) for each contact point of two particles in the last step, as i sees it; i
+  /// and j may be ghosts, and a pair of two ranks is visited on both.
+  using VisitPoint = std::function<void(int, int, const PointContact &)>;
+  virtual void for_each_point(const VisitPoint &visit) const = 0;
+  /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
+  using VisitTriangle = std::function<void(int, const Triangle &)>;
+  virtual void for_each_triangle(const VisitTriangle &visit) const = 0;
   /// Pairs that touch; what two ranks compute counts half.
   virtual double count_contacts() const = 0;
+  /// Of these the deepest, over the radius of the smaller of the largest spheres inside.
+  virtual DeepestContact deepest_contact() const = 0;
 
  protected:
   ~SystemShapes() = default;

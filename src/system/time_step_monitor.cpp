@@ -79,9 +79,18 @@ bool TimeStepMonitor::judge_smaller_particles(const LawBook &laws)
 void TimeStepMonitor::judge()
 {
   const double limit = critical.smallest();
-  if (!(limit > 0.0) || update->dt <= advised * limit) return;
-  said = true;
-  if (comm->me == 0)
+  const bool too_large = limit > 0.0 && update->dt > advised * limit;
+  const bool unstable = critical.stable > 0.0 && update->dt > critical.stable;
+  said = too_large || unstable;
+  if (comm->me == 0 && unstable)
+    error->warning(
+        FLERR,
+        "Pair style {}: the time step is {:.3g} of the largest with which particles "
+        "among twelve others are stable with the damping of their contacts ({:.4g}): "
+        "use a smaller one, less damping{}",
+        GranularSystem::of(lmp)->style_name(), update->dt / critical.stable, critical.stable,
+        GranularSystem::of(lmp)->order() > 1 ? " (gt above all), or order 1" : " (gt above all)");
+  if (comm->me == 0 && too_large)
     error->warning(FLERR,
                    "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; "
                    "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",

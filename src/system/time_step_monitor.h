@@ -4,6 +4,8 @@
 //
 //   too large   above 20 % of the smallest critical one: said at the start of a run, or when the
 //               neighbor lists are rebuilt with smaller particles than those at its start
+//   unstable    above the largest stable one of a particle among twelve others, which may be
+//               smaller where damping is strong; said with the first one
 //   undamped    contacts that need a smaller one still: see undamped_friction.h and
 //               elastic_impacts.h; said at the start of a run
 //

@@ -106,13 +106,13 @@ steps without output              through the arrays of LAMMPS: fix 3 (enforce2d
 """, steps=10000, every=500, long_steps=25000, bench_steps=25000),
     StockInput("examples/pour/in.pour.2d.molecule", """
 pair gran/hertz/history           accelerated
-fix 2 gravity                     stock: a fix moves rigid bodies
-fix xwalls wall/gran              stock: fix 3 moves rigid bodies
-fix ywalls wall/gran              stock: fix 3 moves rigid bodies
-fix 3 rigid/small                 stock: no accelerated variant
+fix 2 gravity                     accelerated
+fix xwalls wall/gran              accelerated
+fix ywalls wall/gran              accelerated
+fix 3 rigid/small                 accelerated
 fix 4 enforce2d                   stock: no accelerated variant
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: fix 2 (gravity): a fix moves rigid bodies
+steps without output              through the arrays of LAMMPS: fix 4 (enforce2d): may look at particles in every step
 """, steps=10000, every=1000, long_steps=25000, bench_steps=25000),
     # later LAMMPS turns histories of rolling around where new neighbor lists turn a pair around
     StockInput("examples/granular/in.pour.drum", """

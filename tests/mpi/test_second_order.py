@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Order 2 keeps one trajectory: the same bits on any ranks and threads, with and without overlap, in steps through the
-arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well."""
+arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well; also with large bodies that move."""
 
 import os
 import random
@@ -8,6 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 SIDE = 6
@@ -35,6 +36,20 @@ OUTPUT = "dump all all custom {every} {name} id x y z vx vy vz omegax omegay ome
          "dump_modify all format float %.17g\n"
 
 
+# above the spheres, which fly and bounce; each moves in another way
+BODIES = f"""
+fix belt all large/body rectangle 3 3 0.2  0 0 1  1 0 0  4 4 contact {LAW} surface_velocity 0.5 0.1 0
+fix mixer all large/body cylinder 1.5 3 7  0 1 0  0.7 3 outside contact {LAW} move rotate 1.5 3 7  0 1 0  0.5
+fix stone all large/body box 4.5 3 7  1.5 2 1.5 outside contact {LAW} &
+move free mass 3 inertia 1 0.8 1.2 spin 1 2 0.5 gravity 2 vector 0 0 -1
+fix press all large/body rectangle 0.3 3 3  1 0 0  0 1 0  6 6 contact {LAW} servo force 1 0 0 20 0.5
+fix ball all large/body mesh ball.stl outside contact {LAW} move wiggle 0.2 0 0.3 0.4
+variable z equal 0.2*sin(30*step*dt)
+region r cylinder y 3 5.5 0.5 EDGE EDGE move NULL NULL v_z side out
+fix bar all large/body region r contact {LAW}
+"""
+
+
 class SecondOrder(SceneCase):
 
     def setUp(self):
@@ -45,14 +60,16 @@ class SecondOrder(SceneCase):
         spheres = [Sphere(tuple(c + 0.5 + e for c, e in zip((i, j, k), some(0.05))), some(2.0), some(2.0),
                           density=1.0, diameter=0.9) for i in range(SIDE) for j in range(SIDE) for k in range(SIDE)]
         draw.shuffle(spheres)
-        write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 4)), spheres)
+        write_sphere_data(self.path("data"), ((0, SIDE), (0, SIDE), (0, SIDE + 9)), spheres)
+        body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((3, 1, 6.4), 0.7, 6))
 
-    def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, **options):
+    def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, bodies="",
+            **options):
         script = (head or START.format(boundary=boundary)) + style + PHYSICS.format(order=order)
         walls = "" if boundary.startswith("p") else "".join(
             f"fix w{n} all large/body plane {x} contact {LAW}\n"
             for n, x in enumerate((f"0 0 0 1 0 0", f"{SIDE} 0 0 -1 0 0", "0 0 0 0 1 0", f"0 {SIDE} 0 0 -1 0")))
-        self.run_lammps(script + walls + OUTPUT.format(every=options.pop("every", 100), name=name) + runs, np=np,
+        self.run_lammps(script + bodies + walls + OUTPUT.format(every=options.pop("every", 100), name=name) + runs, np=np,
                         name=name, **options)
         return {frame.step: frame for frame in read_dump(self.path(name))}
 
@@ -81,6 +98,23 @@ class SecondOrder(SceneCase):
         self.end("first", "run 150\nwrite_restart half\n", boundary="f f f")
         for np in (1, 4):
             self.assert_same(self.end(f"second{np}", "run 250\n", boundary="f f f", head=CONTINUE, np=np), one)
+
+    def test_large_bodies_that_move(self):
+        one = self.end("one", bodies=BODIES)
+        for name, options in {
+                "ranks": {"np": 4},
+                "overlap": {"np": 4, "style": "comm_proxy yes\nrun_style verlet/proxy overlap yes\n"},
+                "arrays": {"np": 2, "style": "run_style verlet/stock\n"},
+                "threads": {"arguments": ("-sf", "omp", "-pk", "omp", "2"), "env": {"OMP_NUM_THREADS": "2"}}}.items():
+            with self.subTest(name):
+                self.assert_same(self.end(name, bodies=BODIES, **options), one)
+
+    def test_large_bodies_that_move_in_runs_and_restart_files(self):
+        f = {"boundary": "f f f", "bodies": BODIES}
+        one = self.end("one", **f)
+        self.assert_same(self.end("two", "run 150\nrun 250\n", **f), one)
+        self.end("first", "run 150\nwrite_restart half\n", **f)
+        self.assert_same(self.end("second", "run 250\n", head=CONTINUE, np=3, **f), one)
 
     def test_it_is_another_method(self):
         one, other = self.end("one"), self.end("other", order="start half")

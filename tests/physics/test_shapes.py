@@ -263,6 +263,26 @@ class Slopes(ShapeCase):
         self.assertGreater(self.of("omegay"), 0.1)
 
 
+class Bodies(ShapeCase):
+
+    def test_rest_on_bodies(self):
+        # the height of the center of a cube, less the overlap; in the cylinder its lower edges touch
+        law = "hooke 1e5 200 tangential multistep NULL NULL 0.5"
+        for body, z in (("plane 0 0 0 0 0 1", 0.5), ("box 0 0 -1 4 4 2 outside", 0.5), ("box 0 0 4 8 8 8 inside", 0.5),
+                        ("ball 0 0 -2 2 outside", 0.5),
+                        ("cylinder 0 0 5 0 1 0 5 8 inside", 0.5 + 5.0 - math.sqrt(25.0 - 0.25))):
+            with self.subTest(body):
+                rows = self.simulate([Sphere((0, 0, z))],
+                                     f"fix s all shape/gran type 1 box 1 1 1 density 1\n"
+                                     f"fix body all large/body {body} contact {law}\n"
+                                     "fix g all gravity/talus 10 vector 0 0 -1", 20000, dt=2e-4, pair=law,
+                                     columns=VECTOR + " f_body[3]")
+                self.assertAlmostEqual(self.of("z"), z, delta=2e-4)
+                self.assertLess(self.of("z"), z)
+                self.assertLess(rows[-1]["f_s[1]"] + rows[-1]["f_s[2]"], 1e-12)
+                self.assertAlmostEqual(rows[-1]["f_body[3]"], -10.0, delta=1e-6)
+
+
 class Stacks(ShapeCase):
 
     def test_three_cubes(self):

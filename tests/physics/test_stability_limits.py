@@ -30,8 +30,8 @@ neighbor 0.05 bin
 group moving type 1
 group base type 2
 pair_style gran/penalty
-pair_coeff * * hooke 1.0 0.0 {friction}
-fix move moving nve/sphere/symplectic
+pair_coeff * * hooke 1.0 {gn!r} {friction}
+fix move moving nve/sphere/symplectic order {order}
 fix hold base freeze
 neigh_modify exclude group base base
 compute k moving ke
@@ -40,13 +40,13 @@ compute t all timestep/gran
 timestep {dt!r}
 thermo 100000
 thermo_modify norm no lost ignore
-thermo_style custom step c_k c_r c_t[1]
+thermo_style custom step c_k c_r c_t[7] c_t[8]
 run 0
 variable begin string $(c_k+c_r)
 variable grown equal (c_k+c_r)/v_begin
 fix stop all halt 1 v_grown > 1e8 error continue message no
 run 4000
-print "RESULT $(v_grown) $(count(moving)) ${{begin}}"
+print "RESULT $(v_grown) $(count(moving)) ${{begin}} $(c_t[7]:%.17g) $(c_t[8]:%.17g)"
 """
 
 STICKS = "tangential multistep {} 0.0 1e9"
@@ -77,13 +77,15 @@ def lattice(cells=3):
 
 class Limits(SceneCase):
 
-    def grows(self, data, friction, limit, boundary="f f f"):
+    def grows(self, data, friction, limit, boundary="f f f", gn=0.0, order=1):
         """[whether the disturbance grows at .97, at 1.03 of the limit]."""
-        script = "".join(SCRIPT.format(boundary=boundary, data=data, friction=friction, dt=f * limit)
+        script = "".join(SCRIPT.format(boundary=boundary, data=data, friction=friction, dt=f * limit, gn=gn, order=order)
                          for f in (0.97, 1.03))
-        found = [line.split()[1:] for line in self.run_lammps(script).log.splitlines() if line.startswith("RESULT ")]
+        self.log = self.run_lammps(script).log
+        found = [line.split()[1:] for line in self.log.splitlines() if line.startswith("RESULT ")]
         count = found[0][1]
-        return [not float(grown) < 1e8 or left != count for grown, left, _ in found]
+        self.stable = [(float(row[3]), float(row[4])) for row in found]
+        return [not float(row[0]) < 1e8 or row[1] != count for row in found]
 
     def test_twelve_contacts(self):
         write_sphere_data(self.path("data"), ((-3, 3),) * 3, cage(), types=2)
@@ -92,6 +94,32 @@ class Limits(SceneCase):
             largest = max(4 + 8 * (kt or 0), 20 * (kt or 0))
             friction = STICKS.format(kt) if kt else ""
             self.assertEqual(self.grows("data", friction, 2 / math.sqrt(largest)), [False, True], f"kt {kt}")
+
+    def test_damped(self):
+        """Among twelve with a tangential dashpot rotation goes first, and compute timestep/gran knows."""
+        write_sphere_data(self.path("data"), ((-3, 3),) * 3, cage(), types=2)
+        kt, gn = 2 / 7, 0.6      # damping ratio .3
+        friction = f"tangential multistep {kt!r} {0.5 * gn!r} 1e9 slider midpoint limit_damping"
+
+        def limit(order, mass_eff):
+            """20 kt dt^2 + 2 order 20 gt dt = 4 m_eff"""
+            drag = 2 * order * 20 * 0.5 * gn * mass_eff
+            return 8 * mass_eff / (drag + math.sqrt(drag**2 + 16 * 20 * kt * mass_eff))
+        for order in 1, 2:
+            self.assertEqual(self.grows("data", friction, limit(order, 1.0), gn=gn, order=order), [False, True], f"order {order}")
+            for (stable, fraction), f in zip(self.stable, (0.97, 1.03)):
+                self.assert_close(stable, limit(order, 0.5), 1e-9)      # of two free spheres
+                self.assert_close(fraction, f * limit(order, 1.0) / stable, 1e-9)
+            self.assertIn("are stable with the damping of their contacts", self.log)
+
+    def test_said(self):
+        """Of the stability limit alone, where the time step is below 20 % of the critical one."""
+        write_sphere_data(self.path("data"), ((-3, 3),) * 3, cage(), types=2)
+        friction = f"tangential multistep {2 / 7!r} 0.6 1e9 slider midpoint limit_damping"
+        for order, said in (1, False), (2, True):
+            self.grows("data", friction, 0.13, gn=0.6, order=order)
+            self.assertEqual("are stable with the damping of their contacts" in self.log, said, f"order {order}")
+            self.assertNotIn("is advised", self.log)
 
     def test_lattice(self):
         spheres, edge = lattice()

@@ -175,6 +175,27 @@ TEST(OneContact, SeparatedOnesAreForgotten)
   EXPECT_EQ(history.touched(1), 0U);    // there are no such candidates
 }
 
+// With their normals, which go where the histories go.
+TEST(OneContact, KnowsTheNormalOfTheStepBefore)
+{
+  BodyHistory history;
+  history.keep(false, false, true);
+  history.grow(20);
+  history.follow({3, 17}, no_room);
+  history.set_touching(0, 3U, 3U);
+  EXPECT_EQ(history.replace_normal(1, {0.0, 0.6, 0.8}).z, 0.0) << "a new contact has none";
+  EXPECT_EQ(history.replace_normal(1, {0.0, 0.8, 0.6}).z, 0.8);
+  std::vector<double> packed(history.size_packed(17));
+  history.pack(17, packed.data());
+  history.unpack(5, packed.data());
+  history.follow({5, 17}, no_room);
+  EXPECT_EQ(history.replace_normal(0, {1.0, 0.0, 0.0}).z, 0.6);
+  history.set_touching(0, 3U, 2U);    // the first has separated
+  EXPECT_EQ(history.replace_normal(0, {1.0, 0.0, 0.0}).x, 0.0);
+  history.forget_normals();
+  EXPECT_EQ(history.replace_normal(1, {1.0, 0.0, 0.0}).z, 0.0);
+}
+
 V tilted(double angle)
 {
   return {std::sin(angle), 0.0, std::cos(angle)};
@@ -193,10 +214,14 @@ TEST(SeveralContacts, AreKnownByTheirNormals)
 
   SurfaceContact next[4] = {
       {tilted(0.45), 0.3}, {tilted(0.4), 0.2}, {tilted(-1.0), 0.1}, {tilted(1.4), 0.1}};
-  history.continue_contacts(0, next, 4);
+  V before[LargeBodyShape::max_contacts];
+  history.continue_contacts(0, next, 4, before);
   ASSERT_EQ(history.count(0), 4);
   const double continued[4] = {2.0, 1.0, 0.0, 3.0};
   for (int k = 0; k < 4; k++) EXPECT_EQ(history.record(k).c[0], continued[k]) << k;
+  EXPECT_EQ(before[0].x, tilted(0.5).x);
+  EXPECT_EQ(before[1].z, 1.0);
+  EXPECT_EQ(length(before[2]), 0.0) << "a new contact had none";
 
   history.continue_contacts(0, next, 0);
   EXPECT_EQ(history.count(0), 0);

@@ -43,6 +43,37 @@ TEST(BodyRotation, TurnsAndTurnsBack)
   }
 }
 
+// What contacts of second order see: the rate at which a point moves in the axes of the body.
+TEST(BodyMoment, SeesVelocitiesInTheFrameOfTheBody)
+{
+  const auto turning = PrescribedMotion::rotate({0.5, 0.0, 1.0}, {0.0, 0.6, 0.8}, 3.0);
+  const V v{0.3, -1.0, 0.7}, start{1.0, 2.0, 3.0}, x{0.2, 0.9, -0.4};
+  const double h = 1e-5;
+  const auto place = [&](double t) {    // of the point, in the frame of the body
+    BodyFrame frame;
+    frame.moves = true;
+    frame.set(turning.at(t, start));
+    return frame.point_to_body(x + (t - 0.7) * v);
+  };
+  BodyMoment moment;
+  moment.set(turning.at(0.7, start));
+  const V seen = 0.5 / h * (place(0.7 + h) - place(0.7 - h));
+  EXPECT_NEAR(length(moment.velocity_seen(v, x) - seen), 0.0, 1e-8);
+  EXPECT_NEAR(length(moment.omega_seen(moment.omega)), 0.0, 1e-15);
+}
+
+TEST(BodyMoment, HalfWayOfATurn)
+{
+  const auto turning = PrescribedMotion::rotate({0.5, 0.0, 1.0}, {0.0, 0.6, 0.8}, 3.0);
+  const V start{1.0, 2.0, 3.0};
+  const double h = 1e-3;
+  const BodyState half_way =
+      half_way_between(turning.at(0.7 - h, start), turning.at(0.7 + h, start));
+  const BodyState exact = turning.at(0.7, start);
+  EXPECT_NEAR(length(half_way.position - exact.position), 0.0, 10.0 * h * h);
+  EXPECT_NEAR(half_way.orientation.angularDistance(exact.orientation), 0.0, 1e-7);
+}
+
 TEST(BodyMotion, PrescribedStatesAndTheirVelocities)
 {
   const V start{1.0, 2.0, 3.0}, point{0.5, 0.0, 1.0}, axis{0.0, 0.6, 0.8};
@@ -219,7 +250,7 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
   const double stiffness = 1000.0;
   for (int n = 0; n < 4000; n++) {
     const double pressed = std::max(0.0, -0.1 - state.position.z) * stiffness;
-    servo.advance(state, {0, 0, pressed}, {0, 0, 0}, 1e-3);
+    servo.advance(state, servo.rate({0, 0, pressed}, {0, 0, 0}), 1e-3);
     fastest = std::max(fastest, std::fabs(state.velocity.z));
   }
   EXPECT_NEAR(state.position.z, -0.15, 1e-6);
@@ -228,7 +259,7 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
 
   servo.turns = true;
   state = BodyState{};
-  servo.advance(state, {9, 9, 9}, {0, 0, 0}, 1e-3);
+  servo.advance(state, servo.rate({9, 9, 9}, {0, 0, 0}), 1e-3);
   EXPECT_NEAR(length(state.omega - V{0, 0, -0.2}), 0.0, 1e-15);
   EXPECT_EQ(length(state.position), 0.0);
 }

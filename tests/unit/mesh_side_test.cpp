@@ -44,6 +44,21 @@ std::vector<Triangle> box(const V &low, const V &high, int n)
   return soup;
 }
 
+/// The mantle of a cylinder about z of facets, normals outward.
+std::vector<Triangle> pipe(int facets)
+{
+  const auto at = [facets](int k, double z) {
+    const double angle = 2.0 * std::acos(-1.0) * k / facets;
+    return V{std::cos(angle), std::sin(angle), z};
+  };
+  std::vector<Triangle> soup;
+  for (int k = 0; k < facets; k++) {
+    soup.push_back({{at(k, 0.0), at(k + 1, 0.0), at(k + 1, 1.0)}});
+    soup.push_back({{at(k, 0.0), at(k + 1, 1.0), at(k, 1.0)}});
+  }
+  return soup;
+}
+
 void shuffle_sides(std::vector<Triangle> &soup, RandomSource &random)
 {
   for (Triangle &t : soup)
@@ -68,6 +83,19 @@ std::vector<SurfaceContact> contacts(const MeshShape &mesh, const V &x, double r
   std::vector<SurfaceContact> found(LargeBodyShape::max_contacts);
   found.resize(mesh.find_contacts(x, r, view(parts), found.data()));
   return found;
+}
+
+// Facets of a smooth surface: the force on a sphere turns at once where they make a hollow.
+TEST(MeshSides, JumpsAreOnTheHollowSideOfFacets)
+{
+  const auto jumps = [](const std::vector<Triangle> &soup, MeshSide side) {
+    return MeshShape(TriangleMesh(soup), side).has_jumps();
+  };
+  EXPECT_TRUE(jumps(pipe(16), MeshSide::BACKS));
+  EXPECT_FALSE(jumps(pipe(16), MeshSide::NORMALS));
+  EXPECT_TRUE(jumps(pipe(16), MeshSide::BOTH));
+  EXPECT_FALSE(jumps(pipe(8), MeshSide::BACKS)) << "these are edges, where both facets are touched";
+  EXPECT_FALSE(jumps(box({0, 0, 0}, {1, 1, 1}, 3), MeshSide::BOTH));
 }
 
 TEST(MeshInside, RandomAndRegularPoints)

@@ -175,12 +175,13 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
   int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;
   for (int k = 0; k < count; k++) found[k].overlap -= reach;
   std::size_t slot = 0;
+  Vector3<double> before[LargeBodyShape::max_contacts];
   if (task->with_history) {
     slot = task->history.first_slot(c);
-    count = task->history.continue_contacts(c, found, count);
+    count = task->history.continue_contacts(c, found, count, before);
   }
   if (count) view.prefetch_for_contact(i);
-  for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k]);
+  for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k], before[k]);
 }
 
 /* Candidates stand far from each other in memory: what one needs is prefetched a while before.
@@ -197,7 +198,7 @@ void BodyBatch::prefetch_parts(std::size_t c, std::size_t last) const
 }
 
 void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x, double r,
-                       const SurfaceContact &contact)
+                       const SurfaceContact &contact, const Vector3<double> &normal_before)
 {
   const double at[3] = {x.x, x.y, x.z};
   const double n[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
@@ -210,6 +211,7 @@ void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x
   candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
   slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
   part_of_lane[filled] = contact.part;
+  if (turns()) set_turn(filled, contact.normal, normal_before);
   if (++filled == ContactBatch::width) flush();
 }
 

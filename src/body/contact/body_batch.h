@@ -102,7 +102,7 @@ class BodyBatch {
   void look_at_parts(std::size_t candidate, std::size_t last);
   void prefetch_parts(std::size_t candidate, std::size_t last) const;
   void append(std::size_t candidate, std::size_t slot, const Vector3<double> &x, double r,
-              const SurfaceContact &contact);
+              const SurfaceContact &contact, const Vector3<double> &normal_before);
   void flush();
   void account();
   void survey() const;
@@ -117,6 +117,16 @@ class BodyBatch {
   Motion motion_in_records(const int *index, int k) const;
   Motion motion_in_arrays(const int *index, int k) const;
   void gather_changes(const int *index, int k);
+  void see_from_body(Motion &m, int k);
+  void run_past(Motion &m, int k);
+  Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;
+  void gather_turns(int k);
+  void set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before);
+  /// Its laws ask for what normals have turned in the last step.
+  bool turns() const
+  {
+    return law.tangential().second_order && law.has_friction() && task->history.keeps_normals();
+  }
   void gather_histories(int k);
   void gather_resistance();
   void gather_coefficients();

@@ -61,47 +61,131 @@ void BodyBatch::gather()
     int index[lanes];
     for (int q = 0; q < lanes; q++) index[q] = task->index[candidate_of_lane[k + q]];
     Motion m = task->view.records ? motion_in_records(index, k) : motion_in_arrays(index, k);
+    const bool second_order = law.tangential().second_order;
+    if (second_order) gather_changes(index, k);
     if (frame.moves) {
-      m.velocity = frame.to_body(m.velocity - frame.velocity_at(vector_at(place, k)));
-      m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
+      if (second_order)
+        see_from_body(m, k);
+      else {
+        m.velocity = frame.to_body(m.velocity - frame.velocity_at(vector_at(place, k)));
+        m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
+      }
       m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
     }
-    if (frame.runs) {
-      const Vector3<Vec8> surface = in_all_lanes<Vec8>(frame.surface_velocity),
-                          n = vector_at(batch.normal, k);
-      m.velocity = m.velocity - (surface - dot(surface, n) * n);
-    }
+    if (frame.runs) run_past(m, k);
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius);
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) store_at(batch.relative_omega, k, m.omega);
-    if (law.tangential().second_order) gather_changes(index, k);
+    if (turns() && !task->history.several()) gather_turns(k);
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
   if (!task->laws.uniform()) gather_coefficients();
 }
 
-/* The body does not move. */
+/* The velocities are those half a step before, in the frame that the body had then, the changes lead
+   to those of the present in its frame: so displacements and damping have both where they belong. */
+
+void BodyBatch::see_from_body(Motion &m, int k)
+{
+  const BodyFrame &frame = task->frame;
+  const Vector3<Vec8> x = vector_at(place, k), v = m.velocity, omega = m.omega;
+  const Vec8 r = load8(&radius[k]);
+  m.velocity = frame.half_way.velocity_seen(v, x - splat<Vec8>(task->lag) * v);
+  m.omega = frame.half_way.omega_seen(omega);
+  const Vector3<Vec8> velocity =
+      frame.present.velocity_seen(v + vector_at(batch.velocity_change, k), x);
+  const Vector3<Vec8> rotation =
+      rotated_back(frame.present.rotation, r * (omega - in_all_lanes<Vec8>(frame.present.omega)) +
+                                               vector_at(batch.rotation_change, k));
+  store_at(batch.velocity_change, k, velocity - m.velocity);
+  store_at(batch.rotation_change, k, rotation - r * m.omega);
+}
+
+/* Only the part of the surface's velocity counts that is tangential at the contact: to second order
+   where that was half a step before, and of the changes where it is now. */
+
+void BodyBatch::run_past(Motion &m, int k)
+{
+  const Vector3<Vec8> surface = in_all_lanes<Vec8>(task->frame.surface_velocity),
+                      n = vector_at(batch.normal, k);
+  const Vector3<Vec8> now = surface - dot(surface, n) * n;
+  if (!law.tangential().second_order) {
+    m.velocity = m.velocity - now;
+    return;
+  }
+  alignas(64) double before[3][lanes];
+  for (int q = 0; q < lanes; q++) {
+    const Vector3<double> its =
+        normal_before(k + q, {m.velocity.x[q], m.velocity.y[q], m.velocity.z[q]});
+    before[0][q] = its.x;
+    before[1][q] = its.y;
+    before[2][q] = its.z;
+  }
+  const Vector3<Vec8> n_before{load8(before[0]), load8(before[1]), load8(before[2])};
+  const Vector3<Vec8> then = surface - dot(surface, n_before) * n_before;
+  m.velocity = m.velocity - then;
+  store_at(batch.velocity_change, k, vector_at(batch.velocity_change, k) - (now - then));
+}
+
+/* At the time of the velocities; a contact that was not there has the normal of now. It is looked
+   for and not remembered, so that a run that is set up finds the same bits. */
+
+Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &velocity) const
+{
+  const Vector3<double> now{batch.normal[0][lane], batch.normal[1][lane], batch.normal[2][lane]};
+  const Vector3<double> at =
+      task->frame.point_to_body(Vector3<double>{place[0][lane], place[1][lane], place[2][lane]});
+  const Vector3<double> x = at - task->lag * velocity;
+  SurfaceContact found[LargeBodyShape::max_contacts];
+  bool may_touch = true;
+  const bool several = task->shape.most_contacts() > 1;
+  const std::size_t c = candidate_of_lane[lane];
+  const NearParts near = several ? task->candidates.parts_near(c, x, radius[lane], may_touch)
+                                 : NearParts{nullptr, nullptr};
+  const int count = may_touch ? task->shape.find_contacts(x, radius[lane], near, found) : 0;
+  Vector3<double> nearest = now;
+  double largest = 0.8;    // as of contacts that go on, see BodyHistory
+  for (int n = 0; n < count; n++) {
+    const double cosine = dot(found[n].normal, now);
+    if (cosine <= largest) continue;
+    largest = cosine;
+    nearest = found[n].normal;
+  }
+  return nearest;
+}
 
 void BodyBatch::gather_changes(const int *index, int k)
 {
-  for (int q = 0; q < lanes; q++) {
-    const double r = radius[k + q], *v = nullptr, *omega = nullptr;
-    if (task->view.records) {
-      const Record *its = &task->view.records->change[2L * index[q]];
-      v = its[0].c;
-      omega = its[1].c;
-    } else {
-      v = task->view.change + 6L * index[q];
-      omega = v + 3;
-    }
-    for (int d = 0; d < 3; d++) {
-      batch.velocity_change[d][k + q] = v[d];
-      batch.rotation_change[d][k + q] = r * omega[d];
-    }
+  const ChangeRecord *const change =
+      task->view.records ? task->view.records->change.data() : task->view.change;
+  for (int half = 0; half < lanes; half += 4) {
+    Float8 row[4];
+    for (int q = 0; q < 4; q++) row[q] = load8(change[index[half + q]]);
+    to_lanes(row, batch.velocity_change, batch.rotation_change, k + half);
   }
+}
+
+/* Of shapes with several contacts it is known since they were found. Lanes behind the last contact
+   have the geometry of others. */
+
+void BodyBatch::gather_turns(int k)
+{
+  for (int q = k; q < std::min(k + lanes, filled); q++) {
+    const Vector3<double> n{batch.normal[0][q], batch.normal[1][q], batch.normal[2][q]};
+    set_turn(q, n, task->history.replace_normal(slots()[q], n));
+  }
+}
+
+void BodyBatch::set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before)
+{
+  const bool known = before.x != 0.0 || before.y != 0.0 || before.z != 0.0;
+  const Vector3<double> turn = known ? normal - before : Vector3<double>{0.0, 0.0, 0.0};
+  batch.turn[0][lane] = turn.x;
+  batch.turn[1][lane] = turn.y;
+  batch.turn[2][lane] = turn.z;
 }
 
 BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const

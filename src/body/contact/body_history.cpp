@@ -26,7 +26,7 @@ Record BodyHistory::of_particle(int particle) const
 
 BodyHistory::Contact BodyHistory::contact_at(std::size_t slot) const
 {
-  return {with_several ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0}, records[slot],
+  return {with_normals ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0}, records[slot],
           with_impact ? impacts[slot] : Record{}};
 }
 
@@ -34,14 +34,14 @@ void BodyHistory::put(std::size_t slot, const Contact &contact)
 {
   records[slot] = contact.history;
   if (with_impact) impacts[slot] = contact.impact;
-  if (with_several) normals[slot] = contact.normal;
+  if (with_normals) normals[slot] = contact.normal;
 }
 
 void BodyHistory::resize_slots(std::size_t n)
 {
   records.resize(n);
   impacts.resize(with_impact ? n : 0);
-  normals.resize(with_several ? n : 0);
+  normals.resize(with_normals ? n : 0);
 }
 
 int BodyHistory::pack(int particle, double *buf) const
@@ -91,7 +91,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   for (std::size_t c = 0; c < n; c++) entry_of[candidates[c]] = static_cast<int>(c);
 
   BodyHistory old = std::exchange(*this, BodyHistory{});
-  keep(old.with_several, old.with_impact);
+  keep(old.with_several, old.with_impact, old.with_normals);
   entry_of.swap(old.entry_of);
   num_candidates = n;
   touching = std::vector<std::atomic<std::uint8_t>>(with_several ? 0 : (n + 7) / 8);
@@ -123,10 +123,12 @@ void BodyHistory::clear(std::size_t block, unsigned separated)
     if (!(separated & 1U)) continue;
     records[c] = Record{};
     if (with_impact) impacts[c] = Record{};
+    if (with_normals) normals[c] = {0.0, 0.0, 0.0};
   }
 }
 
-int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count)
+int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
+                                   Vector3<double> *before)
 {
   constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
   Contact old[LargeBodyShape::max_contacts];
@@ -152,6 +154,7 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
     }
     if (best < 0 && !(found[n].overlap > 0.0)) continue;
     found[left] = found[n];
+    if (before) before[left] = best >= 0 ? old[best].normal : Vector3<double>{0.0, 0.0, 0.0};
     put(slot + left++, now);
   }
   counts[candidate] = static_cast<std::uint8_t>(left);

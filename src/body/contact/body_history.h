@@ -20,9 +20,11 @@
 #include "body/shape/large_body_shape.h"
 #include "particles/record.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace Talus {
@@ -30,19 +32,21 @@ namespace Talus {
 class BodyHistory {
  public:
   /// `several`: a particle may have more than one contact with the body. `impacts`: impact records
-  /// are kept as well, see record.h. Call before anything is stored.
-  void keep(bool several, bool impacts)
+  /// are kept as well, see record.h; `normals`: what replace_normal() asks for, without several.
+  /// Call before anything is stored.
+  void keep(bool several, bool impacts, bool normals = false)
   {
     with_several = several;
     with_impact = impacts;
+    with_normals = several || normals;
   }
 
   void grow(int num_particles) { entry_of.resize(num_particles, nowhere); }
   void copy(int from, int to) { entry_of[to] = entry_of[from]; }
   void forget(int particle) { entry_of[particle] = nowhere; }
 
-  /// For migration and restart: the number of contacts, then of each its normal (of bodies with
-  /// several contacts), history and impact. Return the number of doubles.
+  /// For migration and restart: the number of contacts, then of each its normal (if kept),
+  /// history and impact. Return the number of doubles.
   static constexpr int size_contact = 11;
   static constexpr int max_packed = 1 + LargeBodyShape::max_contacts * size_contact;
   int pack(int particle, double *buf) const;
@@ -83,8 +87,23 @@ class BodyHistory {
   /// With several(): the contacts that a candidate has now; slot k of it is that of found[k]. A
   /// contact continues that with the nearest normal, in the frame of the body: from one step to the
   /// next it turns by far less than the angle between two contacts. Contacts without overlap that
-  /// continue none are taken out of `found`; returns how many are left.
-  int continue_contacts(std::size_t candidate, SurfaceContact *found, int count);
+  /// continue none are taken out of `found`; returns how many are left. `before`: nullptr, or
+  /// receives the normals that they had, zero of new ones.
+  int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
+                        Vector3<double> *before = nullptr);
+
+  /// Without several(), and if asked for: stores the normal of a contact, in the frame of the body,
+  /// and returns the one before it, zero of a new one.
+  bool keeps_normals() const { return with_normals; }
+  Vector3<double> replace_normal(std::size_t slot, const Vector3<double> &now)
+  {
+    return std::exchange(normals[slot], now);
+  }
+  /// Where they were not stored in every step.
+  void forget_normals()
+  {
+    if (!with_several) std::fill(normals.begin(), normals.end(), Vector3<double>{0.0, 0.0, 0.0});
+  }
 
   /// Contacts of a particle, and history of the first; zero if it has none.
   int count(int particle) const;
@@ -104,13 +123,13 @@ class BodyHistory {
   void resize_slots(std::size_t n);
   void clear(std::size_t block, unsigned separated);
 
-  bool with_several = false, with_impact = false;
+  bool with_several = false, with_impact = false, with_normals = false;
   std::size_t num_candidates = 0;
   std::vector<int> entry_of;    // by particle: its candidate, or what came since, behind those
   // by entry, only with several contacts: first slot, contacts
   std::vector<std::uint32_t> first;
   std::vector<std::uint8_t> counts;
-  // by slot: history; impact, or empty; normal, only with several contacts
+  // by slot: history; impact, or empty; normal, or empty
   AlignedVector<Record> records, impacts;
   std::vector<Vector3<double>> normals;
   // one bit for each candidate, only with one contact: its record may not be zero

@@ -25,8 +25,8 @@ struct BodyParticleView {
   double *f, *torque;
   double *virial = nullptr;    ///< nullptr, or six for each particle: xx yy zz xy xz yz
   ParticleRecords *records = nullptr;
-  const int *slot_of_atom = nullptr;    ///< of the records
-  const double *change = nullptr;       ///< see ParticleView
+  const int *slot_of_atom = nullptr;       ///< of the records
+  const ChangeRecord *change = nullptr;    ///< see ParticleView
 
   // by the host's index
   int index_of(int atom) const { return records ? slot_of_atom[atom] : atom; }

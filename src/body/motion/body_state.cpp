@@ -31,6 +31,22 @@ BodyState BodyState::from_array(const double *a)
   return s;
 }
 
+BodyState half_way_between(const BodyState &a, const BodyState &b)
+{
+  BodyState s;
+  s.position = 0.5 * (a.position + b.position);
+  s.orientation = a.orientation.slerp(0.5, b.orientation).normalized();
+  return s;
+}
+
+void BodyMoment::set(const BodyState &s)
+{
+  position = s.position;
+  rotation = s.orientation.toRotationMatrix();
+  velocity = s.velocity;
+  omega = s.omega;
+}
+
 void BodyFrame::set(const BodyState &s)
 {
   state = s;

@@ -26,6 +26,30 @@ struct BodyState {
   static BodyState from_array(const double *a);
 };
 
+/// Half way between two poses; velocities are not set.
+BodyState half_way_between(const BodyState &a, const BodyState &b);
+
+/// Place and velocities of a body at one time.
+struct BodyMoment {
+  Vector3<double> position{0.0, 0.0, 0.0};
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vector3<double> velocity{0.0, 0.0, 0.0}, omega{0.0, 0.0, 0.0};
+
+  void set(const BodyState &state);
+  /// In the frame of the body: velocity v of a point x, and an angular velocity, against the body.
+  template <class Real>
+  Vector3<Real> velocity_seen(const Vector3<Real> &v, const Vector3<Real> &x) const
+  {
+    const Vector3<Real> own = in_all_lanes<Real>(velocity) +
+                              cross(in_all_lanes<Real>(omega), x - in_all_lanes<Real>(position));
+    return rotated_back(rotation, v - own);
+  }
+  template <class Real> Vector3<Real> omega_seen(const Vector3<Real> &w) const
+  {
+    return rotated_back(rotation, w - in_all_lanes<Real>(omega));
+  }
+};
+
 /// A body as its contacts see it in one step. `moves` false: space and body share one frame, the
 /// state is not looked at. Vectors may be those of one contact (Real = double) or of eight (Vec8).
 struct BodyFrame {
@@ -35,6 +59,9 @@ struct BodyFrame {
   bool turned = false;                                       ///< the rotation is not 1
   Vector3<double> origin{0.0, 0.0, 0.0};    ///< the reference point in the frame of the body
   double inverse_mass = 0.0;                ///< 0: infinitely heavy
+  /// Only for laws of second order: at the time of the velocities of particles, and at that of
+  /// positions with velocities that are as far ahead.
+  BodyMoment half_way, present;
   /// The surface runs past the body that stays, like a belt: frame of the body; at each contact
   /// only the part that is tangential there counts. `runs` false: it does not.
   bool runs = false;

@@ -49,14 +49,14 @@ double RigidBody::kinetic_energy(const BodyState &state) const
 }
 
 void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
-                        const Vector3<double> &torque, double dt) const
+                        const Vector3<double> &torque, double kick, double dt) const
 {
   Vector3<double> &v = state.velocity;
-  v = v + dt * acceleration;
+  v = v + kick * acceleration;
   v = {locked[0] ? 0.0 : v.x, locked[1] ? 0.0 : v.y, locked[2] ? 0.0 : v.z};
   state.position = state.position + dt * v;
 
-  Vector3<double> momentum = angular_momentum(state) + dt * torque;
+  Vector3<double> momentum = angular_momentum(state) + kick * torque;
   momentum = {locked[3] ? 0.0 : momentum.x, locked[4] ? 0.0 : momentum.y,
               locked[5] ? 0.0 : momentum.z};
   if (dot(momentum, momentum) == 0.0) {
@@ -70,19 +70,25 @@ void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
   state.omega = omega_of(momentum, state.orientation);
 }
 
-void Servo::advance(BodyState &state, const Vector3<double> &force, const Vector3<double> &torque,
-                    double dt) const
+double Servo::rate(const Vector3<double> &force, const Vector3<double> &torque) const
 {
   const double pressed = -dot(turns ? torque : force, axis);
   const double wanted = gain * vmax * (target - pressed) / std::fabs(target);
-  const Vector3<double> rate = std::clamp(wanted, -vmax, vmax) * axis;
-  if (turns) {
-    state.omega = rate;
-    state.orientation = (turn_of(rate, dt) * state.orientation).normalized();
-  } else {
-    state.velocity = rate;
-    state.position = state.position + dt * rate;
-  }
+  return std::clamp(wanted, -vmax, vmax);
+}
+
+void Servo::set_rate(BodyState &state, double rate) const
+{
+  (turns ? state.omega : state.velocity) = std::clamp(rate, -vmax, vmax) * axis;
+}
+
+void Servo::advance(BodyState &state, double rate, double dt) const
+{
+  set_rate(state, rate);
+  if (turns)
+    state.orientation = (turn_of(state.omega, dt) * state.orientation).normalized();
+  else
+    state.position = state.position + dt * state.velocity;
 }
 
 }    // namespace Talus

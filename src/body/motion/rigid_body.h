@@ -23,18 +23,23 @@ class RigidBody {
 
   bool translates() const { return !(locked[0] && locked[1] && locked[2]); }
 
-  /// `acceleration` and `torque` (in units of mass, length, time) act during dt.
+  /// `acceleration` and `torque` (in units of mass, length, time) act during `kick`, then the body
+  /// goes on for dt.
   void advance(BodyState &state, const Vector3<double> &acceleration, const Vector3<double> &torque,
-               double dt) const;
+               double kick, double dt) const;
+  void advance(BodyState &state, const Vector3<double> &acceleration, const Vector3<double> &torque,
+               double dt) const
+  {
+    advance(state, acceleration, torque, dt, dt);
+  }
 
   /// Angular momentum about the center of mass, without the parts that locks take up.
   Vector3<double> angular_momentum(const BodyState &state) const;
-  /// mass v^2/2 + omega . L/2.
-  double kinetic_energy(const BodyState &state) const;
-
- private:
+  /// The inverse of it.
   Vector3<double> omega_of(const Vector3<double> &momentum,
                            const Eigen::Quaterniond &orientation) const;
+  /// mass v^2/2 + omega . L/2.
+  double kinetic_energy(const BodyState &state) const;
 };
 
 /// Holds a force or torque by moving along, or turning about, one axis: the velocity is
@@ -45,9 +50,15 @@ struct Servo {
   Vector3<double> axis{0.0, 0.0, 1.0};    ///< unit vector
   double target = 0.0, vmax = 0.0, gain = 1.0;
 
-  /// `force` and `torque`: of the particles on the body.
-  void advance(BodyState &state, const Vector3<double> &force, const Vector3<double> &torque,
-               double dt) const;
+  /// Speed, or angular speed. `force` and `torque`: of the particles on the body.
+  double rate(const Vector3<double> &force, const Vector3<double> &torque) const;
+  double rate_of(const BodyState &state) const
+  {
+    return dot(turns ? state.omega : state.velocity, axis);
+  }
+  /// Velocities at this rate, which is first limited to vmax.
+  void set_rate(BodyState &state, double rate) const;
+  void advance(BodyState &state, double rate, double dt) const;
 };
 
 }    // namespace Talus

@@ -26,14 +26,17 @@ class Frustum : public LargeBodyShape {
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
           double length, bool inside, bool open = false);
 
+  /// A cylinder that is touched from inside, with caps unless it is infinite.
+  bool is_vessel() const { return inside && !open && low == high; }
+  const Vector3<double> &unit_axis() const { return axis; }
+  double mantle_radius() const { return low; }
+  bool is_endless() const { return endless; }
+  double half_length() const { return half; }
+
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  const Vector3<double> &unit_axis() const { return axis; }
-  double half_length() const { return half; }
-  /// Of a cylinder whose inside acts, alone; 0 of others.
-  double inner_radius() const { return inside && !open && low == high ? low : 0.0; }
   int most_contacts() const override { return inside && !endless && !open ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;

@@ -48,6 +48,12 @@ class MeshShape : public LargeBodyShape {
   {
     return inside == mesh.faces_outward() ? MeshSide::BACKS : MeshSide::NORMALS;
   }
+  /// Spheres may go from facet to facet of a hollow, see TriangleMesh::hollow_in_front().
+  bool has_jumps() const
+  {
+    return (acting != MeshSide::BACKS && mesh.hollow_in_front()) ||
+           (acting != MeshSide::NORMALS && mesh.hollow_behind());
+  }
   /// For messages: the file.
   const std::string &name() const { return file; }
   void set_name(const std::string &its) { file = its; }

@@ -56,6 +56,7 @@ TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup, bool to_orient)
   look_at_edges(edges);
   find_patches(edges);
   find_planes(edges);
+  find_hollows(edges);
   find_volume();
 }
 
@@ -212,6 +213,24 @@ void TriangleMesh::find_patches(const MeshEdges &edges)
       patches[high] = low;
     }
   for (int t = 0; t < size(); t++) patches[t] = root(t);
+}
+
+void TriangleMesh::find_hollows(const MeshEdges &edges)
+{
+  for (const MeshEdges::Edge &e : edges.all()) {
+    if (e.num_users != 2) continue;
+    const int a = edges.users(e)[0], b = edges.users(e)[1];
+    if (patches[a] != patches[b] || planes[a] == planes[b]) continue;
+    const Vector3<double> n = normal(a), from = vertices[triangles[a].vertex[0]];
+    double height = 0.0;    // of the corner of b that is not on the edge
+    for (const int v : triangles[b].vertex) {
+      const double its = dot(vertices[v] - from, n);
+      if (std::fabs(its) > std::fabs(height)) height = its;
+    }
+    const bool opposed = dot(n, normal(b)) < 0.0;
+    if (height > 0.0 || opposed) hollow[0] = true;
+    if (height < 0.0 || opposed) hollow[1] = true;
+  }
 }
 
 /* From each triangle that is in no plane yet over its edges to all that are in its own: the plane

@@ -58,6 +58,11 @@ class TriangleMesh {
   /// them, whose normal and plane stand for all.
   int plane_of(int t) const { return planes[t]; }
 
+  /// There are facets of one patch that make a hollow on the side to which normals point, or on the
+  /// other one: where a sphere goes from one to the next, the normal of its contact jumps.
+  bool hollow_in_front() const { return hollow[0]; }
+  bool hollow_behind() const { return hollow[1]; }
+
   /// Volume enclosed (negative if normals point inward) and its center; without enclosed volume the
   /// center of the area.
   double volume() const { return enclosed; }
@@ -76,6 +81,7 @@ class TriangleMesh {
   void find_patches(const MeshEdges &edges);
   void find_planes(const MeshEdges &edges);
   void spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do);
+  void find_hollows(const MeshEdges &edges);
   void find_volume();
 
   std::vector<Vector3<double>> vertices;
@@ -84,7 +90,7 @@ class TriangleMesh {
   std::vector<int> file_numbers;    // empty: those of the file
   MeshReport findings;
   Eigen::AlignedBox3d extent;
-  bool outward = true;
+  bool outward = true, hollow[2] = {false, false};
   double enclosed = 0.0;
   Vector3<double> middle{0.0, 0.0, 0.0};
 };

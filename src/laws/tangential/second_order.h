@@ -113,7 +113,7 @@ template <class Real> struct Slide {
   Real old_limit;    ///< of the last step
   double dt;
   bool_of<Real> known;    ///< it was there a step ago
-  Vector3<Real> normal, velocity;
+  Vector3<Real> normal, velocity, turn;
   Vector3<Real> old_velocity, old_rotation;    ///< a step ago
 };
 
@@ -258,6 +258,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                             last.known,
                             s.normal,
                             s.velocity,
+                            s.turn,
                             s.velocity - s.velocity_change,
                             s.surface_rotation - s.rotation_change};
       d = select(slides, slide(c, its, before, slip, with_length(limit, f), time), d);
@@ -284,7 +285,8 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real kt_old = s.kt * power(x_old, of_kt), gt_old = s.gt * power(x_old, of_gt);
     const Real kt_mid = s.kt * power(x_mid, of_kt), gt_mid = s.gt * power(x_mid, of_gt);
 
-    const Vector3<Real> n_old = with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity);
+    const Vector3<Real> n_old =
+        with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity - s.turn);
     const Vector3<Real> u_old =
         turned(surface_velocity_of(s.old_velocity, s.old_rotation, n_old), s.normal);
     const Vector3<Real> f_old = limited(kt_old * before + gt_old * u_old, s.old_limit);

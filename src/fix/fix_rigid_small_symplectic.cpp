@@ -1,0 +1,173 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "fix_rigid_small_symplectic.h"
+
+#include "system/command_words.h"
+#include "system/private_member.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix_gravity.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using Talus::ClumpState;
+using Talus::Words;
+
+namespace Talus {
+struct DisabledGravity {
+  using Type = int FixGravity::*;
+  friend Type pointer_to(DisabledGravity);
+};
+template struct PrivateMember<DisabledGravity, &FixGravity::disable>;
+}    // namespace Talus
+
+namespace {
+constexpr const char *command = "fix rigid/small/symplectic";
+constexpr const char *title = "Fix rigid/small/symplectic";
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+FixRigidSmallSymplectic::Settings::Settings(LAMMPS *lmp, int narg, char **arg) :
+    stock(arg, arg + std::min(narg, 3)), start(lmp, title), gravity(lmp)
+{
+  Words words = Talus::command_words(lmp, command, narg, arg, 3);
+  const auto hand_over = [&](int count, const std::string &expected) {
+    for (int n = 0; n < count; n++) {
+      if (words.at_end()) words.text(expected);
+      stock.push_back(arg[words.index()]);
+      words.skip(1);
+    }
+  };
+  const bool custom = words.choice("kind of bodies", {"molecule", "custom"}) == 1;
+  words.skip(-1);
+  hand_over(custom ? 2 : 1, "i_name or v_name");
+
+  static const std::vector<std::string> keywords = {"start", "order",  "gravity",
+                                                    "mol",   "infile", "reinit"};
+  std::vector<std::string> known;
+  while (!words.at_end()) {
+    const std::string keyword = words.peek();
+    if (std::find(known.begin(), known.end(), keyword) != known.end())
+      words.fail(0, "keyword '" + keyword + "' given twice");
+    known.push_back(keyword);
+    const int which = words.choice("keyword", keywords);
+    words.about(keyword);
+    if (which == 0) {
+      start.set_half(words.choice("value", {"half", "plain"}) == 0);
+    } else if (which == 1) {
+      if (words.choice("value", {"1", "2"}) == 1)
+        words.fail(1, "clumps have order 1: use 'order 1', or leave it out");
+    } else if (which == 2) {
+      gravity.parse(words);
+    } else {
+      words.skip(-1);
+      hand_over(2, which == 3   ? "ID of a molecule template"
+                   : which == 4 ? "name of a file"
+                                : "yes or no");
+    }
+    words.about("");
+  }
+}
+
+FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, int narg, char **arg) :
+    FixRigidSmallSymplectic(lmp, Settings(lmp, narg, arg))
+{
+}
+
+FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, Settings settings) :
+    FixRigidSmallTalus(lmp, static_cast<int>(settings.stock.size()), settings.stock.data()),
+    start(settings.start), gravity(settings.gravity)
+{
+  restart_global = 1;
+}
+
+int FixRigidSmallSymplectic::setmask()
+{
+  return INITIAL_INTEGRATE | PRE_NEIGHBOR;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallSymplectic::init()
+{
+  FixRigidSmallTalus::init();
+  if (!reason.empty())
+    error->all(FLERR, Error::NOLASTLINE, "{} {}: {}: use fix rigid/small", title, id, reason);
+  for (const Fix *fix : modify->get_fix_list())
+    if (fix != this) check_fix(fix);
+}
+
+/* Without a pair style of Talus as well: forces are those of the arrays. */
+
+std::string FixRigidSmallSymplectic::find_reason()
+{
+  return reason_of_settings();
+}
+
+void FixRigidSmallSymplectic::check_fix(const Fix *fix) const
+{
+  std::string problem;
+  if (fix->time_integrate)
+    problem = "moves them as well: give it another group";
+  else if (utils::strmatch(fix->style, "^freeze"))
+    problem = "freezes them, but they move: give it another group";
+  else if (const auto *field = dynamic_cast<const FixGravity *>(fix))
+    if (gravity.given() && !(field->*pointer_to(Talus::DisabledGravity{})))
+      problem = "lets them fall a second time: leave the word gravity out, or use 'disable' there";
+  if (problem.empty()) return;
+  const bigint n = count_common(fix);
+  if (n)
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {}: of the spheres of its clumps {} are in the group "
+               "of fix {} ({}), which {}",
+               title, id, n, fix->id, fix->style, problem);
+}
+
+bigint FixRigidSmallSymplectic::count_common(const Fix *fix) const
+{
+  bigint mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (bodytag[i] && (atom->mask[i] & fix->groupbit)) mine++;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallSymplectic::initial_integrate(int vflag)
+{
+  v_init(vflag);
+  look_at_storage();
+  share_loads();
+  const double dt = update->dt, time = start.next_kick(dt) * force_unit();
+  const double *g = gravity.acceleration();
+  const Kick kick{time, {time * g[0], time * g[1], time * g[2]}, 1.0};
+  for_each_clump([&](int clump, Body &b) {
+    ClumpState s = state_of(b);
+    const Loads sum = loads_on(clump, s);
+    s.kick(time, sum.force, sum.torque);
+    s.velocity = s.velocity + Talus::Vector3<double>{kick.fall[0], kick.fall[1], kick.fall[2]};
+    s.drift_exponential(dt);
+    put_state(s, b);
+    place_spheres(clump, s, b, true, kick);
+  });
+  if (in_records_now()) system->advance({dt, time, {0.0, 0.0, 0.0}, 0.4});
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallSymplectic::write_restart(FILE *fp)
+{
+  start.write_restart(fp);
+}
+
+void FixRigidSmallSymplectic::restart(char *buf)
+{
+  start.restart(buf);
+}

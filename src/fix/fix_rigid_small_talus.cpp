@@ -1,0 +1,303 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "fix_rigid_small_talus.h"
+
+#include "plain_style.h"
+
+#include "atom.h"
+#include "base/in_parallel.h"
+#include "comm.h"
+#include "domain.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using Talus::ClumpState;
+using Talus::Residence;
+using Vector = Talus::Vector3<double>;
+
+namespace {
+
+Vector vector_of(const double *a)
+{
+  return {a[0], a[1], a[2]};
+}
+
+void put(const Vector &v, double *a)
+{
+  a[0] = v.x;
+  a[1] = v.y;
+  a[2] = v.z;
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+FixRigidSmallTalus::FixRigidSmallTalus(LAMMPS *lmp, int narg, char **arg) :
+    FixRigidSmall(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
+{
+  restart_peratom = 1;
+  atom->add_callback(Atom::RESTART);
+}
+
+FixRigidSmallTalus::~FixRigidSmallTalus()
+{
+  if (modify->get_fix_by_id(id)) atom->delete_callback(id, Atom::RESTART);
+}
+
+void FixRigidSmallTalus::post_constructor()
+{
+  restore_style(this, "rigid/small");
+}
+
+/* The owner of a sphere needs those of the whole clump, two of which may be twice as far from each
+   other as from the one in the middle, that the stock style needs. */
+
+void FixRigidSmallTalus::init()
+{
+  FixRigidSmall::init();
+  reason = find_reason();
+  if (!reason.empty()) return;
+  comm->cutghostuser = std::max(comm->cutghostuser, 2.0 * maxextent);
+}
+
+std::string FixRigidSmallTalus::find_reason()
+{
+  return system->has_pair_style() ? reason_of_settings() : system->reason_of_pair_style();
+}
+
+std::string FixRigidSmallTalus::reason_of_settings() const
+{
+  if (langflag) return "its thermostat acts on bodies";
+  if (earlyflag) return "'fix_modify bodyforces early' is set";
+  if (update->whichflag == 2) return "there are no time steps in a minimization";
+  if (utils::strmatch(update->integrate_style, "^respa")) return "run_style respa has levels";
+  return reason_of_spheres();
+}
+
+std::string FixRigidSmallTalus::reason_of_spheres() const
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag ||
+      atom->mu_flag || atom->ellipsoid_flag || atom->line_flag || atom->tri_flag)
+    return std::string("its particles are not those of atom style sphere");
+  int mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (bodytag[i] && !(atom->radius[i] > 0.0)) mine = 1;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all ? "some of its particles have no radius" : "";
+}
+
+std::string FixRigidSmallTalus::needs_host_arrays()
+{
+  if (!reason.empty()) return reason;
+  return system->turns_particles() ? "" : "it turns particles and the contacts between them do not";
+}
+
+int FixRigidSmallTalus::threads() const
+{
+  return comm->nthreads;
+}
+
+double FixRigidSmallTalus::force_unit() const
+{
+  return force->ftm2v;
+}
+
+/* ----------------------------------------------------------------------
+   a step
+------------------------------------------------------------------------- */
+
+ClumpState FixRigidSmallTalus::state_of(const Body &b)
+{
+  ClumpState s;
+  s.mass = b.mass;
+  s.inertia = vector_of(b.inertia);
+  s.position = vector_of(b.xcm);
+  s.velocity = vector_of(b.vcm);
+  s.momentum = vector_of(b.angmom);
+  s.omega = vector_of(b.omega);
+  s.turn = {b.quat[0], b.quat[1], b.quat[2], b.quat[3]};
+  s.axes = {vector_of(b.ex_space), vector_of(b.ey_space), vector_of(b.ez_space)};
+  return s;
+}
+
+void FixRigidSmallTalus::put_state(const ClumpState &s, Body &b)
+{
+  put(s.position, b.xcm);
+  put(s.velocity, b.vcm);
+  put(s.momentum, b.angmom);
+  put(s.omega, b.omega);
+  const double quat[4] = {s.turn.w, s.turn.x, s.turn.y, s.turn.z};
+  std::copy(quat, quat + 4, b.quat);
+  put(s.axes.x, b.ex_space);
+  put(s.axes.y, b.ey_space);
+  put(s.axes.z, b.ez_space);
+}
+
+void FixRigidSmallTalus::look_at_storage()
+{
+  in_records = system->residence() == Residence::RECORDS;
+  records = &system->records();
+  if (in_records && !slots_known) find_slots();
+}
+
+/* A frozen sphere has infinite mass in the records, whose forces nobody has cleared. */
+
+FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpState &state) const
+{
+  Loads sum{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
+    Vector f{0.0, 0.0, 0.0}, t = f;
+    if (!s->owned) {
+      const double *row = row_of(*s);
+      f = vector_of(row);
+      t = vector_of(row + 3);
+    } else if (!in_records) {
+      f = vector_of(atom->f[s->atom]);
+      t = vector_of(atom->torque[s->atom]);
+    } else if (records->velocity(s->slot).c[3] > 0.0) {
+      f = vector_of(records->load[2L * s->slot].c);
+      Talus::Record turn;
+      store(turn, records->torque(s->slot));
+      t = vector_of(turn.c);
+    }
+    sum.force = sum.force + f;
+    sum.torque = sum.torque + (cross(state.axes.to_space(s->place), f) + t);
+  }
+  if (domain->dimension == 2) sum.force.z = sum.torque.x = sum.torque.y = 0.0;
+  return sum;
+}
+
+/* With `gravity ID` the stock style adds weights to the sums over spheres. */
+
+FixRigidSmallTalus::Loads FixRigidSmallTalus::with_weight(const Loads &loads, double mass) const
+{
+  if (!id_gravity) return loads;
+  return {loads.force + mass * vector_of(gvec), loads.torque};
+}
+
+/* The virial of the forces that hold the spheres together: what their velocities changed by beyond
+   what is accounted for, at the places before. */
+
+void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body &b, bool moves,
+                                       const Kick &kick)
+{
+  const bool tallies = evflag && kick.share > 0.0;
+  const bool flat = domain->dimension == 2;
+  for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
+    if (!s->owned) continue;
+    const int i = s->atom;
+    double *x = in_records ? records->position[s->slot].c : atom->x[i];
+    double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
+    double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
+    const Vector x_old = vector_of(x), v_old = vector_of(v);
+    const Vector arm = state.axes.to_space(s->place);
+    Vector shift{0.0, 0.0, 0.0};
+    if (s->wrapped) {
+      shift = {s->periods[0] * domain->xprd, s->periods[1] * domain->yprd,
+               s->periods[2] * domain->zprd};
+      if (domain->triclinic) {
+        shift.x += s->periods[1] * domain->xy + s->periods[2] * domain->xz;
+        shift.y += s->periods[2] * domain->yz;
+      }
+    }
+    if (moves) put(arm + (state.position - shift), x);
+    put(state.velocity + cross(state.omega, arm), v);
+    if (flat) v[2] = 0.0;
+    if (flat && moves) x[2] = 0.0;
+    put(state.omega, w);
+    if (!tallies) continue;
+
+    const double *f = in_records ? records->load[2L * s->slot].c : atom->f[i];
+    const Vector change = vector_of(v) - v_old - vector_of(kick.fall);
+    const Vector holds = (atom->rmass[i] / kick.time) * change - vector_of(f);
+    const Vector at = x_old + shift, part = kick.share * holds;
+    double virial_of[6] = {at.x * part.x, at.y * part.y, at.z * part.z,
+                           at.x * part.y, at.x * part.z, at.y * part.z};
+    double place[1][3], its[1][3], center[3] = {b.xgc[0], b.xgc[1], b.xgc[2]};
+    put(at, place[0]);
+    put(part, its[0]);
+    int list = i;
+    v_tally(1, &list, 1.0, virial_of, place, its, center);
+  }
+  if (evflag && moves) put(state.position + state.axes.to_space(vector_of(b.xgc_body)), b.xgc);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallTalus::setup(int vflag)
+{
+  if (!reason.empty()) return FixRigidSmall::setup(vflag);
+  v_init(vflag);
+  look_at_storage();
+  share_loads();
+  for_each_clump([&](int clump, Body &b) {
+    ClumpState s = state_of(b);
+    const Loads sum = loads_on(clump, s);
+    put(sum.force, b.fcm);
+    put(sum.torque, b.torque);
+    s.omega = s.omega_now();
+    put_state(s, b);
+    place_spheres(clump, s, b, false, {dtf, {0.0, 0.0, 0.0}, 1.0});
+  });
+}
+
+void FixRigidSmallTalus::initial_integrate(int vflag)
+{
+  if (!reason.empty()) return FixRigidSmall::initial_integrate(vflag);
+  v_init(vflag);
+  look_at_storage();
+  begin_step(in_records);
+  if (in_records) system->advance({update->dt, dtf, {0.0, 0.0, 0.0}, 0.4});
+}
+
+/* In the records the last step is completed first. */
+
+void FixRigidSmallTalus::begin_step(bool completes)
+{
+  if (completes) share_loads();
+  const Kick no_share{dtf, {0.0, 0.0, 0.0}, 0.0}, kick{dtf, {0.0, 0.0, 0.0}, 0.5};
+  for_each_clump([&](int clump, Body &b) {
+    ClumpState s = state_of(b);
+    Loads loads{vector_of(b.fcm), vector_of(b.torque)};
+    if (completes) {
+      loads = with_weight(loads_on(clump, s), s.mass);
+      s.kick(dtf, loads.force, loads.torque);
+      s.omega = s.omega_now();
+      if (evflag) place_spheres(clump, s, b, false, no_share);
+    }
+    s.kick(dtf, loads.force, loads.torque);
+    s.drift_extrapolated(dtv);
+    put_state(s, b);
+    place_spheres(clump, s, b, true, kick);
+  });
+}
+
+/* Put off while particles stay in the records. */
+
+void FixRigidSmallTalus::final_integrate()
+{
+  if (!reason.empty()) return FixRigidSmall::final_integrate();
+  if (system->residence() == Residence::RECORDS) return;
+  look_at_storage();
+  share_loads();
+  for_each_clump([&](int clump, Body &b) {
+    ClumpState s = state_of(b);
+    const Loads loads = with_weight(loads_on(clump, s), s.mass);
+    put(loads.force, b.fcm);
+    put(loads.torque, b.torque);
+    s.kick(dtf, loads.force, loads.torque);
+    s.omega = s.omega_now();
+    put_state(s, b);
+    place_spheres(clump, s, b, false, {dtf, {0.0, 0.0, 0.0}, 0.5});
+  });
+}
+
+void FixRigidSmallTalus::complete_step()
+{
+  final_integrate();
+}

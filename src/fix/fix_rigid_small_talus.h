@@ -1,0 +1,152 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+/* ----------------------------------------------------------------------
+   fix rigid/small with `-sf talus`: clumps, rigid sets of spheres, with words and results of the
+   style of LAMMPS, to rounding
+
+   Bodies, their migration, molecule templates, fix pour and deposit are those of the stock class.
+   What differs is how a step is made:
+
+     * Each rank that owns a sphere of a clump moves the whole clump: it receives the forces on the
+       spheres that it does not own and sums all of them in the order of their IDs. So every
+       rank has the same bits of a clump's state, whatever the decomposition is, and no state is
+       sent. Ghosts must reach as far as clumps do: init() widens `comm_modify cutoff` if needed.
+     * Mass, center, inertia and velocities are found from the spheres in the same order when a
+       run begins. Clumps that are as the last run, or a restart file, has left them stay so with
+       all bits; `reinit` concerns those that a command has moved in between, see keeps_states().
+     * In the records, where steps are made that nobody looks at, the kick that ends a step and the
+       one that begins the next are made in one pass, with the same bits; see FixNVESphereTalus.
+     * Restart files hold the state of each clump.
+
+   Called by: Verlet::run() through Modify; migration and neighbor lists through Modify and Atom.
+   Falls back to the methods of LAMMPS: reason_for_stock(). Errors: those of fix rigid/small.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rigid/small/talus,FixRigidSmallTalus);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RIGID_SMALL_TALUS_H
+#define LMP_FIX_RIGID_SMALL_TALUS_H
+
+#include "base/in_parallel.h"
+#include "body/motion/clump_motion.h"
+#include "fix/clump_table.h"
+#include "fix_rigid_small.h"
+#include "system/granular_system.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
+ public:
+  FixRigidSmallTalus(class LAMMPS *, int, char **);
+  ~FixRigidSmallTalus() override;
+  void post_constructor() override;
+  void init() override;
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  // SystemFix
+  std::string needs_host_arrays() override;
+  std::string reason_for_stock() const override { return reason; }
+  bool integrates() const override { return true; }
+  bool places_particles() const override { return true; }
+  void complete_step() override;
+
+ protected:
+  std::shared_ptr<Talus::GranularSystem> system;
+  std::string reason = "no run yet";    // for the methods of LAMMPS
+
+  // "", or what of the settings only the methods of LAMMPS do; collective
+  virtual std::string find_reason();
+  std::string reason_of_settings() const;
+  // what a clump is made of may differ from what its spheres add up to
+  virtual bool given_masses_stay() const { return false; }
+
+  // of a clump in a step: the kick (time), what it adds to velocities by itself, and which part of
+  // the step it is for virials; see move_clump()
+  struct Kick {
+    double time;
+    double fall[3];
+    double share;
+  };
+  struct Loads {
+    Talus::Vector3<double> force, torque;    // torque about the center of mass
+  };
+  // ranks tell each other the forces on spheres of clumps that they share; collective
+  void share_loads();
+  // work(clump, body) for all clumps of this rank at the same time, by one thread if virials are
+  // tallied; body: its record
+  template <class Work> void for_each_clump(Work work)
+  {
+    Talus::in_ranges(table.size(), evflag ? 1 : threads(), [&](int, int begin, int end) {
+      for (int c = begin; c < end; c++) work(c, body[table.body[c]]);
+    });
+  }
+  static Talus::ClumpState state_of(const Body &b);
+  static void put_state(const Talus::ClumpState &s, Body &b);
+  Loads loads_on(int clump, const Talus::ClumpState &state) const;
+  // the spheres that this rank owns get velocities, and places on request, from the clump's state
+  void place_spheres(int clump, const Talus::ClumpState &state, Body &b, bool moves,
+                     const Kick &kick);
+  // before the first of these in a step
+  void look_at_storage();
+  double force_unit() const;
+  bool in_records_now() const { return in_records; }
+
+ private:
+  enum class Message { STOCK, MEMBERS, STATES, LOADS };
+  Message message = Message::STOCK;
+
+  ClumpTable table;
+  bool shares_clumps = false;         // some rank owns a part of a clump
+  std::vector<tagint> ghost_clump;    // of ghosts: the body's ID, 0 if in none
+  std::vector<double> ghost_rows;     // of ghosts: rows of what was sent last
+  int row_size = 0;
+  bool slots_known = false;
+  bool restored = false;    // from a restart file, and no run since
+
+  // where spheres are in this step
+  bool in_records = false;
+  Talus::ParticleRecords *records = nullptr;
+
+  int threads() const;
+  std::string reason_of_spheres() const;
+  tagint clump_of(int i) const;
+  void write_row(int i, double *row) const;
+  void write_state_row(int i, double *row) const;
+  void exchange_rows(Message what, int size);
+  const double *row_of(const ClumpSphere &sphere) const;
+
+  void make_table();
+  void find_slots();
+  void restore_bodies();
+  void find_bodies();
+  void find_body(int clump);
+  bool keeps_states();
+  bool is_kept(int clump) const;
+
+  void begin_step(bool completes);
+  Loads with_weight(const Loads &loads, double mass) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,262 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+/* ----------------------------------------------------------------------
+   What clumps are when a run begins, with the same bits on any number of ranks, and what restart
+   files hold of them.
+------------------------------------------------------------------------- */
+
+#include "fix_rigid_small_talus.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "math_const.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Talus::ClumpState;
+using Vector = Talus::Vector3<double>;
+
+namespace {
+
+constexpr int size_states = 11;
+
+struct SphereState {
+  Vector x, v, omega;
+  double mass, radius;
+
+  explicit SphereState(const double *row) :
+      x{row[0], row[1], row[2]}, v{row[3], row[4], row[5]}, omega{row[6], row[7], row[8]},
+      mass(row[9]), radius(row[10])
+  {
+  }
+};
+
+Eigen::Matrix3d inertia_of(const SphereState &s, const Vector &arm)
+{
+  const Eigen::Vector3d d = Talus::to_eigen(arm);
+  return s.mass * ((d.squaredNorm() + 0.4 * s.radius * s.radius) * Eigen::Matrix3d::Identity() -
+                   d * d.transpose());
+}
+
+/* Ascending principal moments and the turn to their axes; in two dimensions the last is z. */
+
+void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state)
+{
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (flat) {
+    const double angle = 0.5 * std::atan2(2.0 * inertia(0, 1), inertia(0, 0) - inertia(1, 1));
+    axes.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
+        std::cos(angle);
+    const Eigen::Matrix3d turned = axes.transpose() * inertia * axes;
+    state.inertia = {turned(0, 0), turned(1, 1), inertia(2, 2)};
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
+    axes = solver.eigenvectors();
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    state.inertia = Talus::from_eigen(solver.eigenvalues());
+  }
+  const Eigen::Quaterniond q(axes);
+  state.turn = Talus::Turn{q.w(), q.x(), q.y(), q.z()}.normalized();
+  state.axes = state.turn.axes();
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallTalus::setup_pre_neighbor()
+{
+  if (!reason.empty()) return FixRigidSmall::setup_pre_neighbor();
+  bool keep = false;
+  if (setupflag || restored) {
+    if (setupflag)
+      FixRigidSmall::pre_neighbor();
+    else
+      restore_bodies();
+    make_table();
+    keep = !reinitflag || keeps_states();
+  }
+  restored = false;
+  if (!keep) {
+    setup_bodies_static();
+    if (!inpfile) setup_bodies_dynamic();
+    make_table();
+    if (!inpfile) find_bodies();
+  }
+  setupflag = 1;
+}
+
+/* The stock class sets up all that goes with bodies, and then gets back what they were. */
+
+void FixRigidSmallTalus::restore_bodies()
+{
+  const std::vector<Body> bodies(body, body + nlocal_body);
+  std::vector<double> places(3L * atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) std::copy_n(displace[i], 3, &places[3L * i]);
+  setup_bodies_static();
+  std::copy(bodies.begin(), bodies.end(), body);
+  for (int i = 0; i < atom->nlocal; i++) std::copy_n(&places[3L * i], 3, displace[i]);
+  FixRigidSmall::pre_neighbor();
+}
+
+/* Clumps that no command has touched since they moved, on all ranks. */
+
+bool FixRigidSmallTalus::keeps_states()
+{
+  exchange_rows(Message::STATES, size_states);
+  int mine = 1, all = 1;
+  for (int c = 0; c < table.size(); c++)
+    if (!is_kept(c)) mine = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
+  return all != 0;
+}
+
+bool FixRigidSmallTalus::is_kept(int clump) const
+{
+  constexpr double of_states = 1.0e-8, of_masses = 1.0e-10;
+  const Body &b = body[table.body[clump]];
+  const ClumpState state = state_of(b);
+  double mass = 0.0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
+    double row[size_states];
+    if (s->owned)
+      write_state_row(s->atom, row);
+    else
+      std::copy_n(row_of(*s), size_states, row);
+    const SphereState its(row);
+    mass += its.mass;
+    inertia += inertia_of(its, s->place);
+    if (!s->owned) continue;
+    const Vector arm = state.axes.to_space(s->place);
+    double x[3];
+    domain->unmap(atom->x[s->atom], xcmimage[s->atom], x);
+    const Vector place = Vector{x[0], x[1], x[2]} - (state.position + arm);
+    const Vector v = its.v - (state.velocity + cross(state.omega, arm));
+    const double speed = length(state.velocity) + length(state.omega) * (length(arm) + its.radius);
+    if (!(length(place) <= of_states * (length(arm) + its.radius)) ||
+        !(length(v) <= of_states * speed) ||
+        !(length(its.omega - state.omega) * its.radius <= of_states * speed))
+      return false;
+  }
+  if (given_masses_stay()) return true;
+  const Eigen::Vector3d moments = Talus::to_eigen(state.inertia);
+  inertia.diagonal() -= moments;
+  return std::fabs(mass - state.mass) <= of_masses * mass &&
+         inertia.cwiseAbs().maxCoeff() <= of_masses * moments.maxCoeff();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRigidSmallTalus::find_bodies()
+{
+  exchange_rows(Message::STATES, size_states);
+  for (int c = 0; c < table.size(); c++) find_body(c);
+  FixRigidSmall::pre_neighbor();    // into the box, for all ranks
+  make_table();
+}
+
+void FixRigidSmallTalus::find_body(int clump)
+{
+  std::vector<SphereState> spheres;
+  for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
+    double row[size_states];
+    if (s->owned) write_state_row(s->atom, row);
+    spheres.emplace_back(s->owned ? row : row_of(*s));
+  }
+  ClumpState state{};
+  Vector middle{0.0, 0.0, 0.0};
+  for (const SphereState &s : spheres) {
+    state.mass += s.mass;
+    state.position = state.position + s.mass * s.x;
+    state.velocity = state.velocity + s.mass * s.v;
+    middle = middle + s.x;
+  }
+  state.position = (1.0 / state.mass) * state.position;
+  state.velocity = (1.0 / state.mass) * state.velocity;
+  middle = (1.0 / static_cast<double>(spheres.size())) * middle;
+
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const SphereState &s : spheres) {
+    const Vector arm = s.x - state.position;
+    inertia += inertia_of(s, arm);
+    state.momentum = state.momentum +
+                     (s.mass * cross(arm, s.v) + (0.4 * s.mass * s.radius * s.radius) * s.omega);
+  }
+  find_axes(inertia, domain->dimension == 2, state);
+  state.omega = state.omega_now();
+
+  Body &b = body[table.body[clump]];
+  put_state(state, b);
+  b.mass = state.mass;
+  b.natoms = static_cast<int>(spheres.size());
+  b.image = (static_cast<imageint>(IMGMAX) << IMG2BITS) |
+            (static_cast<imageint>(IMGMAX) << IMGBITS) | IMGMAX;
+  const double moments[3] = {state.inertia.x, state.inertia.y, state.inertia.z};
+  std::copy(moments, moments + 3, b.inertia);
+  const Vector off = middle - state.position, off_in_body = state.axes.to_body(off);
+  const double center[3] = {middle.x, middle.y, middle.z};
+  const double in_body[3] = {off_in_body.x, off_in_body.y, off_in_body.z};
+  std::copy(center, center + 3, b.xgc);
+  std::copy(in_body, in_body + 3, b.xgc_body);
+
+  int n = 0;
+  for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++, n++) {
+    if (!s->owned) continue;
+    const Vector place = state.axes.to_body(spheres[n].x - state.position);
+    const double values[3] = {place.x, place.y, place.z};
+    std::copy(values, values + 3, displace[s->atom]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   restart files: of each particle the ID of its body and its place in it, of the one that owns the
+   body the state as well
+------------------------------------------------------------------------- */
+
+int FixRigidSmallTalus::size_restart(int i)
+{
+  return 6 + (bodyown[i] >= 0 ? bodysize : 0);
+}
+
+int FixRigidSmallTalus::maxsize_restart()
+{
+  return 6 + bodysize;
+}
+
+int FixRigidSmallTalus::pack_restart(int i, double *buf)
+{
+  const bool owns = bodyown[i] >= 0 && setupflag;
+  buf[0] = size_restart(i);
+  buf[1] = ubuf(setupflag ? bodytag[i] : 0).d;
+  std::copy_n(displace[i], 3, buf + 2);
+  buf[5] = owns ? 1.0 : 0.0;
+  if (bodyown[i] >= 0) std::memcpy(buf + 6, &body[bodyown[i]], sizeof(Body));
+  return size_restart(i);
+}
+
+void FixRigidSmallTalus::unpack_restart(int i, int nth)
+{
+  if (!restored) {    // the constructor has looked for bodies on its own
+    nlocal_body = 0;
+    std::fill_n(bodytag, atom->nlocal, 0);
+    std::fill_n(bodyown, atom->nlocal, -1);
+  }
+  restored = true;
+  const double *buf = atom->extra[i];
+  int m = 0;
+  for (int k = 0; k < nth; k++) m += static_cast<int>(buf[m]);
+  bodytag[i] = static_cast<tagint>(ubuf(buf[m + 1]).i);
+  std::copy_n(buf + m + 2, 3, displace[i]);
+  if (buf[m + 5] == 0.0) return;
+  if (nlocal_body == nmax_body) grow_body();
+  std::memcpy(&body[nlocal_body], buf + m + 6, sizeof(Body));
+  body[nlocal_body].ilocal = i;
+  bodyown[i] = nlocal_body++;
+}

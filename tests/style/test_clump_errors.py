@@ -1,0 +1,106 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: procs=2
+"""Every refusal of fix rigid/small/symplectic: its text, and the word it points at, on 1 and 2 ranks."""
+
+import os
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, marked_word, ranks_of_refusal
+
+FIX = "fix move pairs rigid/small/symplectic molecule"
+TITLE = "Fix rigid/small/symplectic move: "
+MOVED = TITLE + r"of the spheres of its clumps 4 are in the group of fix other \({}\), which "
+
+BOX = """
+units si
+boundary p p p
+atom_style {style}
+atom_modify {map}
+comm_modify vel yes
+newton off
+fix which all property/atom mol ghost yes
+region box block -4 4 -4 4 -4 4
+create_box 1 box
+create_atoms 1 single -2 0 0
+create_atoms 1 single -1.5 0 0
+create_atoms 1 single 1.5 0 0
+create_atoms 1 single 2 0 0
+set group all diameter {size} mass 1
+set atom 1*2 mol 1
+set atom 3*4 mol 2
+group pairs id 1:4
+pair_style gran/penalty
+pair_coeff * * hooke 1000 1 tangential multistep NULL NULL 0.5
+neigh_modify exclude molecule/intra all
+neighbor 0.1 bin
+timestep 1e-4
+thermo_style custom step
+"""
+
+# words after FIX, what the message says, the word it points at
+BAD_WORDS = [
+    ("foo", "unknown keyword 'foo', expected start, order, gravity, mol, infile or reinit", "foo"),
+    ("start half start plain", "keyword 'start' given twice", "start"),
+    ("start", "start: missing value: half or plain", "start"),
+    ("order 2", "order: clumps have order 1: use 'order 1', or leave it out", "2"),
+    ("order 3", "order: unknown value '3', expected 1 or 2", "3"),
+    ("gravity 9.81 down", "gravity: unknown direction 'down', expected chute, spherical or vector", "down"),
+    ("gravity v_g chute 1", "gravity: expected a constant for magnitude instead of variable 'v_g'", "v_g"),
+    ("mol", "mol: missing ID of a molecule template", "mol"),
+    ("infile", "infile: missing name of a file", "infile"),
+    ("reinit", "reinit: missing yes or no", "reinit"),
+    ("langevin 1 1 1 4711", "unknown keyword 'langevin'", "langevin"),
+]
+
+# commands, what the message says
+REFUSED = [
+    (f"{FIX} mol pebble", "Molecule template ID pebble for fix rigid/small/symplectic does not exist"),
+    (f"{FIX}\nfix other all nve/sphere", MOVED.format("nve/sphere") + "moves them as well: give it another group"),
+    (f"{FIX}\nfix other all freeze", MOVED.format("freeze") + "freezes them, but they move: give it another group"),
+    (f"{FIX} gravity 9.81 vector 0 0 -1\nfix other all gravity 9.81 vector 0 0 -1",
+     MOVED.format("gravity") + "lets them fall a second time: leave the word gravity out, or use 'disable' there"),
+    (f"{FIX}\nrun_style respa 2 2", TITLE + "run_style respa has levels: use fix rigid/small"),
+    (f"{FIX}\nfix_modify move bodyforces early", TITLE + "'fix_modify bodyforces early' is set: use fix rigid/small"),
+]
+
+
+class ClumpErrors(SceneCase):
+
+    def refuse(self, np, commands, expected, run="run 1", style="sphere", size="0.8", map="map array"):
+        log = self.run_lammps(BOX.format(style=style, size=size, map=map) + commands + "\n" + run, np=np,
+                              expect_error=True).log
+        errors = re.findall(r"^ERROR(?: on proc \d+)?: (.*)$", log, re.MULTILINE)
+        self.assertEqual(len(errors), 1, log[-2000:])
+        self.assertRegex(errors[0], expected)
+        return log
+
+    def test_words(self):
+        for n, (words, text, word) in enumerate(BAD_WORDS):
+            for np in ranks_of_refusal(n):
+                with self.subTest(words, ranks=np):
+                    log = self.refuse(np, f"{FIX} {words}", "fix rigid/small/symplectic:? .*" + text)
+                    self.assertEqual(marked_word(log), word)
+        for words, text in (("", "missing kind of bodies: molecule or custom"), ("group", "unknown kind of bodies 'group', "
+                                                                               "expected molecule or custom"),
+                            ("custom", "missing i_name or v_name")):
+            with self.subTest(words):
+                self.refuse(2, f"fix move pairs rigid/small/symplectic {words}", text)
+
+    def test_settings(self):
+        for n, (commands, text) in enumerate(REFUSED):
+            for np in (1, 2):
+                with self.subTest(commands, ranks=np):
+                    self.refuse(np, commands, text)
+        self.refuse(2, FIX, "requires an atom map, see atom_modify", map="sort 0 0")
+        self.refuse(2, FIX, TITLE + "there are no time steps in a minimization", run="minimize 0 0 1 1")
+
+    def test_gravity_that_is_disabled_is_no_second_one(self):
+        self.run_lammps(BOX.format(style="sphere", size="0.8", map="map array") + f"{FIX} gravity 9.81 vector 0 0 -1\n"
+                        "fix other all gravity 9.81 vector 0 0 -1 disable\nrun 1")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,336 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=400 procs=2
+"""fix rigid/small/talus and rigid/small/symplectic: clumps of spheres. The numbers of the style of LAMMPS, and the same
+bits on any number of ranks and threads, wherever a step is made, and through restarts."""
+
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, max_difference, read_dump
+from tossed_clumps import write_clumps
+
+MOTION = "x y z vx vy vz omegax omegay omegaz".split()
+ALL = MOTION + "fx fy fz tqx tqy tqz".split()
+RECORDS = "steps without output              in the records"
+PAIR = "pair_style gran/hertz/history@ 20000 NULL 50 NULL 0.5 1\npair_coeff * *"
+WALL = "wall/gran@ hertz/history 20000 NULL 50 NULL 0.5 1"
+
+HEAD = """
+units lj
+{before}
+boundary p p f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+"""
+REST = """
+group single type 2
+group clumps type 1
+{pair}
+neighbor 0.2 bin
+neigh_modify every 1 delay 0 check yes exclude molecule/intra clumps
+timestep 0.0005
+{gravity}
+{move}
+{floor}
+{style}
+thermo {every}
+compute press all pressure NULL virial
+thermo_style custom step f_move c_press
+thermo_modify norm no lost error format float %.17g
+dump all all custom {every} dump id {all}
+dump_modify all format float %a sort id
+{run}
+write_dump all custom last id {all} modify format float %a sort id
+"""
+MOLECULES = "fix prop all property/atom mol ghost yes"
+READ = f"{MOLECULES}\nread_data grains fix prop NULL Molecules"
+TALUS = "fix move clumps rigid/small/talus molecule\nfix move2 single nve/sphere/talus"
+STOCK = TALUS.replace("/talus", "")
+SYMPLECTIC = """fix move clumps rigid/small/symplectic molecule start half gravity 10 vector 0.2 0 -1
+fix move2 single nve/sphere/symplectic start half gravity 10 vector 0.2 0 -1"""
+GRAVITY = "fix fall all gravity@ 10 vector 0.2 0 -1"
+
+
+class ClumpCase(SceneCase):
+
+    def setUp(self):
+        write_clumps(self.path("grains"))
+
+    def simulate(self, move=TALUS, np=1, threads=1, every=100, run="run 300", style="comm_proxy yes\nrun_style verlet/proxy",
+                 before="", read=READ, floor="fix floor all " + WALL + " zplane 0 9", suffix=None, gravity=None,
+                 expect=RECORDS, **options):
+        """The frames of the dump, and the state at the end."""
+        suffix = ("" if move == STOCK else "/talus") if suffix is None else suffix
+        gravity = ("" if "gravity" in move else GRAVITY) if gravity is None else gravity
+        self.log = self.run_lammps((HEAD + read + REST).format(
+            before=before, pair=PAIR.replace("@", suffix), move=move, floor=floor.replace("@", suffix), style=style,
+            every=every, run=run, all=" ".join(ALL), gravity=gravity.replace("@", suffix)), np=np,
+            env={"OMP_NUM_THREADS": str(threads)}, **options).log
+        if suffix and expect:
+            self.assertIn(expect, self.log)
+        if options.get("expect_error"):
+            return []
+        frames = read_dump(self.path("dump")) + read_dump(self.path("last"))
+        for name in "dump", "last":
+            os.remove(self.path(name))
+        return frames
+
+
+class Clumps(ClumpCase):
+
+    def test_the_numbers_of_lammps(self):
+        ours, stock = self.simulate(), self.simulate(STOCK, style="")
+        self.assertEqual(len(ours), 5)
+        for a, b in zip(ours, stock):
+            self.assertLess(max_difference(a, b, MOTION), 1e-10)
+            self.assertLess(max_difference(a, b, ALL), 1e-8)
+        self.assertGreater(max_difference(ours[0], ours[-1], ["x"]), 0.3)    # they have moved
+
+    def test_virials_are_those_of_lammps(self):
+        tables = []
+        for move, style in (TALUS, "comm_proxy yes\nrun_style verlet/proxy"), (STOCK, ""):
+            self.simulate(move, every=50, style=style)
+            tables.append([[float(w) for w in line.split()] for line in self.log.splitlines()
+                           if len(line.split()) == 3 and line.split()[0].isdigit() and "." in line])
+        self.assertEqual(len(tables[0]), 7)
+        for a, b in zip(*tables):
+            for x, y in zip(a, b):
+                self.assertAlmostEqual(x, y, delta=1e-8 * (1 + abs(y)))
+
+    def test_same_bits(self):
+        """On ranks, threads, with overlap, and however often the arrays are looked at."""
+        for move in TALUS, SYMPLECTIC:
+            reference = {f.step: f for f in self.simulate(move, every=1, style="run_style verlet", expect=None)}
+            for np, threads, every, grid, overlap in ((1, 1, 7, "", ""), (1, 2, 100, "", ""), (2, 1, 100, "2 1 1", " overlap yes"),
+                                                      (4, 1, 50, "1 2 2", " overlap no"), (3, 1, 1000, "3 1 1", "")):
+                with self.subTest(move=move, ranks=np, threads=threads, every=every):
+                    frames = self.simulate(move, np, threads, every, before=f"processors {grid}" if grid else "",
+                                           style=f"comm_proxy yes\nrun_style verlet/proxy{overlap}")
+                    for frame in frames:
+                        self.assert_same_bits(frame, reference[frame.step])
+
+    def test_runs_and_restarts_go_on(self):
+        """A new set-up would find the masses and axes anew, with other rounding."""
+        restart = f"read_restart state.restart\n{MOLECULES}"
+        for move in TALUS, SYMPLECTIC:
+            divided = self.simulate(move, np=2, run="run 170\nrun 130")[-1]
+            if move == SYMPLECTIC:    # velocity Verlet computes forces with other velocities in a set-up
+                self.assert_same_bits(divided, self.simulate(move)[-1], MOTION)
+            self.simulate(move, np=2, run="run 170\nwrite_restart state.restart")
+            for np in 1, 4:
+                found = self.simulate(move, np, run="run 130", read=restart)[-1]
+                self.assert_same_bits(found, divided, MOTION)
+
+    def test_commands_that_move_spheres_are_heeded(self):
+        """They are rigid again, with the momentum that the command gave them."""
+        change = "run 100\nvelocity all set 1 2 0.5\nrun 100"
+        ours, stock = self.simulate(run=change), self.simulate(STOCK, run=change, style="")
+        self.assertLess(max_difference(ours[-1], stock[-1], MOTION), 1e-9)
+
+    def test_large_bodies(self):
+        floor = """pair_coeff * *
+fix floor all large/body plane 0 0 0  0 0 1  contact hertz 20000 50 tangential multistep NULL NULL 0.5
+fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential multistep NULL NULL 0.5"""
+        frame = self.simulate(floor=floor)[-1]
+        other = self.simulate(floor=floor, np=2)[-1]
+        self.assert_same_bits(frame, other)
+        stock = self.simulate(STOCK, floor=floor, suffix="/talus", expect=None)[-1]
+        self.assertLess(max_difference(frame, stock, MOTION), 1e-9)
+
+    def test_spheres_of_a_clump_keep_their_distances(self):
+        for move in TALUS, SYMPLECTIC:
+            first, *_, last = self.simulate(move, run="run 2000", every=1000)
+            molecules = {}
+            with open(self.path("grains")) as file:
+                for line in file.read().split("Molecules")[1].split("\n"):
+                    if line.strip():
+                        tag, molecule = map(int, line.split())
+                        molecules.setdefault(molecule, []).append(tag)
+            del molecules[0]
+
+            def distance(frame, a, b):
+                rows = [frame.atoms[t] for t in (a, b)]
+                k = frame.columns.index("x")
+                d = [p - q for p, q in zip(rows[0][k:k + 3], rows[1][k:k + 3])]
+                d = [v - 9 * round(v / 9) if n < 2 else v for n, v in enumerate(d)]
+                return math.sqrt(sum(v * v for v in d))
+
+            for a, b, c in molecules.values():
+                for pair in (a, b), (b, c), (a, c):
+                    self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
+
+
+FREE = """
+units lj
+boundary p p p
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+read_data grains fix prop NULL Molecules
+group which molecule 1
+group others subtract all which
+delete_atoms group others
+neighbor 0.2 bin
+neigh_modify exclude molecule/intra all
+pair_style gran/penalty
+pair_coeff * * hooke 1000 0 tangential multistep NULL 0 0.5
+timestep 0.01
+fix move all rigid/small/symplectic molecule
+compute b all rigid/local move angmomx angmomy angmomz
+compute l all reduce sum c_b[1] c_b[2] c_b[3] inputs local
+compute ke all ke
+compute er all erotate/sphere
+variable e equal c_ke+c_er
+thermo 5000
+thermo_style custom step v_e c_l[1] c_l[2] c_l[3]
+thermo_modify norm no format float %.17g
+run 50000
+"""
+
+
+class FreeClump(ClumpCase):
+
+    def test_free_rotation_keeps_energy_and_angular_momentum(self):
+        log = self.run_lammps(FREE).log
+        rows = [[float(w) for w in line.split()] for line in log.splitlines()
+                if len(line.split()) == 5 and line.split()[0].isdigit() and "." in line]
+        self.assertEqual(len(rows), 11)
+        for row in rows:
+            self.assertAlmostEqual(row[1] / rows[0][1], 1.0, delta=5e-3)
+            for k in 2, 3, 4:
+                self.assertAlmostEqual(row[k], rows[0][k], delta=1e-12)
+
+
+ONE = """
+units lj
+boundary p p f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+region box block 0 9 0 9 0 9
+create_box 1 box
+molecule ball ball.mol
+pair_style gran/penalty
+pair_coeff * * hertz 20000 50 tangential multistep NULL NULL 0.5
+neighbor 0.2 bin
+timestep 0.0005
+{move}
+region top block 4 5 4 5 2 3
+fix drop all deposit 1 0 1 4711 region top mol ball vx 1.5 1.5 vy 0.5 0.5 vz -5 -5 {rigid}
+fix floor all large/body plane 0 4.5 0.5  0 0.1 1  contact hertz 20000 50 tangential multistep NULL NULL 0.5
+thermo 500
+thermo_modify lost error
+run 1000
+write_dump all custom last id {all} modify format float %a sort id
+"""
+
+
+class OneSphere(SceneCase):
+
+    def test_a_clump_of_one_sphere_moves_as_that_sphere(self):
+        with open(self.path("ball.mol"), "w") as file:
+            file.write("ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 1.0\n\nMasses\n\n1 0.7\n")
+        frames = []
+        for move, rigid in (("rigid/small/symplectic molecule mol ball start half gravity 10 vector 0 0 -1", "rigid move"),
+                            ("nve/sphere/symplectic start half gravity 10 vector 0 0 -1", "")):
+            self.run_lammps(ONE.format(move="fix move all " + move, rigid=rigid, all=" ".join(ALL)))
+            frames += read_dump(self.path("last"))
+        self.assertEqual(len(frames[0].atoms), 1)
+        self.assertLess(max_difference(*frames, MOTION), 1e-12)
+        self.assertGreater(abs(frames[0].column("omegay")[1]), 0.1)    # it has touched the floor
+
+
+POUR = """
+units lj
+boundary p p f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+region box block 0 9 0 9 0 14
+create_box 1 box
+molecule clump clump.mol
+pair_style gran/hertz/history{suffix} 20000 NULL 50 NULL 0.5 1
+pair_coeff * *
+neighbor 0.2 bin
+neigh_modify every 1 delay 0 exclude molecule/intra all
+timestep 0.0005
+fix fall all gravity{suffix} 10 vector 0 0 -1
+fix move all {style} molecule mol clump
+region slab block 1 8 1 8 9 13
+fix pour all pour 12 0 4711 vol 0.3 50 region slab mol clump rigid move
+fix floor all wall/gran{suffix} hertz/history 20000 NULL 50 NULL 0.5 1 zplane 0 NULL
+thermo 500
+thermo_style custom step
+thermo_modify lost error
+run 1800
+{more}
+write_dump all custom last id mol mass {all} modify format float %a sort id
+"""
+MOLECULE = """three spheres
+
+3 atoms
+{more}
+Coords
+
+1 0.0 0.0 0.0
+2 0.8 0.1 0.0
+3 0.3 0.7 0.2
+
+Types
+
+1 1
+2 1
+3 1
+
+Diameters
+
+1 1.0
+2 0.9
+3 0.8
+
+Masses
+
+1 0.6
+2 0.4
+3 0.3
+"""
+GIVEN = "1.1 mass\n0.3 0.25 0.05 com\n0.2 0.22 0.3 0.01 0.0 0.02 inertia\n"
+
+
+class PouredClumps(SceneCase):
+
+    def pour(self, style, suffix, np=1, more="", given=""):
+        with open(self.path("clump.mol"), "w") as file:
+            file.write(MOLECULE.format(more=given))
+        self.log = self.run_lammps(POUR.format(style=style, suffix=suffix, more=more, all=" ".join(ALL)), np=np).log
+        frame, = read_dump(self.path("last"))
+        return frame
+
+    def test_fix_pour(self):
+        for given in "", GIVEN:
+            ours = self.pour("rigid/small/talus", "/talus", given=given)
+            self.assertEqual(len(ours.atoms), 36)
+            self.assertIn(RECORDS, self.log)
+            self.assert_same_bits(ours, self.pour("rigid/small/talus", "/talus", np=4, given=given))
+            stock = self.pour("rigid/small", "", given=given)
+            self.assertLess(max_difference(ours, stock, MOTION), 1e-7)
+
+    def test_given_masses_stay_in_later_runs(self):
+        once = self.pour("rigid/small/symplectic", "/talus", given=GIVEN, more="run 200")
+        again = self.pour("rigid/small/symplectic", "/talus", np=2, given=GIVEN, more="run 100\nrun 100")
+        self.assert_same_bits(once, again, MOTION)
+
+
+if __name__ == "__main__":
+    unittest.main()
