@@ -103,15 +103,6 @@ bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, con
   return !contacts.points.empty();
 }
 
-double distance_bound(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b,
-                      const Pose &pose_b, const SeparatingDirection &direction)
-{
-  if (!is_known(direction.direction))
-    return length(pose_a.position - pose_b.position) - a.bounding_radius() - b.bounding_radius();
-  const CorePair pair{a.core(), b.core(), relative_pose(pose_a, pose_b)};
-  return width_along(pair, pose_a.direction_in_body(direction.direction)) - a.radius() - b.radius();
-}
-
 /* ---- what is no convex body ------------------------------------------------------------------ */
 
 bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector &center, double radius,

@@ -39,12 +39,6 @@ bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, con
              SeparatingDirection &direction, ConvexContacts &contacts,
              NarrowPhase method = NarrowPhase::FEATURES);
 
-/// The lower bound of the distance of the surfaces that the direction proves: for lists of
-/// neighbors. Negative where they overlap or the direction separates nothing. Without a direction,
-/// that of bounding spheres.
-double distance_bound(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b,
-                      const Pose &pose_b, const SeparatingDirection &direction);
-
 /// Contacts with what is not convex bodies. The body is a, and the other b: normals point to the
 /// body. At most one contact with a sphere, at the point of the core that is nearest to its center;
 /// a center inside the core is pushed out through the nearest face.
@@ -61,13 +55,6 @@ bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<dou
 bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector3<double> &point,
                       const Vector3<double> &axis, double cylinder_radius,
                       ConvexContacts &contacts);
-
-/// The effective radius of contacts, for laws that need one (hertz, dmt, jkr): 1/(1/r_a + 1/r_b)
-/// with contact_radius() of both. For a flat partner it is contact_radius() itself.
-inline double effective_radius(double contact_radius_a, double contact_radius_b)
-{
-  return contact_radius_a * contact_radius_b / (contact_radius_a + contact_radius_b);
-}
 
 /// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
 /// and those that are nearer to a vertex are named by it.

@@ -38,15 +38,6 @@ struct Pose {
   }
 };
 
-/// The pose of a frame that has `inner` in a frame that has `outer`.
-inline Pose composed(const Pose &outer, const Pose &inner)
-{
-  Pose whole;
-  whole.position = outer.point_in_space(inner.position);
-  whole.rotation = outer.rotation * inner.rotation;
-  return whole;
-}
-
 /// Of b as a sees it: maps the frame of b to that of a.
 inline Pose relative_pose(const Pose &a, const Pose &b)
 {

@@ -208,6 +208,32 @@ class SphereOnBox(ShapeCase):
             self.assertEqual(self.of("z", 2), 0.0)
 
 
+class Drum(ShapeCase):
+
+    def test_cube_in_a_cylinder(self):
+        # at rest on four corners; the normal forces N lean: 4 N low/R = m g
+        radius, stiffness = 2.0, 1e5
+        low = math.sqrt(radius ** 2 - 0.25)
+        for spec, reach in ("box 1 1 1", radius), ("box 0.8 0.8 0.8 rounded 0.1", 0.1 + math.hypot(0.4, low - 0.1)):
+            law = f"hooke {stiffness} 100"
+            self.simulate([Sphere((0, 0, 0.5 - low))],
+                          f"fix s all shape/gran type 1 {spec} density 1\nfix g all gravity/talus 10 vector 0 0 -1\n"
+                          f"fix drum all large/body cylinder 0 0 0 1 0 0 {reach!r} 6 inside contact {law}",
+                          40000, dt=2e-4, pair=law, extra="fx fy fz")
+            edge = low if spec == "box 1 1 1" else low - 0.1
+            mass = 1.0 if spec == "box 1 1 1" else 0.512 + 6 * 0.1 * 0.64 + 2.4 * math.pi * 0.01 + math.pi * 0.004 / 3
+            lean = edge / math.hypot(0.5 if spec == "box 1 1 1" else 0.4, edge)
+            self.assertAlmostEqual(self.of("z"), 0.5 - low - mass * 10 / 4 / lean / stiffness / lean, delta=1e-6)
+            self.assertLess(abs(self.of("vz")), 1e-8)
+
+    def test_caps(self):
+        self.simulate([Sphere((0.4, 0, 0), v=(1, 0, 0))], "fix s all shape/gran type 1 box 1 1 1 density 1\n"
+                      "fix drum all large/body cylinder 0 0 0 1 0 0 2 2 inside contact hooke 1e6 0",
+                      10000, dt=2e-5)
+        self.assertAlmostEqual(self.of("vx"), -1.0, delta=2e-3)
+        self.assertAlmostEqual(self.of("x"), 0.4, delta=5e-3)
+
+
 class Slopes(ShapeCase):
     """A cube on a plane, gravity inclined."""
 

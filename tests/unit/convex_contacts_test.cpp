@@ -261,16 +261,6 @@ TEST(ConvexPair, CrossedEdges)
   }
 }
 
-TEST(ConvexPair, DistanceBoundNeverExceedsTheDistance)
-{
-  const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, 0.1);
-  Pair pair{cube, cube, {}, {}};
-  const Pose a({0, 0, 1.5}, straight), b;
-  EXPECT_LT(distance_bound(cube, a, cube, b, pair.direction), 0.0);    // spheres
-  EXPECT_FALSE(pair.touch(a, b));
-  EXPECT_NEAR(distance_bound(cube, a, cube, b, pair.direction), 0.3, 1e-12);
-}
-
 /* ---- extreme shapes -------------------------------------------------------------------------- */
 
 TEST(ConvexPair, ExtremeShapes)
