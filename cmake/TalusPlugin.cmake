@@ -5,7 +5,7 @@
 # particles/; then those of LAMMPS.
 set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-  body/contact vtk packing)
+  body/contact vtk packing shape shaped)
 set(talus_style_folders system pair fix compute dump fill comm run)
 
 function(talus_glob result)
@@ -50,7 +50,8 @@ function(talus_add_code suffix)
   # Contact laws, batch kernel and geometry: no LAMMPS include, so that tests need no host.
   set(core talus_core${suffix})
   add_library(${core} STATIC ${talus_core_sources})
-  target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen)
+  target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen
+    PRIVATE ccd)
   target_compile_options(${core} PRIVATE ${talus_index_flags})
 
   # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.

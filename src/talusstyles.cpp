@@ -18,6 +18,7 @@
 #include "fix/fix_large_body.h"
 #include "fix/fix_nve_sphere_symplectic.h"
 #include "fix/fix_nve_sphere_talus.h"
+#include "fix/fix_shape_gran.h"
 #include "pair/pair_gran_penalty.h"
 #if TALUS_HOST_HAS_GRANULAR
 #include "pair/pair_gran_talus.h"
@@ -179,6 +180,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 #if TALUS_HOST_HAS_GRANULAR
   registry.fix<FixFreezeTalus>("freeze/talus", "Talus fix style freeze/talus");
 #endif
+  registry.fix<FixShapeGran>("shape/gran", "Talus fix style shape/gran");
   registry.fix<FixPourRate>("pour/rate", "Talus fix style pour/rate");
   registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
 #if TALUS_HOST_HAS_GRANULAR

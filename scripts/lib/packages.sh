@@ -5,7 +5,7 @@
 TALUS_PACKAGES=(
   g++ cmake ninja-build binutils                          # compiler and build
   libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev        # what the host is built with
-  libeigen3-dev                                           # geometry of large bodies
+  libeigen3-dev libccd-dev                                # geometry of large bodies and of particles
   libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev  # tests and benchmarks
   python3                                                 # tests and progress display
   dpkg-dev debian-archive-keyring xz-utils ca-certificates  # source of the host
@@ -63,7 +63,7 @@ ensure_packages() {
   [[ -z ${TALUS_SKIP_PACKAGES:-} ]] || return 0
   if ! have dpkg-query; then
     have cmake && have ninja && have python3 ||
-      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, GoogleTest, libpng and Python 3 by hand"
+      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, libccd, GoogleTest, libpng and Python 3 by hand"
     return 0
   fi
   local missing

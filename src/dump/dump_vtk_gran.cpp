@@ -4,6 +4,7 @@
 
 #include "system/compute_contact_list.h"
 #include "system/present_time.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -143,6 +144,10 @@ void DumpVtkGran::write()
     some = contacts();
     write_part("contacts", some, true);
   }
+  if (system->shapes()) {
+    some = shapes();
+    write_part("shapes", some, true);
+  }
   for (LargeBody *body : system->bodies()) {
     if (!with_bodies) break;
     VtkPolyData surface = body->picture();
@@ -232,11 +237,20 @@ VtkPolyData DumpVtkGran::contacts()
     force.add(force_on_i);
     overlap.add(depth);
   };
+  const SystemShapes *shapes = system->shapes();
+  const auto is_shaped = [&](int i) { return shapes && shapes->is_shaped(atom->type[i]); };
   contact_list->contacts.for_each([&](const PairContact &c) {
-    if (!is_chosen(c.i) || !is_chosen(c.j)) return;
+    if (!is_chosen(c.i) || !is_chosen(c.j) || is_shaped(c.i) || is_shaped(c.j)) return;
     const double normal = dot(c.normal_force, c.separation) / length(c.separation);
     add(c.i, static_cast<double>(atom->tag[c.j]), 0, c.separation, c.force(), normal, c.overlap);
   });
+  if (shapes)
+    shapes->for_each_point([&](int i, int j, const PointContact &c) {
+      if (i >= atom->nlocal || !is_chosen(i) || !is_chosen(j)) return;
+      const double *a = atom->x[i], *b = atom->x[j];
+      add(i, static_cast<double>(atom->tag[j]), 0, {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, c.force,
+          dot(c.force, c.normal), c.overlap);
+    });
   int number = 0;
   for (LargeBody *body : system->bodies()) {
     number++;
@@ -247,6 +261,21 @@ VtkPolyData DumpVtkGran::contacts()
     });
   }
   return lines;
+}
+
+/* The surfaces of particles with a shape. */
+
+VtkPolyData DumpVtkGran::shapes() const
+{
+  VtkPolyData surface(VtkCells::TRIANGLES);
+  auto &id_of = surface.add_cell_data("id", 1), &type = surface.add_cell_data("type", 1);
+  system->shapes()->for_each_triangle([&](int i, const Triangle &one) {
+    if (!(atom->mask[i] & groupbit)) return;
+    for (const Vector3<double> &corner : one.corner) surface.add_point(corner);
+    id_of.add(static_cast<double>(atom->tag[i]));
+    type.add(atom->type[i]);
+  });
+  return surface;
 }
 
 /* ---- files ---------------------------------------------------------------------------------- */

@@ -43,6 +43,7 @@ class DumpVtkGran : public DumpCustom {
   void fill_buffer();
   Talus::VtkPolyData grains();
   Talus::VtkPolyData contacts();
+  Talus::VtkPolyData shapes() const;
   void write_part(const std::string &name, Talus::VtkPolyData &part, bool in_pieces);
   void collect(Talus::VtkPolyData &part) const;
   std::string file_name(const std::string &part, const std::string &end) const;

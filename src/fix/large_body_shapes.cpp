@@ -11,6 +11,8 @@
 #include "body/shape/rectangle.h"
 #include "fix/region_shape.h"
 
+#include "system/shared_file.h"
+
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -135,34 +137,11 @@ LargeBodyShapes::Shape LargeBodyShapes::cone()
                                    side == Side::OPEN);
 }
 
-/* Rank 0 reads, so that the file need not be visible elsewhere. */
-
-std::string LargeBodyShapes::read_everywhere(const std::string &file)
-{
-  std::string content;
-  long long size = -1;
-  if (comm->me == 0) {
-    if (FILE *fp = std::fopen(file.c_str(), "rb")) {
-      char block[1 << 16];
-      std::size_t got;
-      while ((got = std::fread(block, 1, sizeof block, fp)) > 0) content.append(block, got);
-      size = std::ferror(fp) ? -1 : static_cast<long long>(content.size());
-      std::fclose(fp);
-    }
-  }
-  MPI_Bcast(&size, 1, MPI_LONG_LONG, 0, world);
-  if (size < 0) words.fail(1, "cannot read the file '" + file + "'");
-  if (size > MAXSMALLINT) words.fail(1, "the file '" + file + "' is larger than 2 GB");
-  content.resize(size);
-  MPI_Bcast(&content[0], static_cast<int>(size), MPI_CHAR, 0, world);
-  return content;
-}
-
 StlContent LargeBodyShapes::stl(const std::string &file)
 {
   StlContent content;
   try {
-    content = parse_stl(read_everywhere(file));
+    content = parse_stl(read_everywhere(lmp, words, file));
   } catch (const std::runtime_error &problem) {
     words.fail(1, "'" + file + "': " + problem.what());
   }

@@ -36,7 +36,6 @@ class LargeBodyShapes : protected Pointers {
   bool parse_inside();
   enum class Side { INSIDE, OUTSIDE, OPEN };
   Side parse_side();
-  std::string read_everywhere(const std::string &file);
   Talus::StlContent stl(const std::string &file);
   bool take_side(std::string &side);
   static std::string what_is_open(const Talus::MeshReport &report);

@@ -310,6 +310,19 @@ NeighborView NeighborSearch::view() const
   return {static_cast<int>(size.size()), nullptr, size.data(), entries.data()};
 }
 
+/* Rows stand in the memory of chunks, which is ours to write. */
+
+void NeighborSearch::take_out(const std::function<bool(int, int)> &take)
+{
+  for (std::size_t i = 0; i < size.size(); i++) {
+    int *row = const_cast<int *>(entries[i]);
+    int kept = 0;
+    for (int n = 0; n < size[i]; n++)
+      if (!take(static_cast<int>(i), row[n])) row[kept++] = row[n];
+    size[i] = kept;
+  }
+}
+
 void NeighborSearch::clear()
 {
   size.clear();

@@ -40,6 +40,10 @@ class NeighborSearch {
   /// Valid until the next find() or clear().
   NeighborView view() const;
 
+  /// Takes pairs out of the last find(), in the order of their rows: those for which take(i, j),
+  /// which is asked once for each, is true.
+  void take_out(const std::function<bool(int, int)> &take);
+
   /// Drops the pairs, and gives all memory back if it is much.
   void clear();
 

@@ -24,6 +24,9 @@ class RandomNumbers {
     for (std::size_t n = things.size(); n > 1; n--) std::swap(things[n - 1], things[next() % n]);
   }
 
+  /// Any 64 bits.
+  std::uint64_t draw() { return next(); }
+
   std::uint64_t state;
 
  private:

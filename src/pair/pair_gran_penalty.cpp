@@ -126,7 +126,7 @@ void PairGranPenalty::compute(int eflag, int vflag)
   compute_contacts(eflag, vflag);
   if (!eflag_global) return;
   // for compute pair; what two ranks compute counts half on each
-  pvector[0] = system->contacts().count_contacts();
+  pvector[0] = system->count_contacts();
   pvector[1] = system->contacts().count_candidates();
 }
 

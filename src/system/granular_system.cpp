@@ -4,6 +4,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/system_run_style.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -65,7 +66,10 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
                    store->say_no_number(found);
                    return true;
                  }}});
-  monitors.add(pair, monitor.checks([this] { return pipeline->deepest_contact(); }));
+  monitors.add(pair, monitor.checks([this] {
+    const DeepestContact spheres = pipeline->deepest_contact();
+    return shaped ? std::max(spheres, shaped->deepest_contact()) : spheres;
+  }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);
@@ -106,7 +110,7 @@ void GranularSystem::init_pair_style()
   neighbors.init(pair);
   gravity = nullptr;    // its init() comes later
   masses.find_fixes();
-  radii.find(masses.frozen_groups());
+  radii.find(masses.frozen_groups(), shaped);
   require_sizes();
   create_store();
   monitors.start();
@@ -231,7 +235,7 @@ std::string GranularSystem::small_period() const
 std::string GranularSystem::reason_against_history()
 {
   masses.find_fixes();
-  radii.find(masses.frozen_groups());
+  radii.find(masses.frozen_groups(), shaped);
   return small_period();
 }
 
@@ -245,6 +249,18 @@ std::string GranularSystem::take_gravity(SystemGravity *field)
   if (gravity && gravity != field) return "another fix gravity comes before it";
   gravity = field;
   return "";
+}
+
+bool GranularSystem::take_shapes(SystemShapes *its)
+{
+  if (shaped) return false;
+  shaped = its;
+  return true;
+}
+
+void GranularSystem::drop_shapes(const SystemShapes *its)
+{
+  if (shaped == its) shaped = nullptr;
 }
 
 void GranularSystem::drop_gravity(const SystemGravity *field)

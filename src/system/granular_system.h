@@ -51,6 +51,8 @@ class Pair;
 
 namespace Talus {
 
+class SystemShapes;
+
 /// Where positions, velocities and forces of the owned particles are up to date.
 enum class Residence { HOST, RECORDS };
 
@@ -184,6 +186,17 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ParticleRecords &records() { return pipeline->records(); }
   const int *slot_of_atom() const { return pipeline->particle_order().slot_of_atom.data(); }
 
+  // ---- particles that are not spheres
+
+  /// In the constructor of the fix that has them, and in its destructor. false: there is one
+  /// already.
+  bool take_shapes(SystemShapes *its);
+  void drop_shapes(const SystemShapes *its);
+  /// nullptr: all particles are spheres.
+  SystemShapes *shapes() const { return shaped; }
+  /// Pairs of particles that touch on this rank; those that another one has as well count half.
+  double count_contacts() const;
+
   // ---- rebuild: called by FixContactStore, in this order
 
   /// The pairs are still those of the last step, on all ranks.
@@ -272,6 +285,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ParticleView view() const;
   void update_gravity();
   void find_weightless();
+  NeighborView without_shapes(const NeighborView &all);
   int mover_of(int i) const;
   std::string reason_of_integrators() const;
   void complete_step();
@@ -324,6 +338,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::vector<LAMMPS_NS::Fix *> integrators;    // of Talus, in this run
   std::vector<RecordStep> steps;                // of the first of these, in this step
   SystemGravity *gravity = nullptr;
+  SystemShapes *shaped = nullptr;
   LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there
   struct {
     LAMMPS_NS::bigint step = -1;

@@ -3,12 +3,14 @@
 #include "system/large_body.h"
 
 #include "system/granular_system.h"
+#include "system/system_shapes.h"
 
 #include "body/shape/plane.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -108,12 +110,25 @@ void LargeBody::list_particles()
 {
   masses.update();
   const BodyParticleView particles = view();
+  const int *mask = mask_of_spheres();
   if (its_shape->wants_focus())
     its_shape->focus(BodyCandidates::bounds_of_search(
-        *frame, particles, atom->mask, group_bits(), neighbor->skin,
-        contacts.largest_reach(particles, atom->mask, group_bits())));
-  contacts.find_candidates(*its_shape, *frame, particles, atom->mask, group_bits(), neighbor->skin,
+        *frame, particles, mask, group_bits(), neighbor->skin,
+        contacts.largest_reach(particles, mask, group_bits())));
+  contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+}
+
+/* Particles with a shape belong to no group here: the system computes their contacts. */
+
+const int *LargeBody::mask_of_spheres()
+{
+  const SystemShapes *shapes = system.shapes();
+  if (!shapes) return atom->mask;
+  spheres.assign(atom->mask, atom->mask + atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (shapes->is_shaped(atom->type[i])) spheres[i] = 0;
+  return spheres.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -183,7 +198,9 @@ void LargeBody::compute(bool advance, double *virial)
     }
     BodyParticleView particles = view();
     particles.virial = virial;
-    mine = contacts.compute(*its_shape, *frame, particles, step_of(advance));
+    const BodyStep step = step_of(advance);
+    mine = contacts.compute(*its_shape, *frame, particles, step);
+    if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step, virial));
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
@@ -227,6 +244,11 @@ BodyFindings LargeBody::find_worst()
 
 double LargeBody::energy()
 {
+  if (system.shapes())
+    error->all(FLERR,
+               "{}: the energy of its contacts with particles that have a shape is not known: leave "
+               "the scalar of this fix and 'fix_modify energy' out",
+               name());
   is_asked = true;
   double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {

@@ -69,6 +69,9 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// After shape and laws: from now on histories are kept, if the laws have some.
   void keep_history();
   bool keeps_history() const { return with_history; }
+  /// As it is in this step; and the laws, after init().
+  const BodyFrame &present_frame() const { return *frame; }
+  const LawTable &law_table() const { return contacts.law_table(); }
   /// By particle; the command moves them with the particles and saves them.
   BodyHistory &history() { return contacts.history; }
 
@@ -132,6 +135,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
  private:
   BodyParticleView view() const;
   BodyStep step_of(bool advance);
+  const int *mask_of_spheres();
   BodyFindings findings_now() const;
   void find_frozen();
   void clear_frozen();
@@ -149,6 +153,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::vector<bool> spec_is_set;
   bool with_history = false;
   BodyContacts contacts;
+  std::vector<int> spheres;    ///< see mask_of_spheres()
   BodyFindings seen_between;    ///< before particles were listed anew within a step
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before

@@ -2,6 +2,8 @@
 
 #include "system/largest_radii.h"
 
+#include "system/system_shapes.h"
+
 #include "atom.h"
 #include "fix.h"
 #include "modify.h"
@@ -10,11 +12,13 @@
 
 using namespace LAMMPS_NS;
 
-void LargestRadii::find(int frozen_groups)
+void LargestRadii::find(int frozen_groups, const Talus::SystemShapes *shapes)
 {
   const int n = atom->ntypes + 1;
   std::vector<double> mine(n, 0.0), mine_frozen(n, 0.0);
   add_future(mine);
+  for (int type = 1; type < n && shapes; type++)
+    mine[type] = std::max(mine[type], shapes->radius_of(type));
   for (int i = 0; i < atom->nlocal; i++) {
     double &r = (atom->mask[i] & frozen_groups ? mine_frozen : mine)[atom->type[i]];
     r = std::max(r, atom->radius[i]);

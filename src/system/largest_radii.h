@@ -11,14 +11,19 @@
 #include <algorithm>
 #include <vector>
 
+namespace Talus {
+class SystemShapes;
+}
+
 namespace LAMMPS_NS {
 
 class LargestRadii : protected Pointers {
  public:
   explicit LargestRadii(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// Looks at all particles of all ranks and at fixes pour and deposit. Call in init_style().
-  void find(int frozen_groups);
+  /// Looks at all particles of all ranks, at fixes pour and deposit, and at the types that have a
+  /// shape, if any. Call in init_style().
+  void find(int frozen_groups, const Talus::SystemShapes *shapes);
 
   /// Distance at which particles of types i and j can touch.
   double cutoff(int i, int j) const;

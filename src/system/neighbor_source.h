@@ -10,6 +10,7 @@
 #include "neighbors/neighbor_search.h"
 #include "pointers.h"
 
+#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -25,6 +26,12 @@ class NeighborSource : protected Pointers {
   /// At a rebuild. `list`: the pair style's, not read if the search is ours. `reach`: how far
   /// contacts last beyond zero overlap. Valid until release().
   Talus::NeighborView find(const class NeighList *list, double reach);
+  /// Takes pairs out of what find() has found, see NeighborSearch; only of neighbors found here.
+  Talus::NeighborView take_out(const std::function<bool(int, int)> &take)
+  {
+    search.take_out(take);
+    return search.view();
+  }
   void release() { search.clear(); }
 
   /// "" if neighbors are found here, else why the lists are those of the host.

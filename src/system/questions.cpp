@@ -6,6 +6,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/private_member.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "bond.h"
@@ -111,6 +112,11 @@ std::optional<RememberedValues> GranularSystem::remembered_of(int i, int j)
   const FoundHistory found = store->histories().find_of_atoms(i, j);
   if (!found.known) return std::nullopt;
   return remembered_values(found.seen_by_a(), *found.impact);
+}
+
+double GranularSystem::count_contacts() const
+{
+  return pipeline->count_contacts() + (shaped ? shaped->count_contacts() : 0.0);
 }
 
 double GranularSystem::share_without_proxies() const

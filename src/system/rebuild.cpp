@@ -9,6 +9,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -16,8 +17,11 @@
 #include "pair.h"
 #include "timer.h"
 
+#include <array>
 #include <new>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -31,6 +35,7 @@ void GranularSystem::look_at_contacts(bool run_is_over)
 void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
   pipeline->keep_history(to, scope, pairs_stay);
+  if (shaped) shaped->keep_memories();
 }
 
 void GranularSystem::release_records()
@@ -54,8 +59,9 @@ void GranularSystem::renumber_pairs()
   const ProxyUpdates *proxies = proxy_updates();
   pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
-    pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type},
-                        neighbors.find(pair->list, largest_reach()));
+    NeighborView found = neighbors.find(pair->list, largest_reach());
+    if (shaped) found = without_shapes(found);
+    pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, found);
     neighbors.release();
     pipeline->start_pairs(store->histories());
   } catch (const std::length_error &problem) {
@@ -72,6 +78,22 @@ void GranularSystem::renumber_pairs()
   pipeline->set_own_masses(masses.bodies_are_rigid() ? atom->rmass : nullptr);
   masses.update();
   if (masses.needed()) comm->forward_comm(pair);
+}
+
+/* What the host has found cannot be changed; shapes refuse it in init(). */
+
+NeighborView GranularSystem::without_shapes(const NeighborView &all)
+{
+  if (!reason_for_lists_of_host().empty()) return all;
+  std::vector<std::array<int, 2>> pairs;
+  const int *type = atom->type;
+  const NeighborView rest = neighbors.take_out([&](int i, int j) {
+    const bool its = shaped->is_shaped(type[i]) || shaped->is_shaped(type[j]);
+    if (its) pairs.push_back({i, j});
+    return its;
+  });
+  shaped->set_pairs(std::move(pairs));
+  return rest;
 }
 
 void GranularSystem::find_weightless()

@@ -12,6 +12,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
 
@@ -137,6 +138,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
     if (!step.read) pipeline->write_changes(store->all_changes());
     store->remember_velocities(groups_with_changes());
   }
+  if (shaped) shaped->compute_contacts(step);
   store->pairs_are_current();
   if (!setting_up) return;
   time_step.judge_start(book, *pipeline);

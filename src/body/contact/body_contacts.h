@@ -51,6 +51,7 @@ class BodyContacts {
  public:
   /// Law of each particle type t against the body: row (t, t) of the table.
   void set_laws(const LawTable &table);
+  const LawTable &law_table() const { return laws; }
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.

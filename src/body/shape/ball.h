@@ -14,6 +14,9 @@ class Ball : public LargeBodyShape {
  public:
   Ball(const Vector3<double> &center, double radius, bool inside);
 
+  double radius() const { return size; }
+  bool is_inside() const { return inside; }
+
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;

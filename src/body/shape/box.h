@@ -18,6 +18,9 @@ class Box : public LargeBodyShape {
   /// `edges`: the three lengths, > 0.
   Box(const Vector3<double> &center, const Vector3<double> &edges, bool inside);
 
+  bool is_inside() const { return inside; }
+  double half_edge(int axis) const { return half[axis]; }
+
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;

@@ -16,6 +16,9 @@ class Plane : public LargeBodyShape {
   /// `normal` must be a unit vector.
   Plane(const Vector3<double> &point, const Vector3<double> &normal, bool two_sided);
 
+  const Vector3<double> &unit_normal() const { return normal; }
+  bool has_two_sides() const { return two_sided; }
+
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   unsigned touches_eight(const EightSpheres &spheres, int count,

@@ -1,0 +1,254 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "fix/fix_shape_gran.h"
+
+#include "base/in_parallel.h"
+#include "fix/orientations.h"
+#include "fix/particle_shapes.h"
+#include "system/command_words.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace Talus;
+
+/* ---------------------------------------------------------------------- */
+
+FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), pairs(table)
+{
+  time_integrate = 0;    // of the group only some move: LAMMPS would warn of two integrators
+  dynamic_group_allow = 0;
+  create_attribute = 1;
+  restart_global = restart_peratom = 1;
+  peratom_flag = 1;
+  size_peratom_cols = 4;
+  peratom_freq = 1;
+  scalar_flag = vector_flag = 1;
+  size_vector = size_sums;
+  global_freq = 1;
+  extscalar = extvector = 1;
+  maxexchange_dynamic = 1;
+  set_maxexchange();
+  comm_border = 4;
+  comm_forward = block_size;
+
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR, "Fix shape/gran requires atom attributes radius, rmass, omega and torque: "
+                      "use 'atom_style sphere'");
+  if (!atom->tag_enable)
+    error->all(FLERR, "Fix shape/gran requires atom IDs: remove 'atom_modify id no'");
+  if (domain->dimension != 3)
+    error->all(FLERR, "Fix shape/gran: shapes are three-dimensional: use 'dimension 3'");
+  if (!system->take_shapes(this))
+    error->all(FLERR, "Fix shape/gran can be used only once: give all types with a shape in one "
+                      "command, 'type 1 ... type 2 ...'");
+  Words words = command_words(lmp, "fix shape/gran", narg, arg, 3);
+  table = ParticleShapes(lmp, words).parse();
+
+  FixShapeGran::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  atom->add_callback(Atom::BORDER);
+  for (int i = 0; i < atom->nlocal; i++) FixShapeGran::set_arrays(i);
+  set_sizes(0, atom->nlocal);
+}
+
+FixShapeGran::~FixShapeGran()
+{
+  system->drop_shapes(this);
+  for (const int which : {Atom::GROW, Atom::RESTART, Atom::BORDER})
+    atom->delete_callback(id, which);
+  memory->destroy(quat);
+}
+
+int FixShapeGran::setmask()
+{
+  return INITIAL_INTEGRATE | PRE_NEIGHBOR;
+}
+
+void FixShapeGran::init()
+{
+  set_sizes(0, atom->nlocal);
+  orient_new(0, atom->nlocal);
+  check_scene();
+  set_maxexchange();
+}
+
+/* Radius and mass belong to the type; the host makes new particles with others. */
+
+void FixShapeGran::set_sizes(int first, int last)
+{
+  for (int i = first; i < last; i++)
+    if (const ParticleShape *its = table.of(atom->type[i])) {
+      atom->radius[i] = its->shape().bounding_radius();
+      atom->rmass[i] = its->mass();
+    }
+}
+
+/* By ID, which some commands give after they have made the particle. */
+
+void FixShapeGran::orient_new(int first, int last)
+{
+  for (int i = first; i < last; i++) {
+    const ParticleShape *its = table.of(atom->type[i]);
+    if (its && atom->tag[i] > 0 && !is_known(quat[i]))
+      put(its->new_orientation(atom->tag[i]), quat[i]);
+  }
+}
+
+/* ---- a rebuild ---- */
+
+void FixShapeGran::keep_memories()
+{
+  if (memories_are_current) return;
+  memories.clear_all();
+  pairs.save(memories);
+  for (auto &[body, its] : walls) its.points->save(memories);
+  memories_are_current = true;
+  set_maxexchange();
+}
+
+void FixShapeGran::set_maxexchange()
+{
+  int mine = memories.longest(quat ? atom->nlocal : 0), most = 0;
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
+  maxexchange = 4 + 1 + PointMemory::size * most;
+}
+
+/* Of particles that have come since: owned ones and their ghosts. */
+
+void FixShapeGran::pre_neighbor()
+{
+  const int nall = atom->nlocal + atom->nghost;
+  set_sizes(0, nall);
+  orient_new(0, nall);
+  require_no_other_integrator();
+}
+
+void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
+{
+  const int nall = atom->nlocal + atom->nghost;
+  send_memories_to_ghosts();
+  const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
+  pairs.set_pairs(view(), found, tags, system->law_table());
+  pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
+  for (auto &[body, its] : walls) list_particles(*body, *its.points);
+}
+
+void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
+{
+  std::vector<int> particles;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_shaped(atom->type[i]) && (atom->mask[i] & body.group_bits())) particles.push_back(i);
+  points.set_particles(particles);
+  points.restore(memories);
+}
+
+/* ---- a step ---- */
+
+ShapedView FixShapeGran::view() const
+{
+  if (atom->nlocal + atom->nghost == 0) return {};
+  return {atom->nlocal,   atom->nlocal + atom->nghost,
+          atom->x[0],     atom->v[0],
+          atom->omega[0], atom->radius,
+          atom->rmass,    system->mass_override(),
+          atom->type,     quat[0],
+          atom->f[0],     atom->torque[0]};
+}
+
+void FixShapeGran::compute_contacts(const ContactStep &step)
+{
+  message = Message::ORIENTATIONS;
+  comm->forward_comm(this, 4);
+  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads});
+  if (step.advance) memories_are_current = false;
+  if (!step.report) return;
+  pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
+    const double *a = atom->x[i], *b = atom->x[j];
+    (*step.report)({i,
+                    j,
+                    i < atom->nlocal,
+                    j < atom->nlocal,
+                    {force.x, force.y, force.z},
+                    {a[0] - b[0], a[1] - b[1], a[2] - b[2]}});
+  });
+}
+
+std::string FixShapeGran::refusal_of(LargeBody &body) const
+{
+  if (BodyWalls(body.shape()).size() == 0)
+    return "particles with a shape touch no surface of this kind: use plane, box, sphere outside, or "
+           "cylinder inside";
+  for (int type = 1; type <= table.last_type(); type++) {
+    if (!is_shaped(type)) continue;
+    const std::string its = PointBatch::refusal(body.law_of(type));
+    if (!its.empty())
+      return fmt::format("its contact with particles of type {}, which have a shape, {}", type,
+                         its);
+  }
+  return "";
+}
+
+BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double *virial)
+{
+  auto &its = walls[&body];
+  if (!its.points) {
+    its.surface = std::make_unique<BodyWalls>(body.shape());
+    its.points = std::make_unique<WallPoints>(table, name_of(body));
+    list_particles(body, *its.points);
+  }
+  if (step.advance) memories_are_current = false;
+  return its.points->compute(*its.surface, body.present_frame(), view(), body.law_table(), step,
+                             virial);
+}
+
+/* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */
+
+std::int64_t FixShapeGran::name_of(const LargeBody &body)
+{
+  std::uint64_t hash = 14695981039346656037U;    // FNV-1a
+  for (const char *c = body.command()->id; *c; c++)
+    hash = (hash ^ static_cast<unsigned char>(*c)) * 1099511628211U;
+  return -static_cast<std::int64_t>(hash >> 1) - 1;
+}
+
+void FixShapeGran::initial_integrate(int /*vflag*/)
+{
+  const double dt = update->dt, kick = dt * force->ftm2v;
+  in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
+    for (int i = begin; i < end; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      const ParticleShape *its = table.of(atom->type[i]);
+      if (!its) continue;
+      double *x = atom->x[i], *v = atom->v[i], *w = atom->omega[i];
+      const double *f = atom->f[i];
+      const double kick_f = kick / atom->rmass[i];
+      for (int d = 0; d < 3; d++) {
+        v[d] += kick_f * f[d];
+        x[d] += dt * v[d];
+      }
+      Eigen::Quaterniond q = quaternion(quat[i]);
+      Vector3<double> omega = row(w);
+      its->rotation().advance(q, omega, force->ftm2v * row(atom->torque[i]), dt);
+      put(q, quat[i]);
+      w[0] = omega.x;
+      w[1] = omega.y;
+      w[2] = omega.z;
+    }
+  });
+}

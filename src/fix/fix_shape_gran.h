@@ -1,0 +1,148 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+/* ----------------------------------------------------------------------
+   fix ID group shape/gran type N shape args keyword value ... type M ...
+
+   Gives all particles of some types a convex shape, and moves those of the group:
+
+     v += dt ftm2v f/m      x += dt v
+     L += dt ftm2v torque   orientation and omega: see body/motion/free_rotation.h
+
+   Particles stay particles of atom style sphere: x is the center of mass, radius that of
+   the sphere around the shape, rmass its mass; this fix sets both. The orientation
+   (quaternion w x y z from the axes in which the shape was written to those of space)
+   belongs to this fix: it travels with the particle, to ghosts, and into restart files.
+
+   Called by: Verlet through Modify; GranularSystem, which hands over the pairs with a shape
+   and asks for their forces.
+   Before:    as fix nve/sphere/symplectic.
+   Per-atom array: the orientation, zero of spheres.
+   Global scalar: kinetic energy of the owned particles with a shape that this fix moves;
+   global vector: see doc/fix_shape_gran.md.
+   Errors: words of the command; in init() what cannot go with shapes, all by error->all.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(shape/gran,FixShapeGran);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SHAPE_GRAN_H
+#define LMP_FIX_SHAPE_GRAN_H
+
+#include "fix.h"
+#include "shaped/point_memory.h"
+#include "shaped/shape_table.h"
+#include "shaped/shaped_pairs.h"
+#include "shaped/wall_points.h"
+#include "system/granular_system.h"
+#include "system/system_shapes.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixShapeGran : public Fix, public Talus::SystemShapes {
+ public:
+  FixShapeGran(class LAMMPS *, int, char **);
+  ~FixShapeGran() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_neighbor() override { pre_neighbor(); }
+  void pre_neighbor() override;
+  void initial_integrate(int) override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  int modify_param(int, char **) override;
+  int image(int *&, double **&) override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_border(int, int *, double *) override;
+  int unpack_border(int, int, double *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  double memory_usage() override;
+
+  // SystemFix
+  std::string needs_host_arrays() override { return "some particles are not spheres"; }
+  bool integrates() const override { return true; }
+
+  // SystemShapes
+  bool is_shaped(int type) const override { return table.of(type) != nullptr; }
+  double radius_of(int type) const override { return table.bounding_radius(type); }
+  void keep_memories() override;
+  void set_pairs(std::vector<std::array<int, 2>> pairs) override;
+  void compute_contacts(const Talus::ContactStep &step) override;
+  std::string refusal_of(Talus::LargeBody &body) const override;
+  Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
+                             double *virial) override;
+  void for_each_triangle(const VisitTriangle &visit) const override;
+  void for_each_point(const VisitPoint &visit) const override;
+  Talus::DeepestContact deepest_contact() const override;
+  double count_contacts() const override { return pairs.count_contacts(); }
+
+ private:
+  // fix_shape_gran.cpp
+  void set_sizes(int first, int last);
+  void orient_new(int first, int last);
+  Talus::ShapedView view() const;
+  void set_maxexchange();
+  void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
+  static std::int64_t name_of(const Talus::LargeBody &body);
+  static constexpr int size_sums = 7;
+  std::array<double, size_sums> sums() const;
+
+  // fix_shape_gran_check.cpp
+  void check_scene();
+  void check_laws();
+  void check_fixes();
+  void check_computes();
+  void require_no_other_integrator() const;
+
+  std::shared_ptr<Talus::GranularSystem> system;
+  Talus::ShapeTable table;
+  Talus::ShapedPairs pairs;
+  struct Wall {
+    std::unique_ptr<Talus::BodyWalls> surface;
+    std::unique_ptr<Talus::WallPoints> points;
+  };
+  std::map<const Talus::LargeBody *, Wall> walls;
+  double **quat = nullptr;      ///< w x y z of owned particles and ghosts; 0: not known yet
+  int other_integrators = 0;    ///< bits of groups that other fixes move
+
+  Talus::PointMemories memories;
+  bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+
+  std::vector<double> image_values;
+  std::vector<double *> image_rows;
+  std::vector<int> image_kinds;
+
+  // fix_shape_gran_store.cpp
+  void send_memories_to_ghosts();
+  static constexpr int block_size = 32;    ///< doubles of a piece of a list
+  enum class Message { ORIENTATIONS, MEMORIES };
+  Message message = Message::ORIENTATIONS;
+  int piece = 0, pieces = 0;
+  std::vector<std::vector<double>> lists;    ///< of memories, on their way to ghosts
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

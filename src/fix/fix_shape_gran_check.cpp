@@ -1,0 +1,120 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+// What fix shape/gran refuses: whatever would take its particles for spheres.
+
+#include "fix/fix_shape_gran.h"
+
+#include "atom.h"
+#include "compute.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+void FixShapeGran::check_scene()
+{
+  if (update->whichflag == 2)
+    error->all(FLERR, Error::NOLASTLINE, "Fix shape/gran cannot be used with minimize");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix shape/gran cannot be used with run_style respa: use run_style verlet");
+  if (!system->accelerates_pairs())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
+               "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",
+               system->reason_of_pair_style());
+  const std::string lists = system->reason_for_lists_of_host();
+  if (!lists.empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix shape/gran: neighbor lists are those of LAMMPS because of {}: leave it out",
+               lists);
+  check_laws();
+  check_fixes();
+  check_computes();
+  for (LargeBody *body : system->bodies()) {
+    const std::string its = refusal_of(*body);
+    if (!its.empty()) error->all(FLERR, Error::NOLASTLINE, "{}: {}", body->name(), its);
+  }
+  walls.clear();    // a script may have deleted some; what they remember is in the lists
+}
+
+void FixShapeGran::check_laws()
+{
+  const LawTable &laws = system->law_table();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (!is_shaped(i) && !is_shaped(j)) continue;
+      const std::string its = PointBatch::refusal(laws.law(laws.row(i, j)));
+      if (!its.empty())
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Fix shape/gran: the contact of types {} and {}, of which one has a shape, {}",
+                   i, j, its);
+    }
+}
+
+void FixShapeGran::check_fixes()
+{
+  other_integrators = 0;
+  for (auto &fix : modify->get_fix_list()) {
+    if (fix == this) continue;
+    if (fix->time_integrate) other_integrators |= fix->groupbit;
+    if (utils::strmatch(fix->style, "^wall/gran"))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body",
+                 fix->id, fix->style);
+    if (utils::strmatch(fix->style, "^rigid"))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix shape/gran: fix {} ({}) cannot hold particles with a shape: leave it out",
+                 fix->id, fix->style);
+    if (!utils::strmatch(fix->style, "^pour")) continue;    // fix deposit asks for distances
+    for (int type = 1; type <= table.last_type(); type++) {
+      int of_type = type;
+      const auto *largest = static_cast<double *>(fix->extract("radius", of_type));
+      const double needed = radius_of(type);
+      if (largest && *largest > 0.0 && needed > 0.0 && *largest < needed * (1.0 - 1.0e-6))
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Fix shape/gran: fix {} ({}) puts particles of type {} where a sphere with a "
+                   "diameter of {:.8g} has room, but the sphere around their shape has one of "
+                   "{:.8g}: give it a diameter of {:.8g}",
+                   fix->id, fix->style, type, 2.0 * *largest, 2.0 * needed,
+                   2.0 * needed * (1.0 + 1.0e-6));
+    }
+  }
+  if (system->order() == 2)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in fix "
+               "nve/sphere/symplectic");
+  require_no_other_integrator();
+}
+
+/* Those that ask for contacts of spheres, or take moments of inertia of spheres. */
+
+void FixShapeGran::check_computes()
+{
+  for (auto &compute : modify->get_compute_list())
+    for (const char *style : {"contact/gran/atom", "contact/gran/local", "dissipation/gran/atom",
+                              "penalty/stats", "pair/local"})
+      if (strcmp(compute->style, style) == 0)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Fix shape/gran: compute {} ({}) knows contacts of spheres only: leave it out",
+                   compute->id, compute->style);
+}
+
+void FixShapeGran::require_no_other_integrator() const
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_shaped(atom->type[i]) && (atom->mask[i] & other_integrators))
+      error->one(FLERR, Error::NOLASTLINE,
+                 "Fix shape/gran: particle {} of type {} has a shape and belongs to the group of "
+                 "another fix that moves particles: give that fix a group of spheres only",
+                 atom->tag[i], atom->type[i]);
+}

@@ -1,0 +1,136 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+// What fix shape/gran can be asked: sums over ranks, pictures; and fix_modify.
+
+#include "fix/fix_shape_gran.h"
+
+#include "fix/orientations.h"
+#include "system/command_words.h"
+#include "system/lammps_compat.h"
+
+#include "atom.h"
+#include "force.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+/* Of particles of the group: energies of translation and rotation, angular momentum about their
+   centers; and of all contacts between particles: pairs that touch, points. */
+
+std::array<double, FixShapeGran::size_sums> FixShapeGran::sums() const
+{
+  std::array<double, size_sums> mine{}, all{};
+  for (int i = 0; i < atom->nlocal; i++) {
+    const ParticleShape *its = table.of(atom->type[i]);
+    if (!its || !(atom->mask[i] & groupbit) || !is_known(quat[i])) continue;
+    const Vector3<double> v = row(atom->v[i]), omega = row(atom->omega[i]);
+    const Eigen::Quaterniond q = quaternion(quat[i]);
+    const Vector3<double> momentum = its->rotation().angular_momentum(q, omega);
+    mine[0] += 0.5 * force->mvv2e * atom->rmass[i] * dot(v, v);
+    mine[1] += 0.5 * force->mvv2e * dot(omega, momentum);
+    mine[2] += momentum.x;
+    mine[3] += momentum.y;
+    mine[4] += momentum.z;
+  }
+  mine[5] = pairs.count_contacts();
+  mine[6] = pairs.count_points();
+  MPI_Allreduce(mine.data(), all.data(), size_sums, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+double FixShapeGran::compute_scalar()
+{
+  const auto all = sums();
+  return all[0] + all[1];
+}
+
+double FixShapeGran::compute_vector(int n)
+{
+  return sums()[n];
+}
+
+int FixShapeGran::modify_param(int narg, char **arg)
+{
+  if (strcmp(arg[0], "orient") != 0) return 0;
+  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
+  words.about("orient");
+  const int tag = words.integer("ID of a particle", 1);
+  double q[4];
+  for (double &component : q) component = words.number("w x y z");
+  Eigen::Quaterniond orientation = quaternion(q);
+  if (!(orientation.norm() > 0.0)) words.fail(1, "a quaternion must not be zero");
+  orientation.normalize();
+  int mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->tag[i] == tag && is_shaped(atom->type[i])) {
+      put(orientation, quat[i]);
+      mine++;
+    }
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
+  if (!all) words.fail(5, "no particle with this ID has a shape");
+  return words.index();
+}
+
+/* ---- contacts, pictures ---- */
+
+void FixShapeGran::for_each_point(const VisitPoint &visit) const
+{
+  pairs.for_each_point(visit);
+}
+
+void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const
+{
+  constexpr int pieces = 3;    // of an arc of 90 degrees
+  std::vector<std::vector<Triangle>> of_type(table.last_type() + 1);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    const ParticleShape *its = table.of(type);
+    if (!its || !is_known(quat[i])) continue;
+    if (of_type[type].empty()) of_type[type] = its->shape().surface(pieces);
+    const Pose pose = its->pose(row(atom->x[i]), quaternion(quat[i]));
+    for (const Triangle &one : of_type[type])
+      visit(i, {{pose.point_in_space(one.corner[0]), pose.point_in_space(one.corner[1]),
+                 pose.point_in_space(one.corner[2])}});
+  }
+}
+
+DeepestContact FixShapeGran::deepest_contact() const
+{
+  DeepestContact deepest;
+  const auto inside = [this](int i) {
+    const ParticleShape *its = table.of(atom->type[i]);
+    return its ? its->shape().inscribed_radius() : atom->radius[i];
+  };
+  pairs.for_each_point([&](int i, int j, const PointContact &point) {
+    const double ratio = point.overlap / std::min(inside(i), inside(j));
+    if (ratio > deepest.overlap_ratio) deepest = {ratio, i, j};
+  });
+  return deepest;
+}
+
+/* For dump image: the type, which may choose the color, and the corners. LAMMPS lights the side
+   from which these go round clockwise. */
+
+int FixShapeGran::image(int *&kinds, double **&values)
+{
+  constexpr int size = 10;
+  image_values.clear();
+  for_each_triangle([&](int i, const Triangle &one) {
+    image_values.push_back(atom->type[i]);
+    for (const int corner : {0, 2, 1}) {
+      const Vector3<double> &p = one.corner[corner];
+      image_values.insert(image_values.end(), {p.x, p.y, p.z});
+    }
+  });
+  const int count = static_cast<int>(image_values.size()) / size;
+  image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
+  image_rows.clear();
+  for (int k = 0; k < count; k++)
+    image_rows.push_back(&image_values[static_cast<std::size_t>(size) * k]);
+  kinds = image_kinds.data();
+  values = image_rows.data();
+  return count;
+}

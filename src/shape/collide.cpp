@@ -1,0 +1,175 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shape/collide.h"
+
+#include "shape/pair_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Talus {
+namespace {
+
+using Vector = Vector3<double>;
+
+// Over the size of a pair. Where cores are nearer to each other than this their nearest points have
+// no direction any more.
+constexpr double too_near = 1.0e-7;
+
+double width_along(const CorePair &pair, const Vector &n)
+{
+  return -highest_vertex(pair.a, -n).height -
+         highest_vertex(pair.b, pair.seen.direction_in_body(n)).height - dot(n, pair.seen.position);
+}
+
+bool spheres_apart(const ConvexShape &a, const ConvexShape &b, const Vector &apart)
+{
+  const double reach = a.bounding_radius() + b.bounding_radius();
+  return dot(apart, apart) > reach * reach;
+}
+
+bool is_known(const Vector &direction)
+{
+  return direction.x != 0.0 || direction.y != 0.0 || direction.z != 0.0;
+}
+
+void to_space(const Pose &pose, std::vector<ConvexContact> &contacts)
+{
+  for (ConvexContact &contact : contacts) {
+    contact.position = pose.point_in_space(contact.position);
+    contact.normal = pose.direction_in_space(contact.normal);
+  }
+}
+
+/* Contacts in the frame of a. What is returned of the gap decides only which way is gone, with a
+   margin, and what is looked at; contacts themselves are computed from the poses alone. */
+
+void find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, double merging,
+                   ConvexContacts &contacts)
+{
+  const double margin = too_near * pair.scale();
+  if (radius.sum() > 0.0 && gap.width > margin) {
+    add_feature_contacts(pair, radius, gap, contacts.points);
+    return;
+  }
+  const LeastDepth least = find_least_depth(pair, gap);
+  if (radius.sum() > 0.0 && least.depth < -margin) {
+    add_feature_contacts(pair, radius, {least.direction, -least.depth}, contacts.points);
+    return;
+  }
+  if (!(least.depth + radius.sum() > 0.0)) return;
+  contacts.cores_overlap = radius.sum() > 0.0;
+  add_face_contacts(pair, radius, least, merging, contacts.points);
+}
+
+}    // namespace
+
+double merging_length(const ConvexShape &a, const ConvexShape &b)
+{
+  return 1.0e-4 * std::min(a.volume_radius(), b.volume_radius());
+}
+
+bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
+             SeparatingDirection &direction, ConvexContacts &contacts, NarrowPhase method)
+{
+  contacts.clear();
+  const Vector apart = pose_a.position - pose_b.position;
+  if (spheres_apart(a, b, apart)) return false;
+  const CorePair pair{a.core(), b.core(), relative_pose(pose_a, pose_b)};
+  const Rounding radius{a.radius(), b.radius()};
+  const double enough = radius.sum() + 1.0e-10 * pair.scale();
+  Vector start{1.0, 0.0, 0.0};
+  if (is_known(direction.direction)) {
+    start = pose_a.direction_in_body(direction.direction);
+    if (width_along(pair, start) > enough) return false;
+  } else if (dot(apart, apart) > 0.0) {
+    start = -pair.seen.position;
+  }
+  if (method == NarrowPhase::MPR) {
+    ConvexContact contact;
+    if (find_mpr_contact(pair, radius, contact)) {
+      contacts.points.push_back(contact);
+    } else {
+      const Gap gap = find_gap(pair, start, enough, 1.0e-3 * enough);
+      direction.direction = pose_a.direction_in_space(gap.direction);
+    }
+  } else {
+    const Gap gap = find_gap(pair, start, enough, 1.0e-3 * radius.sum());
+    direction.direction = pose_a.direction_in_space(gap.direction);
+    if (gap.width > enough) return false;
+    find_contacts(pair, radius, gap, merging_length(a, b), contacts);
+  }
+  to_space(pose_a, contacts.points);
+  return !contacts.points.empty();
+}
+
+/* ---- what is no convex body ------------------------------------------------------------------ */
+
+bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector &center, double radius,
+                    ConvexContacts &contacts)
+{
+  contacts.clear();
+  const Vector apart = center - pose.position;
+  const double bound = shape.bounding_radius() + radius, reach = shape.radius() + radius;
+  if (dot(apart, apart) >= bound * bound) return false;
+  const CorePoint near = nearest_point(shape.core(), pose.point_in_body(center));
+  if (!(near.distance < reach)) return false;
+  ConvexContact contact;
+  contact.normal = -pose.direction_in_space(near.normal);
+  contact.overlap = reach - near.distance;
+  contact.position = center + (radius - 0.5 * contact.overlap) * contact.normal;
+  contact.weight = 1.0;
+  contact.name = contact_name(ContactParts::WHOLE, 0, 0);
+  contacts.points.push_back(contact);
+  return true;
+}
+
+bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector &normal, double offset,
+                   ConvexContacts &contacts)
+{
+  contacts.clear();
+  const double middle = dot(normal, pose.position) - offset;
+  if (middle >= shape.bounding_radius()) return false;
+  const ConvexCore &core = shape.core();
+  const Vector n = pose.direction_in_body(normal);
+  for (int v = 0; v < core.num_vertices(); v++) {
+    const Vector x = core.vertex(v);
+    const double overlap = shape.radius() - (middle + dot(n, x));
+    if (!(overlap > 0.0)) continue;
+    ConvexContact contact;
+    contact.normal = normal;
+    contact.overlap = overlap;
+    contact.position = pose.point_in_space(x) - (shape.radius() - 0.5 * overlap) * normal;
+    contact.weight = 1.0;
+    contact.name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
+    contacts.points.push_back(contact);
+  }
+  return !contacts.points.empty();
+}
+
+bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector &point,
+                      const Vector &axis, double cylinder_radius, ConvexContacts &contacts)
+{
+  contacts.clear();
+  const auto across = [&](const Vector &x) {
+    const Vector d = x - point;
+    return d - dot(d, axis) * axis;
+  };
+  if (length(across(pose.position)) + shape.bounding_radius() <= cylinder_radius) return false;
+  const ConvexCore &core = shape.core();
+  for (int v = 0; v < core.num_vertices(); v++) {
+    const Vector x = pose.point_in_space(core.vertex(v)), out = across(x);
+    const double from_axis = length(out), overlap = from_axis + shape.radius() - cylinder_radius;
+    if (!(overlap > 0.0) || !(from_axis > 0.0)) continue;
+    ConvexContact contact;
+    contact.normal = (-1.0 / from_axis) * out;
+    contact.overlap = overlap;
+    contact.position = x - (shape.radius() - 0.5 * overlap) * contact.normal;
+    contact.weight = 1.0;
+    contact.name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
+    contacts.points.push_back(contact);
+  }
+  return !contacts.points.empty();
+}
+
+}    // namespace Talus

@@ -1,0 +1,65 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Narrow phase of convex bodies: contact points of a pair.
+//
+// Rounded bodies (at least one of both has a radius) whose cores are apart touch where parts of the
+// cores are nearer than R = r_a + r_b, as sphero-polyhedra do (S. A. Galindo-Torres, Comput. Meth.
+// Appl. Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core,
+// and each pair of edges that are nearest to each other inside of both. A contact is one of two
+// spheres at the nearest points. All are continuous functions of the poses; edges have the weight
+// that their ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so
+// that nothing jumps where an edge contact runs into a vertex or edges become parallel.
+//
+// Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
+// the normals of faces and the cross products of edges (theorem of the separating axis). The faces
+// that look along it most are projected along it; the contacts are the corners of the polygon that
+// they have in common, each with its own depth, so that a flat cube does not rock. The weight of a
+// corner is the angle by which the polygon turns there, over a right angle: 1 for those of a
+// square, 4 for all of them, whatever their number; but all together bear as much as the deepest
+// of them would with the weight 1.
+//
+// All numbers are computed in the frame of a from the pose of b relative to it, by the same code
+// on all instruction sets. Functions are thread-safe; they use buffers of their thread.
+
+#ifndef TALUS_SHAPE_COLLIDE_H
+#define TALUS_SHAPE_COLLIDE_H
+
+#include "shape/convex_contact.h"
+#include "shape/convex_shape.h"
+
+namespace Talus {
+
+enum class NarrowPhase {
+  FEATURES,    ///< as above
+  MPR          ///< one point per pair, by Minkowski Portal Refinement
+};
+
+/// Contacts of two convex bodies; returns whether there are any. The direction is read and written.
+bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
+             SeparatingDirection &direction, ConvexContacts &contacts,
+             NarrowPhase method = NarrowPhase::FEATURES);
+
+/// Contacts with what is not convex bodies. The body is a, and the other b: normals point to the
+/// body. At most one contact with a sphere, at the point of the core that is nearest to its center;
+/// a center inside the core is pushed out through the nearest face.
+bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector3<double> &center,
+                    double radius, ConvexContacts &contacts);
+
+/// Every vertex of the core below the plane normal . x = offset, or nearer than the radius: the
+/// body is above it.
+bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<double> &normal,
+                   double offset, ConvexContacts &contacts);
+
+/// Inside of an infinite cylinder, such as a drum: every vertex of the core that is nearer to the
+/// wall than the radius, or beyond. `axis` is a unit vector through `point`.
+bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector3<double> &point,
+                      const Vector3<double> &axis, double cylinder_radius,
+                      ConvexContacts &contacts);
+
+/// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
+/// and those that are nearer to a vertex are named by it.
+double merging_length(const ConvexShape &a, const ConvexShape &b);
+
+}    // namespace Talus
+
+#endif

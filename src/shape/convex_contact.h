@@ -1,0 +1,78 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Where two convex bodies touch.
+
+#ifndef TALUS_SHAPE_CONVEX_CONTACT_H
+#define TALUS_SHAPE_CONVEX_CONTACT_H
+
+#include "base/vector3.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace Talus {
+
+/// One of the points at which bodies a and b touch.
+struct ConvexContact {
+  Vector3<double> position;    ///< in space: half way between the two surfaces
+  Vector3<double> normal;      ///< unit vector from b to a: what is repelled pushes a along it
+  double overlap;              ///< > 0
+  /// 0 < weight: forces and torques of the law are multiplied by it. Points that come near each
+  /// other share the weight of one, so that forces are continuous where contact points merge.
+  double weight;
+  /// Which parts touch, see contact_name(): the same in successive steps as long as the same parts
+  /// touch, and different for all contacts of a pair. History is kept by it.
+  std::uint32_t name;
+};
+
+/// Parts by which a contact is named: a vertex of a, a vertex of b (on whatever of the other body),
+/// an edge of each, or the bodies as wholes.
+enum class ContactParts : std::uint32_t { VERTEX_OF_A, VERTEX_OF_B, EDGES, WHOLE };
+inline std::uint32_t contact_name(ContactParts parts, int of_a, int of_b)
+{
+  return static_cast<std::uint32_t>(parts) << 30 | static_cast<std::uint32_t>(of_a) << 15 |
+         static_cast<std::uint32_t>(of_b);
+}
+inline ContactParts parts_of(std::uint32_t name)
+{
+  return static_cast<ContactParts>(name >> 30);
+}
+
+/// The name that a contact has when a and b are exchanged.
+inline std::uint32_t exchanged_name(std::uint32_t name)
+{
+  const int of_a = name >> 15 & 0x7fffU, of_b = name & 0x7fffU;
+  switch (parts_of(name)) {
+  case ContactParts::VERTEX_OF_A:
+    return contact_name(ContactParts::VERTEX_OF_B, of_b, of_a);
+  case ContactParts::VERTEX_OF_B:
+    return contact_name(ContactParts::VERTEX_OF_A, of_b, of_a);
+  default:
+    return contact_name(parts_of(name), of_b, of_a);
+  }
+}
+
+/// What collide() fills; to be reused, so that no memory is allocated.
+struct ConvexContacts {
+  std::vector<ConvexContact> points;    ///< in an order that depends on poses only
+  /// Cores of rounded bodies overlap: the overlap is larger than both radii, and the contacts do
+  /// not follow continuously from those before. Worth a warning.
+  bool cores_overlap = false;
+
+  void clear()
+  {
+    points.clear();
+    cores_overlap = false;
+  }
+};
+
+/// What is kept of a pair from step to step to find sooner that it does not touch. Results do not
+/// depend on it, not even in the last bit: it need be neither sent nor saved.
+struct SeparatingDirection {
+  /// From b to a, in space; 0: not known. If bodies are exchanged: negative.
+  Vector3<double> direction{0.0, 0.0, 0.0};
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,145 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shape/pair_contacts.h"
+
+#include <algorithm>
+
+namespace Talus {
+namespace {
+
+using Vector = Vector3<double>;
+
+/// Vertices of a core that may touch the other one, and the edges that lead to them.
+struct Candidates {
+  std::vector<int> vertices, edges;
+  std::vector<double> overlap;    // of all vertices; 0: none
+
+  void find(const ConvexCore &core, const Vector &direction, double height);
+};
+
+/* Vertices above a height, and all edges with one of them as an end, each once. */
+
+void Candidates::find(const ConvexCore &core, const Vector &direction, double height)
+{
+  vertices.clear();
+  edges.clear();
+  overlap.assign(core.num_vertices(), -1.0);
+  const VectorArray &x = core.all_vertices();
+  const double *cx = x.of(0), *cy = x.of(1), *cz = x.of(2);
+  for (int v = 0; v < core.num_vertices(); v++)
+    if (direction.x * cx[v] + direction.y * cy[v] + direction.z * cz[v] > height) {
+      vertices.push_back(v);
+      overlap[v] = 0.0;
+    }
+  for (const int v : vertices)
+    for (int k = 0; k < core.num_edges_of_vertex(v); k++) {
+      const int e = core.edges_of_vertex(v)[k];
+      const int other = core.edge(e).vertex[core.edge(e).vertex[0] == v ? 1 : 0];
+      if (overlap[other] < 0.0 || v < other) edges.push_back(e);
+    }
+  for (double &o : overlap) o = std::max(o, 0.0);
+}
+
+/* Two spheres at the nearest points. */
+
+ConvexContact sphere_contact(const Vector &of_a, const Vector &of_b, const Vector &normal,
+                             double distance, Rounding radius)
+{
+  ConvexContact contact;
+  contact.normal = normal;
+  contact.overlap = radius.sum() - distance;
+  contact.position = 0.5 * (of_a + of_b + (radius.of_b - radius.of_a) * normal);
+  contact.weight = 1.0;
+  return contact;
+}
+
+struct Segment {
+  int edge;
+  Vector from, along;
+  double square;
+  double overlap_of_ends;
+};
+
+Segment segment_of(const ConvexCore &core, const Pose &frame, const Candidates &candidates, int e)
+{
+  const ConvexCore::Edge &edge = core.edge(e);
+  const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
+  return {e, frame.point_in_space(from), frame.direction_in_space(along), dot(along, along),
+          std::max(candidates.overlap[edge.vertex[0]], candidates.overlap[edge.vertex[1]])};
+}
+
+/* The nearest points of two lines, if they are between the ends of both edges; see C. Ericson,
+   Real-time collision detection (2005), section 5.1.9. */
+
+bool edges_touch(const Segment &a, const Segment &b, Rounding radius, ConvexContact &contact)
+{
+  const Vector d = a.from - b.from;
+  const double ab = dot(a.along, b.along), ad = dot(a.along, d), bd = dot(b.along, d);
+  const double det = a.square * b.square - ab * ab;
+  const double s = ab * bd - ad * b.square, t = a.square * bd - ab * ad;
+  if (!(s > 0.0 && t > 0.0 && s < det && t < det)) return false;
+  const Vector p = a.from + (s / det) * a.along, q = b.from + (t / det) * b.along, pq = p - q;
+  const double square = dot(pq, pq);
+  if (square >= radius.sum() * radius.sum() || square == 0.0) return false;
+  const double distance = std::sqrt(square);
+  contact = sphere_contact(p, q, (1.0 / distance) * pq, distance, radius);
+  contact.weight = 1.0 - std::max(a.overlap_of_ends, b.overlap_of_ends) / contact.overlap;
+  contact.name = contact_name(ContactParts::EDGES, a.edge, b.edge);
+  return contact.weight > least_weight;
+}
+
+}    // namespace
+
+void sort_by_name(std::vector<ConvexContact> &contacts)
+{
+  std::sort(contacts.begin(), contacts.end(),
+            [](const ConvexContact &a, const ConvexContact &b) { return a.name < b.name; });
+}
+
+/* Whatever is nearer than the radii is nearer than that along any direction. */
+
+void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
+                          std::vector<ConvexContact> &contacts)
+{
+  static thread_local Candidates of_a, of_b;
+  static thread_local std::vector<Segment> segments;
+  const Pose &seen = pair.seen;
+  const Vector n = gap.direction, in_b = seen.direction_in_body(n);
+  const double bottom_of_a = -highest_vertex(pair.a, -n).height;
+  const double shift = dot(n, seen.position);
+  const double top_of_b = highest_vertex(pair.b, in_b).height + shift;
+  const double reach = radius.sum() + 1.0e-9 * pair.scale();
+  of_a.find(pair.a, -n, -top_of_b - reach);
+  of_b.find(pair.b, in_b, bottom_of_a - reach - shift);
+
+  for (const int v : of_a.vertices) {
+    const Vector x = pair.a.vertex(v);
+    const CorePoint near = nearest_point(pair.b, seen.point_in_body(x));
+    of_a.overlap[v] = std::max(0.0, radius.sum() - near.distance);
+    if (!(of_a.overlap[v] > 0.0)) continue;
+    contacts.push_back(sphere_contact(x, seen.point_in_space(near.point),
+                                      seen.direction_in_space(near.normal), near.distance, radius));
+    contacts.back().name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
+  }
+  for (const int v : of_b.vertices) {
+    const Vector x = pair.vertex_of_b(v);
+    const CorePoint near = nearest_point(pair.a, x);
+    of_b.overlap[v] = std::max(0.0, radius.sum() - near.distance);
+    if (!(of_b.overlap[v] > 0.0)) continue;
+    contacts.push_back(sphere_contact(near.point, x, -near.normal, near.distance, radius));
+    contacts.back().name = contact_name(ContactParts::VERTEX_OF_B, 0, v);
+  }
+
+  segments.clear();
+  for (const int e : of_b.edges) segments.push_back(segment_of(pair.b, seen, of_b, e));
+  const Pose own;
+  ConvexContact contact;
+  for (const int e : of_a.edges) {
+    const Segment a = segment_of(pair.a, own, of_a, e);
+    for (const Segment &b : segments)
+      if (edges_touch(a, b, radius, contact)) contacts.push_back(contact);
+  }
+  sort_by_name(contacts);
+}
+
+}    // namespace Talus

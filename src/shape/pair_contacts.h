@@ -1,0 +1,41 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The two ways from a pair of cores to contact points. Positions and normals are in the frame of a;
+// contacts are appended in ascending order of their names.
+
+#ifndef TALUS_SHAPE_PAIR_CONTACTS_H
+#define TALUS_SHAPE_PAIR_CONTACTS_H
+
+#include "shape/convex_contact.h"
+#include "shape/core_pair.h"
+
+namespace Talus {
+
+/// Contacts of less weight are none.
+constexpr double least_weight = 1.0e-6;
+
+struct Rounding {
+  double of_a, of_b;    ///< radii
+  double sum() const { return of_a + of_b; }
+};
+
+/// Of rounded cores that are apart, in whatever direction (`gap.width` > 0): vertices of each with
+/// the nearest points of the other, and pairs of edges.
+void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
+                          std::vector<ConvexContact> &contacts);
+
+/// Of cores that overlap by `least`: corners of the polygon that the faces along its direction have
+/// in common. Corners nearer to each other than `merging` are one.
+void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &least,
+                       double merging, std::vector<ConvexContact> &contacts);
+
+/// One point of the rounded bodies by Minkowski Portal Refinement (libccd), in the frame of a;
+/// returns false where they do not overlap.
+bool find_mpr_contact(const CorePair &pair, Rounding radius, ConvexContact &contact);
+
+/// Puts contacts in ascending order of their names.
+void sort_by_name(std::vector<ConvexContact> &contacts);
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,84 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shaped/point_batch.h"
+
+#include "base/lanes.h"
+
+namespace Talus {
+
+std::string PointBatch::refusal(const ContactLaw &law)
+{
+  if (law.resists())
+    return "has rolling or twisting resistance, which stands for a shape that spheres do not have: "
+           "leave it out";
+  if (law.conducts_heat()) return "conducts heat: leave 'heat' out";
+  if (law.normal().lasts_beyond_contact)
+    return std::string("has the normal law ") + law.normal().name +
+           ", which lasts beyond contact: use dmt or another law";
+  if (law.tangential().second_order) return "is of second order: use order 1";
+  if (law.synchronized())
+    return std::string("has the tangential law ") + law.tangential().name +
+           ", whose normal is that of half a step before: use multistep";
+  return "";
+}
+
+void PointBatch::compute(const Task &its_task, PointContact *points, std::size_t count)
+{
+  task = &its_task;
+  const LawTable &laws = task->laws;
+  for (law_index = 0; law_index < laws.num_laws(); law_index++) {
+    remembers = laws.distinct_law(law_index).has_history();
+    for (std::size_t n = 0; n < count; n++) {
+      if (laws.num_laws() > 1 && laws.law_index(points[n].row) != law_index) continue;
+      of_lane[filled] = points + n;
+      gather(points[n], filled);
+      if (++filled == ContactBatch::width) flush();
+    }
+    flush();
+  }
+}
+
+void PointBatch::gather(const PointContact &point, int lane)
+{
+  const auto put = [lane](double(&to)[3][ContactBatch::width], const Vector3<double> &v) {
+    to[0][lane] = v.x;
+    to[1][lane] = v.y;
+    to[2][lane] = v.z;
+  };
+  put(batch.normal, point.normal);
+  put(batch.velocity, point.velocity);
+  batch.overlap[lane] = point.overlap;
+  batch.inverse_mass[lane] = point.inverse_mass;
+  batch.inverse_radius[lane] = point.inverse_radius;
+  batch.coefficients[lane] = point.row;
+  for (int k = 0; k < ContactBatch::history_size && remembers; k++)
+    batch.history[k][lane] = point.memory.value[k];
+}
+
+/* Lanes behind the last point hold older ones: computed, not used. */
+
+void PointBatch::flush()
+{
+  if (!filled) return;
+  const LawTable &laws = task->laws;
+  const int end = (filled + lanes - 1) / lanes * lanes;
+  const ContactKernel &kernel = laws.kernel(law_index, task->advance);
+  for (int lane = filled; lane < end; lane++) {    // a row of this law, whatever it was before
+    gather(*of_lane[filled - 1], lane);
+  }
+  kernel(batch, 0, end, laws.coefficients(), task->dt);
+  for (int lane = 0; lane < filled; lane++) hand_out(*of_lane[lane], lane);
+  filled = 0;
+}
+
+void PointBatch::hand_out(PointContact &point, int lane) const
+{
+  const double w = point.weight;
+  point.force =
+      w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
+  if (task->advance && remembers)
+    for (int k = 0; k < ContactBatch::history_size; k++)
+      point.memory.value[k] = batch.history[k][lane];
+}
+
+}    // namespace Talus

@@ -1,0 +1,48 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contact points of shapes on their way through the laws, the same kernels as those of spheres. A
+// law sees the velocity of the two surfaces past each other at the point itself, and no rotation:
+// its force acts at the point, where its owner finds the torques. R_eff is what the narrow phase
+// says, m_eff = 1/(1/m_1 + 1/m_2).
+
+#ifndef TALUS_SHAPED_POINT_BATCH_H
+#define TALUS_SHAPED_POINT_BATCH_H
+
+#include "material/law_table.h"
+#include "shaped/point_contact.h"
+
+#include <cstddef>
+#include <string>
+
+namespace Talus {
+
+class PointBatch {
+ public:
+  PointBatch() { batch.clear(); }    // no lane may ever hold what is not finite
+
+  struct Task {
+    const LawTable &laws;
+    double dt;
+    bool advance;    ///< false: memories are only read
+  };
+  /// Forces and memories of all points. What a point yields does not depend on the others.
+  void compute(const Task &task, PointContact *points, std::size_t count);
+
+  /// "" or why points of shapes cannot have this law, and the cure, for people.
+  static std::string refusal(const ContactLaw &law);
+
+ private:
+  void gather(const PointContact &point, int lane);
+  void hand_out(PointContact &point, int lane) const;
+  void flush();
+
+  const Task *task = nullptr;
+  int law_index = 0, filled = 0;
+  bool remembers = false;
+  PointContact *of_lane[ContactBatch::width] = {};
+  ContactBatch batch;
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,41 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_SHAPED_POINT_CONTACT_H
+#define TALUS_SHAPED_POINT_CONTACT_H
+
+#include "base/vector3.h"
+#include "laws/contact_batch.h"
+
+#include <cstdint>
+
+namespace Talus {
+
+/// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
+/// way through the laws.
+struct PointContact {
+  // geometry, see ConvexContact
+  Vector3<double> place, normal;    ///< the normal leads from the second body to the first
+  double overlap, weight;
+  double inverse_radius;    ///< 1/R_eff
+  std::uint64_t name;       ///< with the part of a large body in the upper half
+
+  // motion
+  Vector3<double> velocity;    ///< of the first body less that of the second, at `place`
+  double inverse_mass;         ///< 1/m_1 + 1/m_2
+  int row;                     ///< of the table of laws
+
+  RememberedValues memory;    ///< in and out
+
+  Vector3<double> force;    ///< result, with the weight: on the first body, at `place`
+};
+
+/// Velocity of the point `place` of a body with this center, velocity and angular velocity.
+inline Vector3<double> velocity_at(const Vector3<double> &place, const Vector3<double> &center,
+                                   const Vector3<double> &v, const Vector3<double> &omega)
+{
+  return v + cross(omega, place - center);
+}
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,85 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_SHAPED_SHAPE_TABLE_H
+#define TALUS_SHAPED_SHAPE_TABLE_H
+
+#include "body/motion/free_rotation.h"
+#include "shape/collide.h"
+#include "shape/convex_shape.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace Talus {
+
+/// What all particles of a type have in common. Orientations lead from the frame in which the shape
+/// was given to space; that of the core follows.
+class ParticleShape {
+ public:
+  /// `density`: mass/length^3.
+  ParticleShape(ConvexShape its_shape, double density);
+
+  const ConvexShape &shape() const { return geometry; }
+  double mass() const { return its_mass; }
+  const FreeRotation &rotation() const { return free; }
+  /// Of the core, for a particle with its center of mass at x.
+  Pose pose(const Vector3<double> &x, const Eigen::Quaterniond &orientation) const
+  {
+    Pose whole;
+    whole.position = x;
+    whole.rotation = orientation.toRotationMatrix() * geometry.given_frame().rotation;
+    return whole;
+  }
+
+  /// What new particles of the type have, by ID; of unit length.
+  Eigen::Quaterniond new_orientation(std::int64_t id) const;
+  void set_fixed(const Eigen::Quaterniond &orientation) { fixed = orientation; }
+  /// Uniform among all rotations (Shoemake, Graphics Gems III, 1992), from seed and ID alone.
+  void set_random(std::uint64_t its_seed)
+  {
+    random = true;
+    seed = its_seed;
+  }
+
+ private:
+  ConvexShape geometry;
+  double its_mass;
+  FreeRotation free;
+  Eigen::Quaterniond fixed = Eigen::Quaterniond::Identity();
+  bool random = false;
+  std::uint64_t seed = 0;
+};
+
+/// By type, from 1; types without a shape are spheres.
+class ShapeTable {
+ public:
+  void set(int type, std::shared_ptr<const ParticleShape> its)
+  {
+    if (type >= static_cast<int>(shapes.size())) shapes.resize(type + 1);
+    shapes[type] = std::move(its);
+  }
+  /// nullptr of spheres.
+  const ParticleShape *of(int type) const
+  {
+    return type < static_cast<int>(shapes.size()) ? shapes[type].get() : nullptr;
+  }
+  double bounding_radius(int type) const
+  {
+    return of(type) ? of(type)->shape().bounding_radius() : 0.0;
+  }
+  bool is_empty() const { return shapes.empty(); }
+  /// How contacts of two shapes are found.
+  NarrowPhase method() const { return way; }
+  void set_method(NarrowPhase its) { way = its; }
+  int last_type() const { return static_cast<int>(shapes.size()) - 1; }
+  double memory_usage() const;
+
+ private:
+  std::vector<std::shared_ptr<const ParticleShape>> shapes;
+  NarrowPhase way = NarrowPhase::FEATURES;
+};
+
+}    // namespace Talus
+
+#endif

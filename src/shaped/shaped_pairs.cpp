@@ -1,0 +1,246 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shaped/shaped_pairs.h"
+
+#include "base/in_parallel.h"
+
+#include <algorithm>
+
+namespace Talus {
+namespace {
+
+constexpr int pairs_of_chunk = 32;
+
+}    // namespace
+
+void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
+                            const std::vector<std::int64_t> &tag, const LawTable &laws)
+{
+  owned = view.owned;
+  list.clear();
+  for (const auto &[a, b] : pairs) {
+    if (tag[a] == tag[b]) continue;
+    const bool in_order = tag[a] < tag[b];
+    const int first = in_order ? a : b, second = in_order ? b : a;
+    list.push_back({first, second, laws.row(view.type[first], view.type[second]), tag[second], {}});
+  }
+  std::sort(list.begin(), list.end(), [](const Pair &one, const Pair &other) {
+    return one.first != other.first ? one.first < other.first : one.second < other.second;
+  });
+  results.assign(list.size(), Result{});
+  chunks.clear();
+  const int all = static_cast<int>(list.size());
+  for (int begin = 0; begin < all; begin += pairs_of_chunk)
+    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}});
+  set_sides(view, tag);
+}
+
+void ShapedPairs::set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag)
+{
+  std::vector<std::pair<int, Side>> found;    // owned particle, and its side of a pair
+  used.clear();
+  for (int p = 0; p < static_cast<int>(list.size()); p++) {
+    const Pair &pair = list[p];
+    if (pair.first < owned) found.push_back({pair.first, {p, false}});
+    if (pair.second < owned) found.push_back({pair.second, {p, true}});
+    used.push_back(pair.first);
+    used.push_back(pair.second);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  solids.resize(view.total);
+
+  const auto partner = [&](const Side &side) {
+    return tag[side.second ? list[side.pair].first : list[side.pair].second];
+  };
+  // of two images of one partner at most one touches
+  std::sort(found.begin(), found.end(), [&](const auto &one, const auto &other) {
+    if (one.first != other.first) return one.first < other.first;
+    const std::int64_t a = partner(one.second), b = partner(other.second);
+    return a != b ? a < b : one.second.pair < other.second.pair;
+  });
+  particles.clear();
+  first_side.clear();
+  sides.clear();
+  for (const auto &[particle, side] : found) {
+    if (particles.empty() || particles.back() != particle) {
+      particles.push_back(particle);
+      first_side.push_back(static_cast<int>(sides.size()));
+    }
+    sides.push_back(side);
+  }
+  first_side.push_back(static_cast<int>(sides.size()));
+}
+
+/* Points that are only remembered: the narrow phase will find them again, or drop them. */
+
+void ShapedPairs::restore(const std::function<const std::vector<PointMemory> &(int)> &memory_of)
+{
+  for (Chunk &chunk : chunks) {
+    chunk.points.clear();
+    chunk.pair_of_point.clear();
+    for (int p = chunk.begin; p < chunk.end; p++)
+      for (const PointMemory &one : memory_of(list[p].first)) {
+        if (one.partner != list[p].partner) continue;
+        PointContact point{};
+        point.name = one.name;
+        point.memory = one.memory;
+        chunk.points.push_back(point);
+        chunk.pair_of_point.push_back(p);
+      }
+  }
+}
+
+void ShapedPairs::save(PointMemories &to) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t n = 0; n < chunk.points.size(); n++) {
+      const int p = chunk.pair_of_point[n];
+      if (list[p].first < owned)
+        to.add(list[p].first, {list[p].partner, chunk.points[n].name, chunk.points[n].memory});
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const Step &step)
+{
+  if (list.empty()) return;
+  while (static_cast<int>(batches.size()) < step.threads)
+    batches.push_back(std::make_unique<PointBatch>());
+  place_solids(view, step.threads);
+  in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
+    for (int c = begin; c < end; c++) compute_chunk(view, laws, step, chunks[c], *batches[t]);
+  });
+  add_to_particles(view, step.threads);
+}
+
+void ShapedPairs::place_solids(const ShapedView &view, int threads)
+{
+  in_ranges(static_cast<std::int64_t>(used.size()), threads, [&](int, int begin, int end) {
+    for (int n = begin; n < end; n++) {
+      const int i = used[n];
+      Solid &its = solids[i];
+      const ParticleShape *shape = shapes.of(view.type[i]);
+      its.shape = shape ? &shape->shape() : nullptr;
+      its.radius = view.radius[i];
+      its.pose.position = view.row(view.x, i);
+      if (shape) its.pose = shape->pose(its.pose.position, view.turn(i));
+    }
+  });
+}
+
+void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step,
+                                Chunk &chunk, PointBatch &batch)
+{
+  std::swap(chunk.points, chunk.before);
+  std::swap(chunk.pair_of_point, chunk.pair_before);
+  chunk.points.clear();
+  chunk.pair_of_point.clear();
+  std::size_t old = 0;
+  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, chunk, p, old);
+  batch.compute({laws, step.dt, step.advance}, chunk.points.data(),
+                chunk.points.size());
+  sum_points(chunk);
+}
+
+/* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
+
+void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::size_t &old)
+{
+  Pair &pair = list[p];
+  const std::size_t known = old;
+  while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
+  const Solid &a = solids[pair.first], &b = solids[pair.second];
+  if (!a.may_touch(b) || !touch(a, b, shapes.method(), pair.direction, chunk.found)) return;
+  const int i = pair.first, j = pair.second;
+  const auto velocity = [&](int particle, const Vector3<double> &place) {
+    return velocity_at(place, solids[particle].center(), view.row(view.v, particle),
+                       view.row(view.omega, particle));
+  };
+  PointContact point{};
+  point.inverse_radius = 1.0 / a.contact_radius() + 1.0 / b.contact_radius();
+  point.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
+  point.row = pair.row;
+  for (const ConvexContact &one : chunk.found.points) {
+    point.place = one.position;
+    point.normal = one.normal;
+    point.overlap = one.overlap;
+    point.weight = one.weight;
+    point.name = one.name;
+    point.velocity = velocity(i, one.position) - velocity(j, one.position);
+    point.memory = RememberedValues{};
+    for (std::size_t n = known; n < old; n++)
+      if (chunk.before[n].name == one.name) point.memory = chunk.before[n].memory;
+    chunk.points.push_back(point);
+    chunk.pair_of_point.push_back(p);
+  }
+}
+
+void ShapedPairs::sum_points(const Chunk &chunk)
+{
+  for (int p = chunk.begin; p < chunk.end; p++) results[p] = Result{};
+  for (std::size_t n = 0; n < chunk.points.size(); n++) {
+    const PointContact &point = chunk.points[n];
+    const Pair &pair = list[chunk.pair_of_point[n]];
+    Result &sum = results[chunk.pair_of_point[n]];
+    sum.force = sum.force + point.force;
+    sum.torque_first =
+        sum.torque_first + cross(point.place - solids[pair.first].center(), point.force);
+    sum.torque_second =
+        sum.torque_second - cross(point.place - solids[pair.second].center(), point.force);
+    sum.points++;
+  }
+}
+
+void ShapedPairs::add_to_particles(const ShapedView &view, int threads) const
+{
+  in_ranges(static_cast<std::int64_t>(particles.size()), threads, [&](int, int begin, int end) {
+    for (int n = begin; n < end; n++) {
+      Vector3<double> force{0.0, 0.0, 0.0}, torque = force;
+      for (int s = first_side[n]; s < first_side[n + 1]; s++) {
+        const Result &its = results[sides[s].pair];
+        if (!its.points) continue;
+        force = sides[s].second ? force - its.force : force + its.force;
+        torque = torque + (sides[s].second ? its.torque_second : its.torque_first);
+      }
+      double *f = view.f + 3L * particles[n], *t = view.torque + 3L * particles[n];
+      f[0] += force.x;
+      f[1] += force.y;
+      f[2] += force.z;
+      t[0] += torque.x;
+      t[1] += torque.y;
+      t[2] += torque.z;
+    }
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ShapedPairs::count_contacts() const
+{
+  double count = 0.0;
+  for (std::size_t p = 0; p < list.size(); p++)
+    if (results[p].points) count += share(list[p]);
+  return count;
+}
+
+double ShapedPairs::count_points() const
+{
+  double count = 0.0;
+  for (std::size_t p = 0; p < list.size(); p++) count += results[p].points * share(list[p]);
+  return count;
+}
+
+double ShapedPairs::memory_usage() const
+{
+  std::size_t bytes =
+      list.capacity() * sizeof(Pair) + results.capacity() * sizeof(Result) +
+      sides.capacity() * sizeof(Side) + solids.capacity() * sizeof(Solid) +
+      (used.capacity() + particles.capacity() + first_side.capacity()) * sizeof(int);
+  for (const Chunk &chunk : chunks)
+    bytes += (chunk.points.capacity() + chunk.before.capacity()) * sizeof(PointContact);
+  return static_cast<double>(bytes);
+}
+
+}    // namespace Talus

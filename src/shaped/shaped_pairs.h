@@ -1,0 +1,124 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contacts between particles of which at least one has a shape. Knows nothing of the host.
+//
+//   at a rebuild   save() (if the old pairs are current), set_pairs(), restore()
+//   every step     compute()
+//
+// The first body of a pair is the particle with the lower ID, on all ranks and for ever: so
+// normals, names and memories never change sides. Pairs are computed in chunks, each with its
+// points, by any number of threads; then each particle sums its pairs in ascending ID of the partner, a pair's
+// points in the order of the narrow phase. So forces have the same bits on any number of ranks and
+// threads. A pair across two ranks is computed by both.
+
+#ifndef TALUS_SHAPED_SHAPED_PAIRS_H
+#define TALUS_SHAPED_SHAPED_PAIRS_H
+
+#include "shaped/point_batch.h"
+#include "shaped/point_memory.h"
+#include "shaped/shape_table.h"
+#include "shaped/shaped_view.h"
+#include "shaped/solid.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace Talus {
+
+class ShapedPairs {
+ public:
+  explicit ShapedPairs(const ShapeTable &its_shapes) : shapes(its_shapes) {}
+
+  /// New pairs, host's indices of owned particles and ghosts. `tag`: of all of these. What they
+  /// remember is nothing until restore(). Pairs of a particle with its own image are left out.
+  void set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
+                 const std::vector<std::int64_t> &tag, const LawTable &laws);
+  /// memory_of(i): the list of particle i, owned or ghost; each pair finds its points there.
+  void restore(const std::function<const std::vector<PointMemory> &(int)> &memory_of);
+  /// Adds what points remember to the lists of those particles that are first and owned.
+  void save(PointMemories &to) const;
+
+  struct Step {
+    double dt;
+    bool advance;    ///< false while a run is set up: memories are only read
+    int threads;
+  };
+  /// Adds forces and torques to those of owned particles.
+  void compute(const ShapedView &view, const LawTable &laws, const Step &step);
+
+  /// Of the last compute(): visit(i, j, force on i, i is owned, j is owned) for pairs that touch.
+  template <class Visit> void for_each_force(Visit visit) const
+  {
+    for (std::size_t p = 0; p < list.size(); p++)
+      if (results[p].points) visit(list[p].first, list[p].second, results[p].force);
+  }
+  /// visit(i, j, point) for each contact point of the last compute().
+  template <class Visit> void for_each_point(Visit visit) const
+  {
+    for (const Chunk &chunk : chunks)
+      for (std::size_t n = 0; n < chunk.points.size(); n++) {
+        const Pair &pair = list[chunk.pair_of_point[n]];
+        visit(pair.first, pair.second, chunk.points[n]);
+      }
+  }
+
+  bool is_empty() const { return list.empty(); }
+  /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
+  double count_contacts() const;
+  double count_points() const;
+  double memory_usage() const;
+
+ private:
+  struct Pair {
+    int first, second;       ///< host's indices
+    int row;                 ///< of the table of laws
+    std::int64_t partner;    ///< ID of the second
+    SeparatingDirection direction{};
+  };
+  struct Result {
+    Vector3<double> force, torque_first, torque_second;    ///< on the first particle; about centers
+    int points = 0;
+  };
+  /// Of one owned particle: which pair, and whether it is the second there.
+  struct Side {
+    int pair;
+    bool second;
+  };
+  struct Chunk {
+    int begin, end;    ///< pairs
+    std::vector<PointContact> points, before;
+    std::vector<int> pair_of_point, pair_before;
+    ConvexContacts found;
+  };
+
+  void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
+  void place_solids(const ShapedView &view, int threads);
+  void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
+                     PointBatch &batch);
+  void find_points(const ShapedView &view, Chunk &chunk, int pair, std::size_t &old);
+  void sum_points(const Chunk &chunk);
+  void add_to_particles(const ShapedView &view, int threads) const;
+  double share(const Pair &pair) const
+  {
+    return pair.first < owned && pair.second < owned ? 1.0 : 0.5;
+  }
+
+  const ShapeTable &shapes;
+  int owned = 0;
+  std::vector<Pair> list;
+  std::vector<Result> results;
+  std::vector<Chunk> chunks;
+  std::vector<int> particles;     ///< owned ones that have pairs
+  std::vector<int> first_side;    ///< of each of these in `sides`, and one more
+  std::vector<Side> sides;
+  std::vector<int> used;        ///< all that have pairs, owned or ghosts
+  std::vector<Solid> solids;    ///< by host's index, of those that have pairs
+  std::vector<std::unique_ptr<PointBatch>> batches;    ///< by thread
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,172 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shaped/wall_points.h"
+
+#include "base/in_parallel.h"
+
+#include <algorithm>
+
+namespace Talus {
+namespace {
+
+constexpr int particles_of_chunk = 64;
+
+}    // namespace
+
+void WallPoints::set_particles(const std::vector<int> &those)
+{
+  particles = those;
+  chunks.clear();
+  const int all = static_cast<int>(particles.size());
+  for (int begin = 0; begin < all; begin += particles_of_chunk) {
+    chunks.emplace_back();
+    chunks.back().begin = begin;
+    chunks.back().end = std::min(begin + particles_of_chunk, all);
+  }
+}
+
+void WallPoints::restore(const PointMemories &from)
+{
+  for (Chunk &chunk : chunks)
+    for (int n = chunk.begin; n < chunk.end; n++)
+      for (const PointMemory &one : from.of(particles[n])) {
+        if (one.partner != name) continue;
+        PointContact point{};
+        point.name = one.name;
+        point.memory = one.memory;
+        chunk.points.push_back(point);
+        chunk.of_point.push_back(n);
+      }
+}
+
+void WallPoints::save(PointMemories &to) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t k = 0; k < chunk.points.size(); k++)
+      to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
+}
+
+BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                             const LawTable &laws, const BodyStep &step, double *virial)
+{
+  while (static_cast<int>(batches.size()) < step.threads)
+    batches.push_back(std::make_unique<PointBatch>());
+  const Task task{walls, frame, view, laws, step, virial};
+  in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
+    for (int c = begin; c < end; c++) {
+      Chunk &chunk = chunks[c];
+      std::swap(chunk.points, chunk.before);
+      std::swap(chunk.of_point, chunk.of_before);
+      chunk.points.clear();
+      chunk.of_point.clear();
+      std::size_t old = 0;
+      for (int n = chunk.begin; n < chunk.end; n++) find_points(task, chunk, n, old);
+      batches[t]->compute({laws, step.dt, step.advance}, chunk.points.data(),
+                          chunk.points.size());
+      add_forces(task, chunk);
+    }
+  });
+  BodyLoad load;
+  for (const Chunk &chunk : chunks) {
+    load.add(chunk.load);
+    if (step.exact) step.exact->add(chunk.exact);
+    if (step.touched)
+      step.touched->insert(step.touched->end(), chunk.touched.begin(), chunk.touched.end());
+  }
+  return load;
+}
+
+/* What the particle does is seen from the body: its velocity less that which the body has at the
+   same point. */
+
+void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const
+{
+  const std::size_t known = old;
+  while (old < chunk.of_before.size() && chunk.of_before[old] == n) old++;
+  const ShapedView &view = task.view;
+  const BodyFrame &frame = task.frame;
+  const int i = particles[n];
+  const ParticleShape &particle = *shapes.of(view.type[i]);
+  const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
+  Pose pose = particle.pose(seen, view.turn(i));
+  if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
+  for (int w = 0; w < task.walls.size(); w++) {
+    if (!task.walls.touch(w, particle.shape(), pose, chunk.found)) continue;
+    PointContact point{};
+    point.inverse_radius = 1.0 / particle.shape().contact_radius();
+    point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
+    point.row = task.laws.row(view.type[i], view.type[i]);
+    for (const ConvexContact &one : chunk.found.points) {
+      point.place = one.position;
+      point.normal = one.normal;
+      point.overlap = one.overlap;
+      point.weight = one.weight;
+      point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
+      const Vector3<double> place = frame.point_to_space(one.position);
+      Vector3<double> v = velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
+      if (frame.moves) v = v - frame.velocity_at(place);
+      v = frame.to_body(v);
+      if (frame.runs) {
+        const Vector3<double> surface = frame.surface_velocity;
+        v = v - (surface - dot(surface, one.normal) * one.normal);
+      }
+      point.velocity = v;
+      point.memory = RememberedValues{};
+      for (std::size_t k = known; k < old; k++)
+        if (chunk.before[k].name == point.name) point.memory = chunk.before[k].memory;
+      chunk.points.push_back(point);
+      chunk.of_point.push_back(n);
+    }
+  }
+}
+
+void WallPoints::add_forces(const Task &task, Chunk &chunk) const
+{
+  const BodyFrame &frame = task.frame;
+  const ShapedView &view = task.view;
+  chunk.load = BodyLoad{};
+  chunk.exact.clear();
+  chunk.touched.clear();
+  const Vector3<double> about = frame.moves ? frame.state.position : frame.origin;
+  for (std::size_t k = 0; k < chunk.points.size(); k++) {
+    const PointContact &point = chunk.points[k];
+    const int i = particles[chunk.of_point[k]];
+    const Vector3<double> force = frame.to_space(point.force),
+                          place = frame.point_to_space(point.place);
+    const Vector3<double> arm = place - view.row(view.x, i), torque = cross(arm, force);
+    double *f = view.f + 3L * i, *t = view.torque + 3L * i;
+    f[0] += force.x;
+    f[1] += force.y;
+    f[2] += force.z;
+    t[0] += torque.x;
+    t[1] += torque.y;
+    t[2] += torque.z;
+    const Vector3<double> on_body = -cross(place - about, force);
+    chunk.load.add({-force, on_body, 1.0});
+    if (task.step.exact) chunk.exact.add(-force, on_body);
+    if (task.step.touched) {
+      const Vector3<double> &n = point.normal, &v = point.velocity;
+      const double pressed = dot(point.force, n);
+      const Vector3<double> shear = -(point.force - pressed * n), slip = v - dot(v, n) * n;
+      chunk.touched.push_back({0, pressed, -point.force, shear, dot(shear, slip)});
+    }
+    if (!task.virial) continue;
+    double *const virial = task.virial + 6L * i;
+    virial[0] -= arm.x * force.x;
+    virial[1] -= arm.y * force.y;
+    virial[2] -= arm.z * force.z;
+    virial[3] -= arm.x * force.y;
+    virial[4] -= arm.x * force.z;
+    virial[5] -= arm.y * force.z;
+  }
+}
+
+double WallPoints::memory_usage() const
+{
+  std::size_t bytes = particles.capacity() * sizeof(int);
+  for (const Chunk &chunk : chunks)
+    bytes += (chunk.points.capacity() + chunk.before.capacity()) * sizeof(PointContact);
+  return static_cast<double>(bytes);
+}
+
+}    // namespace Talus

@@ -1,0 +1,75 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Contacts between the owned particles with a shape and one large body, through the same laws as
+// those of spheres. As there (body/contact/body_batch.h), everything is computed in the frame of
+// the body, where it is at rest and memories turn with it.
+//
+//   at a rebuild   save() (if points are current), set_particles(), restore()
+//   every step     compute()
+
+#ifndef TALUS_SHAPED_WALL_POINTS_H
+#define TALUS_SHAPED_WALL_POINTS_H
+
+#include "body/contact/body_batch.h"
+#include "body/contact/body_contacts.h"
+#include "shaped/body_walls.h"
+#include "shaped/point_batch.h"
+#include "shaped/point_memory.h"
+#include "shaped/shape_table.h"
+#include "shaped/shaped_view.h"
+
+#include <memory>
+#include <vector>
+
+namespace Talus {
+
+class WallPoints {
+ public:
+  WallPoints(const ShapeTable &its_shapes, std::int64_t its_name) :
+      shapes(its_shapes), name(its_name)
+  {
+  }
+
+  /// Host's indices of the particles with a shape that the body acts on.
+  void set_particles(const std::vector<int> &particles);
+  void restore(const PointMemories &from);
+  void save(PointMemories &to) const;
+
+  /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
+  /// particle, added to.
+  BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+                   const LawTable &laws, const BodyStep &step, double *virial);
+  double memory_usage() const;
+
+ private:
+  struct Chunk {
+    int begin, end;    ///< of the particles
+    std::vector<PointContact> points, before;
+    std::vector<int> of_point, of_before;    ///< which particle, counted in the list
+    ConvexContacts found;
+    BodyLoad load;
+    ExactLoad exact;
+    std::vector<TouchedPart> touched;
+  };
+  struct Task {
+    const BodyWalls &walls;
+    const BodyFrame &frame;
+    const ShapedView &view;
+    const LawTable &laws;
+    const BodyStep &step;
+    double *virial;
+  };
+
+  void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;
+  void add_forces(const Task &task, Chunk &chunk) const;
+
+  const ShapeTable &shapes;
+  std::int64_t name;
+  std::vector<int> particles;
+  std::vector<Chunk> chunks;
+  std::vector<std::unique_ptr<PointBatch>> batches;    ///< by thread
+};
+
+}    // namespace Talus
+
+#endif

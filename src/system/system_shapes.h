@@ -1,0 +1,69 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Particles that are not spheres, as GranularSystem knows them: fix shape/gran. They are particles
+// of the host like all others, with the radius of the sphere around their shape, so that neighbors,
+// ghosts and the order of sums are found as always. Pairs with a shape are taken out of the
+// neighbor list at a rebuild, and computed by the fix after those of spheres, in the arrays of the
+// host.
+
+#ifndef TALUS_SYSTEM_SYSTEM_SHAPES_H
+#define TALUS_SYSTEM_SYSTEM_SHAPES_H
+
+#include "body/contact/body_contacts.h"
+#include "contact/contact_pipeline.h"
+#include "shaped/point_contact.h"
+#include "system/system_fix.h"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Fix;
+}
+
+namespace Talus {
+
+class LargeBody;
+
+class SystemShapes : public SystemFix {
+ public:
+  /// Types count from 1.
+  virtual bool is_shaped(int type) const = 0;
+  /// Of the sphere around (length), 0 of a type of spheres.
+  virtual double radius_of(int type) const = 0;
+
+  /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
+  /// puts what contacts remember to the particles. Collective.
+  virtual void keep_memories() = 0;
+  /// At a rebuild, collective: the pairs with a shape (host's indices, at least one is owned).
+  virtual void set_pairs(std::vector<std::array<int, 2>> pairs) = 0;
+  /// Adds the forces of their contacts to the arrays of the host, which show all particles of this
+  /// step, ghosts included. Collective.
+  virtual void compute_contacts(const ContactStep &step) = 0;
+
+  /// "" or why a large body cannot touch shapes, and the cure, for people.
+  virtual std::string refusal_of(LargeBody &body) const = 0;
+  /// Adds the forces between owned particles with a shape and a large body; returns what the body
+  /// bears. `virial`: as for LargeBody::compute().
+  virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;
+
+  /// visit(i, j, point) for each contact point of two particles in the last step, as i sees it; i
+  /// and j may be ghosts, and a pair of two ranks is visited on both.
+  using VisitPoint = std::function<void(int, int, const PointContact &)>;
+  virtual void for_each_point(const VisitPoint &visit) const = 0;
+  /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
+  using VisitTriangle = std::function<void(int, const Triangle &)>;
+  virtual void for_each_triangle(const VisitTriangle &visit) const = 0;
+  /// Pairs that touch; what two ranks compute counts half.
+  virtual double count_contacts() const = 0;
+  /// Of these the deepest, over the radius of the smaller of the largest spheres inside.
+  virtual DeepestContact deepest_contact() const = 0;
+
+ protected:
+  ~SystemShapes() = default;
+};
+
+}    // namespace Talus
+
+#endif

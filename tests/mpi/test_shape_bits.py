@@ -1,0 +1,114 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300
+"""One trajectory of convex particles mixed with spheres: the same bits on any ranks, threads and grid, in a periodic
+box, with bodies that move, particles that come in during the run, and across a restart."""
+
+import os
+import random
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+
+STEPS, HALF = 3000, 1800
+LAW = "hertz 2e4 60 tangential multistep NULL NULL 0.5"
+CORNERS = "vertices 4 1 1 1 1 -1 -1 -1 1 -1 -1 -1 1"
+
+START = """
+units lj
+boundary {x} f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+processors {grid}
+{read}
+group balls type 3
+neighbor 0.3 bin
+neigh_modify every 1 delay 0 check yes
+pair_style gran/penalty
+pair_coeff * * {law}
+timestep 0.0005
+fix step balls nve/sphere/symplectic
+fix shapes all shape/gran type 1 box 0.8 0.7 0.6 density 1 orient random 11 &
+    type 2 {corners} scale 0.35 rounded 0.08 density 1 orient random 12
+fix g all gravity/talus 15 vector 0.2 0.1 -1
+fix floor all large/body plane 0 0 0 0 0 1 contact {law}
+fix sides all large/body box 4 4 6 {length} 8 12 inside contact {law} move wiggle 0 0.2 0 2.5
+region top block 0 8 0 8 8 11 units box
+fix more all deposit 8 1 60 77 region top near 1.6 vz -2 -2
+dump atoms all custom {half} atoms.* id type x y z vx vy vz omegax omegay omegaz f_shapes[1] f_shapes[2] f_shapes[3] &
+    f_shapes[4] radius mass
+dump_modify atoms format float %a
+thermo 300
+thermo_style custom step atoms f_shapes f_shapes[6] f_shapes[7] press
+thermo_modify norm no lost error
+"""
+
+
+def grains():
+    draw = random.Random(5)
+    sites = [(i, j, k) for k in range(5) for j in range(5) for i in range(5)]
+    return [Sphere((1.6 * i + 0.8, 1.6 * j + 0.8, 1.4 * k + 0.7), v=tuple(draw.gauss(0, 0.7) for _ in "xyz"),
+                   omega=tuple(draw.gauss(0, 1) for _ in "xyz"), diameter=draw.uniform(0.6, 1.0),
+                   type=draw.choice((1, 1, 2, 2, 3))) for i, j, k in sites]
+
+
+class ShapeBits(SceneCase):
+
+    END = "\nwrite_dump all custom end id type x y z vx vy vz omegax omegay omegaz f_shapes[1] f_shapes[2] " \
+          "f_shapes[3] f_shapes[4] modify format float %a"
+
+    def frames(self, name, np=1, grid="* * *", commands=f"run {STEPS}", read="read_data ../grains", env=None, walls=False):
+        """Periodic in x, or with walls there."""
+        where = self.path(name)
+        os.makedirs(where, exist_ok=True)
+        script = START.format(grid=grid, read=read, law=LAW, corners=CORNERS, half=HALF, x="f" if walls else "p",
+                              length=8 if walls else 40)
+        return where, self.run_lammps(script + commands + self.END, np=np, cwd=where, env=env).log
+
+    def setUp(self):
+        write_sphere_data(self.path("grains"), ((0, 8), (-1, 9), (-1, 12)), grains(), types=3)
+
+    def assert_same(self, where, other):
+        mine, theirs = (read_dump(os.path.join(d, f"atoms.{HALF}"))[0] for d in (where, other))
+        self.assert_same_bits(mine, theirs)
+        self.assert_same_end(where, other)
+
+    def assert_same_end(self, where, other):
+        self.assert_same_bits(*(read_dump(os.path.join(d, "end"))[0] for d in (where, other)))
+
+    def test_ranks_and_threads(self):
+        one, log = self.frames("one")
+        rows = thermo(log)
+        self.assertEqual(rows[-1]["Atoms"], 133, "all have been put in")
+        print(f"{rows[-1]['f_shapes[6]']:.0f} pairs touch at {rows[-1]['f_shapes[7]']:.0f} points at the end")
+        self.assertGreater(rows[-1]["f_shapes[6]"], 60)
+        for name, np, grid, env in (("two", 2, "2 1 1", None), ("two across", 2, "1 2 1", None),
+                                    ("four", 4, "2 2 1", None), ("threads", 1, "* * *", {"OMP_NUM_THREADS": "3"}),
+                                    ("both", 2, "1 1 2", {"OMP_NUM_THREADS": "2"})):
+            with self.subTest(name):
+                where, log = self.frames(name, np, grid, env=env)
+                self.assert_same(where, one)
+                # sums over ranks: to rounding
+                for key in ("f_shapes", "f_shapes[6]", "f_shapes[7]", "Press"):
+                    self.assert_close(thermo(log)[-1][key], rows[-1][key], 1e-12)
+        parts, _ = self.frames("parts", commands=f"run {HALF}\nrun {STEPS - HALF} pre no")
+        self.assert_same(parts, one)
+
+    def test_set_up_and_restart(self):
+        one, _ = self.frames("one", walls=True)
+        again, _ = self.frames("again", 2, commands=f"run {HALF}\nrun {STEPS - HALF}", walls=True)
+        self.assert_same(again, one)
+        for file, np in (("half", 1), ("half.*", 4)):
+            with self.subTest(file):
+                self.frames("first", 2, commands=f"run {HALF - 50}\nwrite_restart {file}", walls=True)
+                second, log = self.frames("second", np, commands=f"run {STEPS - HALF + 50}", walls=True,
+                                          read=f"read_restart ../first/{file.replace('*', str(HALF - 50))}")
+                self.assertIn("All restart file peratom fix info was re-assigned", log)
+                self.assert_same(second, one)
+
+
+if __name__ == "__main__":
+    unittest.main()

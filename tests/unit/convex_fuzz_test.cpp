@@ -1,0 +1,357 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Random pairs of convex bodies: whether they touch against libccd, distances and depths against all parts of both,
+// exchange of the bodies, and that nothing depends on what is known from before. TALUS_LARGE_TESTS=1: a million pairs.
+
+#include "convex_bodies.h"
+#include "shape/collide.h"
+
+#include <ccd/ccd.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+using namespace Talus;
+
+namespace {
+
+using Vector = Vector3<double>;
+
+int number_of_pairs()
+{
+  return std::getenv("TALUS_LARGE_TESTS") ? 1000000 : 20000;
+}
+
+/* ---- all parts of both ----------------------------------------------------------------------- */
+
+struct Body {
+  const ConvexShape *shape;
+  Pose pose;
+  Points vertices, normals;
+
+  Body(const ConvexShape &s, const Pose &p) : shape(&s), pose(p)
+  {
+    for (int v = 0; v < s.core().num_vertices(); v++)
+      vertices.push_back(p.point_in_space(s.core().vertex(v)));
+    for (int f = 0; f < s.core().num_faces(); f++)
+      normals.push_back(p.direction_in_space(s.core().normal(f)));
+  }
+  double highest(const Vector &n) const
+  {
+    double h = dot(n, vertices[0]);
+    for (const Vector &x : vertices) h = std::max(h, dot(n, x));
+    return h;
+  }
+};
+
+double distance_of_segments(const Vector &p, const Vector &u, const Vector &q, const Vector &w)
+{
+  const auto from_segment = [](const Vector &x, const Vector &from, const Vector &along) {
+    const double t = std::clamp(dot(x - from, along) / dot(along, along), 0.0, 1.0);
+    return length(x - from - t * along);
+  };
+  double least = std::min(std::min(from_segment(p, q, w), from_segment(p + u, q, w)),
+                          std::min(from_segment(q, p, u), from_segment(q + w, p, u)));
+  const Vector d = p - q;
+  const double uu = dot(u, u), ww = dot(w, w), uw = dot(u, w), ud = dot(u, d), wd = dot(w, d);
+  const double det = uu * ww - uw * uw;
+  if (det > 1e-14 * uu * ww) {
+    const double s = (uw * wd - ud * ww) / det, t = (uu * wd - uw * ud) / det;
+    if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)
+      least = std::min(least, length(d + s * u - t * w));
+  }
+  return least;
+}
+
+double distance_from_faces(const Vector &x, const Body &body)
+{
+  const ConvexCore &core = body.shape->core();
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < core.num_faces(); f++) {
+    bool over = true;
+    for (int k = 0; k < core.num_corners(f); k++) {
+      const Vector from = body.vertices[core.corners(f)[k]],
+                   to = body.vertices[core.corners(f)[(k + 1) % core.num_corners(f)]];
+      over = over && dot(cross(body.normals[f], to - from), x - from) >= 0.0;
+    }
+    const double height = dot(body.normals[f], x - body.vertices[core.corners(f)[0]]);
+    if (over && height >= 0.0) least = std::min(least, height);
+  }
+  return least;
+}
+
+/// Of cores that are apart.
+double distance_of_cores(const Body &a, const Body &b)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector &x : a.vertices) least = std::min(least, distance_from_faces(x, b));
+  for (const Vector &x : b.vertices) least = std::min(least, distance_from_faces(x, a));
+  const ConvexCore &core_a = a.shape->core(), &core_b = b.shape->core();
+  for (int e = 0; e < core_a.num_edges(); e++)
+    for (int f = 0; f < core_b.num_edges(); f++) {
+      const Vector p = a.vertices[core_a.edge(e).vertex[0]],
+                   q = b.vertices[core_b.edge(f).vertex[0]];
+      least = std::min(least, distance_of_segments(p, a.vertices[core_a.edge(e).vertex[1]] - p, q,
+                                                   b.vertices[core_b.edge(f).vertex[1]] - q));
+    }
+  return least;
+}
+
+/// Of cores that overlap; negative if they do not.
+double depth_of_cores(const Body &a, const Body &b)
+{
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vector &n) { least = std::min(least, b.highest(n) + a.highest(-n)); };
+  for (const Vector &n : a.normals) look(-n);
+  for (const Vector &n : b.normals) look(n);
+  const ConvexCore &core_a = a.shape->core(), &core_b = b.shape->core();
+  for (int e = 0; e < core_a.num_edges(); e++)
+    for (int f = 0; f < core_b.num_edges(); f++) {
+      const Vector u = a.vertices[core_a.edge(e).vertex[1]] - a.vertices[core_a.edge(e).vertex[0]];
+      const Vector w = b.vertices[core_b.edge(f).vertex[1]] - b.vertices[core_b.edge(f).vertex[0]];
+      const Vector n = cross(u, w);
+      const double size = length(n);
+      if (size < 1e-5 * length(u) * length(w)) continue;
+      look((1.0 / size) * n);
+      look((-1.0 / size) * n);
+    }
+  return least;
+}
+
+/* ---- libccd ---------------------------------------------------------------------------------- */
+
+void support(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
+{
+  const Body &body = *static_cast<const Body *>(object);
+  const Vector d{direction->v[0], direction->v[1], direction->v[2]};
+  Vector best = body.vertices[0];
+  for (const Vector &x : body.vertices)
+    if (dot(d, x) > dot(d, best)) best = x;
+  best = best + (body.shape->radius() / length(d)) * d;
+  ccdVec3Set(point, best.x, best.y, best.z);
+}
+
+bool intersect_by_libccd(const Body &a, const Body &b)
+{
+  ccd_t options;
+  CCD_INIT(&options);
+  options.support1 = options.support2 = support;
+  options.max_iterations = 500;
+  return ccdGJKIntersect(&a, &b, &options) != 0;
+}
+
+/* ---- pairs ----------------------------------------------------------------------------------- */
+
+std::vector<ConvexShape> some_shapes(RandomBodies &random, double rounding)
+{
+  std::vector<ConvexShape> shapes;
+  shapes.push_back(ConvexShape::box({1.0, 1.0, 1.0}, rounding));
+  shapes.push_back(ConvexShape::box({1.0, 0.5, 0.2}, rounding));
+  shapes.push_back(ConvexShape::polyhedron(
+      {{0.5, 0, 0}, {0, 0.6, 0}, {0, 0, 0.7}, {-0.3, -0.3, -0.3}}, rounding));
+  Points small = dodecahedron_corners();
+  for (Vector &x : small) x = 0.4 * x;
+  shapes.push_back(ConvexShape::polyhedron(small, rounding));
+  for (const int count : {5, 9, 16})
+    shapes.push_back(ConvexShape::polyhedron(random.corners(count, {0.6, 0.5, 0.4}), rounding));
+  return shapes;
+}
+
+struct Case {
+  const ConvexShape *a, *b;
+  Pose pose_a, pose_b;
+};
+
+Case random_case(RandomBodies &random, const std::vector<ConvexShape> &shapes)
+{
+  Case c;
+  c.a = &shapes[random.below(static_cast<int>(shapes.size()))];
+  c.b = &shapes[random.below(static_cast<int>(shapes.size()))];
+  c.pose_a = Pose({3.0, -2.0, 1.0}, random.orientation());
+  const double reach = c.a->bounding_radius() + c.b->bounding_radius();
+  c.pose_b = Pose(c.pose_a.position + (reach * random.uniform(0.3, 1.0)) * random.direction(),
+                  random.orientation());
+  if (random.chance(0.1)) c.pose_b.rotation = c.pose_a.rotation;    // parallel faces and edges
+  return c;
+}
+
+double deepest(const ConvexContacts &contacts)
+{
+  double overlap = 0.0;
+  for (const ConvexContact &c : contacts.points) overlap = std::max(overlap, c.overlap);
+  return overlap;
+}
+
+void expect_sound(const ConvexContacts &contacts)
+{
+  for (std::size_t k = 0; k < contacts.points.size(); k++) {
+    const ConvexContact &c = contacts.points[k];
+    EXPECT_GT(c.overlap, 0.0);
+    EXPECT_GT(c.weight, 0.0);
+    EXPECT_NEAR(length(c.normal), 1.0, 1e-9);
+    EXPECT_TRUE(std::isfinite(c.position.x + c.position.y + c.position.z));
+    if (k > 0) {
+      EXPECT_LT(contacts.points[k - 1].name, c.name);
+    }
+  }
+}
+
+}    // namespace
+
+TEST(ConvexFuzz, SharpPairsAgainstLibccdAndAllParts)
+{
+  RandomBodies random(1);
+  const std::vector<ConvexShape> shapes = some_shapes(random, 0.0);
+  ConvexContacts contacts;
+  int touching = 0, compared = 0, wrong = 0;
+  double worst = 0.0;
+  for (int trial = 0; trial < number_of_pairs(); trial++) {
+    const Case c = random_case(random, shapes);
+    SeparatingDirection direction;
+    const bool touch = collide(*c.a, c.pose_a, *c.b, c.pose_b, direction, contacts);
+    touching += touch;
+    expect_sound(contacts);
+    const Body a(*c.a, c.pose_a), b(*c.b, c.pose_b);
+    if (touch != intersect_by_libccd(a, b)) {
+      const double depth = depth_of_cores(a, b);
+      if (std::fabs(depth) > 1e-6) {
+        wrong++;
+        ADD_FAILURE() << "pair " << trial << " touch " << touch << " depth " << depth;
+      }
+    }
+    if (trial % 20 || !touch) continue;
+    compared++;
+    const double depth = depth_of_cores(a, b);
+    // no contact is deeper than the least depth, and one is as deep
+    worst = std::max(worst, std::fabs(deepest(contacts) - depth));
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(touching, number_of_pairs() / 5);
+  EXPECT_GT(compared, 100);
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
+{
+  RandomBodies random(2);
+  const std::vector<ConvexShape> shapes = some_shapes(random, 0.1);
+  ConvexContacts contacts;
+  int touching = 0, apart = 0, wrong = 0;
+  double worst = 0.0;
+  for (int trial = 0; trial < number_of_pairs(); trial++) {
+    const Case c = random_case(random, shapes);
+    SeparatingDirection direction;
+    const bool touch = collide(*c.a, c.pose_a, *c.b, c.pose_b, direction, contacts);
+    touching += touch && !contacts.cores_overlap;
+    expect_sound(contacts);
+    const Body a(*c.a, c.pose_a), b(*c.b, c.pose_b);
+    if (touch != intersect_by_libccd(a, b)) {
+      const double depth = 0.2 - distance_of_cores(a, b);
+      if (std::fabs(depth) > 1e-3 * 0.2) {    // libccd gives up on round bodies that all but touch
+        wrong++;
+        ADD_FAILURE() << "pair " << trial << " touch " << touch << " overlap " << depth;
+      }
+    }
+    if (trial % 10 || contacts.cores_overlap) continue;
+    const double distance = distance_of_cores(a, b);
+    if (!touch) {
+      EXPECT_GE(distance, 0.2 - 1e-12);
+      apart++;
+    } else {
+      worst = std::max(worst, std::fabs(0.2 - distance - deepest(contacts)));
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(touching, number_of_pairs() / 10);
+  EXPECT_GT(apart, 100);
+  EXPECT_LT(worst, 1e-6 * 0.2);    // edges that exceed their ends by less are left out
+}
+
+TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
+{
+  RandomBodies random(3);
+  ConvexContacts one, other;
+  int compared = 0;
+  for (const double rounding : {0.0, 0.1}) {
+    const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
+    for (int trial = 0; trial < number_of_pairs() / 4; trial++) {
+      const Case c = random_case(random, shapes);
+      SeparatingDirection direction, exchanged;
+      collide(*c.a, c.pose_a, *c.b, c.pose_b, direction, one);
+      collide(*c.b, c.pose_b, *c.a, c.pose_a, exchanged, other);
+      for (ConvexContact &contact : other.points) contact.name = exchanged_name(contact.name);
+      std::sort(other.points.begin(), other.points.end(),
+                [](const ConvexContact &p, const ConvexContact &q) { return p.name < q.name; });
+      // deep within each other, parallel bodies have several directions of least depth
+      if (c.pose_a.rotation == c.pose_b.rotation && deepest(one) > 0.05 + 2.0 * rounding) continue;
+      compared++;
+      ASSERT_EQ(one.points.size(), other.points.size()) << trial << " rounding " << rounding;
+      for (std::size_t k = 0; k < one.points.size(); k++) {
+        const ConvexContact &p = one.points[k], &q = other.points[k];
+        EXPECT_EQ(p.name, q.name) << trial;
+        EXPECT_LT(length(p.position - q.position), 1e-9) << trial;
+        EXPECT_LT(length(p.normal + q.normal), 1e-9) << trial;
+        EXPECT_NEAR(p.overlap, q.overlap, 1e-10);
+        EXPECT_NEAR(p.weight, q.weight, 1e-7);
+      }
+    }
+  }
+  EXPECT_GT(compared, number_of_pairs() / 3);
+}
+
+TEST(ConvexFuzz, ContactsDoNotDependOnTheDirectionThatIsKnown)
+{
+  RandomBodies random(4);
+  ConvexContacts one, other;
+  for (const double rounding : {0.0, 0.1}) {
+    const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
+    for (int trial = 0; trial < number_of_pairs() / 4; trial++) {
+      const Case c = random_case(random, shapes);
+      SeparatingDirection none, known;
+      known.direction = random.direction();
+      collide(*c.a, c.pose_a, *c.b, c.pose_b, none, one);
+      for (int again = 0; again < 2; again++) {
+        collide(*c.a, c.pose_a, *c.b, c.pose_b, known, other);
+        ASSERT_EQ(one.points.size(), other.points.size()) << trial;
+        for (std::size_t k = 0; k < one.points.size(); k++) {
+          const ConvexContact &p = one.points[k], &q = other.points[k];
+          EXPECT_EQ(p.name, q.name);
+          EXPECT_EQ(std::memcmp(&p.position, &q.position, sizeof p.position), 0);
+          EXPECT_EQ(std::memcmp(&p.normal, &q.normal, sizeof p.normal), 0);
+          EXPECT_EQ(p.overlap, q.overlap);
+          EXPECT_EQ(p.weight, q.weight);
+        }
+      }
+    }
+  }
+}
+
+/* libccd's MPR starts from the centers: its depth is that along the line of centers, refined, and at least the least
+   depth. */
+
+TEST(ConvexFuzz, MprFindsTheSamePairs)
+{
+  RandomBodies random(5);
+  ConvexContacts mpr, features;
+  for (const double rounding : {0.0, 0.1}) {
+    const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
+    int different = 0, touching = 0;
+    for (int trial = 0; trial < number_of_pairs() / 4; trial++) {
+      const Case c = random_case(random, shapes);
+      SeparatingDirection direction, none;
+      const bool by_mpr = collide(*c.a, c.pose_a, *c.b, c.pose_b, direction, mpr, NarrowPhase::MPR);
+      const bool touch = collide(*c.a, c.pose_a, *c.b, c.pose_b, none, features);
+      expect_sound(mpr);
+      touching += touch;
+      if (by_mpr != touch && deepest(features) + deepest(mpr) > 1e-5) different++;
+      if (!by_mpr || !touch) continue;
+      EXPECT_EQ(mpr.points.size(), 1U);
+      EXPECT_GT(deepest(mpr), deepest(features) - 1e-4);
+    }
+    EXPECT_GT(touching, 100);
+    EXPECT_EQ(different, 0);
+  }
+}
