@@ -30,7 +30,7 @@ using namespace Talus;
 FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), pairs(table)
 {
-  time_integrate = 0;    // of the group only some move: LAMMPS would warn of two integrators
+  time_integrate = 1;
   dynamic_group_allow = 0;
   create_attribute = 1;
   restart_global = restart_peratom = 1;

@@ -94,6 +94,8 @@ void FixShapeGran::check_fixes()
                "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in fix "
                "nve/sphere/symplectic");
   require_no_other_integrator();
+  // of the group only some move: LAMMPS would warn of two integrators of spheres in it
+  time_integrate = other_integrators == 0;
 }
 
 /* Those that ask for contacts of spheres, or take moments of inertia of spheres. */
