@@ -149,7 +149,7 @@ void FixRigidSmallTalus::look_at_storage()
   if (in_records && !slots_known) find_slots();
 }
 
-/* A frozen sphere has infinite mass in the records, whose forces nobody has cleared. */
+/* A frozen sphere has infinite mass in the records, whose forces are not cleared. */
 
 FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpState &state) const
 {

@@ -14,7 +14,7 @@
      * Mass, center, inertia and velocities are found from the spheres in the same order when a
        run begins. Clumps that are as the last run, or a restart file, has left them stay so with
        all bits; `reinit` concerns those that a command has moved in between, see keeps_states().
-     * In the records, where steps are made that nobody looks at, the kick that ends a step and the
+     * In the records, in steps that are not looked at, the kick that ends a step and the
        one that begins the next are made in one pass, with the same bits; see FixNVESphereTalus.
      * Restart files hold the state of each clump.
 
@@ -111,7 +111,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
             });
     });
   }
-  // motions in the records are possible and nobody asks for more than they give
+  // motions in the records are possible and no more is asked for than they give
   bool moves_in_lanes() const;
   // what clumps did in the records since the bodies of the stock class were up to date
   void take_from_lanes();

@@ -171,7 +171,7 @@ void FixRigidSmallTalus::make_table()
     incomplete = incomplete || table.first[c + 1] != body[table.body[c]].natoms;
     table.first[c + 1] += table.first[c];
   }
-  // spheres that have left the box are missing as well, and are missed by nobody
+  // spheres that have left the box are missing as well, and are not needed
   int mine[2] = {shares, incomplete && comm->mode != Comm::SINGLE}, any[2];
   MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
   shares_clumps = any[0];

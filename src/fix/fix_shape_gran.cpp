@@ -192,7 +192,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
   if (BodyWalls(body.shape()).size() == 0)
-    return "particles with a shape touch no surface of this kind: use plane, box, sphere outside, or "
+    return "particles with a shape touch no surface of this kind: use plane, box, sphere outside, "
+           "or "
            "cylinder inside";
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;

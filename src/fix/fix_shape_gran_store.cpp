@@ -64,7 +64,7 @@ void FixShapeGran::send_memories_to_ghosts()
   for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, memories.packed_size(i));
   MPI_Allreduce(&mine, &longest, 1, MPI_INT, MPI_MAX, world);
   for (int i = atom->nlocal; i < nall; i++) memories.clear(i);
-  if (longest == 1) return;    // nobody remembers anything
+  if (longest == 1) return;    // nothing is remembered
   pieces = (longest + block_size - 1) / block_size;
   lists.assign(nall, {});
   for (int i = 0; i < atom->nlocal; i++) {

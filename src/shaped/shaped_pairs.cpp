@@ -139,8 +139,7 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
   chunk.pair_of_point.clear();
   std::size_t old = 0;
   for (int p = chunk.begin; p < chunk.end; p++) find_points(view, chunk, p, old);
-  batch.compute({laws, step.dt, step.advance}, chunk.points.data(),
-                chunk.points.size());
+  batch.compute({laws, step.dt, step.advance}, chunk.points.data(), chunk.points.size());
   sum_points(chunk);
 }
 

@@ -61,8 +61,7 @@ BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, con
       chunk.of_point.clear();
       std::size_t old = 0;
       for (int n = chunk.begin; n < chunk.end; n++) find_points(task, chunk, n, old);
-      batches[t]->compute({laws, step.dt, step.advance}, chunk.points.data(),
-                          chunk.points.size());
+      batches[t]->compute({laws, step.dt, step.advance}, chunk.points.data(), chunk.points.size());
       add_forces(task, chunk);
     }
   });

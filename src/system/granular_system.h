@@ -137,7 +137,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// What is of first order nevertheless.
   std::vector<std::string> notes_on_second_order() const;
   /// Where integrators keep the changes of velocities of particles in the arrays of the host,
-  /// nullptr if nobody needs them; see ParticleRecords::change.
+  /// nullptr if they are not needed; see ParticleRecords::change.
   ChangeRecord *velocity_changes();
   /// Second order does, and the work of contacts.
   bool needs_changes() const;

@@ -112,9 +112,9 @@ void LargeBody::list_particles()
   const BodyParticleView particles = view();
   const int *mask = mask_of_spheres();
   if (its_shape->wants_focus())
-    its_shape->focus(BodyCandidates::bounds_of_search(
-        *frame, particles, mask, group_bits(), neighbor->skin,
-        contacts.largest_reach(particles, mask, group_bits())));
+    its_shape->focus(
+        BodyCandidates::bounds_of_search(*frame, particles, mask, group_bits(), neighbor->skin,
+                                         contacts.largest_reach(particles, mask, group_bits())));
   contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
 }
@@ -245,10 +245,11 @@ BodyFindings LargeBody::find_worst()
 double LargeBody::energy()
 {
   if (system.shapes())
-    error->all(FLERR,
-               "{}: the energy of its contacts with particles that have a shape is not known: leave "
-               "the scalar of this fix and 'fix_modify energy' out",
-               name());
+    error->all(
+        FLERR,
+        "{}: the energy of its contacts with particles that have a shape is not known: leave "
+        "the scalar of this fix and 'fix_modify energy' out",
+        name());
   is_asked = true;
   double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {

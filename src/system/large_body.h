@@ -153,7 +153,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::vector<bool> spec_is_set;
   bool with_history = false;
   BodyContacts contacts;
-  std::vector<int> spheres;    ///< see mask_of_spheres()
+  std::vector<int> spheres;     ///< see mask_of_spheres()
   BodyFindings seen_between;    ///< before particles were listed anew within a step
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before

@@ -173,7 +173,7 @@ void BodyBatch::see_changes_from_body(int k)
   store_at(batch.rotation_change, k, frame.to_body(rotation));
 }
 
-/* Without a pair style of ours nobody keeps them. */
+/* Without a pair style of Talus they are not kept. */
 
 void BodyBatch::gather_changes(const int *index, int k)
 {
