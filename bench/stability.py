@@ -44,8 +44,8 @@ def boundary(bench, pool):
         row = [case.group, case.name]
         for order, code in ((1, TALUS), (2, SECOND)):
             expected, (limit, critical, allowed) = limits.theory(case, order), found[case.name, code]
-            off[code] = max(off[code], abs(limit / expected - 1) if expected else 0.0)
-            row += [expected or "-", limit, limit / critical, limit / allowed]
+            off[code] = max(off[code], abs(limit / expected - 1))
+            row += [expected, limit, limit / critical, limit / allowed]
             advised.append((limit / critical, case.name, code, allowed / critical))
             section.record(part="boundary", case=case.name, code=code, theory=expected, talus=limit, critical=critical,
                            allowed=allowed)

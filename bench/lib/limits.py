@@ -7,6 +7,7 @@ never open, disturbed by 1e-9; unstable if the disturbance grows by 10^4."""
 import dataclasses
 import itertools
 import math
+import random
 
 import lammps
 from lammps import SECOND, STOCK, TALUS
@@ -85,7 +86,7 @@ def cases(quick):
 # ---- theory -----------------------------------------------------------------------------------
 
 def theory(case, order=1):
-    """Largest stable time step for the linear system, by order of the integrator; None without numpy.
+    """Largest stable time step for the linear system, by order of the integrator.
 
     With the stiffness and damping k, g of each normal and kt, gt of each tangential contact, the roots of the
     difference equation leave the unit circle at -1, where the largest eigenvalue of
@@ -95,34 +96,51 @@ def theory(case, order=1):
     is 4; B and T: normal and tangential displacement of a contact by translations and rotations of spheres of
     mass 1. Order 2 is implicit in the normal damping of each contact and extrapolates the velocity else. Without
     damping this is 2/omega, for one damped contact 2 (sqrt(1 + zeta^2) - zeta) with order 1 and 2/omega with order 2."""
-    try:
-        import numpy as np
-    except ImportError:
-        return None
-    n = len(case.moving)
-    normal, tangential = np.zeros((6 * n, 6 * n)), np.zeros((6 * n, 6 * n))
+    contacts = list(_touching(case))
     mass = 0.5 if case.period else 1.0        # effective mass of every contact
-    for i, j, along in _touching(case):
-        rows = np.zeros((3, 6 * n))      # relative displacement of the surfaces
-        cross = np.array([[0, -along[2], along[1]], [along[2], 0, -along[0]], [-along[1], along[0], 0]])
-        rows[:, 6 * i:6 * i + 3] += np.eye(3)
-        rows[:, 6 * i + 3:6 * i + 6] += 0.5 * cross       # theta x (-r n) = r n x theta
-        if j is not None:
-            rows[:, 6 * j:6 * j + 3] -= np.eye(3)
-            rows[:, 6 * j + 3:6 * j + 6] += 0.5 * cross
-        projector = np.outer(along, along)
-        normal += rows.T @ projector @ rows
-        tangential += rows.T @ (np.eye(3) - projector) @ rows
-    scale = np.tile([1.0] * 3 + [INERTIA**-0.5] * 3, n)
-    normal, tangential = normal * np.outer(scale, scale), tangential * np.outer(scale, scale)
     kt, g = case.friction or 0.0, 2 * case.zeta * mass
+    draw = random.Random(1)
+    mode = [[draw.uniform(-1, 1) for _ in range(6)] for _ in case.moving]
     low, high = 1e-3, 4.0
     while high - low > 1e-4:
         dt = 0.5 * (low + high)
         shared = 1 + g * dt / mass if order > 1 else 1.0
-        square = dt * dt * ((1 + 2 * order * g / dt) / shared * normal + (kt + 2 * order * case.drag * g / dt) * tangential)
-        low, high = (dt, high) if np.linalg.eigvalsh(square)[-1] < 4 else (low, dt)
+        normal = dt * dt * (1 + 2 * order * g / dt) / shared
+        tangential = dt * dt * (kt + 2 * order * case.drag * g / dt)
+        largest, mode = _largest_eigenvalue(contacts, normal, tangential, mode)
+        low, high = (dt, high) if largest < 4 else (low, dt)
     return low
+
+
+def _cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _largest_eigenvalue(contacts, normal, tangential, mode):
+    """Of the stiffness in units of mass and moment of inertia, by power iteration that begins with `mode`: six numbers
+    of each sphere, of which the last three are angles times sqrt(inertia). With its mode."""
+    arm = 0.5 * INERTIA**-0.5
+    size, steady = 0.0, 0
+    while steady < 5:
+        force = [[0.0] * 6 for _ in mode]
+        for i, j, along in contacts:
+            moved = [0.0] * 3                # of the surfaces past each other: u + theta x (-r n), and the same of j
+            for sign, k in ((1.0, i), (-1.0, j)):
+                if k is not None:
+                    turn = _cross(along, mode[k][3:])
+                    moved = [m + sign * u + arm * t for m, u, t in zip(moved, mode[k], turn)]
+            off = sum(m * n for m, n in zip(moved, along))
+            f = [normal * off * n + tangential * (m - off * n) for m, n in zip(moved, along)]
+            moment = [arm * m for m in _cross(f, along)]
+            for sign, k in ((1.0, i), (-1.0, j)):
+                if k is not None:
+                    for d in range(3):
+                        force[k][d] += sign * f[d]
+                        force[k][3 + d] += moment[d]
+        last, size = size, math.sqrt(sum(f * f for row in force for f in row))
+        steady = steady + 1 if abs(size - last) <= 1e-6 * size else 0
+        mode = [[f / size for f in row] for row in force]
+    return size, mode
 
 
 def _touching(case):

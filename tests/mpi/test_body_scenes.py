@@ -78,7 +78,7 @@ class Scenes(SceneCase):
     def test_dice(self):
         found = self.simulate("dice", np=2, way="through the arrays", n=3, layers=3, time=1.5)
         self.assertAlmostEqual(found["force on the floor / weight"], 1.0, delta=0.05)
-        self.assertLess(found["kinetic energy / (weight x edge)"], 1e-3)
+        self.assertLess(found["kinetic energy / weight / edge"], 1e-3)
 
     def test_wheel(self):
         env = {"PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
