@@ -252,14 +252,14 @@ class BuildDirectories(ScriptCase):
 class Apt(ScriptCase):
     """apt is replaced by stubs: nothing is downloaded."""
 
-    MIRROR = 'if [ "$1" = indextargets ]; then echo "http://mirror.invalid/debian stable main"; fi\n'
+    MIRROR = 'if [ "$1" = indextargets ]; then echo "http://packages.example/debian stable main"; fi\n'
 
     def test_no_apt(self):
         self.hide("apt-get")
         self.assert_message(self.build(), "no apt-get", "LAMMPS_SOURCE_DIR")
 
     def test_no_debian_mirror(self):
-        self.command("apt-get", 'echo "http://mirror.invalid/debian stable contrib"\n')
+        self.command("apt-get", 'echo "http://packages.example/debian stable contrib"\n')
         self.assert_message(self.build(), "no Debian mirror", "LAMMPS_SOURCE_DIR")
 
     def test_no_network(self):

@@ -220,9 +220,16 @@ class Counts(SceneCase):
                     self.assertEqual(rank["beside"] > 0, expected)
 
     def test_blocking(self):
-        # energies would take changes of velocities in messages of their own
         self.check((2, 2, 1), style="verlet/stock", stats=False, in_records=False)
         self.check((2, 2, 1), style="verlet/proxy overlap no")
+
+    def test_energies_send_changes_of_velocities_where_lammps_sends(self):
+        """In one step of four, by the messages of LAMMPS: there and back in each direction, none across a corner."""
+        particles = grains()
+        write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), particles)
+        found, _ = self.per_step(4, boundary="p p p", law=LAWS[72], style="verlet/stock", grid="2 2 1 map zyx", proxies="yes",
+                                 more="", **STATS)
+        self.assertEqual({other: count[0] for other, count in found[0].items() if isinstance(other, int)}, {1: 1.5, 2: 1.5, 3: 1.0})
 
 
 if __name__ == "__main__":
