@@ -129,6 +129,7 @@ template <class Real> struct Beginning {
 template <class Real> struct Slide {
   Real kt, gt, overlap, normal_velocity, inverse_distance;
   Real old_limit;    ///< of the last step
+  Real first_rate;    ///< of the displacement, where the contact begins by sliding
   double dt;
   bool_of<Real> known;    ///< it was there a step ago
   Vector3<Real> normal, velocity, turn;
@@ -206,6 +207,9 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       Vector3<Real> d{h[0], h[1], h[2]};
       const Real limit = c.mu * pure;
       if constexpr (advance) {
+        const auto returns = last.known & (pure > splat<Real>(2.0 * least_force)) &
+                             (last.force < splat<Real>(2.0 * least_force));
+        if (any(returns)) theta = select(returns, share_since_return(c, s, pure, dt), theta);
         slides = move<Real>(c, s, last, theta, u, limit, dt, d);
         h[0] = d.x;
         h[1] = d.y;
@@ -242,6 +246,19 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real v = s.normal_velocity + by_others;
     const Real force = (s.elastic - s.gn * v) / (one + s.gn * s.lag * s.inverse_mass);
     return without_flags(select(force > least, force, least));
+  }
+
+  /// Where damping has held a force at 0 which is F now, the part of the step since it began to
+  /// grow: before, the spring was at rest.
+  template <class Real>
+  static Real share_since_return(const Row<Real> &c, const ContactLanes<Real> &s, Real force,
+                                 double dt)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
+    const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
+    const Real of_gn = c.damping_exponent * s.gn * v / s.overlap;
+    const Real growth = dt * v * (of_gn - s.tangent_n) - s.gn * change;
+    return select(growth > force, force / select(growth > zero, growth, one), one);
   }
 
   // These two are seldom called: functions of their own, which are not given the whole state, so
@@ -304,9 +321,12 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Vector3<Real> d{h[0], h[1], h[2]};
     end.tangential = {zero, zero, zero};
     if constexpr (friction) {
-      const Vector3<Real> within = -(s.kt * turned(d, s.normal) + s.gt * surface_velocity(s));
-      end.tangential =
-          select(last.slid, with_length(c.mu * end.normal_force, within), end.tangential);
+      const Vector3<Real> u = surface_velocity(s);
+      const Vector3<Real> within = -(s.kt * turned(d, s.normal) + s.gt * u);
+      const Vector3<Real> stuck =
+          end_of_sticking(within, -dt * s.kt * u, c.mu * last.force, edge.theta);
+      end.tangential = select(last.slid, with_length(c.mu * end.normal_force, within),
+                              select(edge.is, stuck, end.tangential));
     }
     for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
     const Real flags = select(last.slid, splat<Real>(2.0), zero);
@@ -314,6 +334,24 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const auto again = (h[3] > zero) & (s.parted <= zero);
     for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
     return end;
+  }
+
+  /// What the sum over the steps lacks of the force f of a contact that sticks in its last step and
+  /// ends theta steps later, where its limit is 0: on the way there it changes by `rate` in a step
+  /// until it meets the limit, and follows it.
+  template <class Real>
+  TALUS_INLINE static Vector3<Real> end_of_sticking(const Vector3<Real> &f,
+                                                    const Vector3<Real> &rate, Real limit,
+                                                    Real theta)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), half = splat<Real>(0.5);
+    const Real size = square_root(dot(f, f)), some = select(size > zero, one / size, zero);
+    const Real along = some * dot(f, rate), falls = limit / theta;
+    const Real until = select(falls + along > zero, (limit - size) / (falls + along), theta);
+    const Real sticks = select(until < theta, select(until > zero, until, zero), theta);
+    const Real met = falls * (theta - sticks);
+    return (sticks - half) * f + (half * sticks * sticks - splat<Real>(1.0 / 12.0)) * rate +
+           (half * met * (theta - sticks) * some) * f;
   }
 
   /// v_t of these velocities, n across the surface.
@@ -343,6 +381,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                             s.normal_velocity,
                             s.inverse_distance,
                             c.mu * last.force,
+                            first_rate(c, s),
                             dt,
                             last.known,
                             s.normal,
@@ -355,20 +394,26 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return slides;
   }
 
+  /// Limit over gt where the overlap is 0 and the normal force is that of damping.
+  template <class Real>
+  TALUS_INLINE static Real first_rate(const Row<Real> &c, const ContactLanes<Real> &s)
+  {
+    const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
+    return select((s.gt > zero) & (limit > zero), limit / s.gt, zero);
+  }
+
   /// Displacement of a sliding contact. `end`: force at its limit, by the end of the step.
   template <class Real>
   static Vector3<Real> slide(const Row<Real> &c, const Slide<Real> &s, const Vector3<Real> &before,
                              const Vector3<Real> &slip, const Vector3<Real> &end, Real time)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    const double dt = s.dt;
+    const Real dt = select(s.known, splat<Real>(s.dt), time);
     const auto safe = [&](Real a) { return select(a > zero, a, one); };
-    const Real tau = s.gt / safe(s.kt);
     const Vector3<Real> g_end = one / safe(s.kt) * end;
-    const Vector3<Real> at_once = one / (tau + time) * (tau * before + time * g_end);
 
     // stiffness and damping a step ago and half way
-    const Real d0 = s.overlap + dt * s.normal_velocity;
+    const Real d0 = select(s.known, s.overlap + dt * s.normal_velocity, zero);
     const Real x_old = select(d0 > zero, d0, zero) / safe(s.overlap), x_mid = 0.5 * (one + x_old);
     const Real of_kt = c.elastic_exponent - one, of_gt = c.damping_exponent;
     const Real kt_old = s.kt * power(x_old, of_kt), gt_old = s.gt * power(x_old, of_gt);
@@ -386,12 +431,14 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real b = dot(along, g_old);
     const Real root = b * b + dot(g_end, g_end) - dot(g_old, g_old);
     const Real reach = b + square_root(select(root > zero, root, zero));
-    const Vector3<Real> g = select((root >= zero) & (reach > zero), reach * along - g_old, g_end);
-    const Real t = gt_mid / safe(kt_mid);
-    const Vector3<Real> half_way =
-        one / (t * t + dt * t + splat<Real>(0.5 * dt * dt)) *
-        (t * t * before + 0.5 * dt * t * g_old + 0.5 * dt * (t + splat<Real>(dt)) * g);
-    return select(s.known, half_way, at_once);
+    const Vector3<Real> g =
+        select(s.known & (root >= zero) & (reach > zero), reach * along - g_old, g_end);
+    const Real t = gt_mid / safe(kt_mid), half = splat<Real>(0.5);
+    const Vector3<Real> rate_old =
+        select(s.known, one / safe(gt_old) * f_old, with_length(s.first_rate, end));
+    const Vector3<Real> rate = s.kt / safe(s.gt) * g;
+    return one / (t * t + dt * t + half * dt * dt) *
+           (t * t * (before + half * dt * (rate_old + rate)) + (half * dt * dt) * g);
   }
 };
 
