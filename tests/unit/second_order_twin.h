@@ -63,10 +63,10 @@ inline Vec across(Vec a, Vec n)
 {
   return a - dot(a, n) * n;
 }
-/// a in the plane normal to n, with its length.
-inline Vec turned(Vec a, Vec n)
+/// a by the rotation from one normal to n, which is half way at n - q; to second order in q.
+inline Vec rotated(Vec a, Vec n, Vec q)
 {
-  return length(a) * unit(across(a, n));
+  return a + dot(a, n) * (q - n);
 }
 
 /// Hurwitz' zeta(-p, t), p >= 0, t > 0: Euler-Maclaurin behind the first terms of the sum.
@@ -299,7 +299,7 @@ class System {
       if (law.mu > 0.0 && c.force > 0.0) {
         const Coefficients was = coefficients(law, before, p.mass, p.radius);
         const Vec u = surface_velocity(p.v, p.spin, p.n);
-        const Vec f = was.kt * turned(c.s, p.n) + was.gt * u;
+        const Vec f = was.kt * rotated(c.s, p.n, half_turn(p)) + was.gt * u;
         if (c.slid)
           friction = law.mu * error * unit(f);
         else if (with.slip)
@@ -348,8 +348,8 @@ class System {
     if (falls + rises > 0.0) sticks = (limit - length(f)) / (falls + rises);
     sticks = std::clamp(sticks, 0.0, e.theta);
     const double slides_on = e.theta - sticks;
-    const Vec integral = sticks * f + 0.5 * sticks * sticks * rate +
-                         0.5 * falls * slides_on * slides_on * unit(f);
+    const Vec integral =
+        sticks * f + 0.5 * sticks * sticks * rate + 0.5 * falls * slides_on * slides_on * unit(f);
     return 0.5 * f + (1.0 / 12.0) * rate - integral;
   }
 
@@ -419,6 +419,12 @@ class System {
 
   static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }
 
+  /// Half of what the normal turns in a step.
+  Vec half_turn(const Pair &p) const
+  {
+    return p.j ? (0.5 * dt / p.distance) * across(p.v, p.n) : Vec{};
+  }
+
   static Vec capped(Vec a, double limit)
   {
     const double l = length(a);
@@ -435,12 +441,10 @@ class System {
     const double lasted = with.midpoint ? theta * dt : dt;
     const double time = lag > 0.0 ? lasted : 0.0;
     Vec before, slip;
-    const Vec old_r = p.distance * p.n - dt * p.v;
-    const Vec old_n = p.j ? unit(old_r) : p.n;
     if (with.midpoint) {
-      const Vec half_n = p.j ? unit(p.distance * p.n - 0.5 * dt * p.v) : p.n;
-      before = turned(c.s, p.n);
-      slip = time * turned(surface_velocity(p.v, p.spin, half_n), p.n);
+      const Vec q = half_turn(p), spin = p.spin + dot(p.spin, p.n) * q;
+      before = rotated(c.s, p.n, q);
+      slip = time * (surface_velocity(p.v, spin, p.n) + dot(p.v, p.n) * q);
     } else {
       before = across(c.s, p.n);
       slip = time * surface_velocity(p.v, p.spin, p.n);
@@ -467,10 +471,9 @@ class System {
     const Coefficients mid = coefficients(law, 0.5 * (d0 + p.d), p.mass, p.radius);
     Vec g = (1.0 / now.kt) * end, rate{};
     if (c.touches) {
-      const Vec u_old =
-          turned(surface_velocity(p.v - lag * p.a, p.spin - lag * p.alpha, old_n), p.n);
+      const Vec u_mid = (1.0 / time) * slip, u_old = 2.0 * u_mid - u;
       const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
-      const Vec along = unit(mid.kt * (before + 0.5 * slip) + (mid.gt / time) * slip);
+      const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
       // g = f/kt: at its limit half way along `along`
       const Vec g_old = old.kt > 0.0 ? (1.0 / old.kt) * f_old : Vec{};
       const double most = limit / now.kt, b = dot(along, g_old);
