@@ -57,4 +57,11 @@ Vector3<double> FreeRotation::angular_momentum(const Eigen::Quaterniond &orienta
   return from_eigen(frame * inertia.cwiseProduct(frame.transpose() * to_eigen(omega)));
 }
 
+Vector3<double> FreeRotation::omega_of(const Eigen::Quaterniond &orientation,
+                                       const Vector3<double> &momentum) const
+{
+  const Eigen::Matrix3d frame = (orientation * principal).toRotationMatrix();
+  return from_eigen(frame * inverse.cwiseProduct(frame.transpose() * to_eigen(momentum)));
+}
+
 }    // namespace Talus
