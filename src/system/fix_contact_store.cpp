@@ -3,8 +3,8 @@
 #include "system/fix_contact_store.h"
 
 #include "system/granular_system.h"
-#include "system/system_shapes.h"
 #include "system/system_run_style.h"
+#include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"

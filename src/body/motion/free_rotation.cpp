@@ -59,8 +59,8 @@ Vector3<double> FreeRotation::angular_momentum(const Eigen::Quaterniond &orienta
 Vector3<double> FreeRotation::omega_of(const Eigen::Quaterniond &orientation,
                                        const Vector3<double> &momentum) const
 {
-  const Eigen::Matrix3d frame = (orientation * principal).toRotationMatrix();
-  return from_eigen(frame * inverse.cwiseProduct(frame.transpose() * to_eigen(momentum)));
+  const PrincipalAxes<double> frame = axes_of(orientation * principal);
+  return frame.to_space(by_component(inverse, frame.to_body(momentum)));
 }
 
 }    // namespace Talus
