@@ -18,16 +18,31 @@ template <class Real> struct ContactImpact {
   Real begun{};    ///< 1 after the first step
 };
 
-/// Impact speed and age at this step; `advance` counts the step.
+/// Impact speed and age at this step; `advance` counts the step. `speed`: that of a contact which
+/// begins. One that has `parted` is forgotten behind this step.
 template <bool advance, class Real>
-inline void follow_impact(ContactImpact<Real> &impact, Real normal_velocity, double dt)
+inline void follow_impact(ContactImpact<Real> &impact, Real speed, Real parted, double dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const auto begun = impact.begun > zero;
-  impact.speed = select(begun, impact.speed, magnitude(normal_velocity));
+  const auto ends = parted > zero, begun = (impact.begun > zero) | ends;
+  impact.speed = select(begun, impact.speed, speed);
   if (!advance) return;
   impact.age = select(begun, impact.age + dt, zero);
-  impact.begun = one;
+  impact.begun = select(ends, zero, one);
+}
+
+/// Normal speed in the step in which a contact begins; with the changes of velocities that laws of
+/// second order read, that of the moment at which it does.
+template <bool second_order, class Real>
+TALUS_INLINE Real speed_at_begin(const ContactLanes<Real> &s, double dt)
+{
+  const Real v = s.normal_velocity;
+  if constexpr (!second_order) return magnitude(v);
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), way = -dt * v;
+  const Real theta = select(way > s.overlap, s.overlap / select(way > zero, way, one), one);
+  const Real turning = s.inverse_distance * (dot(s.velocity, s.velocity) - v * v);
+  const Real change = 2.0 * dot(s.velocity_change, s.normal) + 2.0 * s.lag * turning;
+  return magnitude(v + (splat<Real>(0.5) - theta) * change);
 }
 
 /// The normal half a step before, dt/2: centers came here along straight lines, or a large body

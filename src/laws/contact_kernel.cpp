@@ -49,7 +49,7 @@ void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in
   }
 }
 
-template <bool with_radius, bool impact, bool advance>
+template <bool with_radius, bool impact, bool advance, bool second_order = false>
 void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -60,7 +60,7 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
       double *const at[3] = {&b.history[in.places[0]][k], &b.history[in.places[1]][k],
                              &b.history[in.places[2]][k]};
       ContactImpact<Vec8> its{load8(at[0]), load8(at[1]), load8(at[2])};
-      follow_impact<advance>(its, s.normal_velocity, in.dt);
+      follow_impact<advance>(its, speed_at_begin<second_order>(s, in.dt), s.parted, in.dt);
       s.impact_speed = its.speed;
       s.age = its.age;
       if constexpr (advance) {
@@ -73,10 +73,17 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
-template <bool with_radius> StageFunction approach_function(bool impact, bool advance)
+template <bool with_radius, bool second_order> StageFunction impact_function(bool advance)
 {
-  if (!impact) return run_approach<with_radius, false, false>;
-  return advance ? run_approach<with_radius, true, true> : run_approach<with_radius, true, false>;
+  return advance ? run_approach<with_radius, true, true, second_order>
+                 : run_approach<with_radius, true, false, second_order>;
+}
+
+template <bool with_radius> StageFunction approach_function(const ContactLaw &law, bool advance)
+{
+  if (!law.history().keeps_impact) return run_approach<with_radius, false, false>;
+  return law.tangential().second_order ? impact_function<with_radius, true>(advance)
+                                       : impact_function<with_radius, false>(advance);
 }
 
 /// The stages that a law has, in their order: visit(stage, law of the stage).
@@ -114,8 +121,8 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
   kernel.uniform = uniform;
   if (law.synchronized()) kernel.add(go_half_way_back, law.place_of_time_step());
   if (law.tangential().second_order) kernel.add(find_last_overlap);
-  kernel.add(law.needs_radius() ? approach_function<true>(history.keeps_impact, advance)
-                                : approach_function<false>(history.keeps_impact, advance),
+  kernel.add(law.needs_radius() ? approach_function<true>(law, advance)
+                                : approach_function<false>(law, advance),
              0, history.impact);
   for_each_stage(law, [&](Stage stage, const Law &its) {
     if (needs_delay(law, stage)) kernel.add(law.normal().delay);
@@ -182,7 +189,9 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   if (history.keeps_impact) {
     const HistoryPlaces &at = history.impact;
     ContactImpact<double> impact{kept[at[0]], kept[at[1]], kept[at[2]]};
-    follow_impact<false>(impact, s.normal_velocity, dt);
+    const double speed =
+        law.tangential().second_order ? speed_at_begin<true>(s, dt) : speed_at_begin<false>(s, dt);
+    follow_impact<false>(impact, speed, s.parted, dt);
     s.impact_speed = impact.speed;
     s.age = impact.age;
   }

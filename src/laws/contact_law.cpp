@@ -76,8 +76,10 @@ HistoryLayout ContactLaw::history() const
                                      Places::first_of(static_cast<Stage>(s)));
     reads_impact = reads_impact || laws[s]->reads_impact;
   }
-  const bool tangential_remembers = tangential().odd_history + tangential().even_history > 0;
-  layout.keeps_impact = tangential_remembers && reads_impact;
+  // laws of second order remember a contact without a spring as well
+  const bool remembers_spring = tangential().odd_history + tangential().even_history > 0 &&
+                                (!tangential().second_order || tangential().has_spring);
+  layout.keeps_impact = remembers_spring && reads_impact;
   if (layout.keeps_impact) layout.impact = places.take(0, 3);
   layout.fits = places.fit();
   layout.size = places.size();

@@ -108,6 +108,7 @@ struct Law {
   void (*read_coefficient)(LawReader &reader);
   /// Damping: see DampingLaw; nullptr of others.
   double (*damping_exponent)(double elastic_exponent);
+  double (*dashpot_exponent)(double elastic_exponent);
   /// Coefficients of a contact of two materials to c[0 ... num_coefficients-1].
   void (*mix)(const Mixing &materials, double *c);
   /// Energy stored in a contact whose stages have all been computed.

@@ -75,9 +75,11 @@ struct DampingLaw : LawBase {
   static constexpr const char *label = nullptr;    // descriptions name it if it was asked for
 
   static void read_coefficient(LawReader &r) { r.set_not_negative("gn"); }
-  /// gn and gt ~ overlap^p with an elastic force ~ overlap^elastic: p = 0, 1/4 or 1/2; below 0 if
-  /// it is not so. Needed for second order.
-  static double damping_exponent(double /*elastic*/) { return -1.0; }
+  /// gn ~ overlap^p with an elastic force ~ overlap^elastic: p = 0, 1/4, 1/2, 1 or 3/2. Read by
+  /// laws of second order.
+  static double damping_exponent(double elastic) = delete;
+  /// The same of gt, where it is another one; below 0 if not.
+  static double dashpot_exponent(double /*elastic*/) { return -1.0; }
 };
 
 /// Finds tangential and moment, and twisting_torque if it has lever_arms, and adds to force.
@@ -412,6 +414,7 @@ template <class L> constexpr Law make_law()
   if constexpr (L::stage == Stage::DAMPING) {
     law.read_coefficient = L::read_coefficient;
     law.damping_exponent = L::damping_exponent;
+    law.dashpot_exponent = L::dashpot_exponent;
   }
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;

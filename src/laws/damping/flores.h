@@ -15,6 +15,9 @@ struct FloresDamping : DampingByNumber {
   static constexpr const char *needs_gt =
       "gn of flores has another unit, 1/(time distance^2), than gt, 1/(time distance)";
 
+  static double damping_exponent(double /*elastic*/) { return 1.5; }
+  static double dashpot_exponent(double /*elastic*/) { return 0.5; }
+
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)

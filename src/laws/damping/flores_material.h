@@ -26,6 +26,8 @@ struct FloresMaterialDamping : DampingLaw {
   {
     r.spec.given["e"] = r.words.between("restitution e", 0.0, 1.0);
   }
+  static double damping_exponent(double /*elastic*/) { return 1.5; }
+  static double dashpot_exponent(double /*elastic*/) { return 0.25; }
   static Row<double> mix(const Mixing &m)
   {
     const double e = m.smallest("e");

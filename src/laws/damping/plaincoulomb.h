@@ -12,6 +12,8 @@ namespace Talus {
 struct PlainCoulombDamping : DampingByNumber {
   static constexpr const char *name = "plaincoulomb";
 
+  static double damping_exponent(double /*elastic*/) { return 0.5; }
+
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)

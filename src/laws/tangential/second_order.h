@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contacts that dissipate, to second order in the time step: what the words `tangential multistep
-// ... slider midpoint` and `tangential none` mean with `order 2` of the integrator. Positions
+// ... slider midpoint` and `tangential none`, and plaincoulomb, mean with `order 2` of the integrator. Positions
 // belong to the time t, velocities to t - lag, lag = dt/2; velocity_change is lag times the
 // acceleration of the last step, so that velocity + velocity_change is second order at t. The laws
 // come after the damping and find the normal force anew. What makes the order two:
@@ -27,6 +27,7 @@
 #include "laws/tangential/common.h"
 #include "laws/tangential/end_of_contact.h"
 #include "laws/tangential/midpoint.h"
+#include "laws/tangential/tanh.h"
 
 namespace Talus {
 
@@ -106,29 +107,43 @@ template <class Real> TALUS_INLINE LastStep<Real> last_step(Real stored)
 /// Errors of the sum over time steps in the step in which a contact begins, as factors of elastic
 /// force and damping force of that step. Elsewhere 0, and the ratio below 1.
 template <class Real> struct Beginning {
-  Real ratio;    ///< what one step brings of overlap, over overlap
-  Real elastic, damping;
+  Real ratio;                        ///< what one step brings of overlap, over overlap
+  Real elastic, damping, dashpot;    ///< dashpot: of gt
 };
 
 template <class Real> struct SecondOrderRow {
-  Real mu, elastic_exponent, damping_exponent;
+  Real mu, elastic_exponent, damping_exponent, dashpot_exponent, slip_min;
 };
 
-template <bool friction> struct SecondOrder : FrictionLaw {
-  static constexpr const char *name = friction ? "multistep order 2" : "none order 2";
-  static constexpr const char *label = friction ? "multistep slider midpoint" : nullptr;
+/// TANH: that of tanh.h, with the velocity at the time of the positions.
+enum class Friction { NONE, SPRING, TANH };
+
+template <Friction kind> struct SecondOrder : FrictionLaw {
+  static constexpr bool friction = kind == Friction::SPRING;
+  static constexpr const char *name = friction                 ? "multistep order 2"
+                                      : kind == Friction::TANH ? "tanh order 2"
+                                                               : "none order 2";
+  static constexpr const char *label = friction                 ? "multistep slider midpoint"
+                                       : kind == Friction::TANH ? Tanh::label
+                                                                : nullptr;
   static constexpr int odd_history = 3, even_history = 1;
   static constexpr bool second_order = true;
   static constexpr bool has_spring = friction, is_midpoint = true, reads_stiffness = friction;
   template <class Real> using Row = SecondOrderRow<Real>;
-  static constexpr CoefficientName coefficients[] = {
-      {"mu"}, {"elastic exponent", Shown::NEVER}, {"damping exponent", Shown::NEVER}};
+  static constexpr CoefficientName coefficients[] = {{"mu"},
+                                                     {"elastic exponent", Shown::NEVER},
+                                                     {"damping exponent", Shown::NEVER},
+                                                     {"dashpot exponent", Shown::NEVER},
+                                                     {"slip_min", Shown::NEVER}};
 
   static Row<double> mix(const Mixing &m)
   {
+    const Law &damping = m.a.law.damping();
     const double elastic = m.a.law.normal().exponent;
-    return {friction ? m.friction("mu") : 0.0, elastic,
-            m.a.law.damping().damping_exponent(elastic)};
+    const double of_gn = damping.damping_exponent(elastic);
+    const double of_gt = damping.dashpot_exponent(elastic);
+    return {kind == Friction::NONE ? 0.0 : m.friction("mu"), elastic, of_gn,
+            of_gt < 0.0 ? of_gn : of_gt, Tanh::mix(m).slip_min};
   }
 
   static double stored(const ContactLanes<double> &s, const Row<double> & /*c*/, const double *h)
@@ -156,7 +171,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     if constexpr (!advance) pure = select(last.known, last.force, pure);
 
     auto begins = last.began;
-    Beginning<Real> start{one, zero, zero};
+    Beginning<Real> start{one, zero, zero, zero};
     Real force = pure, theta = one;
     if constexpr (ends) {
       const Real approach = -dt * s.normal_velocity;
@@ -180,9 +195,10 @@ template <bool friction> struct SecondOrder : FrictionLaw {
 
     auto slides = last.slid;
     Vector3<Real> t{zero, zero, zero};
+    if constexpr (kind == Friction::TANH)
+      t = Tanh::force({c.mu, c.slip_min}, s.normal_force, present_velocity(s));
     if constexpr (friction) {
-      const Vector3<Real> u = surface_velocity_of(s.velocity + s.velocity_change,
-                                                  s.surface_rotation + s.rotation_change, s.normal);
+      const Vector3<Real> u = present_velocity(s);
       Vector3<Real> d{h[0], h[1], h[2]};
       const Real limit = c.mu * pure;
       Real old_limit = c.mu * last.force;
@@ -210,7 +226,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                                 s.overlap,
                                 s.overlap + dt * s.normal_velocity,
                                 c.elastic_exponent - one,
-                                c.damping_exponent,
+                                c.dashpot_exponent,
                                 limit,
                                 old_limit,
                                 before,
@@ -229,7 +245,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       if constexpr (ends) {
         const Real most = c.mu * s.critical_force;
         const Vector3<Real> early = start.elastic / start.ratio * dt * s.kt * u;
-        const Vector3<Real> sticks = limited(t + early + start.damping * s.gt * u, most);
+        const Vector3<Real> sticks = limited(t + early + start.dashpot * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
       if constexpr (advance) {
@@ -245,6 +261,14 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   }
 
  private:
+  /// Of the surfaces, at the time of the positions.
+  template <class Real>
+  TALUS_INLINE static Vector3<Real> present_velocity(const ContactLanes<Real> &s)
+  {
+    return surface_velocity_of(s.velocity + s.velocity_change,
+                               s.surface_rotation + s.rotation_change, s.normal);
+  }
+
   static constexpr double least_force = 1.0e-200, no_force = 2.0e-200;
 
   /// Rounded to what is remembered of it, and above zero.
@@ -273,12 +297,13 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return select(growth > force, force / select(growth > zero, growth, one), one);
   }
 
-  /// Of friction where the overlap is 0 and the normal force is that of damping.
+  /// Of friction where the overlap is 0 and the normal force is that of damping, with gn over gt of
+  /// now; 0 if it goes faster to 0 than gt.
   template <class Real>
   TALUS_INLINE static Real limit_at_begin(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
-    return select(limit > zero, limit, zero);
+    return select((limit > zero) & (c.damping_exponent <= c.dashpot_exponent), limit, zero);
   }
 
   template <Of which, class Real>
@@ -289,9 +314,13 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
     const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
     const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
-    const Real damping = hurwitz_zeta(c.damping_exponent, edge.theta);
-    return {ratio, select(edge.is, power(ratio, p) * elastic, zero),
-            select(edge.is, power(ratio, c.damping_exponent) * damping, zero)};
+    const auto of_dashpot = [&](Real q) {
+      return select(edge.is, power(ratio, q) * hurwitz_zeta(q, edge.theta), zero);
+    };
+    const Real damping = of_dashpot(c.damping_exponent);
+    const bool all_same = !any(c.dashpot_exponent < c.damping_exponent);
+    return {ratio, select(edge.is, power(ratio, p) * elastic, zero), damping,
+            all_same ? damping : of_dashpot(c.dashpot_exponent)};
   }
 
   /// push A dt^p times the second term, where `elastic` is the force now.
@@ -321,7 +350,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     if constexpr (advance) ends = end.parted & (s.overlap > zero) & (h[3] < zero);
 
     // limited damping: the force ends before the overlap
-    const auto damped = s.gn * v > zero;
+    const auto damped = (s.gn * v > zero) & (c.damping_exponent < c.elastic_exponent);
     const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
     const auto pressed = ends & (last.force > splat<Real>(no_force));
     const Real left = s.elastic - s.gn * v;
@@ -337,6 +366,8 @@ template <bool friction> struct SecondOrder : FrictionLaw {
 
     const Vector3<Real> d{h[0], h[1], h[2]};
     end.tangential = {zero, zero, zero};
+    if constexpr (kind == Friction::TANH)
+      end.tangential = Tanh::force({c.mu, c.slip_min}, end.normal_force, surface_velocity(s));
     if constexpr (friction) {
       const Vector3<Real> now = turned_by(half_turn(s, dt), d, s.normal), u = surface_velocity(s);
       const Vector3<Real> within = -(s.kt * now + s.gt * u);

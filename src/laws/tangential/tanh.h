@@ -28,11 +28,17 @@ struct Tanh : TangentialLaw {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    const Vector3<Real> velocity = surface_velocity(s);
+    add_tangential(s, force(c, s.normal_force, surface_velocity(s)));
+  }
+
+  template <class Real>
+  TALUS_INLINE static Vector3<Real> force(const Row<Real> &c, Real normal_force,
+                                          const Vector3<Real> &velocity)
+  {
     const Real speed = square_root(dot(velocity, velocity));
     const auto slips = (speed >= c.slip_min) & (speed > splat<Real>(0.0));
-    const Real pull = c.mu * s.normal_force * hyperbolic_tangent(5.0 * speed) / speed;
-    add_tangential(s, select(slips, -pull, splat<Real>(0.0)) * velocity);
+    const Real pull = c.mu * normal_force * hyperbolic_tangent(5.0 * speed) / speed;
+    return select(slips, -pull, splat<Real>(0.0)) * velocity;
   }
 };
 
