@@ -15,10 +15,49 @@ bool is_named(const Law &law, const char *name)
   return std::strcmp(law.name, name) == 0;
 }
 
+/// Tangential laws and those of second order with the same limit.
+struct Twin {
+  const char *name, *second_order;
+};
+constexpr Twin twins[] = {
+    {"none", "none order 2"},
+    {"multistep", "multistep order 2"},
+    {"multistep midpoint", "multistep order 2"},
+    {"multistep slider", "multistep order 2"},
+    {"multistep slider midpoint", "multistep order 2"},
+    {"dashpot", "dashpot order 2"},
+    {"tanh", "tanh order 2"},
+    {"linear_nohistory", "linear_nohistory order 2"},
+    {"linear_history", "linear_history order 2"},
+    {"mindlin", "mindlin order 2"},
+};
+
+const char *twin_of(const Law &tangential)
+{
+  for (const Twin &one : twins)
+    if (is_named(tangential, one.name)) return one.second_order;
+  return nullptr;
+}
+
 /// All of them have their first coefficient in gn, but for `none`.
 bool damps(const ContactLaw &law, const ContactCoefficients &row)
 {
   return !is_named(law.damping(), "none") && law.coefficients(Stage::DAMPING, row)[0] != 0.0;
+}
+
+/// The spring is set back by the rule "stock", see sliding.h, and there is a dashpot beside it: else
+/// the rules are the same.
+bool winds_up(const ContactLaw &law, const ContactCoefficients &row)
+{
+  const Law &tangential = law.tangential(), &damping = law.damping();
+  if (tangential.lever_arms)
+    return tangential.has_spring && damps(law, row) &&
+           law.coefficient(Stage::TANGENTIAL, "xt", row) != 0.0;
+  if (!is_named(tangential, "multistep") && !is_named(tangential, "multistep midpoint"))
+    return false;
+  for (const char *of_gt : {"gt", "tangential damping"})
+    if (damping.reads(of_gt)) return law.coefficient(Stage::DAMPING, of_gt, row) != 0.0;
+  return damps(law, row);
 }
 
 }    // namespace
@@ -34,20 +73,21 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
   if (law.resists())
     return "has resistance to rolling or spinning, which holds a body a few time steps late: use "
            "'rolling 0 spinning 0'";
-  if (tangential.acts && !is_named(tangential, "multistep slider midpoint") &&
-      !is_named(tangential, "tanh"))
+  if (!twin_of(tangential))
     return std::string("has the tangential law ") + tangential.name +
            ": use 'tangential multistep kt gt mu slider midpoint'";
+  if (winds_up(law, row))
+    return std::string("has the tangential law ") + tangential.name +
+           ", which sets a sliding spring back by the rule of stock LAMMPS, with a dashpot that "
+           "winds it up: use " +
+           (tangential.lever_arms ? "xt = 0"
+                                  : "'tangential multistep kt gt mu slider midpoint' or gt = 0");
   return "";
 }
 
 ContactLaw second_order_law(ContactLaw law)
 {
-  const Law &its = law.tangential();
-  const char *const name = !its.acts               ? "none order 2"
-                           : is_named(its, "tanh") ? "tanh order 2"
-                                                   : "multistep order 2";
-  law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, name));
+  law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, twin_of(law.tangential())));
   return law;
 }
 

@@ -69,8 +69,9 @@ bool GranularSystem::needs_changes() const
 
 std::string GranularSystem::reason_against_second_order() const
 {
-  if (!pair_style_is_alone() || style.name != "gran/penalty")
-    return "contacts of particles are not those of 'pair_style gran/penalty': use it, alone";
+  if (!pair_style_is_alone())
+    return "contacts of particles are not those of a pair style of Talus: use pair_style "
+           "gran/penalty, or a granular style with the suffix talus, and not hybrid";
   for (int i = 1; i <= book.num_types(); i++)
     for (int j = i; j <= book.num_types(); j++) {
       if (!book.known(i, j)) continue;

@@ -109,8 +109,8 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
 
   // a set-up is a step of no duration, or none
   const bool setting_up = update->setupflag != 0;
-  ContactStep step{setting_up && style.limits_at_setup ? 0.0 : update->dt,
-                   !setting_up || style.limits_at_setup, report,
+  const bool limits = style.limits_at_setup && !pipeline->law_table().second_order();
+  ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, report,
                    accounts_for_work() ? &account : nullptr};
   account.by_particle.clear();
   account.time_at_setup = work_time_at_setup();

@@ -26,8 +26,8 @@ CONTINUE = "units lj\nnewton off\natom_style sphere\natom_modify map array\ncomm
 UNDAMPED = "hooke 2.0e4 0.0 tangential multistep NULL 0 0.2 slider midpoint"      # contacts end with a correction
 PHYSICS = """
 neighbor 0.1 bin
-pair_style gran/penalty
-pair_coeff * * {law}
+pair_style {pair}
+pair_coeff * * {own}
 fix floor all large/body plane 0 0 0  0 0 1 contact {law}
 fix step all nve/sphere/symplectic {order} gravity 2.0 vector 0.2 0 -1
 timestep 0.0005
@@ -65,8 +65,9 @@ class SecondOrder(SceneCase):
         body_meshes.write_stl(self.path("ball.stl"), body_meshes.sphere((3, 1, 6.4), 0.7, 6))
 
     def end(self, name, runs="run 400\n", style="", np=1, boundary="p p f", order="order 2", head=None, law=LAW,
-            bodies="", **options):
-        script = (head or START.format(boundary=boundary)) + style + PHYSICS.format(order=order, law=law)
+            bodies="", pair="gran/penalty", own=None, **options):
+        physics = PHYSICS.format(order=order, law=law, pair=pair, own=law if own is None else own)
+        script = (head or START.format(boundary=boundary)) + style + physics
         walls = "" if boundary.startswith("p") else "".join(
             f"fix w{n} all large/body plane {x} contact {law}\n"
             for n, x in enumerate((f"0 0 0 1 0 0", f"{SIDE} 0 0 -1 0 0", "0 0 0 0 1 0", f"0 {SIDE} 0 0 -1 0")))
@@ -128,6 +129,28 @@ class SecondOrder(SceneCase):
         law = "hertz 2.0e4 50.0 adhesion constant 0.5 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
         one = self.end("one", law=law, boundary="f f f")
         self.assert_same(self.end("other", "run 153\nrun 247\n", law=law, np=4, boundary="f f f"), one)
+
+    def test_impact_speeds_that_are_kept(self):
+        f = {"law": "hooke/material 1.5e4 0.6 0.3 0.001 tangential multistep NULL NULL 0.5 slider midpoint limit_damping",
+             "boundary": "f f f"}
+        one = self.end("one", **f)
+        self.assert_same(self.end("other", "run 153\nrun 247\n", np=4, **f), one)
+        self.end("first", "run 171\nwrite_restart half\n", **f)
+        self.assert_same(self.end("second", "run 229\n", head=CONTINUE, np=3, **f), one)
+
+    def test_pair_styles_of_lammps(self):
+        for name, pair, own in (
+                ("granular", "granular/talus", "hertz 2.0e4 50.0 tangential mindlin 1.0e4 0.0 0.5 damping viscoelastic "
+                                               "limit_damping"),
+                ("history", "gran/hertz/history/talus 2.0e4 NULL 50.0 0.0 0.5 1 limit_damping", "")):
+            with self.subTest(name):
+                f = {"pair": pair, "own": own, "boundary": "f f f"}
+                one = self.end(name, **f)
+                self.assert_same(self.end(name + "_other", "run 153\nrun 247\n", np=4, **f), one)
+                first = self.end(name + "_first", order="start half", **f)
+                self.assertNotEqual(one[400].atoms, first[400].atoms)
+                x, other = one[100].column("x"), first[100].column("x")
+                self.assertLess(max(abs(x[tag] - other[tag]) for tag in x), 2e-3)
 
     def test_it_is_another_method(self):
         one, other = self.end("one"), self.end("other", order="start half")

@@ -94,11 +94,18 @@ PAIR = "pair_style gran/penalty\npair_coeff * * "
 O = "Fix nve/sphere/symplectic order 2: "
 REFUSED += [
     (f"{FIX} start plain order 2", O + "velocities of 'start plain' .* use 'start half'"),
-    (f"{SECOND}\nrun 0", O + "contacts of particles are not those of 'pair_style gran/penalty': use it"),
+    (f"{SECOND}\nrun 0", O + "contacts of particles are not those of a pair style of Talus: use pair_style gran/penalty, or"),
     (f"{PAIR}hooke 1e4 10\n{SECOND}\nrun 0",
      O + "the contact of types 1 and 1 has damping that may attract.*add 'limit_damping'; or use order 1"),
-    (f"{PAIR}hooke 1e4 0 tangential multistep NULL NULL 0.5\n{SECOND}\nrun 0",
-     O + "the contact of types 1 and 1 has the tangential law multistep: use .*slider midpoint"),
+    (f"{PAIR}hooke 1e4 10 tangential multistep NULL NULL 0.5 limit_damping\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law multistep, which .*: use .*slider midpoint' or gt = 0"),
+    (f"{PAIR}hooke 1e4 0 tangential onestep 1e3 0 0.5\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law onestep: use .*slider midpoint"),
+    (f"change_box all boundary f f f\npair_style granular/talus\npair_coeff * * hooke 1e4 10 tangential linear_history 1e3 1 0.5 "
+     f"limit_damping\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law linear_history, which .*: use xt = 0"),
+    (f"pair_style gran/hooke/history 1e4 NULL 0 NULL 0.5 1\npair_coeff * *\n{SECOND}\nrun 0",
+     O + "contacts of particles are not those of a pair style of Talus"),
     (f"{PAIR}hertz 1e4 0 rolling 0.1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance"),
     (f"{PAIR}dmt 1e5 0 0.3 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has the normal law dmt"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",

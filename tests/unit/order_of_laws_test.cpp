@@ -194,6 +194,47 @@ TEST(OrderOfLaws, IsTwoWithAdhesion)
           expect_second_order(words_of(normal, mu, adhesion), scene);
 }
 
+/// Impact speeds that are kept, dampings whose dashpots do not soften as the damping does, friction
+/// of the velocity alone, and the laws of LAMMPS where their springs are not wound up.
+const char *const other_laws[] = {
+    "hooke/material 1.5e5 0.6 0.3 0.01 tangential multistep NULL NULL 0.3 slider midpoint "
+    "limit_damping",
+    "flores 1.75e5 2e5 tangential multistep NULL 1000 0.3 slider midpoint limit_damping",
+    "flores/material 1.5e5 0.6 0.3 0.01 tangential multistep NULL NULL 0.3 slider midpoint "
+    "limit_damping",
+    "plaincoulomb 1e5 300 0.3 limit_damping",
+    "plaincoulomb/material 1.5e5 0.6 0.3 0.3 limit_damping",
+    "hooke 2e4 80 tangential dashpot NULL 0.3 limit_damping",
+    "hertz 1.75e5 400 tangential dashpot NULL 2 limit_damping",
+    "hooke 2e4 80 tangential multistep NULL 0 0.3 limit_damping",
+    "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider limit_damping",
+    "hertz/material 1.5e5 0.6 0.3 damping tsuji tangential linear_nohistory 0.7 0.5 limit_damping",
+    "hooke 2e4 80 tangential linear_history 8e3 0 0.3 limit_damping",
+    "hertz/material 1.5e5 0.6 0.3 damping tsuji tangential linear_history 5e3 0 2 limit_damping",
+    "hertz/material 1.5e5 0.6 0.3 damping tsuji tangential mindlin NULL 0 0.3 limit_damping",
+};
+
+TEST(OrderOfLaws, IsTwoOfOtherLaws)
+{
+  for (const char *words : other_laws)
+    for (const Scene &scene : {head_on(), oblique(), on_plane(), stack(), cluster()})
+      expect_second_order(words, scene);
+}
+
+/// What the laws of order 1 converge to, at first order, is the same.
+TEST(OrderOfLaws, OfOneHaveTheSameLimit)
+{
+  for (const char *words : other_laws) {
+    const Scene scene = oblique();
+    const State limit = result(Engine::Kernels(words), scene, 1 << 13);
+    const Engine::Kernels first(words, false);
+    const double some = squared_error(result(first, scene, 1 << 12), limit);
+    const double less = squared_error(result(first, scene, 1 << 15), limit);
+    EXPECT_LT(std::sqrt(less), 2.0e-4) << words;
+    EXPECT_LT(less, some / 25.0) << words;
+  }
+}
+
 /* Without damping and with kt = 2/7 kn a contact that sticks turns its spring back to zero just as
    it ends: it slides for a time far below a step, which few steps see. Those have an error of
    second order as well, but 100 times that of the others. */

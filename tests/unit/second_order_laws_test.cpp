@@ -294,13 +294,25 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   EXPECT_EQ(reason("hooke 2e4 0"), "");
   EXPECT_EQ(reason("hooke 2e4 0 damping none"), "");
   EXPECT_EQ(reason("hertz/material 1e5 1 0.3"), "");
-  expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3", "slider midpoint");
-  expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3 midpoint", "slider midpoint");
+  const std::string limit = " limit_damping";
+  expect_cure("hooke 2e4 80 tangential multistep NULL NULL 0.3" + limit, "slider midpoint");
+  expect_cure("hertz/material 2e4 0.8 0.3 tangential multistep NULL NULL 0.3 stock" + limit,
+              "gt = 0");
+  expect_cure("hooke 2e4 0.6 damping tsuji tangential multistep NULL NULL 0.3 midpoint" + limit,
+              "slider midpoint");
+  EXPECT_EQ(reason("hooke 2e4 80 tangential multistep NULL 0 0.3 midpoint" + limit), "");
+  EXPECT_EQ(reason("hooke 2e4 80 tangential multistep NULL NULL 0.3 slider" + limit), "");
+  EXPECT_EQ(reason("hooke 2e4 80 tangential dashpot NULL 0.3" + limit), "");
+  EXPECT_EQ(reason("plaincoulomb 2e4 80 0.3" + limit), "");
+  expect_cure("hooke 2e4 80 tangential linear_history 1e3 1 0.3" + limit, "xt = 0");
+  EXPECT_EQ(reason("hooke 2e4 80 tangential linear_history 1e3 0 0.3" + limit), "");
+  EXPECT_EQ(reason("hooke 2e4 0 tangential linear_history 1e3 1 0.3"), "");
+  expect_cure("hooke 2e4 0 tangential mindlin/force 1e3 0 0.3", "mindlin/force");
   expect_cure("hooke 2e4 0 tangential onestep 1e3 0 0.3", "slider midpoint");
   expect_cure("hertz 2e4 0 rolling 0.1", "rolling");
   EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
   expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
-  expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "flores");
+  expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "limit_damping");
   EXPECT_EQ(reason("hertz 2e4 0 heat radius 1"), "");
   const std::string friction = " tangential multistep NULL NULL 0.3 slider midpoint limit_damping";
   EXPECT_EQ(reason("hertz 2e4 1 damping mass_velocity" + friction), "");

@@ -26,53 +26,14 @@
 #include "base/flagged_number.h"
 #include "laws/tangential/common.h"
 #include "laws/tangential/end_of_contact.h"
+#include "laws/tangential/granular.h"
+#include "laws/tangential/hurwitz_zeta.h"
 #include "laws/tangential/midpoint.h"
 #include "laws/tangential/tanh.h"
 
+#include <type_traits>
+
 namespace Talus {
-
-/// Hurwitz' zeta(-p, t) for the p of power() and 0 < t <= 1: t^p + zeta(-p, 1 + t), and that by
-/// polynomials, to 4e-8.
-template <class Real> TALUS_INLINE Real hurwitz_zeta(Real p, Real t)
-{
-  constexpr int terms = 8;
-  constexpr double of_0[terms] = {-0.5, -1.0}, of_1[terms] = {-1.0 / 12.0, -0.5, -0.5};
-  constexpr double of_quarter[terms] = {-0.320451229501,   -0.860325820267,  -0.183870503231,
-                                        0.0680906914594,   -0.0378135309747, 0.02023491878,
-                                        -0.00776578768526, 0.00145001642375};
-  constexpr double of_half[terms] = {-0.207886193114,   -0.730181357831,  -0.326458056008,
-                                     0.083088078935,    -0.0407279979801, 0.0205063899565,
-                                     -0.00762781400875, 0.00140074307725};
-  constexpr double of_3_halves[terms] = {-0.0254852121436, -0.311828018178,   -0.547661363885,
-                                         -0.163034422567,  0.030418556131,    -0.0106838251611,
-                                         0.00335476767364, -0.000565690041381};
-  Real sum = splat<Real>(0.0);
-  for (int n = terms - 1; n >= 0; n--) {
-    const auto chosen = [p](double below, double yes, Real no) {
-      return select(p < splat<Real>(below), splat<Real>(yes), no);
-    };
-    sum = t * sum + chosen(0.125, of_0[n],
-                           chosen(0.375, of_quarter[n],
-                                  chosen(0.75, of_half[n],
-                                         chosen(1.25, of_1[n], splat<Real>(of_3_halves[n])))));
-  }
-  return power(t, p) + sum;
-}
-
-/// Hurwitz' zeta(-p-1, t) for p = 1, 3/2 in the same way.
-template <class Real> TALUS_INLINE Real next_hurwitz_zeta(Real p, Real t)
-{
-  constexpr int terms = 8;
-  constexpr double of_2[terms] = {0.0, -1.0 / 6.0, -0.5, -1.0 / 3.0};
-  constexpr double of_5_halves[terms] = {0.00851693932511, -0.063714006929,  -0.389767136457,
-                                         -0.456516777643,  -0.101402024882,  0.0141888780042,
-                                         -0.0032726276339, 0.000483693683210};
-  const auto linear = p < splat<Real>(1.25);
-  Real sum = splat<Real>(0.0);
-  for (int n = terms - 1; n >= 0; n--)
-    sum = t * sum + select(linear, splat<Real>(of_2[n]), splat<Real>(of_5_halves[n]));
-  return t * power(t, p) + sum;
-}
 
 /// v shortened or stretched to a length; zero stays zero.
 template <class Real> TALUS_INLINE Vector3<Real> with_length(Real length, const Vector3<Real> &v)
@@ -104,52 +65,82 @@ template <class Real> TALUS_INLINE LastStep<Real> last_step(Real stored)
   return {known, select(known, -without_flags(stored), zero), began, slid};
 }
 
-/// Errors of the sum over time steps in the step in which a contact begins, as factors of elastic
-/// force and damping force of that step. Elsewhere 0, and the ratio below 1.
+/// Errors of the sum over time steps in the step in which a contact begins, as factors of forces of
+/// that step. Elsewhere 0, and the ratio below 1.
 template <class Real> struct Beginning {
-  Real ratio;                        ///< what one step brings of overlap, over overlap
-  Real elastic, damping, dashpot;    ///< dashpot: of gt
+  Real ratio;                                ///< what one step brings of overlap, over overlap
+  Real elastic, damping, spring, dashpot;    ///< the last two tangential
 };
 
+/// Exponents of the overlap; slip_min of tanh; kt, xt of LAMMPS' laws.
 template <class Real> struct SecondOrderRow {
-  Real mu, elastic_exponent, damping_exponent, dashpot_exponent, slip_min;
+  Real mu, elastic, damping, spring, dashpot, slip_min, kt, xt;
 };
 
-/// TANH: that of tanh.h, with the velocity at the time of the positions.
-enum class Friction { NONE, SPRING, TANH };
+/// DASHPOT: a spring without stiffness. TANH: that of tanh.h, with the velocity at the time of the
+/// positions.
+enum class Friction { NONE, SPRING, DASHPOT, TANH };
 
-template <Friction kind> struct SecondOrder : FrictionLaw {
-  static constexpr bool friction = kind == Friction::SPRING;
-  static constexpr const char *name = friction                 ? "multistep order 2"
-                                      : kind == Friction::TANH ? "tanh order 2"
-                                                               : "none order 2";
-  static constexpr const char *label = friction                 ? "multistep slider midpoint"
-                                       : kind == Friction::TANH ? Tanh::label
-                                                                : nullptr;
+/// `Granular`: the law of LAMMPS' pair granular that it is, with its kt, xt and lever arms.
+template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw {
+  static constexpr bool friction = kind == Friction::SPRING || kind == Friction::DASHPOT;
+  static constexpr bool granular = !std::is_void_v<Granular>;
+  static constexpr bool mindlin = std::is_same_v<Granular, Mindlin>;
+  static constexpr const char *name =
+      mindlin ? "mindlin order 2"
+      : granular && friction
+          ? kind == Friction::SPRING ? "linear_history order 2" : "linear_nohistory order 2"
+      : kind == Friction::SPRING  ? "multistep order 2"
+      : kind == Friction::DASHPOT ? "dashpot order 2"
+      : kind == Friction::TANH    ? "tanh order 2"
+                                  : "none order 2";
+  static constexpr const char *label =
+      mindlin                     ? "mindlin"
+      : granular                  ? kind == Friction::SPRING ? "linear_history" : "linear_nohistory"
+      : kind == Friction::SPRING  ? "multistep slider midpoint"
+      : kind == Friction::DASHPOT ? "dashpot"
+      : kind == Friction::TANH    ? Tanh::label
+                                  : nullptr;
   static constexpr int odd_history = 3, even_history = 1;
-  static constexpr bool second_order = true;
-  static constexpr bool has_spring = friction, is_midpoint = true, reads_stiffness = friction;
+  static constexpr bool second_order = true, lever_arms = granular, needs_radius = mindlin;
+  static constexpr bool has_spring = kind == Friction::SPRING, is_midpoint = true;
+  static constexpr bool stiffens = mindlin, reads_stiffness = friction && !granular;
   template <class Real> using Row = SecondOrderRow<Real>;
+  static constexpr Shown of_granular = granular ? Shown::ALWAYS : Shown::NEVER;
   static constexpr CoefficientName coefficients[] = {{"mu"},
                                                      {"elastic exponent", Shown::NEVER},
                                                      {"damping exponent", Shown::NEVER},
+                                                     {"spring exponent", Shown::NEVER},
                                                      {"dashpot exponent", Shown::NEVER},
-                                                     {"slip_min", Shown::NEVER}};
+                                                     {"slip_min", Shown::NEVER},
+                                                     {"kt", of_granular},
+                                                     {"xt", of_granular}};
 
   static Row<double> mix(const Mixing &m)
   {
     const Law &damping = m.a.law.damping();
     const double elastic = m.a.law.normal().exponent;
     const double of_gn = damping.damping_exponent(elastic);
-    const double of_gt = damping.dashpot_exponent(elastic);
-    return {kind == Friction::NONE ? 0.0 : m.friction("mu"), elastic, of_gn,
-            of_gt < 0.0 ? of_gn : of_gt, Tanh::mix(m).slip_min};
+    const double its_own = granular ? -1.0 : damping.dashpot_exponent(elastic);
+    GranularRow<double> own{};
+    if constexpr (granular) own = Granular::mix(m);
+    return {kind == Friction::NONE ? 0.0 : m.friction("mu"),
+            elastic,
+            of_gn,
+            mindlin    ? 0.5
+            : granular ? 0.0
+                       : elastic - 1.0,
+            its_own < 0.0 ? of_gn : its_own,
+            Tanh::mix(m).slip_min,
+            own.kt,
+            own.xt};
   }
 
-  static double stored(const ContactLanes<double> &s, const Row<double> & /*c*/, const double *h)
+  static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
   {
     const Vector3<double> d{h[0], h[1], h[2]};
-    return friction ? 0.5 * s.kt * dot(d, d) : 0.0;
+    const bool stores = kind == Friction::SPRING && s.overlap > 0.0;
+    return stores ? 0.5 * stiffness(c, s) * dot(d, d) : 0.0;
   }
 
   /// Contacts that begin or end in this step, or have had no normal force in the last one; few do.
@@ -164,6 +155,8 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     s.adhesive_share = one;
+    s.kt = stiffness(c, s);
+    if constexpr (granular) s.gt = c.xt * s.gn;
     EndOfContact<Real> end;
     if constexpr (ends) end = end_of<advance>(c, s, h, dt);
     const LastStep<Real> last = last_step(h[3]);
@@ -171,7 +164,7 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
     if constexpr (!advance) pure = select(last.known, last.force, pure);
 
     auto begins = last.began;
-    Beginning<Real> start{one, zero, zero, zero};
+    Beginning<Real> start{one, zero, zero, zero, zero};
     Real force = pure, theta = one;
     if constexpr (ends) {
       const Real approach = -dt * s.normal_velocity;
@@ -221,20 +214,10 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
       t = -f;
       if (any(slides)) {
         if constexpr (advance) {
-          const Slide<Real> way{s.kt,
-                                s.gt,
-                                s.overlap,
-                                s.overlap + dt * s.normal_velocity,
-                                c.elastic_exponent - one,
-                                c.dashpot_exponent,
-                                limit,
-                                old_limit,
-                                before,
-                                half_way,
-                                u,
-                                f,
-                                time,
-                                dt};
+          const Slide<Real> way{s.kt,     s.gt,      s.overlap, s.overlap + dt * s.normal_velocity,
+                                c.spring, c.dashpot, limit,     old_limit,
+                                before,   half_way,  u,         f,
+                                time,     dt};
           Vector3<Real> slid = slide(way);
           if constexpr (ends) slid = select(last.known, slid, first_slide(way));
           d = select(slides, slid, d);
@@ -244,7 +227,7 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
       }
       if constexpr (ends) {
         const Real most = c.mu * s.critical_force;
-        const Vector3<Real> early = start.elastic / start.ratio * dt * s.kt * u;
+        const Vector3<Real> early = start.spring / start.ratio * dt * s.kt * u;
         const Vector3<Real> sticks = limited(t + early + start.dashpot * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
@@ -257,10 +240,21 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
     if constexpr (advance)
       h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
     if constexpr (ends) end.replace(s, t, h);
-    add_tangential(s, t);
+    if constexpr (lever_arms)
+      add_tangential_in_overlap(s, t);
+    else
+      add_tangential(s, t);
   }
 
  private:
+  template <class Real>
+  TALUS_INLINE static Real stiffness(const Row<Real> &c, const ContactLanes<Real> &s)
+  {
+    if constexpr (kind == Friction::DASHPOT) return splat<Real>(0.0);
+    if constexpr (mindlin) return c.kt * s.contact_radius;
+    return granular ? c.kt : s.kt;
+  }
+
   /// Of the surfaces, at the time of the positions.
   template <class Real>
   TALUS_INLINE static Vector3<Real> present_velocity(const ContactLanes<Real> &s)
@@ -292,7 +286,7 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
     const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
     const auto touches = s.overlap > zero;
-    const Real of_gn = c.damping_exponent * s.gn * v / select(touches, s.overlap, one);
+    const Real of_gn = c.damping * s.gn * v / select(touches, s.overlap, one);
     const Real growth = dt * v * (of_gn - s.tangent_n) - s.gn * change;
     return select(growth > force, force / select(growth > zero, growth, one), one);
   }
@@ -303,24 +297,27 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
   TALUS_INLINE static Real limit_at_begin(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
-    return select((limit > zero) & (c.damping_exponent <= c.dashpot_exponent), limit, zero);
+    return select((limit > zero) & (c.damping <= c.dashpot), limit, zero);
   }
 
   template <Of which, class Real>
   static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, const Edge<Real> &edge)
   {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic_exponent;
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic;
     const Real ratio = select(edge.is, edge.reach / select(edge.is, overlap, one), one);
     const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
     const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
     const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
-    const auto of_dashpot = [&](Real q) {
+    const auto of = [&](Real q) {
       return select(edge.is, power(ratio, q) * hurwitz_zeta(q, edge.theta), zero);
     };
-    const Real damping = of_dashpot(c.damping_exponent);
-    const bool all_same = !any(c.dashpot_exponent < c.damping_exponent);
-    return {ratio, select(edge.is, power(ratio, p) * elastic, zero), damping,
-            all_same ? damping : of_dashpot(c.dashpot_exponent)};
+    Beginning<Real> all{ratio, select(edge.is, power(ratio, p) * elastic, zero), of(c.damping),
+                        zero, zero};
+    all.spring = all.elastic;
+    all.dashpot = all.damping;
+    if constexpr (granular) all.spring = of(c.spring + one);
+    if (any(c.dashpot < c.damping)) all.dashpot = of(c.dashpot);
+    return all;
   }
 
   /// push A dt^p times the second term, where `elastic` is the force now.
@@ -330,9 +327,9 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
                            double dt)
   {
     const Real zero = splat<Real>(0.0);
-    const Real most = power(start.ratio, c.elastic_exponent) * elastic;
+    const Real most = power(start.ratio, c.elastic) * elastic;
     const Real push = dt * dt * s.inverse_mass * most / edge.reach;
-    const Real force = push * most * second_term<which>(c.elastic_exponent, edge.theta);
+    const Real force = push * most * second_term<which>(c.elastic, edge.theta);
     return select(edge.is, which == Of::BEGIN ? -force : force, zero);
   }
 
@@ -350,7 +347,7 @@ template <Friction kind> struct SecondOrder : FrictionLaw {
     if constexpr (advance) ends = end.parted & (s.overlap > zero) & (h[3] < zero);
 
     // limited damping: the force ends before the overlap
-    const auto damped = (s.gn * v > zero) & (c.damping_exponent < c.elastic_exponent);
+    const auto damped = (s.gn * v > zero) & (c.damping < c.elastic);
     const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
     const auto pressed = ends & (last.force > splat<Real>(no_force));
     const Real left = s.elastic - s.gn * v;
