@@ -98,7 +98,8 @@ class ShapedPairs {
   void place_solids(const ShapedView &view, int threads);
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                      PointBatch &batch);
-  void find_points(const ShapedView &view, Chunk &chunk, int pair, std::size_t &old);
+  void find_points(const ShapedView &view, const LawTable &laws, Chunk &chunk, int pair,
+                   std::size_t &old);
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
   double share(const Pair &pair) const
