@@ -56,4 +56,11 @@ Vector3<double> FreeRotation::angular_momentum(const Eigen::Quaterniond &orienta
   return frame.to_space(by_component(inertia, frame.to_body(omega)));
 }
 
+Vector3<double> FreeRotation::omega_of(const Eigen::Quaterniond &orientation,
+                                       const Vector3<double> &momentum) const
+{
+  const PrincipalAxes<double> frame = axes_of(orientation * principal);
+  return frame.to_space(by_component(inverse, frame.to_body(momentum)));
+}
+
 }    // namespace Talus

@@ -83,6 +83,9 @@ class FreeRotation {
 
   Vector3<double> angular_momentum(const Eigen::Quaterniond &orientation,
                                    const Vector3<double> &omega) const;
+  /// The inverse.
+  Vector3<double> omega_of(const Eigen::Quaterniond &orientation,
+                           const Vector3<double> &momentum) const;
   double energy(const Eigen::Quaterniond &orientation, const Vector3<double> &omega) const
   {
     return 0.5 * dot(omega, angular_momentum(orientation, omega));
