@@ -60,16 +60,17 @@ bool is_good_enough(Rounding radius, double width)
    direction that is worth to be known in the next step. */
 
 Vector find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, double merging,
-                     ConvexContacts &contacts)
+                     double force_exponent, ConvexContacts &contacts)
 {
   const double margin = too_near * pair.scale();
   if (radius.sum() > 0.0 && gap.width > margin) {
-    add_feature_contacts(pair, radius, gap, contacts.points);
+    add_feature_contacts(pair, radius, gap, force_exponent, contacts.points);
     return gap.direction;
   }
   const LeastDepth least = find_least_depth(pair, gap);
   if (radius.sum() > 0.0 && least.depth < -margin) {
-    add_feature_contacts(pair, radius, {least.direction, -least.depth}, contacts.points);
+    add_feature_contacts(pair, radius, {least.direction, -least.depth}, force_exponent,
+                         contacts.points);
     return least.direction;
   }
   if (!(least.depth + radius.sum() > 0.0)) return least.direction;
@@ -86,7 +87,8 @@ double merging_length(const ConvexShape &a, const ConvexShape &b)
 }
 
 bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
-             SeparatingDirection &direction, ConvexContacts &contacts, NarrowPhase method)
+             SeparatingDirection &direction, ConvexContacts &contacts, NarrowPhase method,
+             double force_exponent)
 {
   contacts.clear();
   const Vector apart = pose_a.position - pose_b.position;
@@ -119,7 +121,7 @@ bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, con
     if (!skip) gap = find_gap(pair, known.direction, enough, 1.0e-3 * radius.sum());
     Vector next = gap.direction;
     if (gap.width <= enough)
-      next = find_contacts(pair, radius, gap, merging_length(a, b), contacts);
+      next = find_contacts(pair, radius, gap, merging_length(a, b), force_exponent, contacts);
     // apart, but not along what is known: looked for now, not again in each step
     if (skip && contacts.points.empty() && radius.sum() > 0.0)
       next = find_gap(pair, known.direction, enough, 1.0e-3 * radius.sum()).direction;

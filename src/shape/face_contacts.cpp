@@ -311,6 +311,7 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
   sort_by_name(contacts);
   merge(contacts, first);
   strengthen(contacts.data() + first, contacts.data() + contacts.size());
+  for (std::size_t k = first; k < contacts.size(); k++) contacts[k].energy = contacts[k].weight;
   if (contacts.size() == first) contacts.push_back(single_contact(pair, radius, least));
 }
 
