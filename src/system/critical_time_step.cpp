@@ -155,10 +155,10 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 
 void CriticalTimeStep::consider_damping(const std::string &who, const ContactLaw &law,
                                         const ContactCoefficients &c, double overlap,
-                                        double mass_eff, double radius_eff)
+                                        double mass_eff, double radius_eff, bool at_one_point)
 {
   undamped.consider(who, law, c, overlap, mass_eff, radius_eff);
-  elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
+  elastic.consider(who, law, c, overlap, mass_eff, radius_eff, order == 2 && at_one_point);
 }
 
 void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCoefficients &c,
@@ -186,8 +186,8 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
                          mass[type], radius[type], in_a_corner);
       if (looks_at_damping)
         consider_damping(fmt::format("type {} with {}", type, body->name()), body->law_of(type),
-                         body->coefficients_of(type), 0.01 * radius[type], mass[type],
-                         radius[type]);
+                         body->coefficients_of(type), 0.01 * radius[type], mass[type], radius[type],
+                         body->shape().most_contacts() == 1);
     }
   }
   return smallest;

@@ -28,7 +28,7 @@ void TimeStepMonitor::judge_start(const LawBook &laws, const ContactPipeline &co
   if (comm->me == 0 && critical.smallest() > 0.0) {
     const double fraction = update->dt / critical.smallest();
     critical.undamped.warn(fraction);
-    if (GranularSystem::of(lmp)->order() == 1) critical.elastic.warn(fraction);
+    critical.elastic.warn(fraction);
   }
   critical.compute_from_sizes(laws, everyone);
   limit_at_start = critical.smallest();

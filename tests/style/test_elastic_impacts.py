@@ -94,6 +94,15 @@ class ElasticImpacts(SceneCase):
                 self.assertIsNone(self.said())
                 self.assertLess(error, limit)
 
+    def test_order_2_at_bodies_that_are_touched_at_several_points(self):
+        """The ends of contacts with a mesh are not made up for."""
+        floor = "fix floor all large/body {} contact hooke 1e3 0.0"
+        self.impacts(law("linear"), 0.199, more=floor.format("plane -4 0 0 1 0 0"), steps=1, start="half order 2")
+        self.assertIsNone(self.said())
+        inside = floor.format("box 0 100 0 9 300 9 inside")
+        self.impacts(law("linear"), 0.199, more=inside, steps=1, start="half order 2")
+        self.assertEqual(self.said()[1:], ("type 1 with fix large/body floor", "0.03"))
+
     def test_what_loses_energy(self):
         friction = "tangential multistep NULL NULL 0.1"
         for name in LAWS:

@@ -12,7 +12,7 @@
 
 namespace {
 
-enum class Rule { STOCK, SLIDER, ONESTEP };
+enum class Rule { STOCK, SLIDER, ONESTEP, TANH };
 
 struct Impact {
   Rule rule;
@@ -45,7 +45,9 @@ double spin_after(const Impact &impact, double steps)
     const double limit = mu * normal_force, velocity = v + spin, before = spring;
     spring = impact.rule == Rule::ONESTEP ? velocity * dt : spring + velocity * dt;
     double f = -(kt * spring + gt * velocity);
-    if (std::fabs(f) > limit) {
+    if (impact.rule == Rule::TANH)
+      f = -limit * std::tanh(5.0 * velocity);
+    else if (std::fabs(f) > limit) {
       f = std::copysign(limit, f);
       spring = sliding_spring(impact.rule, before, f, velocity, kt, gt, dt);
     }
@@ -94,4 +96,16 @@ TEST(LawsWithoutLimit, OnestepHasNoFrictionInTheLimit)
   const double some = spin_after(onestep, 1.0e3), less = spin_after(onestep, 1.0e4);
   EXPECT_LT(some, -1.0e-3);
   EXPECT_NEAR(10.0 * less / some, 1.0, 0.05);
+}
+
+/* Friction of plaincoulomb depends on the velocity alone, and smoothly: it has a limit, which a
+   leapfrog reaches at first order. */
+TEST(LawsWithoutLimit, PlainCoulombConverges)
+{
+  const Impact smooth{Rule::TANH, 1.0, 0.0, 0.5};
+  const double limit = spin_after(smooth, 1.0e6);
+  const double some = std::fabs(spin_after(smooth, 1.0e3) / limit - 1.0);
+  const double less = std::fabs(spin_after(smooth, 1.0e5) / limit - 1.0);
+  EXPECT_LT(some, 1.0e-2);
+  EXPECT_LT(less, some / 30.0);
 }
