@@ -60,7 +60,8 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
       double *const at[3] = {&b.history[in.places[0]][k], &b.history[in.places[1]][k],
                              &b.history[in.places[2]][k]};
       ContactImpact<Vec8> its{load8(at[0]), load8(at[1]), load8(at[2])};
-      follow_impact<advance>(its, speed_at_begin<second_order>(s, in.dt), s.parted, in.dt);
+      const Vec8 parted = second_order ? s.parted : splat<Vec8>(0.0);
+      follow_impact<advance>(its, speed_at_begin<second_order>(s, in.dt), parted, in.dt);
       s.impact_speed = its.speed;
       s.age = its.age;
       if constexpr (advance) {
