@@ -100,7 +100,8 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.normal = one.normal;
       point.overlap = one.overlap;
       point.weight = one.weight;
-      point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
+      point.name = (static_cast<std::uint64_t>(w) + one.surface) << 32 | one.name;
+      point.part = one.triangle;
       const Vector3<double> place = frame.point_to_space(one.position);
       Vector3<double> v = velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
       if (frame.moves) v = v - frame.velocity_at(place);
@@ -147,7 +148,7 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
       const Vector3<double> &n = point.normal, &v = point.velocity;
       const double pressed = dot(point.force, n);
       const Vector3<double> shear = -(point.force - pressed * n), slip = v - dot(v, n) * n;
-      chunk.touched.push_back({0, pressed, -point.force, shear, dot(shear, slip)});
+      chunk.touched.push_back({point.part, pressed, -point.force, shear, dot(shear, slip)});
     }
     if (!task.virial) continue;
     double *const virial = task.virial + 6L * i;
