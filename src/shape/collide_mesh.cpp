@@ -18,6 +18,8 @@ using MeshCorner = MeshFeatures::Corner;
 // this (sine): so what touches does not change where a face lies on a face.
 constexpr double lean = 0.4;
 
+constexpr double deepest = 0.3;    // edges overlap by less of the size of the particle
+
 // How exactly edges are behind faces, over the size of the particle.
 constexpr double near_enough = 1.0e-3;
 
@@ -211,10 +213,15 @@ void MeshContacts::add_in_front(int v, const Vector &x)
 }
 
 /* Behind the nearest of the triangles that face the center; beyond the rim of it only if the
-   surface goes on there like a valley. */
+   surface goes on there like a valley. The straight way from the center leads through some triangle
+   then, and not past it. */
 
 void MeshContacts::add_behind(int v, const Vector &x)
 {
+  if (std::none_of(with.near.begin(), with.near.end(), [&](const Near &one) {
+        return detail.is_between(one.part, pose.position, x);
+      }))
+    return;
   const Near *at = nullptr;
   NearestPoint nearest{};
   for (const Near &one : with.near) {
@@ -374,8 +381,8 @@ bool MeshContacts::is_beside(const Ridge &ridge, const Vector &normal) const
 }
 
 /* Lines pass each other in the same way where bodies are apart: they overlap if both edges stand
-   out along the normal, each is behind the faces of the other one, and none of the other faces is
-   nearer than the edges are to each other. */
+   out along the normal, each is behind the faces of the other one, and neither their ends nor any
+   of the other faces is nearer than the edges are to each other. */
 
 bool MeshContacts::overlaps(const EdgePoint &at, const Ridge &ridge, int t,
                             const Vector &normal) const
@@ -389,6 +396,11 @@ bool MeshContacts::overlaps(const EdgePoint &at, const Ridge &ridge, int t,
       dot(cross(along, core.normal(edge.face[1])), toward) > limit)
     return false;
   const double slack = near_enough * bound, depth = length(at.of_edge - at.of_ridge) - slack;
+  if (depth > deepest * bound) return false;
+  for (const int v : ridge.end)
+    if (length(surface.surface().vertex(v) - at.of_ridge) < depth) return false;
+  for (const Vector &end : {at.edge->from, at.edge->from + at.edge->along})
+    if (length(end - at.of_edge) < depth) return false;
   const Vector q = pose.point_in_body(at.of_ridge);
   for (int f = 0; f < core.num_faces(); f++) {
     const bool of_edge = f == edge.face[0] || f == edge.face[1];
