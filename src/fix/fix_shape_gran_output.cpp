@@ -86,8 +86,9 @@ int FixShapeGran::add_to_picture(int narg, char **arg)
     words.fail(1, "there is no other fix with this ID: define it before");
   const int type = words.integer("type N", 1);
   if (type > atom->ntypes)
-    words.fail(1, "there are " + std::to_string(atom->ntypes) + " types: give a larger number to "
-                  "create_box for a color of its own");
+    words.fail(1, "there are " + std::to_string(atom->ntypes) +
+                      " types: give a larger number to "
+                      "create_box for a color of its own");
   also_drawn.emplace_back(other, type);
   return words.index();
 }

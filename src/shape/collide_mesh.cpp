@@ -40,7 +40,8 @@ struct Near {
 struct Edge {
   int number;
   Vector from, along;
-  double square, overlap_of_ends;
+  double square;
+  int end[2];
 };
 
 bool is_known(const Vector &v)
@@ -51,11 +52,11 @@ bool is_known(const Vector &v)
 class MeshContacts {
  public:
   MeshContacts(const ConvexShape &its_shape, const Pose &its_pose, const SolidMesh &mesh,
-               std::vector<ConvexContact> &its_points) :
+               double its_exponent, std::vector<ConvexContact> &its_points) :
       shape(its_shape),
       core(its_shape.core()), pose(its_pose), surface(mesh.shape), features(mesh.features),
       detail(mesh.shape.near_detail()), radius(its_shape.radius()),
-      bound(its_shape.bounding_radius()), points(its_points)
+      bound(its_shape.bounding_radius()), force_exponent(its_exponent), points(its_points)
   {
   }
 
@@ -70,6 +71,7 @@ class MeshContacts {
   void add_vertex_contact(int v, const Vector &x, const Vector &normal, double overlap, int t);
   bool stands_out(const MeshCorner &corner, const Vector &from_center, const Vector &normal,
                   bool overlaps) const;
+  void keep_deepest(int v, int contact);
   void add_corner(const MeshCorner &corner, int t);
   void add_edges(const Ridge &ridge, int t);
   bool turn_outward(const Ridge &ridge, const Vector &at, Vector &normal) const;
@@ -95,15 +97,15 @@ class MeshContacts {
   const MeshShape &surface;
   const MeshFeatures &features;
   const MeshDetail &detail;
-  const double radius, bound;
+  const double radius, bound, force_exponent;
   std::vector<ConvexContact> &points;
 
   // of this thread, used again
   struct Buffers {
     std::vector<NearPart> parts;
     std::vector<Near> near;
-    std::vector<double> of_vertex;                      // overlap, 0: none
-    std::vector<std::pair<int, double>> of_corner;      // vertex of the mesh, overlap
+    std::vector<int> of_vertex;                         // its deepest contact, or -1
+    std::vector<std::pair<int, int>> of_corner;         // vertex of the mesh, contact
     std::vector<const MeshFeatures::Ridge *> ridges;    // and triangles that they belong to
     std::vector<int> of_ridge;
     std::vector<Edge> edges;
@@ -169,10 +171,11 @@ bool MeshContacts::find()
     for (int e = 0; e < core.num_edges(); e++) {
       const ConvexCore::Edge &edge = core.edge(e);
       const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
-      with.edges.push_back({e, pose.point_in_space(from), pose.direction_in_space(along),
+      with.edges.push_back({e,
+                            pose.point_in_space(from),
+                            pose.direction_in_space(along),
                             dot(along, along),
-                            std::max(with.of_vertex[edge.vertex[0]],
-                                     with.of_vertex[edge.vertex[1]])});
+                            {edge.vertex[0], edge.vertex[1]}});
     }
     for (std::size_t r = 0; r < with.ridges.size(); r++)
       add_edges(*with.ridges[r], with.of_ridge[r]);
@@ -187,7 +190,7 @@ bool MeshContacts::find()
 
 void MeshContacts::add_vertices()
 {
-  with.of_vertex.assign(core.num_vertices(), 0.0);
+  with.of_vertex.assign(core.num_vertices(), -1);
   for (int v = 0; v < core.num_vertices(); v++) {
     const Vector x = pose.point_in_space(core.vertex(v));
     double lowest = radius;
@@ -218,9 +221,8 @@ void MeshContacts::add_in_front(int v, const Vector &x)
 
 void MeshContacts::add_behind(int v, const Vector &x)
 {
-  if (std::none_of(with.near.begin(), with.near.end(), [&](const Near &one) {
-        return detail.is_between(one.part, pose.position, x);
-      }))
+  if (std::none_of(with.near.begin(), with.near.end(),
+                   [&](const Near &one) { return detail.is_between(one.part, pose.position, x); }))
     return;
   const Near *at = nullptr;
   NearestPoint nearest{};
@@ -293,7 +295,6 @@ void MeshContacts::add_vertex_contact(int v, const Vector &x, const Vector &norm
   contact.weight = 1.0;
   contact.surface = static_cast<std::uint32_t>(mesh.patch(t));
   contact.triangle = t;
-  with.of_vertex[v] = std::max(with.of_vertex[v], overlap);
   int others = 0;
   for (ConvexContact &one : points) {
     if (one.name >> 15 != contact_name(ContactParts::VERTEX_OF_A, v, 0) >> 15) continue;
@@ -301,12 +302,20 @@ void MeshContacts::add_vertex_contact(int v, const Vector &x, const Vector &norm
     if (dot(one.normal, normal) > TriangleMesh::smooth_cosine) {
       contact.name = one.name;
       if (one.overlap < overlap) one = contact;
+      keep_deepest(v, static_cast<int>(&one - points.data()));
       return;
     }
     others++;
   }
   contact.name = contact_name(ContactParts::VERTEX_OF_A, v, others);
   points.push_back(contact);
+  keep_deepest(v, static_cast<int>(points.size()) - 1);
+}
+
+void MeshContacts::keep_deepest(int v, int contact)
+{
+  int &kept = with.of_vertex[v];
+  if (kept < 0 || points[contact].overlap > points[kept].overlap) kept = contact;
 }
 
 /* ---- corners of the mesh ---------------------------------------------------------------------- */
@@ -324,9 +333,8 @@ bool MeshContacts::stands_out(const MeshCorner &corner, const Vector &from_cente
   const double sign = in_front ? 1.0 : -1.0;
   if (overlaps) return sign * dot(normal, corner.outward) > 0.0;
   double most = -1.0;
-  features.visit_around(corner.vertex, [&](int t) {
-    most = std::max(most, sign * dot(normal, plane_normal(t)));
-  });
+  features.visit_around(corner.vertex,
+                        [&](int t) { most = std::max(most, sign * dot(normal, plane_normal(t))); });
   return most > through;
 }
 
@@ -347,8 +355,8 @@ void MeshContacts::add_corner(const MeshCorner &corner, int t)
   contact.name = contact_name(ContactParts::VERTEX_OF_B, 0, 0);
   contact.surface = static_cast<std::uint32_t>(corner.vertex);
   contact.triangle = t;
+  with.of_corner.emplace_back(corner.vertex, static_cast<int>(points.size()));
   points.push_back(contact);
-  with.of_corner.emplace_back(corner.vertex, overlap);
 }
 
 /* ---- edges ------------------------------------------------------------------------------------ */
@@ -432,9 +440,10 @@ void MeshContacts::add_edges(const Ridge &ridge, int t)
   const double part = std::clamp(dot(to_center, ridge.along) / square, 0.0, 1.0);
   const Vector apart = to_center - part * ridge.along;
   if (dot(apart, apart) >= bound * bound) return;
-  double of_ends = 0.0;
-  for (const auto &[vertex, overlap] : with.of_corner)
-    if (vertex == ridge.end[0] || vertex == ridge.end[1]) of_ends = std::max(of_ends, overlap);
+  int ends[4] = {-1, -1, -1, -1};    // contacts of the ends
+  for (const auto &[vertex, contact] : with.of_corner)
+    for (int k = 0; k < 2; k++)
+      if (vertex == ridge.end[k]) ends[2 + k] = contact;
   for (const Edge &edge : with.edges) {
     const Vector d = edge.from - ridge.from;
     const double ab = dot(edge.along, ridge.along), ad = dot(edge.along, d),
@@ -456,8 +465,14 @@ void MeshContacts::add_edges(const Ridge &ridge, int t)
     const double overlap = radius - gap;
     if (!(overlap > 0.0)) continue;
     ConvexContact contact;
-    contact.weight = 1.0 - std::max(edge.overlap_of_ends, of_ends) / overlap;
-    if (!(contact.weight > least_weight)) continue;
+    for (int k = 0; k < 2; k++) ends[k] = with.of_vertex[edge.end[k]];
+    double of_end[4];
+    for (int k = 0; k < 4; k++) of_end[k] = ends[k] < 0 ? 0.0 : points[ends[k]].overlap;
+    EdgeWeights weights;
+    if (!weights_of_edges(of_end, overlap, force_exponent, weights)) continue;
+    for (int k = 0; k < 4; k++)
+      if (ends[k] >= 0) points[ends[k]].weight -= weights.of_end[k];
+    contact.weight = weights.own;
     contact.normal = normal;
     contact.overlap = overlap;
     contact.position = 0.5 * (of_edge + of_ridge - radius * normal);
@@ -471,10 +486,10 @@ void MeshContacts::add_edges(const Ridge &ridge, int t)
 }    // namespace
 
 bool collide_mesh(const ConvexShape &shape, const Pose &pose, const SolidMesh &mesh,
-                  ConvexContacts &contacts)
+                  ConvexContacts &contacts, double force_exponent)
 {
   contacts.clear();
-  return MeshContacts(shape, pose, mesh, contacts.points).find();
+  return MeshContacts(shape, pose, mesh, force_exponent, contacts.points).find();
 }
 
 }    // namespace Talus

@@ -104,8 +104,7 @@ void MeshFeatures::find_ridges(const TriangleMesh &mesh, const MeshEdges &edges)
       const int other = over(t, k);
       ridge.planes[0] = mesh.plane_of(t);
       ridge.planes[1] = other < 0 ? -1 : mesh.plane_of(other);
-      if (other >= 0)
-        ridge.outward = mesh.normal(ridge.planes[0]) + mesh.normal(ridge.planes[1]);
+      if (other >= 0) ridge.outward = mesh.normal(ridge.planes[0]) + mesh.normal(ridge.planes[1]);
       ridges.push_back(ridge);
     }
     first_ridge.push_back(static_cast<int>(ridges.size()));
@@ -175,8 +174,8 @@ void MeshFeatures::find_corners(const TriangleMesh &mesh)
   for (int t = 0; t < mesh.size(); t++) {
     for (const int v : mesh.corners(t).vertex) {
       if (around[first_around[v]] != t) continue;
-      Corner corner{mesh.vertex(v), {0.0, 0.0, 0.0}, v, make_a_corner(in_front[v]),
-                    make_a_corner(behind[v])};
+      Corner corner{
+          mesh.vertex(v), {0.0, 0.0, 0.0}, v, make_a_corner(in_front[v]), make_a_corner(behind[v])};
       if (!corner.in_front && !corner.behind) continue;
       visit_around(v, [&](int user) {
         const int *c = mesh.corners(user).vertex;

@@ -20,9 +20,8 @@ std::shared_ptr<const MeshShape> mesh_of(const Rectangle &rectangle)
 {
   std::vector<Triangle> triangles;
   rectangle.tessellate({}, triangles);
-  return std::make_shared<const MeshShape>(TriangleMesh(triangles), rectangle.has_two_sides()
-                                                                        ? MeshSide::BOTH
-                                                                        : MeshSide::NORMALS);
+  return std::make_shared<const MeshShape>(
+      TriangleMesh(triangles), rectangle.has_two_sides() ? MeshSide::BOTH : MeshSide::NORMALS);
 }
 
 }    // namespace
@@ -31,9 +30,8 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
 {
   const Vector3<double> middle = body.reference_point();
   const auto add_vessel = [&] {
-    walls.emplace_back([&body](const ConvexShape &shape, const Pose &pose,
-                               ConvexContacts &contacts) {
-      return collide_vessel(shape, pose, body, contacts);
+    walls.emplace_back([&body](const Particle &one, ConvexContacts &contacts) {
+      return collide_vessel(one.shape, one.pose, body, contacts);
     });
   };
   if (const auto *plane = dynamic_cast<const Plane *>(&body)) {
@@ -56,21 +54,22 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
       add_vessel();
       return;
     }
-    walls.emplace_back([middle, radius = ball->radius()](const ConvexShape &shape, const Pose &pose,
-                                                         ConvexContacts &contacts) {
-      return collide_sphere(shape, pose, middle, radius, contacts);
-    });
+    walls.emplace_back(
+        [middle, radius = ball->radius()](const Particle &one, ConvexContacts &contacts) {
+          return collide_sphere(one.shape, one.pose, middle, radius, contacts);
+        });
   } else if (const auto *mesh = dynamic_cast<const MeshShape *>(&body)) {
     walls.emplace_back([mesh, features = std::make_shared<const MeshFeatures>(mesh->surface())](
-                           const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) {
-      return collide_mesh(shape, pose, {*mesh, *features}, contacts);
+                           const Particle &one, ConvexContacts &contacts) {
+      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts, one.force_exponent);
     });
   } else if (const auto *rectangle = dynamic_cast<const Rectangle *>(&body)) {
     const auto its = mesh_of(*rectangle);
     walls.emplace_back([its, features = std::make_shared<const MeshFeatures>(its->surface())](
-                           const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) {
-      const bool touch = collide_mesh(shape, pose, {*its, *features}, contacts);
-      for (ConvexContact &one : contacts.points) one.triangle = 0;    // it has one part
+                           const Particle &one, ConvexContacts &contacts) {
+      const bool touch =
+          collide_mesh(one.shape, one.pose, {*its, *features}, contacts, one.force_exponent);
+      for (ConvexContact &point : contacts.points) point.triangle = 0;    // it has one part
       return touch;
     });
   }
@@ -90,22 +89,24 @@ void BodyWalls::add_solid_box(const Vector3<double> &middle, const Vector3<doubl
   const auto box = std::make_shared<const ConvexShape>(ConvexShape::box(edges, 0.0));
   Pose its = box->given_frame();
   its.position = its.position + middle;
-  walls.emplace_back(
-      [box, its](const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) {
-        SeparatingDirection direction;
-        return collide(shape, pose, *box, its, direction, contacts);
-      });
+  walls.emplace_back([box, its](const Particle &one, ConvexContacts &contacts) {
+    SeparatingDirection direction;
+    return collide(one.shape, one.pose, *box, its, direction, contacts, NarrowPhase::FEATURES,
+                   one.force_exponent);
+  });
 }
 
 void BodyWalls::add_flat(const Vector3<double> &normal, const Vector3<double> &point,
                          bool two_sided)
 {
-  walls.emplace_back([normal, offset = dot(normal, point), two_sided](
-                         const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) {
-    const double height = dot(normal, pose.position) - offset, reach = shape.bounding_radius();
+  walls.emplace_back([normal, offset = dot(normal, point), two_sided](const Particle &one,
+                                                                      ConvexContacts &contacts) {
+    const double height = dot(normal, one.pose.position) - offset,
+                 reach = one.shape.bounding_radius();
     if (height <= -reach || height >= reach) return false;
     const bool flip = two_sided && height < 0.0;
-    return collide_plane(shape, pose, flip ? -normal : normal, flip ? -offset : offset, contacts);
+    return collide_plane(one.shape, one.pose, flip ? -normal : normal, flip ? -offset : offset,
+                         contacts);
   });
 }
 

@@ -24,15 +24,20 @@ class BodyWalls {
 
   int size() const { return static_cast<int>(walls.size()); }
 
+  struct Particle {
+    const ConvexShape &shape;
+    const Pose &pose;
+    double force_exponent;    ///< see collide()
+  };
   /// Contacts of a particle with wall 0 ... size()-1; returns whether there are any. Like a sphere,
   /// a particle is pushed out by a plane up to a center one bounding radius behind it.
-  bool touch(int wall, const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) const
+  bool touch(int wall, const Particle &particle, ConvexContacts &contacts) const
   {
-    return walls[wall](shape, pose, contacts);
+    return walls[wall](particle, contacts);
   }
 
  private:
-  using Wall = std::function<bool(const ConvexShape &, const Pose &, ConvexContacts &)>;
+  using Wall = std::function<bool(const Particle &, ConvexContacts &)>;
   void add_flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided);
   void add_solid_box(const Vector3<double> &middle, const Vector3<double> &edges);
 

@@ -91,12 +91,14 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
   Pose pose = particle.pose(seen, view.turn(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
+  const int row = task.laws.row(view.type[i], view.type[i]);
+  const BodyWalls::Particle seen_particle{particle.shape(), pose, task.laws.force_exponent(row)};
   for (int w = 0; w < task.walls.size(); w++) {
-    if (!task.walls.touch(w, particle.shape(), pose, chunk.found)) continue;
+    if (!task.walls.touch(w, seen_particle, chunk.found)) continue;
     PointContact point{};
     point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
-    point.row = task.laws.row(view.type[i], view.type[i]);
+    point.row = row;
     for (const ConvexContact &one : chunk.found.points) {
       point.place = one.position;
       point.normal = one.normal;

@@ -126,8 +126,9 @@ TEST(ConvexMesh, FloorOfManyTrianglesIsAPlane)
   int touching = 0;
   for (const double radius : {0.0, 0.1})
     for (int n = 0; n < 3000; n++) {
-      const ConvexShape body = n % 3 ? ConvexShape::polyhedron(random.corners(12, {.6, .5, .4}), radius)
-                                     : ConvexShape::box({1.0, 0.8, 0.6}, radius);
+      const ConvexShape body =
+          n % 3 ? ConvexShape::polyhedron(random.corners(12, {.6, .5, .4}), radius)
+                : ConvexShape::box({1.0, 0.8, 0.6}, radius);
       const double low = n % 2 ? 0.5 : 0.2;
       const Pose pose({random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(low, 0.8)},
                       n % 5 ? random.orientation() : turned(random.uniform(0, 6), 0, 0, 1));
@@ -270,7 +271,8 @@ TEST(ConvexMesh, CubeOnAnEdgeAcrossARidgeAndCubeOnACorner)
   for (const double radius : {0.0, 0.1}) {
     const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, radius);
     const double height = std::sqrt(0.5) + radius - 0.01;
-    ASSERT_TRUE(ridge.touch(cube, Pose({0, 0.3, height}, turned(0.25 * 3.14159265358979, 1, 0, 0))));
+    ASSERT_TRUE(
+        ridge.touch(cube, Pose({0, 0.3, height}, turned(0.25 * 3.14159265358979, 1, 0, 0))));
     ASSERT_EQ(ridge.contacts.points.size(), 1U);
     EXPECT_NEAR(ridge.contacts.points[0].overlap, 0.01, 1e-9);
     EXPECT_NEAR(ridge.contacts.points[0].normal.z, 1.0, 1e-12);
