@@ -95,13 +95,6 @@ bool edges_touch(const Segment &a, const Segment &b, Rounding radius, ConvexCont
   return true;
 }
 
-void take_from_ends(const Segment &edge, const Candidates &candidates, const double *weight,
-                    std::vector<ConvexContact> &contacts)
-{
-  for (int k = 0; k < 2; k++)
-    if (edge.overlap[k] > 0.0) contacts[candidates.contact[edge.end[k]]].weight -= weight[k];
-}
-
 /* (o_end/o)^m, m being the exponent of energies. */
 
 double energy_ratio(double of_end, double of_edges, double force_exponent)
@@ -112,14 +105,18 @@ double energy_ratio(double of_end, double of_edges, double force_exponent)
   return std::pow(y, force_exponent + 1.0);
 }
 
-}    // namespace
+/// Weights that a contact of two edges has, and takes from those of its ends (two of a, two of b).
+struct EdgeWeights {
+  double own, of_end[4];
+};
 
 /* The derivatives of the energy phi(o) prod_k (1 - 3 p_k^2 + 2 p_k^3), p_k = (o_k/o)^m, phi ~ o^m:
    by o over phi'(o), and by -o_k over phi'(o_k). */
 
-bool weights_of_edges(const double (&of_end)[4], double overlap, double force_exponent,
+bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double force_exponent,
                       EdgeWeights &weights)
 {
+  const double of_end[4] = {a.overlap[0], a.overlap[1], b.overlap[0], b.overlap[1]};
   double left[4], shared[4];
   weights.own = 1.0;
   for (int k = 0; k < 4; k++) {
@@ -139,6 +136,15 @@ bool weights_of_edges(const double (&of_end)[4], double overlap, double force_ex
   }
   return weights.own > least_weight;
 }
+
+void take_from_ends(const Segment &edge, const Candidates &candidates, const double *weight,
+                    std::vector<ConvexContact> &contacts)
+{
+  for (int k = 0; k < 2; k++)
+    if (edge.overlap[k] > 0.0) contacts[candidates.contact[edge.end[k]]].weight -= weight[k];
+}
+
+}    // namespace
 
 void sort_by_name(std::vector<ConvexContact> &contacts)
 {
@@ -191,8 +197,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
     const Segment a = segment_of(pair.a, own, of_a, e);
     for (const Segment &b : segments) {
       if (!edges_touch(a, b, radius, contact)) continue;
-      const double of_end[4] = {a.overlap[0], a.overlap[1], b.overlap[0], b.overlap[1]};
-      if (!weights_of_edges(of_end, contact.overlap, force_exponent, weights)) continue;
+      if (!weights_of_edges(a, b, contact.overlap, force_exponent, weights)) continue;
       contact.weight = weights.own;
       contacts.push_back(contact);
       take_from_ends(a, of_a, weights.of_end, contacts);

@@ -33,15 +33,6 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
 /// returns false where they do not overlap.
 bool find_mpr_contact(const CorePair &pair, Rounding radius, ConvexContact &contact);
 
-/// Weights that a contact of two edges has, and takes from those of its ends (two of each edge).
-struct EdgeWeights {
-  double own, of_end[4];
-};
-/// `of_end`: overlaps of the ends, 0: none. Returns false if the edges are not to touch, because an
-/// end is deeper. See collide.h.
-bool weights_of_edges(const double (&of_end)[4], double overlap, double force_exponent,
-                      EdgeWeights &weights);
-
 /// Puts contacts in ascending order of their names.
 void sort_by_name(std::vector<ConvexContact> &contacts);
 

@@ -61,14 +61,13 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
   } else if (const auto *mesh = dynamic_cast<const MeshShape *>(&body)) {
     walls.emplace_back([mesh, features = std::make_shared<const MeshFeatures>(mesh->surface())](
                            const Particle &one, ConvexContacts &contacts) {
-      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts, one.force_exponent);
+      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts);
     });
   } else if (const auto *rectangle = dynamic_cast<const Rectangle *>(&body)) {
     const auto its = mesh_of(*rectangle);
     walls.emplace_back([its, features = std::make_shared<const MeshFeatures>(its->surface())](
                            const Particle &one, ConvexContacts &contacts) {
-      const bool touch =
-          collide_mesh(one.shape, one.pose, {*its, *features}, contacts, one.force_exponent);
+      const bool touch = collide_mesh(one.shape, one.pose, {*its, *features}, contacts);
       for (ConvexContact &point : contacts.points) point.triangle = 0;    // it has one part
       return touch;
     });

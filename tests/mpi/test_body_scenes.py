@@ -80,6 +80,14 @@ class Scenes(SceneCase):
         self.assertAlmostEqual(found["force on the floor / weight"], 1.0, delta=0.05)
         self.assertLess(found["kinetic energy / weight / edge"], 1e-3)
 
+    def test_gravel(self):
+        found = self.simulate("gravel", np=2, way="through the arrays", radius=5, time=0.25)
+        self.assertAlmostEqual(found["weight on hopper and gate / weight"], 1.0, delta=0.2)
+        self.assertGreater(found["mass discharged / mass"], 0.1)
+        mass = [row[1] for row in self.table("discharge.txt")]
+        self.assertEqual(mass, sorted(mass))
+        self.assertEqual(mass[0], 0.0)
+
     def test_wheel(self):
         env = {"PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
                "LD_LIBRARY_PATH": HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")}

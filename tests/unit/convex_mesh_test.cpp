@@ -103,6 +103,12 @@ Load load_of(const ConvexContacts &contacts)
   }
   return load;
 }
+/// Without weights: what tells whether points are the same.
+Load load_of_points(ConvexContacts contacts)
+{
+  for (ConvexContact &c : contacts.points) c.weight = 1.0;
+  return load_of(contacts);
+}
 double difference(const Load &a, const Load &b)
 {
   return std::max(length(a.force - b.force), length(a.torque - b.torque));
@@ -224,7 +230,7 @@ TEST(ConvexMesh, RoundedBodiesOutsideABoxOfManyTriangles)
     coarse.touch(body, pose);
     fine.touch(body, pose);
     EXPECT_LT(difference(load_of(coarse.contacts), load_of(fine.contacts)), 1e-12) << n;
-    EXPECT_LT(difference(load_of(fine.contacts), load_of(pair)), 1e-9) << n;
+    EXPECT_LT(difference(load_of_points(fine.contacts), load_of_points(pair)), 1e-9) << n;
     compared += !pair.points.empty();
   }
   EXPECT_GT(compared, 300);
