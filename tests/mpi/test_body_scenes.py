@@ -81,8 +81,8 @@ class Scenes(SceneCase):
         self.assertLess(found["kinetic energy / weight / edge"], 1e-3)
 
     def test_gravel(self):
-        found = self.simulate("gravel", np=2, way="through the arrays", radius=5, time=0.25)
-        self.assertAlmostEqual(found["weight on hopper and gate / weight"], 1.0, delta=0.2)
+        found = self.simulate("gravel", np=2, way="through the arrays", radius=5, settle=0.3, time=0.2)
+        self.assertAlmostEqual(found["weight on hopper and gate / weight"], 1.0, delta=0.3)
         self.assertGreater(found["mass discharged / mass"], 0.1)
         mass = [row[1] for row in self.table("discharge.txt")]
         self.assertEqual(mass, sorted(mass))
