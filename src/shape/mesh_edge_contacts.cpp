@@ -139,6 +139,7 @@ void MeshContacts::add_edges(const Ridge &ridge, int t)
     for (int k = 0; k < 4; k++) of_end[k] = ends[k] < 0 ? 0.0 : points[ends[k]].overlap;
     contact.weight = 1.0 - *std::max_element(of_end, of_end + 4) / overlap;
     if (!(contact.weight > least_weight)) continue;
+    contact.energy = contact.weight;
     contact.normal = normal;
     contact.overlap = overlap;
     contact.position = 0.5 * (of_edge + of_ridge - radius * normal);

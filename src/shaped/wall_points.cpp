@@ -104,6 +104,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.normal = one.normal;
       point.overlap = one.overlap;
       point.weight = one.weight;
+      point.energy = one.energy;
       point.name = (static_cast<std::uint64_t>(w) + one.surface) << 32 | one.name;
       point.part = one.triangle;
       const Vector3<double> place = frame.point_to_space(one.position);
