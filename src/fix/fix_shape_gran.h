@@ -37,6 +37,7 @@ FixStyle(shape/gran,FixShapeGran);
 #include "shaped/shaped_pairs.h"
 #include "shaped/wall_points.h"
 #include "system/granular_system.h"
+#include "system/run_monitor.h"
 #include "system/system_shapes.h"
 
 #include <array>
@@ -129,6 +130,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void check_fixes();
   void check_computes();
   void require_no_other_integrator() const;
+  RunMonitor::Check check_of_cores();
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ShapeTable table;
