@@ -211,10 +211,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
-  if (BodyWalls(body.shape()).size() == 0)
-    return "particles with a shape touch no surface of this kind: use plane, box, sphere outside, "
-           "or "
-           "cylinder inside";
+  const std::string surface = BodyWalls::refusal(body.shape());
+  if (!surface.empty()) return surface;
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));

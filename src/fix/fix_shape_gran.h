@@ -45,6 +45,7 @@ FixStyle(shape/gran,FixShapeGran);
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -121,6 +122,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   static std::int64_t name_of(const Talus::LargeBody &body);
   static constexpr int size_sums = 7;
   std::array<double, size_sums> sums() const;
+  int add_to_picture(int narg, char **arg);
 
   // fix_shape_gran_check.cpp
   void check_scene();
@@ -145,6 +147,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
 
+  std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
   std::vector<double> image_values;
   std::vector<double *> image_rows;
   std::vector<int> image_kinds;

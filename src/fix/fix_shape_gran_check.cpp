@@ -72,10 +72,6 @@ void FixShapeGran::check_fixes()
       error->all(FLERR, Error::NOLASTLINE,
                  "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body",
                  fix->id, fix->style);
-    if (utils::strmatch(fix->style, "^rigid"))
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: fix {} ({}) cannot hold particles with a shape: leave it out",
-                 fix->id, fix->style);
     if (!utils::strmatch(fix->style, "^pour")) continue;    // fix deposit asks for distances
     for (int type = 1; type <= table.last_type(); type++) {
       int of_type = type;
