@@ -188,7 +188,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       const Real limit = c.mu * pure;
       Real old_limit = c.mu * last.force;
       if constexpr (ends && advance)
-        old_limit = select(last.known, old_limit, limit_at_begin(c, s));
+        old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
       if constexpr (advance) {
         const Real none = splat<Real>(no_force);
         const auto returns = last.known & (last.force < none) & (pure > none);
@@ -223,7 +223,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                                 time,
                                 dt};
           Vector3<Real> slid = slide(way);
-          if constexpr (ends) slid = select(last.known, slid, first_slide(way));
+          if constexpr (ends) slid = select(begins, first_slide(way), slid);
           d = select(slides, slid, d);
           f = s.kt * d + s.gt * u;
         }
