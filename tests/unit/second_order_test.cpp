@@ -229,11 +229,11 @@ TEST(SecondOrder, OfManySpheres)
 TEST(SecondOrder, WithResistanceToRollingAndSpinning)
 {
   for (Law law : {hooke(0.3), hertz(400.0, 0.3)}) {
-    law.mu_r = law.mu_s = 0.1;
+    law.resistance.mu_r = law.resistance.mu_s = 0.1;
     expect_second_order(oblique(law));
   }
   Law law = hertz(1500.0, 0.3);
-  law.mu_r = law.mu_s = 0.1;
+  law.resistance.mu_r = law.resistance.mu_s = 0.1;
   expect_second_order(put_down(law));
 }
 
@@ -271,7 +271,7 @@ TEST(SecondOrder, IsLostWithoutTheMeasures)
   without = Measures{};
   without.slip = false;
   Law law = hertz(400.0, 0.3);
-  law.mu_r = law.mu_s = 0.1;
+  law.resistance.mu_r = law.resistance.mu_s = 0.1;
   EXPECT_GT(worth(oblique(law), without), 5.0);
   without = Measures{};
   without.rolling = false;
