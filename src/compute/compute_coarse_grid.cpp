@@ -4,6 +4,7 @@
 
 #include "base/words.h"
 #include "system/command_words.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -203,15 +204,18 @@ double *ComputeCoarseGrid::moments_of(const CoarseKernel::Share &share)
 void ComputeCoarseGrid::add_particles()
 {
   constexpr double sphere = 4.18879020478639098462;
+  const SystemShapes *shapes = system->shapes();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double m = atom->rmass[i], r = atom->radius[i], *v = atom->v[i];
+    const bool shaped = shapes && shapes->is_shaped(atom->type[i]);
+    const double volume = shaped ? shapes->volume_of(atom->type[i]) : sphere * r * r * r;
     for (const CoarseKernel::Share &share : kernel->of_point(row(atom->x[i]))) {
       double *to = moments_of(share);
       if (!to) continue;
       to[NUMBER] += share.weight;
       to[MASS] += share.weight * m;
-      to[VOLUME] += share.weight * (sphere * r * r * r);
+      to[VOLUME] += share.weight * volume;
       for (int d = 0; d < 3; d++) to[MOMENTUM + d] += share.weight * (m * v[d]);
       for (int k = 0; k < 6; k++)
         to[FLOW + k] += share.weight * (m * v[row_of[k]] * v[column_of[k]]);
@@ -220,22 +224,36 @@ void ComputeCoarseGrid::add_particles()
 }
 
 /* The line of a contact is divided where the surfaces meet: each particle has a branch from its
-   center to there, which counts if the particle is in the group. A body has none. */
+   center to there, which counts if the particle is in the group. A body has none. Shapes have one
+   for each of their points. */
 
 void ComputeCoarseGrid::add_contacts()
 {
-  contacts.for_each([this](const PairContact &c) {
+  const SystemShapes *shapes = system->shapes();
+  const auto is_shaped = [&](int i) { return shapes && shapes->is_shaped(atom->type[i]); };
+  contacts.for_each([&](const PairContact &c) {
+    if (is_shaped(c.i) || is_shaped(c.j)) return;
     const Vector3<double> x = row(atom->x[c.i]), f = c.force();
     const double share = (atom->radius[c.i] - 0.5 * c.overlap) / length(c.separation);
     const Vector3<double> partner = x - c.separation, meeting = x - share * c.separation;
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, f);
     if (atom->mask[c.j] & groupbit) add_branch(partner, meeting, -f);
   });
+  if (shapes)
+    shapes->for_each_contact(Ask::ALL, [this](const SurveyedContact &c) {
+      // a pair of two ranks is visited on both
+      for (const int k : {0, 1}) {
+        const int i = k ? c.j : c.i;
+        if (i >= atom->nlocal || !(atom->mask[i] & groupbit)) continue;
+        const Vector3<double> x = row(atom->x[i]);
+        add_branch(x, x + c.arm[k], k ? -c.force : c.force);
+      }
+    });
   for (LargeBody *body : system->bodies())
     body->for_each_contact(Ask::ALL, [this](const SurveyedContact &c) {
       if (!(atom->mask[c.i] & groupbit)) return;
       const Vector3<double> x = row(atom->x[c.i]);
-      add_branch(x, x - (atom->radius[c.i] - c.overlap) * c.normal, c.force);
+      add_branch(x, x + c.arm[0], c.force);
     });
 }
 

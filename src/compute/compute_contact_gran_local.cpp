@@ -133,18 +133,18 @@ bool ComputeContactGranLocal::is_of_this_rank(const SurveyedContact &one) const
   return atom->tag[owned] <= atom->tag[ghost];
 }
 
-/* The point of a contact is in the middle of the overlap, and on the surface of a large body. */
-
 ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedContact &one) const
 {
   const bool with_body = one.body >= 0, swapped = !with_body && atom->tag[one.i] > atom->tag[one.j];
   const int i = swapped ? one.j : one.i;
-  const double sign = swapped ? -1.0 : 1.0, radius = atom->radius[i];
-  const double other = with_body ? 0.0 : atom->radius[swapped ? one.i : one.j];
-  const double n[3] = {sign * one.normal.x, sign * one.normal.y, sign * one.normal.z};
-  const double f[3] = {one.force.x, one.force.y, one.force.z};
-  const double moment[3] = {one.moment.x, one.moment.y, one.moment.z};
-  const double twist[3] = {one.twisting_torque.x, one.twisting_torque.y, one.twisting_torque.z};
+  const double sign = swapped ? -1.0 : 1.0;
+  const auto put = [](const Talus::Vector3<double> &v, double(&to)[3]) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+  };
+  const double *x = atom->x[i];
+  const Talus::Vector3<double> center{x[0], x[1], x[2]}, point = center + one.arm[swapped];
   Row row{};
   row.id[0] = static_cast<double>(atom->tag[i]);
   row.id[1] = with_body ? 0.0 : static_cast<double>(atom->tag[swapped ? one.i : one.j]);
@@ -152,16 +152,12 @@ ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedConta
   row.part = one.part + 1;
   row.overlap = one.overlap;
   row.energy = one.stored.total();
-  const double to_second = radius + other - one.overlap;
-  const double to_point = radius - (with_body ? one.overlap : 0.5 * one.overlap);
-  for (int d = 0; d < 3; d++) {
-    row.normal[d] = n[d];
-    row.force[d] = sign * f[d];
-    row.torque[d] = sign * twist[d] - radius * moment[d];
-    row.x[0][d] = atom->x[i][d];
-    row.x[1][d] = atom->x[i][d] - to_second * n[d];
-    row.point[d] = atom->x[i][d] - to_point * n[d];
-  }
+  put(sign * one.normal, row.normal);
+  put(sign * one.force, row.force);
+  put(one.torque[swapped], row.torque);
+  put(center, row.x[0]);
+  put(point - one.arm[!swapped], row.x[1]);
+  put(point, row.point);
   for (int k = 0; k < 8; k++) row.history[k] = (k < 3 ? sign : 1.0) * one.memory.value[k];
   return row;
 }

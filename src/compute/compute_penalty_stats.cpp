@@ -2,6 +2,8 @@
 
 #include "compute/compute_penalty_stats.h"
 
+#include "system/system_shapes.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -69,11 +71,20 @@ ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
   Survey found;
   system->for_each_contact(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
     found.stored += one.share * one.stored;
+    found.contacts += one.share;
     if (one.body < 0) return;
-    found.with_bodies += 1.0;
-    found.deepest_in_body = std::max(found.deepest_in_body, one.overlap / atom->radius[one.i]);
+    found.deepest_in_body = std::max(found.deepest_in_body, one.overlap / radius_of(one.i));
   });
   return found;
+}
+
+/* Of a shape that of the largest sphere inside, to which its warnings refer as well. */
+
+double ComputePenaltyStats::radius_of(int i) const
+{
+  const Talus::SystemShapes *shapes = system->shapes();
+  const int type = atom->type[i];
+  return shapes && shapes->is_shaped(type) ? shapes->inner_radius_of(type) : atom->radius[i];
 }
 
 void ComputePenaltyStats::compute_vector()
@@ -86,10 +97,9 @@ void ComputePenaltyStats::compute_vector()
   mine[NORMAL] = lost.normal;
   mine[TANGENTIAL] = lost.tangential;
   mine[RESISTANCE] = lost.resistance;
-  mine[CANDIDATES] = system->contacts().count_candidates();
-  mine[CONTACTS] = system->contacts().count_contacts() + found.with_bodies;
-  double largest =
-      std::max(system->contacts().deepest_contact().overlap_ratio, found.deepest_in_body);
+  mine[CANDIDATES] = system->count_candidates();
+  mine[CONTACTS] = found.contacts;
+  double largest = std::max(system->deepest_contact().overlap_ratio, found.deepest_in_body);
   if (Talus::ProxyUpdates *proxies = system->proxy_updates()) {
     const Talus::ExchangeCounters &c = proxies->counters();
     mine[MESSAGES] = proxies->messages_per_exchange();

@@ -33,8 +33,9 @@ class ComputePenaltyStats : public Compute, private Talus::ContactObserver {
   /// What the contacts of this rank are asked one by one.
   struct Survey {
     Talus::EnergyByCause stored;
-    double with_bodies = 0.0, deepest_in_body = 0.0;
+    double contacts = 0.0, deepest_in_body = 0.0;
   };
+  double radius_of(int i) const;
   Survey survey() const;
 
   std::shared_ptr<Talus::GranularSystem> system;

@@ -83,20 +83,15 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
     memory =
         remembered_values(chunk.history.record(pair),
                           chunk.history.with_impacts() ? chunk.history.impact(pair) : no_history);
-  SurveyedContact found{order.atom_of_slot[i],
-                        order.atom_of_slot[j],
-                        -1,
-                        -1,
-                        order.share(i, j),
-                        s.normal,
-                        s.overlap,
-                        {},
-                        {},
-                        {},
-                        {},
-                        {}};
+  SurveyedContact found;
+  found.i = order.atom_of_slot[i];
+  found.j = order.atom_of_slot[j];
+  found.share = order.share(i, j);
+  found.normal = s.normal;
+  found.overlap = s.overlap;
   const int row = chunk.row_of_pair(scene, pair);
   survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, ask, found);
+  found.set_arms_of_spheres(ri, rj);
   return found;
 }
 

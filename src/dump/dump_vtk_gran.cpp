@@ -256,8 +256,7 @@ VtkPolyData DumpVtkGran::contacts()
     number++;
     body->for_each_contact(Ask::ALL, [&](const SurveyedContact &c) {
       if (!is_chosen(c.i)) return;
-      const Vector3<double> line = (atom->radius[c.i] - c.overlap) * c.normal;
-      add(c.i, 0.0, number, line, c.force, dot(c.force, c.normal), c.overlap);
+      add(c.i, 0.0, number, -c.arm[0], c.force, dot(c.force, c.normal), c.overlap);
     });
   }
   return lines;

@@ -153,7 +153,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
     using Real = std::decay_t<decltype(s.mass)>;
     s.kick(time, sum.force, sum.torque);
     s.velocity = s.velocity + Talus::in_all_lanes<Real>({kick.fall[0], kick.fall[1], kick.fall[2]});
-    s.drift_exponential(dt);
+    s.drift_freely(dt);
   };
   if (moves_in_lanes()) {
     move_in_records(motion);

@@ -8,7 +8,7 @@
      v += k ftm2v (F/M + g)      M, F = mass of the clump, force on it
      x += dt v                   of the center of mass
      L += k ftm2v T              angular momentum and torque about it, axes of space
-     q turns by exp(dt omega)    omega = I^-1 L half way, see ClumpState::drift_exponential()
+     q turns freely by dt        see free_rotation.h
 
    k as in fix nve/sphere/symplectic, see StartTime. Spheres get their places and velocities from
    the clump. Free rotation keeps L to rounding and its energy without drift; a clump of one sphere

@@ -163,19 +163,27 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
 ShapedView FixShapeGran::view() const
 {
   if (atom->nlocal + atom->nghost == 0) return {};
-  return {atom->nlocal,   atom->nlocal + atom->nghost,
-          atom->x[0],     atom->v[0],
-          atom->omega[0], atom->radius,
-          atom->rmass,    system->mass_override(),
-          atom->type,     quat[0],
-          atom->f[0],     atom->torque[0]};
+  return {atom->nlocal,
+          atom->nlocal + atom->nghost,
+          atom->x[0],
+          atom->v[0],
+          atom->omega[0],
+          atom->radius,
+          atom->rmass,
+          system->mass_override(),
+          atom->type,
+          quat[0],
+          atom->f[0],
+          atom->torque[0],
+          system->velocity_changes()};
 }
 
 void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
-  pairs.compute(view(), system->law_table(), {step.dt, step.advance, comm->nthreads});
+  pairs.compute(view(), system->law_table(),
+                {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
@@ -228,9 +236,29 @@ std::int64_t FixShapeGran::name_of(const LargeBody &body)
   return -static_cast<std::int64_t>(hash >> 1) - 1;
 }
 
+bool FixShapeGran::keeps_change_of(int i) const
+{
+  return is_shaped(atom->type[i]) && (atom->mask[i] & groupbit);
+}
+
+/* Half of what the kick gives to velocities: of omega not what free rotation changes, for this is
+   exact at the positions on both sides of a step. */
+
+void FixShapeGran::keep_change(ChangeRecord &change, int i, const ParticleShape &its) const
+{
+  const double half = 0.5 * update->dt * force->ftm2v;
+  const Vector3<double> v = (half / atom->rmass[i]) * row(atom->f[i]);
+  const Vector3<double> omega =
+      its.rotation().omega_of(quaternion(quat[i]), (half * atom->radius[i]) * row(atom->torque[i]));
+  change = {{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F,
+             static_cast<float>(omega.x), static_cast<float>(omega.y), static_cast<float>(omega.z),
+             0.0F}};
+}
+
 void FixShapeGran::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt, kick = dt * force->ftm2v;
+  ChangeRecord *changes = system->velocity_changes();
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
@@ -245,6 +273,7 @@ void FixShapeGran::initial_integrate(int /*vflag*/)
       }
       Eigen::Quaterniond q = quaternion(quat[i]);
       Vector3<double> omega = row(w);
+      if (changes) keep_change(changes[i], i, *its);
       its->rotation().advance(q, omega, force->ftm2v * row(atom->torque[i]), dt);
       put(q, quat[i]);
       w[0] = omega.x;

@@ -86,16 +86,26 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   // SystemShapes
   bool is_shaped(int type) const override { return table.of(type) != nullptr; }
   double radius_of(int type) const override { return table.bounding_radius(type); }
+  double inner_radius_of(int type) const override
+  {
+    return table.of(type)->shape().inscribed_radius();
+  }
+  double volume_of(int type) const override { return table.of(type)->shape().volume(); }
   void keep_memories() override;
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
   std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
+  bool keeps_change_of(int i) const override;
+  void for_each_contact(Talus::Ask ask, const VisitContact &visit) const override;
+  void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
+                                const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;
   void for_each_point(const VisitPoint &visit) const override;
   Talus::DeepestContact deepest_contact() const override;
   double count_contacts() const override { return pairs.count_contacts(); }
+  double count_candidates() const override { return pairs.count_candidates(); }
 
  private:
   // fix_shape_gran.cpp
@@ -103,6 +113,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void orient_new(int first, int last);
   Talus::ShapedView view() const;
   void set_maxexchange();
+  void keep_change(Talus::ChangeRecord &change, int i, const Talus::ParticleShape &its) const;
   void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
   static std::int64_t name_of(const Talus::LargeBody &body);
   static constexpr int size_sums = 7;

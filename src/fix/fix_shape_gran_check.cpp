@@ -98,17 +98,16 @@ void FixShapeGran::check_fixes()
   time_integrate = other_integrators == 0;
 }
 
-/* Those that ask for contacts of spheres, or take moments of inertia of spheres. */
+/* It asks the pair style for contacts of spheres. */
 
 void FixShapeGran::check_computes()
 {
   for (auto &compute : modify->get_compute_list())
-    for (const char *style : {"contact/gran/atom", "contact/gran/local", "dissipation/gran/atom",
-                              "penalty/stats", "pair/local"})
-      if (strcmp(compute->style, style) == 0)
-        error->all(FLERR, Error::NOLASTLINE,
-                   "Fix shape/gran: compute {} ({}) knows contacts of spheres only: leave it out",
-                   compute->id, compute->style);
+    if (strcmp(compute->style, "pair/local") == 0)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix shape/gran: compute {} (pair/local) knows contacts of spheres only: use "
+                 "compute contact/gran/local",
+                 compute->id);
 }
 
 void FixShapeGran::require_no_other_integrator() const

@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "force.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cstring>
@@ -79,6 +80,20 @@ int FixShapeGran::modify_param(int narg, char **arg)
 void FixShapeGran::for_each_point(const VisitPoint &visit) const
 {
   pairs.for_each_point(visit);
+}
+
+void FixShapeGran::for_each_contact(Ask ask, const VisitContact &visit) const
+{
+  pairs.for_each_contact(system->law_table(), update->dt, ask, visit);
+}
+
+void FixShapeGran::for_each_contact_of_body(LargeBody &body, Ask ask,
+                                            const VisitContact &visit) const
+{
+  const auto its = walls.find(&body);
+  if (its == walls.end()) return;
+  its->second.points->for_each_contact(body.present_frame(), view(), body.law_table(), update->dt,
+                                       ask, visit);
 }
 
 void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const

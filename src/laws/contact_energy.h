@@ -49,19 +49,37 @@ inline EnergyByCause dissipated(const EnergyByCause &work, const EnergyByCause &
   return work - EnergyByCause{stored.tearing, stored.tangential, stored.resistance};
 }
 
-/// A contact as it is after a step. Everything as the first body sees it, in space.
+/// A contact, or one point where a shape touches, as it is after a step. Everything as the first
+/// body sees it, in space.
 struct SurveyedContact {
-  int i, j;        ///< host's indices; j is -1 if the second body is a large one
-  int body;        ///< number of the large body, in the order of the script, from 0; or -1
-  int part;        ///< of the large body; -1 without parts
-  double share;    ///< 1/2 if another rank has this contact as well, else 1
-  Vector3<double> normal;    ///< from the second body to the first
-  double overlap;            ///< length; negative of contacts that last beyond zero
-  Vector3<double> force;     ///< on the first body
-  Vector3<double> moment, twisting_torque;    ///< torques about the centers, see ContactLanes
-  RememberedValues memory;                    ///< the first three of a large body in its own frame
+  int i = 0, j = -1;     ///< host's indices; j is -1 if the second body is a large one
+  int body = -1;         ///< number of the large body, in the order of the script, from 0; or -1
+  int part = -1;         ///< of the large body; -1 without parts
+  double share = 1.0;    ///< 1/2 if another rank has this contact as well, else 1
+  Vector3<double> normal{};    ///< from the second body to the first
+  double overlap = 0.0;        ///< length; negative of contacts that last beyond zero
+  Vector3<double> force{};     ///< on the first body
+  Vector3<double> moment{}, twisting_torque{};    ///< of spheres, see ContactLanes
+  RememberedValues memory;    ///< the first three of a large body in its own frame
   EnergyByCause stored;
+  /// By body, 0 of a large one: from its center to the point of contact, in the middle of the
+  /// overlap or on the surface of the large body; torque on it about its center, if asked for.
+  Vector3<double> arm[2]{}, torque[2]{};
+
+  /// From the other numbers, of spheres with these radii or one and a large body.
+  void set_arms_of_spheres(double radius, double other_radius);
 };
+
+inline void SurveyedContact::set_arms_of_spheres(double radius, double other_radius)
+{
+  const bool with_body = j < 0;
+  const double inside = with_body ? overlap : 0.5 * overlap;
+  arm[0] = (inside - radius) * normal;
+  torque[0] = twisting_torque - radius * moment;
+  if (with_body) return;
+  arm[1] = (other_radius - inside) * normal;
+  torque[1] = -twisting_torque - other_radius * moment;
+}
 
 /// Which numbers of a contact are asked for: energies alone are found faster.
 enum class Ask : bool { ENERGIES, ALL };
@@ -121,6 +139,14 @@ inline void add_work(const WorkAccount &to, int atom, const ContactBatch &batch,
 {
   for (double **rows : to.by_particle)
     for (int n = 0; n < 3; n++) rows[atom][3 + n] += share * batch.work[n][lane];
+}
+inline void add_work(const WorkAccount &to, int atom, const EnergyByCause &work, double share)
+{
+  for (double **rows : to.by_particle) {
+    rows[atom][3] += share * work.normal;
+    rows[atom][4] += share * work.tangential;
+    rows[atom][5] += share * work.resistance;
+  }
 }
 
 }    // namespace Talus

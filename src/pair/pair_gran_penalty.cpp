@@ -127,7 +127,7 @@ void PairGranPenalty::compute(int eflag, int vflag)
   if (!eflag_global) return;
   // for compute pair; what two ranks compute counts half on each
   pvector[0] = system->count_contacts();
-  pvector[1] = system->contacts().count_candidates();
+  pvector[1] = system->count_candidates();
 }
 
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,

@@ -51,6 +51,7 @@ void PointBatch::gather(const PointContact &point, int lane)
   batch.inverse_mass[lane] = point.inverse_mass;
   batch.inverse_radius[lane] = point.inverse_radius;
   batch.coefficients[lane] = point.row;
+  if (task->account) put(batch.velocity_change, point.velocity_change);
   for (int k = 0; k < ContactBatch::history_size && remembers; k++)
     batch.history[k][lane] = point.memory.value[k];
 }
@@ -62,10 +63,15 @@ void PointBatch::flush()
   if (!filled) return;
   const LawTable &laws = task->laws;
   const int end = (filled + lanes - 1) / lanes * lanes;
-  const ContactKernel &kernel = laws.kernel(law_index, task->advance);
   for (int lane = filled; lane < end; lane++) {    // a row of this law, whatever it was before
     gather(*of_lane[filled - 1], lane);
   }
+  const double time_at_setup = task->account ? task->account->time_at_setup : -1.0;
+  if (time_at_setup >= 0.0)
+    laws.accounting_kernel(law_index, false)(batch, 0, end, laws.coefficients(), time_at_setup);
+  const ContactKernel &kernel = task->account && time_at_setup < 0.0
+                                    ? laws.accounting_kernel(law_index, true)
+                                    : laws.kernel(law_index, task->advance);
   kernel(batch, 0, end, laws.coefficients(), task->dt);
   for (int lane = 0; lane < filled; lane++) hand_out(*of_lane[lane], lane);
   filled = 0;
@@ -76,9 +82,31 @@ void PointBatch::hand_out(PointContact &point, int lane) const
   const double w = point.weight;
   point.force =
       w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
+  if (task->account)
+    point.work = w * EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
   if (task->advance && remembers)
     for (int k = 0; k < ContactBatch::history_size; k++)
       point.memory.value[k] = batch.history[k][lane];
+}
+
+SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &laws, double dt,
+                                   Ask ask)
+{
+  ContactState<double> state;
+  state.normal = point.normal;
+  state.overlap = point.overlap;
+  state.velocity = point.velocity;
+  state.inverse_mass = point.inverse_mass;
+  state.inverse_radius = point.inverse_radius;
+  SurveyedContact found;
+  found.normal = point.normal;
+  found.overlap = point.overlap;
+  survey_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, point.memory, ask,
+                 found);
+  found.force = point.weight * found.force;
+  found.moment = found.twisting_torque = {0.0, 0.0, 0.0};
+  found.stored = point.weight * found.stored;
+  return found;
 }
 
 }    // namespace Talus

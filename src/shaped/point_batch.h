@@ -23,10 +23,16 @@ class PointBatch {
   struct Task {
     const LawTable &laws;
     double dt;
-    bool advance;    ///< false: memories are only read
+    bool advance;                            ///< false: memories are only read
+    const WorkAccount *account = nullptr;    ///< given: finds the work of the points
   };
   /// Forces and memories of all points. What a point yields does not depend on the others.
   void compute(const Task &task, PointContact *points, std::size_t count);
+
+  /// What is asked about a point between steps, as its first body sees it: the numbers that do not
+  /// depend on who the bodies are. `dt`: of the step.
+  static SurveyedContact survey(const PointContact &point, const LawTable &laws, double dt,
+                                Ask ask);
 
   /// "" or why points of shapes cannot have this law, and the cure, for people.
   static std::string refusal(const ContactLaw &law);

@@ -4,7 +4,7 @@
 #define TALUS_SHAPED_POINT_CONTACT_H
 
 #include "base/vector3.h"
-#include "laws/contact_batch.h"
+#include "laws/contact_energy.h"
 
 #include <cstdint>
 
@@ -23,18 +23,15 @@ struct PointContact {
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`
   double inverse_mass;         ///< 1/m_1 + 1/m_2
   int row;                     ///< of the table of laws
+  /// If work is accounted for: what `velocity` lacks of that at the time of the positions.
+  Vector3<double> velocity_change;
 
   RememberedValues memory;    ///< in and out
 
-  Vector3<double> force;    ///< result, with the weight: on the first body, at `place`
+  // results, with the weight
+  Vector3<double> force;    ///< on the first body, at `place`
+  EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
-
-/// Velocity of the point `place` of a body with this center, velocity and angular velocity.
-inline Vector3<double> velocity_at(const Vector3<double> &place, const Vector3<double> &center,
-                                   const Vector3<double> &v, const Vector3<double> &omega)
-{
-  return v + cross(omega, place - center);
-}
 
 }    // namespace Talus
 

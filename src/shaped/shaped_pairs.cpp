@@ -113,6 +113,7 @@ void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const St
     for (int c = begin; c < end; c++) compute_chunk(view, laws, step, chunks[c], *batches[t]);
   });
   add_to_particles(view, step.threads);
+  if (step.account) account(*step.account);
 }
 
 void ShapedPairs::place_solids(const ShapedView &view, int threads)
@@ -138,14 +139,16 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
   chunk.points.clear();
   chunk.pair_of_point.clear();
   std::size_t old = 0;
-  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, chunk, p, old);
-  batch.compute({laws, step.dt, step.advance}, chunk.points.data(), chunk.points.size());
+  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, step, chunk, p, old);
+  batch.compute({laws, step.dt, step.advance, step.account}, chunk.points.data(),
+                chunk.points.size());
   sum_points(chunk);
 }
 
 /* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
 
-void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::size_t &old)
+void ShapedPairs::find_points(const ShapedView &view, const Step &step, Chunk &chunk, int p,
+                              std::size_t &old)
 {
   Pair &pair = list[p];
   const std::size_t known = old;
@@ -153,10 +156,7 @@ void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::
   const Solid &a = solids[pair.first], &b = solids[pair.second];
   if (!a.may_touch(b) || !touch(a, b, shapes.method(), pair.direction, chunk.found)) return;
   const int i = pair.first, j = pair.second;
-  const auto velocity = [&](int particle, const Vector3<double> &place) {
-    return velocity_at(place, solids[particle].center(), view.row(view.v, particle),
-                       view.row(view.omega, particle));
-  };
+  const double change = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   PointContact point{};
   point.inverse_radius = 1.0 / a.contact_radius() + 1.0 / b.contact_radius();
   point.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
@@ -167,7 +167,10 @@ void ShapedPairs::find_points(const ShapedView &view, Chunk &chunk, int p, std::
     point.overlap = one.overlap;
     point.weight = one.weight;
     point.name = one.name;
-    point.velocity = velocity(i, one.position) - velocity(j, one.position);
+    point.velocity = view.velocity_at(i, one.position) - view.velocity_at(j, one.position);
+    if (change != 0.0)
+      point.velocity_change =
+          change * (view.change_at(i, one.position) - view.change_at(j, one.position));
     point.memory = RememberedValues{};
     for (std::size_t n = known; n < old; n++)
       if (chunk.before[n].name == one.name) point.memory = chunk.before[n].memory;
@@ -214,7 +217,47 @@ void ShapedPairs::add_to_particles(const ShapedView &view, int threads) const
   });
 }
 
+/* In the order of the points: several of them may belong to one particle. */
+
+void ShapedPairs::account(WorkAccount &to) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t n = 0; n < chunk.points.size(); n++) {
+      const Pair &pair = list[chunk.pair_of_point[n]];
+      const EnergyByCause &work = chunk.points[n].work;
+      to.sum += share(pair) * work;
+      for (const int i : {pair.first, pair.second})
+        if (i < owned) add_work(to, i, work, 0.5);
+    }
+}
+
 /* ---------------------------------------------------------------------- */
+
+void ShapedPairs::for_each_contact(const LawTable &laws, double dt, Ask ask,
+                                   const VisitContact &visit) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t n = 0; n < chunk.points.size(); n++) {
+      const Pair &pair = list[chunk.pair_of_point[n]];
+      const PointContact &point = chunk.points[n];
+      SurveyedContact found = PointBatch::survey(point, laws, dt, ask);
+      found.i = pair.first;
+      found.j = pair.second;
+      found.share = share(pair);
+      found.arm[0] = point.place - solids[pair.first].center();
+      found.arm[1] = point.place - solids[pair.second].center();
+      found.torque[0] = cross(found.arm[0], found.force);
+      found.torque[1] = -cross(found.arm[1], found.force);
+      visit(found);
+    }
+}
+
+double ShapedPairs::count_candidates() const
+{
+  double count = 0.0;
+  for (const Pair &pair : list) count += share(pair);
+  return count;
+}
 
 double ShapedPairs::count_contacts() const
 {

@@ -45,6 +45,8 @@ class ShapedPairs {
     double dt;
     bool advance;    ///< false while a run is set up: memories are only read
     int threads;
+    WorkAccount *account = nullptr;    ///< receives the work
+    float weight_of_changes = 0.0F;    ///< see ContactStep
   };
   /// Adds forces and torques to those of owned particles.
   void compute(const ShapedView &view, const LawTable &laws, const Step &step);
@@ -65,10 +67,16 @@ class ShapedPairs {
       }
   }
 
+  /// visit(contact) for the same, with what they remember now. `dt`: of that step.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  void for_each_contact(const LawTable &laws, double dt, Ask ask, const VisitContact &visit) const;
+
   bool is_empty() const { return list.empty(); }
   /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
   double count_contacts() const;
   double count_points() const;
+  /// Of all pairs.
+  double count_candidates() const;
   double memory_usage() const;
 
  private:
@@ -98,7 +106,9 @@ class ShapedPairs {
   void place_solids(const ShapedView &view, int threads);
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                      PointBatch &batch);
-  void find_points(const ShapedView &view, Chunk &chunk, int pair, std::size_t &old);
+  void find_points(const ShapedView &view, const Step &step, Chunk &chunk, int pair,
+                   std::size_t &old);
+  void account(WorkAccount &to) const;
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
   double share(const Pair &pair) const

@@ -61,10 +61,12 @@ BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, con
       chunk.of_point.clear();
       std::size_t old = 0;
       for (int n = chunk.begin; n < chunk.end; n++) find_points(task, chunk, n, old);
-      batches[t]->compute({laws, step.dt, step.advance}, chunk.points.data(), chunk.points.size());
+      batches[t]->compute({laws, step.dt, step.advance, step.account}, chunk.points.data(),
+                          chunk.points.size());
       add_forces(task, chunk);
     }
   });
+  if (step.account) account(*step.account);
   BodyLoad load;
   for (const Chunk &chunk : chunks) {
     load.add(chunk.load);
@@ -102,7 +104,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.weight = one.weight;
       point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
       const Vector3<double> place = frame.point_to_space(one.position);
-      Vector3<double> v = velocity_at(place, center, view.row(view.v, i), view.row(view.omega, i));
+      Vector3<double> v = view.velocity_at(i, place);
       if (frame.moves) v = v - frame.velocity_at(place);
       v = frame.to_body(v);
       if (frame.runs) {
@@ -110,6 +112,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
         v = v - (surface - dot(surface, one.normal) * one.normal);
       }
       point.velocity = v;
+      if (task.step.account) point.velocity_change = change_seen(task, i, place);
       point.memory = RememberedValues{};
       for (std::size_t k = known; k < old; k++)
         if (chunk.before[k].name == point.name) point.memory = chunk.before[k].memory;
@@ -117,6 +120,24 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       chunk.of_point.push_back(n);
     }
   }
+}
+
+Vector3<double> WallPoints::change_seen(const Task &task, int i, const Vector3<double> &place)
+{
+  const BodyFrame &frame = task.frame;
+  const Vector3<double> its = task.view.change_at(i, place);
+  if (!frame.moves) return frame.to_body(its);
+  return frame.to_body(its - frame.velocity_change -
+                       cross(frame.omega_change, place - frame.state.position));
+}
+
+void WallPoints::account(WorkAccount &to) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t k = 0; k < chunk.points.size(); k++) {
+      to.sum += chunk.points[k].work;
+      add_work(to, particles[chunk.of_point[k]], chunk.points[k].work, 1.0);
+    }
 }
 
 void WallPoints::add_forces(const Task &task, Chunk &chunk) const
@@ -158,6 +179,23 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
     virial[4] -= arm.x * force.z;
     virial[5] -= arm.y * force.z;
   }
+}
+
+void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view,
+                                  const LawTable &laws, double dt, Ask ask,
+                                  const VisitContact &visit) const
+{
+  for (const Chunk &chunk : chunks)
+    for (std::size_t k = 0; k < chunk.points.size(); k++) {
+      const PointContact &point = chunk.points[k];
+      SurveyedContact found = PointBatch::survey(point, laws, dt, ask);
+      found.i = particles[chunk.of_point[k]];
+      found.normal = frame.to_space(found.normal);
+      found.force = frame.to_space(found.force);
+      found.arm[0] = frame.point_to_space(point.place) - view.row(view.x, found.i);
+      found.torque[0] = cross(found.arm[0], found.force);
+      visit(found);
+    }
 }
 
 double WallPoints::memory_usage() const

@@ -18,6 +18,7 @@
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,11 @@ class WallPoints {
   /// particle, added to.
   BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
                    const LawTable &laws, const BodyStep &step, double *virial);
+  /// visit(contact) for each point of the last compute(), with what it remembers now; its large
+  /// body has no number. Positions of particles and body are still those of that step.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  void for_each_contact(const BodyFrame &frame, const ShapedView &view, const LawTable &laws,
+                        double dt, Ask ask, const VisitContact &visit) const;
   double memory_usage() const;
 
  private:
@@ -62,6 +68,8 @@ class WallPoints {
 
   void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;
   void add_forces(const Task &task, Chunk &chunk) const;
+  void account(WorkAccount &to) const;
+  static Vector3<double> change_seen(const Task &task, int i, const Vector3<double> &place);
 
   const ShapeTable &shapes;
   std::int64_t name;

@@ -4,6 +4,7 @@
 
 #include "system/granular_system.h"
 #include "system/system_run_style.h"
+#include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -290,12 +291,12 @@ void FixContactStore::keep_changes(bool yes)
 /* An integrator unknown to us: the last kick, or both that there were, is taken as twice what the
    velocity is behind. */
 
-void FixContactStore::follow_velocities(int mine)
+void FixContactStore::follow_velocities(int mine, const Talus::SystemShapes *shapes)
 {
   if (!with_last) return;
-  Talus::in_ranges(atom->nlocal, comm->nthreads, [this, mine](int, int begin, int end) {
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [=](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
-      if (atom->mask[i] & mine) continue;
+      if ((atom->mask[i] & mine) || (shapes && shapes->keeps_change_of(i))) continue;
       for (int d = 0; d < 3; d++) {
         changes[i].c[d] = static_cast<float>(0.5 * (atom->v[i][d] - last[i][d]));
         changes[i].c[4 + d] =

@@ -31,7 +31,8 @@
 
 namespace Talus {
 class GranularSystem;
-}
+class SystemShapes;
+}    // namespace Talus
 
 namespace LAMMPS_NS {
 
@@ -61,9 +62,9 @@ class FixContactStore : public Fix {
   void keep_changes(bool yes);
   /// Where changes are kept: velocities as the present forces see them, of particles that others
   /// move than those who keep changes; and before the next forces, what follows from them. `mine`:
-  /// bits of the groups of particles that are of no concern.
+  /// bits of the groups of particles that are of no concern, nor are those that shapes know of.
   void remember_velocities(int mine);
-  void follow_velocities(int mine);
+  void follow_velocities(int mine, const Talus::SystemShapes *shapes);
 
   /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
   /// The error, collective.

@@ -66,10 +66,7 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
                    store->say_no_number(found);
                    return true;
                  }}});
-  monitors.add(pair, monitor.checks([this] {
-    const DeepestContact spheres = pipeline->deepest_contact();
-    return shaped ? std::max(spheres, shaped->deepest_contact()) : spheres;
-  }));
+  monitors.add(pair, monitor.checks([this] { return deepest_contact(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);

@@ -196,6 +196,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   SystemShapes *shapes() const { return shaped; }
   /// Pairs of particles that touch on this rank; those that another one has as well count half.
   double count_contacts() const;
+  /// Pairs that may touch; the same.
+  double count_candidates() const;
+  /// Of the pairs that touch on this rank.
+  DeepestContact deepest_contact() const;
 
   // ---- rebuild: called by FixContactStore, in this order
 

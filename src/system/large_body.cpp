@@ -227,6 +227,7 @@ bool LargeBody::accounts() const
 void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visit)
 {
   contacts.for_each_contact(*its_shape, *frame, view(), update->dt, ask, visit);
+  if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, ask, visit);
 }
 
 /* What a spring has taken it stores, or has lost: it does not matter here. The same with the whole
@@ -244,12 +245,6 @@ BodyFindings LargeBody::find_worst()
 
 double LargeBody::energy()
 {
-  if (system.shapes())
-    error->all(
-        FLERR,
-        "{}: the energy of its contacts with particles that have a shape is not known: leave "
-        "the scalar of this fix and 'fix_modify energy' out",
-        name());
   is_asked = true;
   double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {

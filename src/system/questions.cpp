@@ -119,6 +119,17 @@ double GranularSystem::count_contacts() const
   return pipeline->count_contacts() + (shaped ? shaped->count_contacts() : 0.0);
 }
 
+double GranularSystem::count_candidates() const
+{
+  return pipeline->count_candidates() + (shaped ? shaped->count_candidates() : 0.0);
+}
+
+DeepestContact GranularSystem::deepest_contact() const
+{
+  const DeepestContact spheres = pipeline->deepest_contact();
+  return shaped ? std::max(spheres, shaped->deepest_contact()) : spheres;
+}
+
 double GranularSystem::share_without_proxies() const
 {
   return pipeline->in_two_phases() ? pipeline->early_share() : 0.0;
@@ -159,6 +170,7 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
   }
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
     pipeline->for_each_contact(update->dt, ask, visit);
+  if (shaped) shaped->for_each_contact(ask, visit);
   int number = 0;
   for (const auto &body : large_bodies) {
     body->for_each_contact(ask, [&](SurveyedContact one) {

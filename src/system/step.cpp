@@ -169,7 +169,8 @@ void GranularSystem::find_changes(ContactStep &step)
   }
   if (!pipeline->keeps_changes()) return;
   const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
-  if (moved_in_arrays && !update->setupflag) store->follow_velocities(groups_with_changes());
+  if (moved_in_arrays && !update->setupflag)
+    store->follow_velocities(groups_with_changes(), shaped);
   step.weight_of_changes = weight_of_changes(update->setupflag != 0);
   if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(store);
 }

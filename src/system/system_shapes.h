@@ -32,6 +32,9 @@ class SystemShapes : public SystemFix {
   virtual bool is_shaped(int type) const = 0;
   /// Of the sphere around (length), 0 of a type of spheres.
   virtual double radius_of(int type) const = 0;
+  /// Of the largest sphere inside (length), and the volume; only of types with a shape.
+  virtual double inner_radius_of(int type) const = 0;
+  virtual double volume_of(int type) const = 0;
 
   /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
   /// puts what contacts remember to the particles. Collective.
@@ -48,6 +51,16 @@ class SystemShapes : public SystemFix {
   /// bears. `virial`: as for LargeBody::compute().
   virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;
 
+  /// Its integrator has written the change of velocities of particle i in this step, see
+  /// GranularSystem::velocity_changes().
+  virtual bool keeps_change_of(int i) const = 0;
+
+  /// visit(contact) for each contact point of the last step on this rank: of two particles, and of
+  /// a particle and a large body, which has no number.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  virtual void for_each_contact(Ask ask, const VisitContact &visit) const = 0;
+  virtual void for_each_contact_of_body(LargeBody &body, Ask ask,
+                                        const VisitContact &visit) const = 0;
   /// visit(i, j, point) for each contact point of two particles in the last step, as i sees it; i
   /// and j may be ghosts, and a pair of two ranks is visited on both.
   using VisitPoint = std::function<void(int, int, const PointContact &)>;
@@ -55,8 +68,9 @@ class SystemShapes : public SystemFix {
   /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
   using VisitTriangle = std::function<void(int, const Triangle &)>;
   virtual void for_each_triangle(const VisitTriangle &visit) const = 0;
-  /// Pairs that touch; what two ranks compute counts half.
+  /// Pairs that touch, and all whose surroundings overlap; what two ranks compute counts half.
   virtual double count_contacts() const = 0;
+  virtual double count_candidates() const = 0;
   /// Of these the deepest, over the radius of the smaller of the largest spheres inside.
   virtual DeepestContact deepest_contact() const = 0;
 

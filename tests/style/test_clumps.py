@@ -203,7 +203,7 @@ class FreeClump(ClumpCase):
                 if len(line.split()) == 5 and line.split()[0].isdigit() and "." in line]
         self.assertEqual(len(rows), 11)
         for row in rows:
-            self.assertAlmostEqual(row[1] / rows[0][1], 1.0, delta=5e-3)
+            self.assertAlmostEqual(row[1] / rows[0][1], 1.0, delta=2e-4)
             for k in 2, 3, 4:
                 self.assertAlmostEqual(row[k], rows[0][k], delta=1e-12)
 

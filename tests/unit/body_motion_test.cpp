@@ -197,6 +197,35 @@ TEST(RigidBodyTest, FreeTopKeepsEnergyAndAngularMomentum)
   EXPECT_LT(last, 1e-5);
 }
 
+TEST(RigidBodyTest, EnergyDoesNotDrift)
+{
+  for (const bool lock : {false, true}) {
+    RigidBody body;
+    body.mass = 2.0;
+    body.inertia[0] = 2.0;
+    body.inertia[1] = 1.0;
+    body.inertia[2] = 2.5;
+    body.locked[4] = lock;
+    BodyState state;
+    state.orientation = turn_of({1.0, 0.3, 0.5}, 0.4);
+    state.omega = {1.5, lock ? 0.0 : 0.2, 0.3};
+    const double e0 = body.kinetic_energy(state);
+    const V l0 = body.angular_momentum(state);
+    double early = 0.0, late = 0.0;
+    constexpr int steps = 200000;
+    for (int n = 0; n < steps; n++) {
+      body.advance(state, {0, 0, 0}, {0, 0, 0}, 0.02);
+      double &worst = n < steps / 10 ? early : late;
+      worst = std::max(worst, std::fabs(body.kinetic_energy(state) / e0 - 1.0));
+    }
+    std::printf("lock %d: energy %.2e in the first tenth, %.2e after\n", lock, early, late);
+    EXPECT_LT(late, 1.05 * early);
+    EXPECT_LT(late, 1e-3);
+    EXPECT_GT(early, 1e-7);
+    EXPECT_LT(length(body.angular_momentum(state) - l0) / length(l0), 1e-9);
+  }
+}
+
 TEST(RigidBodyTest, BallTurnsAsAParticleDoes)
 {
   RigidBody body;

@@ -298,18 +298,11 @@ void BodyBatch::survey() const
     RememberedValues memory;
     for (int n = 0; n < ContactBatch::history_size && task->with_history; n++)
       memory.value[n] = n < 4 || task->with_impact ? batch.history[n][lane] : 0.0;
-    SurveyedContact found{task->candidates.atom(candidate_of_lane[lane]),
-                          -1,
-                          -1,
-                          by_parts ? part_of_lane[lane] : -1,
-                          1.0,
-                          lane_of(batch.normal, lane),
-                          batch.overlap[lane],
-                          {},
-                          {},
-                          {},
-                          {},
-                          {}};
+    SurveyedContact found;
+    found.i = task->candidates.atom(candidate_of_lane[lane]);
+    if (by_parts) found.part = part_of_lane[lane];
+    found.normal = lane_of(batch.normal, lane);
+    found.overlap = batch.overlap[lane];
     survey_contact(law, task->laws.coefficients(batch.coefficients[lane]),
                    state_of_lane(batch, lane), task->dt, memory, task->ask, found);
     if (frame.turned) {
@@ -318,6 +311,7 @@ void BodyBatch::survey() const
       found.moment = frame.to_space(found.moment);
       found.twisting_torque = frame.to_space(found.twisting_torque);
     }
+    found.set_arms_of_spheres(radius[lane], 0.0);
     (*task->survey)(found);
   }
 }

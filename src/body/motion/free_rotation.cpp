@@ -2,59 +2,65 @@
 
 #include "body/motion/free_rotation.h"
 
-#include "body/motion/body_state.h"
-
 #include <algorithm>
-#include <cmath>
 
 namespace Talus {
+namespace {
 
-FreeRotation::FreeRotation(const double (&moments)[3], const Eigen::Quaterniond &axes) :
-    principal(axes)
+PrincipalAxes<double> axes_of(const Eigen::Quaterniond &q)
 {
-  for (int k = 0; k < 3; k++) {
-    inertia(k) = moments[k];
-    inverse(k) = 1.0 / moments[k];
-  }
-  std::sort(order, order + 3, [&](int a, int b) { return moments[a] < moments[b]; });
-  std::swap(order[0], order[1]);    // the one in the middle first
+  return Turn<double>{q.w(), q.x(), q.y(), q.z()}.axes();
 }
 
-void FreeRotation::advance(Eigen::Quaterniond &orientation, Vector3<double> &omega,
-                           const Vector3<double> &torque, double dt) const
+Vector3<double> by_component(const Vector3<double> &a, const Vector3<double> &b)
 {
-  Eigen::Quaterniond frame = orientation * principal;    // from principal axes to space
-  const Eigen::Matrix3d before = frame.toRotationMatrix();
-  const Eigen::Vector3d momentum =
-      before * inertia.cwiseProduct(before.transpose() * to_eigen(omega)) + dt * to_eigen(torque);
-  if (momentum.squaredNorm() == 0.0) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+}    // namespace
+
+/* Axes in cyclic order stay right-handed; of the other order one is turned round. */
+
+FreeRotation::FreeRotation(const double (&moments)[3], const Eigen::Quaterniond &axes)
+{
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int a, int b) { return moments[a] < moments[b]; });
+  inertia = {moments[order[0]], moments[order[1]], moments[order[2]]};
+  inverse = {1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z};
+  Eigen::Matrix3d sorted = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; k++) sorted(order[k], k) = 1.0;
+  if (sorted.determinant() < 0.0) sorted.col(2) = -sorted.col(2);
+  principal = (axes * Eigen::Quaterniond(sorted)).normalized();
+}
+
+void FreeRotation::turn(Eigen::Quaterniond &orientation, Vector3<double> &omega,
+                        const Vector3<double> &momentum, double dt) const
+{
+  if (dot(momentum, momentum) == 0.0) {
     omega = {0.0, 0.0, 0.0};
     return;
   }
-  const int a = order[0], b = order[1], c = order[2];
-  const auto turn_about = [&](int axis, double time) {
-    const double rate = inverse(axis) - inverse(a);
-    if (rate == 0.0) return;
-    const double along = (frame.conjugate() * momentum)(axis);
-    const double half = 0.5 * time * rate * along;
-    Eigen::Quaterniond turn(std::cos(half), 0.0, 0.0, 0.0);
-    turn.vec()(axis) = std::sin(half);
-    frame = frame * turn;
-  };
-  turn_about(b, 0.5 * dt);
-  turn_about(c, dt);
-  turn_about(b, 0.5 * dt);
-  frame = (turn_of(from_eigen(inverse(a) * momentum), dt) * frame).normalized();
-  const Eigen::Matrix3d after = frame.toRotationMatrix();
-  omega = from_eigen(after * inverse.cwiseProduct(after.transpose() * momentum));
+  const Eigen::Quaterniond q = orientation * principal;
+  Turn<double> turn{q.w(), q.x(), q.y(), q.z()};
+  const Vector3<double> along =
+      rotate_freely(turn, momentum, turn.axes().to_body(momentum), inverse, dt);
+  const Eigen::Quaterniond frame(turn.w, turn.x, turn.y, turn.z);
+  omega = axes_of(frame).to_space(by_component(inverse, along));
   orientation = (frame * principal.conjugate()).normalized();
 }
 
 Vector3<double> FreeRotation::angular_momentum(const Eigen::Quaterniond &orientation,
                                                const Vector3<double> &omega) const
 {
-  const Eigen::Matrix3d frame = (orientation * principal).toRotationMatrix();
-  return from_eigen(frame * inertia.cwiseProduct(frame.transpose() * to_eigen(omega)));
+  const PrincipalAxes<double> frame = axes_of(orientation * principal);
+  return frame.to_space(by_component(inertia, frame.to_body(omega)));
+}
+
+Vector3<double> FreeRotation::omega_of(const Eigen::Quaterniond &orientation,
+                                       const Vector3<double> &momentum) const
+{
+  const PrincipalAxes<double> frame = axes_of(orientation * principal);
+  return frame.to_space(by_component(inverse, frame.to_body(momentum)));
 }
 
 }    // namespace Talus

@@ -2,6 +2,8 @@
 
 #include "body/motion/rigid_body.h"
 
+#include "body/motion/free_rotation.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -63,9 +65,26 @@ void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
     state.omega = {0.0, 0.0, 0.0};
     return;
   }
+  if (turns_freely())
+    FreeRotation(inertia, Eigen::Quaterniond::Identity())
+        .turn(state.orientation, state.omega, momentum, dt);
+  else
+    turn_with_locks(state, momentum, dt);
+}
+
+/* The iterations gain a factor of about dt omega each; about one axis the first is exact. */
+
+void RigidBody::turn_with_locks(BodyState &state, const Vector3<double> &momentum, double dt) const
+{
+  constexpr int most = 50;
+  constexpr double rounding = 1.0e-15;
   const Eigen::Quaterniond now = state.orientation;
-  const Eigen::Quaterniond half_way = turn_of(omega_of(momentum, now), 0.5 * dt) * now;
-  const Vector3<double> omega = omega_of(momentum, half_way.normalized());
+  Vector3<double> omega = omega_of(momentum, now);
+  for (int n = 0; n < most; n++) {
+    const Vector3<double> last = omega;
+    omega = omega_of(momentum, (turn_of(last, 0.5 * dt) * now).normalized());
+    if (length(omega - last) <= rounding * length(omega)) break;
+  }
   state.orientation = (turn_of(omega, dt) * now).normalized();
   state.omega = omega_of(momentum, state.orientation);
 }

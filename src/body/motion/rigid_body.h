@@ -11,9 +11,9 @@ namespace Talus {
 ///
 /// Semi-implicit Euler, as for particles: velocities first, from the force at the old place; then
 /// the place, with the new velocity. The angular momentum L is kicked in the axes of space and then
-/// kept: the body turns by exp(dt omega) with omega = I^-1 L taken half way (explicit midpoint), so
-/// that L is kept to rounding, the energy of free rotation to second order in dt, and a body with
-/// three equal moments of inertia turns as a particle does.
+/// kept: see free_rotation.h, so that a body with three equal moments of inertia turns as a particle
+/// does. Where rotations are locked the others go on by the implicit midpoint rule, omega = I^-1 L
+/// half way: what is left of L is kept, and the energy does not drift either.
 class RigidBody {
  public:
   double mass = 0.0;
@@ -22,6 +22,7 @@ class RigidBody {
   bool locked[6] = {false, false, false, false, false, false};
 
   bool translates() const { return !(locked[0] && locked[1] && locked[2]); }
+  bool turns_freely() const { return !(locked[3] || locked[4] || locked[5]); }
 
   /// `acceleration` and `torque` (in units of mass, length, time) act during `kick`, then the body
   /// goes on for dt.
@@ -45,6 +46,9 @@ class RigidBody {
                            const Eigen::Quaterniond &orientation) const;
   /// mass v^2/2 + omega . L/2.
   double kinetic_energy(const BodyState &state) const;
+
+ private:
+  void turn_with_locks(BodyState &state, const Vector3<double> &momentum, double dt) const;
 };
 
 /// Holds a force or torque by moving along, or turning about, one axis: the velocity is
