@@ -42,6 +42,15 @@ if(NOT TALUS_HOST_HAS_RIGID)
   list(FILTER talus_style_sources EXCLUDE REGEX "/fix_rigid_small")
 endif()
 
+# GCC (12 at least) makes fused multiply-adds of sums beside differences of products, whatever -ffp-contract says, where
+# it packs statements of a source into vectors. tests/cli/test_fused_arithmetic.py finds such sources.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set_source_files_properties(
+    "${PROJECT_SOURCE_DIR}/src/fix/fix_rigid_small_talus.cpp"
+    "${PROJECT_SOURCE_DIR}/src/shape/mass_properties.cpp"
+    PROPERTIES COMPILE_OPTIONS -fno-tree-slp-vectorize)
+endif()
+
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
 

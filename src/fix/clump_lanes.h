@@ -25,6 +25,7 @@ class ClumpLanes {
  public:
   using Vec8 = Talus::Vec8;
   using State = Talus::ClumpState<Vec8>;
+  using Motion = Talus::SphereMotion<Vec8>;
   using Vector = Talus::Vector3<Vec8>;
   struct Sums {
     Vector force, torque;
@@ -38,19 +39,22 @@ class ClumpLanes {
   void set(int clump, const Talus::ClumpState<double> &state);
   Talus::ClumpState<double> get(int clump) const;
 
-  // motion(state, sums) for clumps begin ... begin+7, of which those below `end` are there; then
-  // the spheres of this rank get their places and velocities. row(sphere): force and torque on one
+  // find_motion(state, sums) moves clumps begin ... begin+7, of which those below `end` are there,
+  // and returns that of their spheres; those of this rank get their places and velocities. row(sphere): force and torque on one
   // that another rank owns; shift(sphere): a record, by which the center of mass is away as it is
   // counted, of one that is wrapped
-  template <class Motion, class RowOfSphere, class Shift>
+  template <class FindMotion, class RowOfSphere, class Shift>
   void move(const ClumpTable &table, Talus::ParticleRecords &records, int begin, int end,
-            Motion motion, RowOfSphere row, Shift shift)
+            FindMotion find_motion, RowOfSphere row, Shift shift)
   {
     State s = load(begin, end);
     const Sums sums = sum_loads(table, records, begin, end, s, row);
-    motion(s, sums);
+    const Motion its = find_motion(s, sums);
     keep(s, begin, end);
-    place(table, records, begin, end, s, shift);
+    if (records.keeps_changes())
+      place<true>(table, records, begin, end, s, its, shift);
+    else
+      place<false>(table, records, begin, end, s, its, shift);
   }
 
  private:
@@ -153,12 +157,12 @@ class ClumpLanes {
     return {all.number[0], all.number[1], all.number[2]};
   }
 
-  template <class Shift>
+  template <bool changes, class Shift>
   void place(const ClumpTable &table, Talus::ParticleRecords &records, int begin, int end,
-             const State &s, Shift shift) const
+             const State &s, const Motion &motion, Shift shift) const
   {
     Talus::Record w[Talus::lanes];
-    Talus::to_rows({s.omega.x, s.omega.y, s.omega.z, Vec8{}}, w);
+    Talus::to_rows({motion.omega.x, motion.omega.y, motion.omega.z, Vec8{}}, w);
     const int most = most_spheres(table, begin, end);
     for (int m = 0; m < most; m++) {
       Talus::Record d[Talus::lanes] = {}, away[Talus::lanes] = {}, x[Talus::lanes], v[Talus::lanes];
@@ -166,17 +170,20 @@ class ClumpLanes {
         d[k] = places[n];
         if (table.spheres[n].wrapped) away[k] = shift(table.spheres[n]);
       });
-      const Vector arm = s.axes.to_space(three(d)), at = arm + (s.position - three(away));
-      const Vector moves = s.velocity + cross(s.omega, arm);
+      const Vector its = three(d), at = s.axes.to_space(its) + (s.position - three(away));
+      const Vector moves = motion.velocity_at(its);
       Talus::to_rows({at.x, at.y, at.z, Vec8{}}, x);
       Talus::to_rows({moves.x, moves.y, moves.z, Vec8{}}, v);
       for_each_sphere(table, begin, end, m, [&](int k, std::int64_t n) {
         const ClumpSphere &sphere = table.spheres[n];
         if (!sphere.owned) return;
-        Talus::Record *motion = &records.motion[2L * sphere.slot];
+        Talus::Record *state = &records.motion[2L * sphere.slot];
+        const Talus::Vec4 v_old = load4(state[0]), w_old = load4(state[1]);
         put(records.position[sphere.slot], x[k]);
-        put(motion[0], v[k]);
-        put(motion[1], w[k]);
+        put(state[0], v[k]);
+        put(state[1], w[k]);
+        if constexpr (changes)
+          records.keep_change(sphere.slot, v_old, load4(state[0]), w_old, load4(state[1]));
       });
     }
   }

@@ -27,11 +27,15 @@ using namespace FixConst;
 using Talus::command_words;
 using Talus::Words;
 
+namespace {
+constexpr const char *title = "Fix nve/sphere/symplectic";
+}
+
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
-    start(lmp, "Fix nve/sphere/symplectic"), gravity(lmp)
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)), start(lmp, title),
+    second_order(this, lmp, title), gravity(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -54,11 +58,7 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
   }
 
   const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
-  if (its_order == 2 && says_start && !start.is_half())
-    error->all(FLERR,
-               "Fix nve/sphere/symplectic order 2: velocities of 'start plain' have an error "
-               "of first order: use 'start half', or leave 'start' out");
-  if (its_order == 2) start.set_half(true);
+  if (its_order == 2) SecondOrderCheck::set_half(lmp, title, start, says_start);
 
   if (gravity.given()) {
     scalar_flag = 1;
@@ -119,51 +119,11 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
-  if (its_order == 2) check_order();
+  if (its_order == 2) second_order.check(*system);
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())
       if (fix != this) check_fix(fix);
-}
-
-/* ----------------------------------------------------------------------
-   proxies find the changes of velocities from those that they receive: all particles
-   must have theirs from this fix
-------------------------------------------------------------------------- */
-
-void FixNVESphereSymplectic::check_order()
-{
-  for (auto &fix : modify->get_fix_list())
-    if (fix != this && fix->time_integrate)
-      error->all(
-          FLERR, Error::NOLASTLINE,
-          "Fix nve/sphere/symplectic order 2: fix {} ({}) moves particles as well: use order "
-          "1, or one fix nve/sphere/symplectic alone",
-          fix->id, fix->style);
-  for (auto &fix : modify->get_fix_list())
-    if (utils::strmatch(fix->style, "^wall/gran"))
-      error->all(
-          FLERR, Error::NOLASTLINE,
-          "Fix nve/sphere/symplectic order 2: contacts with fix {} ({}) are of first order: use "
-          "fix large/body, or order 1",
-          fix->id, fix->style);
-  const std::string reason = system->reason_against_second_order();
-  if (!reason.empty())
-    error->all(FLERR, Error::NOLASTLINE, "Fix nve/sphere/symplectic order 2: {}; or use order 1",
-               reason);
-  if (!announced) announce_order();
-  announced = true;
-}
-
-void FixNVESphereSymplectic::announce_order()
-{
-  const std::vector<std::string> notes = system->notes_on_second_order();
-  if (comm->me) return;
-  utils::logmesg(lmp,
-                 "Fix nve/sphere/symplectic {}: order 2: errors of {} contacts are of second order "
-                 "in the time step\n",
-                 id, notes.empty() ? "all" : "most");
-  for (const std::string &note : notes) utils::logmesg(lmp, "  {}\n", note);
 }
 
 /* ----------------------------------------------------------------------

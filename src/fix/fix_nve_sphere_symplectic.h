@@ -45,6 +45,7 @@ FixStyle(nve/sphere/symplectic,FixNVESphereSymplectic);
 
 #include "constant_gravity.h"
 #include "fix.h"
+#include "second_order_check.h"
 #include "start_time.h"
 #include "system/granular_system.h"
 
@@ -79,15 +80,13 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
   int its_order = 1;
-  bool announced = false;
+  SecondOrderCheck second_order;
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only
 
   void parse_keyword(Talus::Words &);
 
   void check_fix(Fix *);
-  void check_order();
-  void announce_order();
   bigint count_members(const std::function<bool(int)> &);
 
   int nmoving() const;

@@ -62,8 +62,7 @@ FixRigidSmallSymplectic::Settings::Settings(LAMMPS *lmp, int narg, char **arg) :
     if (which == 0) {
       start.set_half(words.choice("value", {"half", "plain"}) == 0);
     } else if (which == 1) {
-      if (words.choice("value", {"1", "2"}) == 1)
-        words.fail(1, "clumps have order 1: use 'order 1', or leave it out");
+      order = 1 + words.choice("value", {"1", "2"});
     } else if (which == 2) {
       gravity.parse(words);
     } else {
@@ -74,6 +73,8 @@ FixRigidSmallSymplectic::Settings::Settings(LAMMPS *lmp, int narg, char **arg) :
     }
     words.about("");
   }
+  const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
+  if (order == 2) SecondOrderCheck::set_half(lmp, title, start, says_start);
 }
 
 FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, int narg, char **arg) :
@@ -83,7 +84,8 @@ FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, int narg, char **a
 
 FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, Settings settings) :
     FixRigidSmallTalus(lmp, static_cast<int>(settings.stock.size()), settings.stock.data()),
-    start(settings.start), gravity(settings.gravity)
+    start(settings.start), its_order(settings.order), second_order(this, lmp, title),
+    gravity(settings.gravity)
 {
   restart_global = 1;
 }
@@ -102,6 +104,7 @@ void FixRigidSmallSymplectic::init()
     error->all(FLERR, Error::NOLASTLINE, "{} {}: {}: use fix rigid/small", title, id, reason);
   for (const Fix *fix : modify->get_fix_list())
     if (fix != this) check_fix(fix);
+  if (its_order == 2) second_order.check(*system);
 }
 
 /* Without a pair style of Talus as well: forces are those of the arrays. */
@@ -144,16 +147,19 @@ bigint FixRigidSmallSymplectic::count_common(const Fix *fix) const
 void FixRigidSmallSymplectic::initial_integrate(int vflag)
 {
   v_init(vflag);
+  const double dt = update->dt, kick_time = start.next_kick(dt), time = kick_time * force_unit();
+  if (start.is_half()) extrapolation = start.lag() / kick_time;
   look_at_storage();
   share_loads();
-  const double dt = update->dt, time = start.next_kick(dt) * force_unit();
   const double *g = gravity.acceleration();
   const Kick kick{time, {time * g[0], time * g[1], time * g[2]}, 1.0};
   const auto motion = [&](auto &s, const auto &sum) {
     using Real = std::decay_t<decltype(s.mass)>;
     s.kick(time, sum.force, sum.torque);
     s.velocity = s.velocity + Talus::in_all_lanes<Real>({kick.fall[0], kick.fall[1], kick.fall[2]});
+    if (its_order == 2) return s.drift_half_way(dt);
     s.drift_freely(dt);
+    return s.sphere_motion();
   };
   if (moves_in_lanes()) {
     move_in_records(motion);
@@ -161,12 +167,22 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
     take_from_lanes();
     for_each_clump([&](int clump, Body &b) {
       ClumpState s = state_of(b);
-      motion(s, loads_on(clump, s));
+      const auto its = motion(s, loads_on(clump, s));
       put_state(s, b);
-      place_spheres(clump, s, b, true, kick);
+      place_spheres(clump, s, its, b, true, kick);
     });
   }
   if (in_records_now()) system->advance(record_step(time));
+}
+
+/* With order 2 velocities are those half way through the last step. */
+
+Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const ClumpState &state) const
+{
+  if (its_order == 1) return state.sphere_motion();
+  ClumpState before = state;
+  before.drift_freely(-2.0 * start.lag());
+  return half_way_between(before.sphere_motion(), state.sphere_motion());
 }
 
 /* The step is complete; but others may look at the clumps in the bodies of the stock class. */

@@ -12,7 +12,9 @@
 
    k as in fix nve/sphere/symplectic, see StartTime. Spheres get their places and velocities from
    the clump. Free rotation keeps L to rounding and its energy without drift; a clump of one sphere
-   moves as that sphere.
+   moves as that sphere. With `order 2`, which is `start half`, spheres have the velocities that the
+   clump gives them half way through the step, so that a contact finds from their changes those at
+   the time of the positions, centripetal accelerations included.
 
    What clumps are, where they come from and how ranks share them: see FixRigidSmallTalus and fix
    rigid/small of LAMMPS, whose words for bodies, `mol`, `infile` and `reinit` are the same.
@@ -21,7 +23,7 @@
    Restart: that of clumps, the start word and the lag.
    Errors: all by error->all on every rank. Constructor: words of the command. init(): run_style
    respa, minimize, particles that are no spheres, another fix that moves spheres of clumps, freezes
-   them, or lets them fall a second time.
+   them, or lets them fall a second time; with `order 2` see second_order_check.h.
 ------------------------------------------------------------------------- */
 
 #ifdef FIX_CLASS
@@ -35,6 +37,7 @@ FixStyle(rigid/small/symplectic,FixRigidSmallSymplectic);
 
 #include "constant_gravity.h"
 #include "fix_rigid_small_talus.h"
+#include "second_order_check.h"
 #include "start_time.h"
 
 #include <string>
@@ -52,23 +55,33 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   void final_integrate() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+
+  // SystemFix
   double next_kick_in_steps() const override;
+  int order() const override { return its_order; }
+  double lag() const override { return start.lag(); }
+  bool keeps_changes() const override { return true; }
 
  protected:
   std::string find_reason() override;
   bool given_masses_stay() const override { return true; }
+  Talus::SphereMotion<double> sphere_motion_of(const Talus::ClumpState<double> &) const override;
+  bool velocities_stay() const override { return states_are_known(); }
 
  private:
   // the words of the stock style, and what the others say
   struct Settings {
     std::vector<char *> stock;
     StartTime start;
+    int order = 1;
     ConstantGravity gravity;
     Settings(LAMMPS *, int, char **);
   };
   FixRigidSmallSymplectic(LAMMPS *, Settings);
 
   StartTime start;
+  int its_order;
+  SecondOrderCheck second_order;
   ConstantGravity gravity;
 
   void check_fix(const Fix *) const;

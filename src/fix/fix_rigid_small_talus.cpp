@@ -40,7 +40,8 @@ void put(const Vector &v, double *a)
 /* ---------------------------------------------------------------------- */
 
 FixRigidSmallTalus::FixRigidSmallTalus(LAMMPS *lmp, int narg, char **arg) :
-    FixRigidSmall(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
+    FixRigidSmall(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
+    extrapolation(half_of_change)
 {
   restart_peratom = 1;
   atom->add_callback(Atom::RESTART);
@@ -145,7 +146,7 @@ void FixRigidSmallTalus::look_at_storage()
 {
   in_records = system->residence() == Residence::RECORDS;
   records = &system->records();
-  if (in_records) records->extrapolation = half_of_change;
+  if (in_records) records->extrapolation = extrapolation;
   if (in_records && !slots_known) find_slots();
 }
 
@@ -194,7 +195,7 @@ Vector FixRigidSmallTalus::shift_of(const ClumpSphere &s) const
 
 bool FixRigidSmallTalus::moves_in_lanes() const
 {
-  return in_records && !evflag && domain->dimension == 3 && !records->keeps_changes();
+  return in_records && !evflag && domain->dimension == 3;
 }
 
 void FixRigidSmallTalus::fill_lanes()
@@ -210,13 +211,29 @@ void FixRigidSmallTalus::take_from_lanes()
   lanes.forget();
 }
 
+/* As ParticleRecords::keep_change() does. */
+
+void FixRigidSmallTalus::write_change(Talus::ChangeRecord &change, const double *v,
+                                      const Vector &v_old, const double *w, const Vector &w_old,
+                                      double radius) const
+{
+  const Vector dv = extrapolation * (vector_of(v) - v_old),
+               dw = radius * (extrapolation * (vector_of(w) - w_old));
+  const double values[8] = {dv.x, dv.y, dv.z, 0.0, dw.x, dw.y, dw.z, 0.0};
+  std::transform(values, values + 8, change.c, [](double one) { return static_cast<float>(one); });
+}
+
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond
    what is accounted for, at the places before. */
 
-void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body &b, bool moves,
-                                       const Kick &kick)
+void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
+                                       const Talus::SphereMotion<double> &motion, Body &b,
+                                       bool moves, const Kick &kick)
 {
   const bool tallies = evflag && kick.share > 0.0;
+  const bool keeps_change = in_records && moves && records->keeps_changes();
+  Talus::ChangeRecord *const changes =
+      !in_records && moves && keeps_changes() ? system->velocity_changes() : nullptr;
   const bool flat = domain->dimension == 2;
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
     if (!s->owned) continue;
@@ -224,17 +241,19 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state, Body 
     double *x = in_records ? records->position[s->slot].c : atom->x[i];
     double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
     double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
-    const Vector x_old = vector_of(x), v_old = vector_of(v);
-    const bool keeps_change = in_records && moves && records->keeps_changes();
+    const Vector x_old = vector_of(x), v_old = vector_of(v), w_old = vector_of(w);
     const Talus::Vec4 before[2] = {keeps_change ? load4(records->velocity(s->slot)) : Talus::Vec4{},
                                    keeps_change ? load4(records->omega(s->slot)) : Talus::Vec4{}};
     const Vector arm = state.axes.to_space(s->place);
     const Vector shift = shift_of(*s);
     if (moves) put(arm + (state.position - shift), x);
-    put(state.velocity + cross(state.omega, arm), v);
-    if (flat) v[2] = 0.0;
     if (flat && moves) x[2] = 0.0;
-    put(state.omega, w);
+    if (moves || !velocities_stay()) {
+      put(motion.velocity_at(s->place), v);
+      if (flat) v[2] = 0.0;
+      put(motion.omega, w);
+    }
+    if (changes) write_change(changes[i], v, v_old, w, w_old, atom->radius[i]);
     if (keeps_change)
       records->keep_change(s->slot, before[0], load4(records->velocity(s->slot)), before[1],
                            load4(records->omega(s->slot)));
@@ -270,7 +289,7 @@ void FixRigidSmallTalus::setup(int vflag)
     put(sum.torque, b.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, b, false, {dtf, {0.0, 0.0, 0.0}, 1.0});
+    place_spheres(clump, s, sphere_motion_of(s), b, false, {dtf, {0.0, 0.0, 0.0}, 1.0});
   });
 }
 
@@ -286,6 +305,7 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
       s.kick(dtf, loads.force, loads.torque);
       s.kick(dtf, loads.force, loads.torque);
       s.drift_extrapolated(dtv);
+      return s.sphere_motion();
     });
   else
     begin_step(in_records);
@@ -295,7 +315,7 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
 Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
 {
   Talus::RecordStep step{update->dt, kick, {0.0, 0.0, 0.0}, 0.4};
-  step.extrapolation = half_of_change;
+  step.extrapolation = extrapolation;
   return step;
 }
 
@@ -313,12 +333,12 @@ void FixRigidSmallTalus::begin_step(bool completes)
       if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);
       s.omega = s.omega_now();
-      if (evflag) place_spheres(clump, s, b, false, no_share);
+      if (evflag) place_spheres(clump, s, s.sphere_motion(), b, false, no_share);
     }
     s.kick(dtf, loads.force, loads.torque);
     s.drift_extrapolated(dtv);
     put_state(s, b);
-    place_spheres(clump, s, b, true, kick);
+    place_spheres(clump, s, s.sphere_motion(), b, true, kick);
   });
 }
 
@@ -340,7 +360,7 @@ void FixRigidSmallTalus::final_integrate()
     s.kick(dtf, loads.force, loads.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, b, false, {dtf, {0.0, 0.0, 0.0}, 0.5});
+    place_spheres(clump, s, s.sphere_motion(), b, false, {dtf, {0.0, 0.0, 0.0}, 0.5});
   });
 }
 

@@ -93,8 +93,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   };
   // ranks tell each other the forces on spheres of clumps that they share; collective
   void share_loads();
-  // motion(state, loads) for all clumps of this rank at the same time, in the records, where its
-  // spheres then get their places: eight clumps at a time
+  // motion(state, loads), which returns that of the spheres, for all clumps of this rank at the
+  // same time, in the records, where its spheres then get their places: eight clumps at a time
   template <class Motion> void move_in_records(Motion motion)
   {
     if (!lanes.are_current()) fill_lanes();
@@ -127,11 +127,24 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   static void put_state(const Talus::ClumpState<double> &s, Body &b);
   Loads loads_on(int clump, const Talus::ClumpState<double> &state) const;
   // the spheres that this rank owns get velocities, and places on request, from the clump's state
-  void place_spheres(int clump, const Talus::ClumpState<double> &state, Body &b, bool moves,
+  // and their motion
+  void place_spheres(int clump, const Talus::ClumpState<double> &state,
+                     const Talus::SphereMotion<double> &motion, Body &b, bool moves,
                      const Kick &kick);
+  // of the spheres of a clump between two steps
+  virtual Talus::SphereMotion<double> sphere_motion_of(const Talus::ClumpState<double> &s) const
+  {
+    return s.sphere_motion();
+  }
+  // of the changes of velocities that this fix keeps, see RecordStep; before spheres are placed
+  double extrapolation;
+  // a set-up has found clumps as the last run has left them
+  bool states_are_known() const { return states_known; }
+  // spheres have velocities that a set-up would find again with other rounding
+  virtual bool velocities_stay() const { return false; }
   // for GranularSystem::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
-  // before the first of these in a step
+  // before the first of these in a step, once `extrapolation` is known
   void look_at_storage();
   double force_unit() const;
   bool in_records_now() const { return in_records; }
@@ -148,12 +161,16 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   int row_size = 0;
   bool slots_known = false;
   bool restored = false;    // from a restart file, and no run since
+  bool states_known = false;
 
   // where spheres are in this step
   bool in_records = false;
   Talus::ParticleRecords *records = nullptr;
 
   int threads() const;
+  void write_change(Talus::ChangeRecord &change, const double *v,
+                    const Talus::Vector3<double> &v_old, const double *w,
+                    const Talus::Vector3<double> &w_old, double radius) const;
   std::string reason_of_spheres() const;
   tagint clump_of(int i) const;
   void write_row(int i, double *row) const;

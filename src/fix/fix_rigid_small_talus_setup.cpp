@@ -77,13 +77,15 @@ void FixRigidSmallTalus::setup_pre_neighbor()
 {
   if (!reason.empty()) return FixRigidSmall::setup_pre_neighbor();
   bool keep = false;
+  states_known = false;
   if (setupflag || restored) {
     if (setupflag)
       FixRigidSmall::pre_neighbor();
     else
       restore_bodies();
     make_table();
-    keep = !reinitflag || keeps_states();
+    states_known = keeps_states();
+    keep = !reinitflag || states_known;
   }
   restored = false;
   if (!keep) {
@@ -125,6 +127,7 @@ bool FixRigidSmallTalus::is_kept(int clump) const
   constexpr double of_states = 1.0e-8, of_masses = 1.0e-10;
   const Body &b = body[table.body[clump]];
   const ClumpState state = state_of(b);
+  const Talus::SphereMotion<double> motion = sphere_motion_of(state);
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
@@ -141,11 +144,11 @@ bool FixRigidSmallTalus::is_kept(int clump) const
     double x[3];
     domain->unmap(atom->x[s->atom], xcmimage[s->atom], x);
     const Vector place = Vector{x[0], x[1], x[2]} - (state.position + arm);
-    const Vector v = its.v - (state.velocity + cross(state.omega, arm));
+    const Vector v = its.v - motion.velocity_at(s->place);
     const double speed = length(state.velocity) + length(state.omega) * (length(arm) + its.radius);
     if (!(length(place) <= of_states * (length(arm) + its.radius)) ||
         !(length(v) <= of_states * speed) ||
-        !(length(its.omega - state.omega) * its.radius <= of_states * speed))
+        !(length(its.omega - motion.omega) * its.radius <= of_states * speed))
       return false;
   }
   if (given_masses_stay()) return true;

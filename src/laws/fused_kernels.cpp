@@ -36,7 +36,7 @@ using Wide = Twice<Vec8>;
 #else
 using Wide = Vec8;
 #endif
-constexpr int wide_lanes = sizeof(Wide) / sizeof(double);
+template <class Real> inline constexpr int width_of = sizeof(Real) / sizeof(double);
 
 template <class... Laws>
 inline constexpr int coefficients_of = (0 + ... + num_coefficients_of<Laws>());
@@ -71,6 +71,25 @@ struct Fused {
   TALUS_INLINE static void compute(ContactBatch &b, int k, const Rows<Real> &c,
                                    const StageInput &in)
   {
+    if constexpr (Tangential::second_order) {
+      if (any_at_an_end<Tangential, Real>(b, k, in.places[remembered - 1])) {
+        for (int n = 0; n < width_of<Real>; n += lanes) compute_ends<accounts>(b, k + n, in);
+        return;
+      }
+    }
+    compute_lanes<accounts, false>(b, k, c, in);
+  }
+
+  template <bool accounts>
+  [[gnu::noinline]] static void compute_ends(ContactBatch &b, int k, const StageInput &in)
+  {
+    compute_lanes<accounts, true>(b, k, rows<Vec8>(in.table[0].c), in);
+  }
+
+  template <bool accounts, bool ends, class Real>
+  TALUS_INLINE static void compute_lanes(ContactBatch &b, int k, const Rows<Real> &c,
+                                         const StageInput &in)
+  {
     ContactLanes<Real> s;
     load_state(b, k, s);
     approach<with_radius>(s);
@@ -80,7 +99,7 @@ struct Fused {
     Normal::template compute<true>(c.normal, s, history, in.dt);
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
-      Tangential::template compute<true>(c.tangential, s, history, in.dt);
+      compute_law<Tangential, true, ends>(c.tangential, s, history, in.dt);
       Real *const of_rolling = history + values_of<Tangential>;
       if constexpr (Rolling::acts) Rolling::template compute<true>(c.rolling, s, of_rolling, in.dt);
       if constexpr (Twisting::acts)
@@ -108,7 +127,7 @@ struct Fused {
   {
     const Rows<Wide> wide = rows<Wide>(in.table[0].c);
     int k = begin;
-    for (; k + wide_lanes <= end; k += wide_lanes) compute<accounts, Wide>(b, k, wide, in);
+    for (; k + width_of<Wide> <= end; k += width_of<Wide>) compute<accounts, Wide>(b, k, wide, in);
     const Rows<Vec8> rest = rows<Vec8>(in.table[0].c);
     for (; k < end; k += lanes) compute<accounts, Vec8>(b, k, rest, in);
   }

@@ -261,26 +261,58 @@ TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
 
 template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;
 
+/// The equation of a law, or of one of second order the part of it that serves between begin and
+/// end of a contact; see SecondOrder::at_an_end().
+template <class L, bool advance, bool ends, class Real>
+TALUS_INLINE void compute_law(const typename L::template Row<Real> &c, ContactLanes<Real> &s,
+                              Real *history, double dt)
+{
+  if constexpr (L::second_order)
+    L::template compute<advance, ends>(c, s, history, dt);
+  else
+    L::template compute<advance>(c, s, history, dt);
+}
+
+/// Whether contacts with a law of second order begin or end among those from lane k on. `stored`:
+/// the last of the numbers that the law remembers.
+template <class L, class Real> TALUS_INLINE bool any_at_an_end(ContactBatch &b, int k, int stored)
+{
+  return any(
+      L::at_an_end(Memory<Real>::load(&b.parted[k]), Memory<Real>::load(&b.history[stored][k])));
+}
+
+template <class L, bool advance, bool ends>
+void run_lanes(ContactBatch &b, int k, const typename L::template Row<Vec8> &c,
+               const StageInput &in)
+{
+  constexpr int remembered = history_size_of<L>;
+  ContactLanes<Vec8> s;
+  load_state(b, k, s);
+  load_found<L::stage>(b, k, s);
+  Vec8 history[remembered + 1];    // none has no length 0
+  for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
+  compute_law<L, advance, ends>(c, s, history, in.dt);
+  store_found<L::stage>(b, k, s);
+  if constexpr (L::second_order) {    // finds the normal force anew
+    visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
+    store(&b.between.adhesive_share[k], s.adhesive_share);
+  }
+  if constexpr (advance)
+    for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
+}
+
 template <class L, bool advance>
 void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
 {
-  constexpr int remembered = history_size_of<L>;
   auto c = spread<L, Vec8>(in.table[0].c + in.first_coefficient);
   for (int k = begin; k < end; k += lanes) {
     if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
-    ContactLanes<Vec8> s;
-    load_state(b, k, s);
-    load_found<L::stage>(b, k, s);
-    Vec8 history[remembered + 1];    // none has no length 0
-    for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
-    L::template compute<advance>(c, s, history, in.dt);
-    store_found<L::stage>(b, k, s);
-    if constexpr (L::second_order) {    // finds the normal force anew
-      visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
-      store(&b.between.adhesive_share[k], s.adhesive_share);
-    }
-    if (!advance) continue;
-    for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
+    if constexpr (L::second_order && advance)
+      if (!any_at_an_end<L, Vec8>(b, k, in.places[history_size_of<L> - 1])) {
+        run_lanes<L, advance, false>(b, k, c, in);
+        continue;
+      }
+    run_lanes<L, advance, true>(b, k, c, in);
   }
 }
 

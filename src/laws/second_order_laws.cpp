@@ -63,12 +63,6 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
   if (tangential.acts && !is_named(tangential, "multistep slider midpoint"))
     return std::string("has the tangential law ") + tangential.name +
            ": use 'tangential multistep kt gt mu slider midpoint'";
-  // the spring of a new contact is soft, the dashpot is not: friction follows its velocity late
-  const bool stiff_dashpot = normal.exponent > 1.0 && damping.damping_exponent(1.5) == 0.0;
-  if (tangential.acts && stiff_dashpot && law.coefficient(Stage::DAMPING, "gt", row) != 0.0)
-    return std::string("has the damping ") + damping.name +
-           " with a tangential dashpot, which is stiffer than the spring where a contact begins: "
-           "use gt = 0 or 'damping viscoelastic'";
   return "";
 }
 

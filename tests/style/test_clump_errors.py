@@ -45,7 +45,6 @@ BAD_WORDS = [
     ("foo", "unknown keyword 'foo', expected start, order, gravity, mol, infile or reinit", "foo"),
     ("start half start plain", "keyword 'start' given twice", "start"),
     ("start", "start: missing value: half or plain", "start"),
-    ("order 2", "order: clumps have order 1: use 'order 1', or leave it out", "2"),
     ("order 3", "order: unknown value '3', expected 1 or 2", "3"),
     ("gravity 9.81 down", "gravity: unknown direction 'down', expected chute, spherical or vector", "down"),
     ("gravity v_g chute 1", "gravity: expected a constant for magnitude instead of variable 'v_g'", "v_g"),
@@ -62,6 +61,13 @@ REFUSED = [
     (f"{FIX}\nfix other all freeze", MOVED.format("freeze") + "freezes them, but they move: give it another group"),
     (f"{FIX} gravity 9.81 vector 0 0 -1\nfix other all gravity 9.81 vector 0 0 -1",
      MOVED.format("gravity") + "lets them fall a second time: leave the word gravity out, or use 'disable' there"),
+    (f"{FIX} order 2", TITLE.replace("move", "order 2") + "the contact of types 1 and 1 has damping that may attract"),
+    (f"{FIX} order 2 start plain", "Fix rigid/small/symplectic order 2: velocities of 'start plain' .* use 'start half'"),
+    (f"group other id > 4\n{FIX} order 2\nfix second other nve/sphere/symplectic start half",
+     r"Fix rigid/small/symplectic order 2: fix second \(nve/sphere/symplectic\) moves particles as well, with order 1: use order 1,"),
+    (f"{FIX} order 2\nregion ball sphere 0 0 0 9\n"
+     "fix wall all wall/gran/region hooke 1000 NULL 1 NULL 0.5 1 region ball",
+     r"Fix rigid/small/symplectic order 2: contacts with fix wall \(wall/gran/region\) are of first order: use fix large/body"),
     (f"{FIX}\nrun_style respa 2 2", TITLE + "run_style respa has levels: use fix rigid/small"),
     (f"{FIX}\nfix_modify move bodyforces early", TITLE + "'fix_modify bodyforces early' is set: use fix rigid/small"),
 ]

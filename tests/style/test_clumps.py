@@ -53,6 +53,12 @@ TALUS = "fix move clumps rigid/small/talus molecule\nfix move2 single nve/sphere
 STOCK = TALUS.replace("/talus", "")
 SYMPLECTIC = """fix move clumps rigid/small/symplectic molecule start half gravity 10 vector 0.2 0 -1
 fix move2 single nve/sphere/symplectic start half gravity 10 vector 0.2 0 -1"""
+LAW = "hertz 2.0e4 50 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
+SECOND = SYMPLECTIC.replace("start half", "order 2")
+# the pair style and the floor
+OF_SECOND = dict(pair=f"pair_style gran/penalty\npair_coeff * * {LAW}",
+                 floor="\n".join(f"fix {n} all large/body plane 0 0 {z}  0 0 {up} contact {LAW}"
+                                 for n, z, up in (("floor", 0, 1), ("roof", 9, -1))))
 GRAVITY = "fix fall all gravity@ 10 vector 0.2 0 -1"
 
 
@@ -62,13 +68,13 @@ class ClumpCase(SceneCase):
         write_clumps(self.path("grains"))
 
     def simulate(self, move=TALUS, np=1, threads=1, every=100, run="run 300", style="comm_proxy yes\nrun_style verlet/proxy",
-                 before="", read=READ, floor="fix floor all " + WALL + " zplane 0 9", suffix=None, gravity=None,
+                 before="", read=READ, floor="fix floor all " + WALL + " zplane 0 9", pair=PAIR, suffix=None, gravity=None,
                  expect=RECORDS, **options):
         """The frames of the dump, and the state at the end."""
         suffix = ("" if move == STOCK else "/talus") if suffix is None else suffix
         gravity = ("" if "gravity" in move else GRAVITY) if gravity is None else gravity
         self.log = self.run_lammps((HEAD + read + REST).format(
-            before=before, pair=PAIR.replace("@", suffix), move=move, floor=floor.replace("@", suffix), style=style,
+            before=before, pair=pair.replace("@", suffix), move=move, floor=floor.replace("@", suffix), style=style,
             every=every, run=run, all=" ".join(ALL), gravity=gravity.replace("@", suffix)), np=np,
             env={"OMP_NUM_THREADS": str(threads)}, **options).log
         if suffix and expect:
@@ -104,27 +110,42 @@ class Clumps(ClumpCase):
 
     def test_same_bits(self):
         """On ranks, threads, with overlap, and however often the arrays are looked at."""
-        for move in TALUS, SYMPLECTIC:
-            reference = {f.step: f for f in self.simulate(move, every=1, style="run_style verlet", expect=None)}
+        for move, rest in (TALUS, {}), (SYMPLECTIC, {}), (SECOND, OF_SECOND):
+            reference = {f.step: f for f in self.simulate(move, every=1, style="run_style verlet", expect=None, **rest)}
             for np, threads, every, grid, overlap in ((1, 1, 7, "", ""), (1, 2, 100, "", ""), (2, 1, 100, "2 1 1", " overlap yes"),
                                                       (4, 1, 50, "1 2 2", " overlap no"), (3, 1, 1000, "3 1 1", "")):
                 with self.subTest(move=move, ranks=np, threads=threads, every=every):
                     frames = self.simulate(move, np, threads, every, before=f"processors {grid}" if grid else "",
-                                           style=f"comm_proxy yes\nrun_style verlet/proxy{overlap}")
+                                           style=f"comm_proxy yes\nrun_style verlet/proxy{overlap}", **rest)
                     for frame in frames:
                         self.assert_same_bits(frame, reference[frame.step])
 
     def test_runs_and_restarts_go_on(self):
         """A new set-up would find the masses and axes anew, with other rounding."""
         restart = f"read_restart state.restart\n{MOLECULES}"
-        for move in TALUS, SYMPLECTIC:
-            divided = self.simulate(move, np=2, run="run 170\nrun 130")[-1]
-            if move == SYMPLECTIC:    # velocity Verlet computes forces with other velocities in a set-up
-                self.assert_same_bits(divided, self.simulate(move)[-1], MOTION)
-            self.simulate(move, np=2, run="run 170\nwrite_restart state.restart")
+        for move, rest in (TALUS, {}), (SYMPLECTIC, {}), (SECOND, OF_SECOND):
+            divided = self.simulate(move, np=2, run="run 170\nrun 130", **rest)[-1]
+            if move != TALUS:    # velocity Verlet computes forces with other velocities in a set-up
+                self.assert_same_bits(divided, self.simulate(move, **rest)[-1], MOTION)
+            self.simulate(move, np=2, run="run 170\nwrite_restart state.restart", **rest)
             for np in 1, 4:
-                found = self.simulate(move, np, run="run 130", read=restart)[-1]
+                found = self.simulate(move, np, run="run 130", read=restart, **rest)[-1]
                 self.assert_same_bits(found, divided, MOTION)
+
+    def test_a_file_of_bodies(self):
+        """ID, mass, center, moments and products of inertia, velocity, angular momentum, periods."""
+        with open(self.path("bodies"), "w") as file:
+            file.write("2\n1 1.3 1.5 1.4 1.3 0.4 0.5 0.6 0.05 0.01 -0.02 1 2 -3 0.1 0.2 0.3 0 0 0\n"
+                       "12 0.9 1.4 1.5 4.4 0.3 0.2 0.4 0 0.05 0 0 1 2 -0.1 0.4 0 0 0 0\n")
+        frames = [self.simulate(f"{move} infile bodies\n{other}", style=style, suffix="/talus" if other == ours else "")
+                  for ours in ["fix move2 single nve/sphere/talus"]
+                  for move, other, style in (("fix move clumps rigid/small/talus molecule", ours,
+                                              "comm_proxy yes\nrun_style verlet/proxy"),
+                                             ("fix move clumps rigid/small molecule", "fix move2 single nve/sphere", ""))]
+        for a, b in zip(*frames):
+            self.assertLess(max_difference(a, b, MOTION), 1e-10)
+        again = self.simulate("fix move clumps rigid/small/talus molecule infile bodies\nfix move2 single nve/sphere/talus", np=2)
+        self.assert_same_bits(frames[0][-1], again[-1])
 
     def test_commands_that_move_spheres_are_heeded(self):
         """They are rigid again, with the momentum that the command gave them."""
@@ -266,9 +287,10 @@ neighbor 0.2 bin
 neigh_modify every 1 delay 0 exclude molecule/intra all
 timestep 0.0005
 fix fall all gravity{suffix} 10 vector 0 0 -1
+{before}
 fix move all {style} molecule mol clump
 region slab block 1 8 1 8 9 13
-fix pour all pour 12 0 4711 vol 0.3 50 region slab mol clump rigid move
+{insert}
 fix floor all wall/gran{suffix} hertz/history 20000 NULL 50 NULL 0.5 1 zplane 0 NULL
 thermo 500
 thermo_style custom step
@@ -310,10 +332,11 @@ GIVEN = "1.1 mass\n0.3 0.25 0.05 com\n0.2 0.22 0.3 0.01 0.0 0.02 inertia\n"
 
 class PouredClumps(SceneCase):
 
-    def pour(self, style, suffix, np=1, more="", given=""):
+    def pour(self, style, suffix, np=1, more="", given="", before="",
+             insert="fix pour all pour 12 0 4711 vol 0.3 50 region slab mol clump rigid move"):
         with open(self.path("clump.mol"), "w") as file:
             file.write(MOLECULE.format(more=given))
-        self.log = self.run_lammps(POUR.format(style=style, suffix=suffix, more=more, all=" ".join(ALL)), np=np).log
+        self.log = self.run_lammps(POUR.format(style=style, suffix=suffix, more=more, before=before, insert=insert, all=" ".join(ALL)), np=np).log
         frame, = read_dump(self.path("last"))
         return frame
 
@@ -325,6 +348,16 @@ class PouredClumps(SceneCase):
             self.assert_same_bits(ours, self.pour("rigid/small/talus", "/talus", np=4, given=given))
             stock = self.pour("rigid/small", "", given=given)
             self.assertLess(max_difference(ours, stock, MOTION), 1e-7)
+
+    def test_fix_deposit_and_create_atoms(self):
+        some = "\n".join(f"create_atoms 0 single {x} {y} 3 mol clump {4711 + x}" for x, y in ((2, 2), (5, 2), (2, 6)))
+        deposit = "fix drop all deposit 5 0 300 4711 region slab mol clump rigid move near 2.5 vz -3 -2"
+        for given in "", GIVEN:
+            words = dict(before=some, insert=deposit, given=given)
+            ours = self.pour("rigid/small/talus", "/talus", **words)
+            self.assertEqual(len(ours.atoms), 24)
+            self.assert_same_bits(ours, self.pour("rigid/small/talus", "/talus", np=2, **words))
+            self.assertLess(max_difference(ours, self.pour("rigid/small", "", **words), MOTION), 1e-7)
 
     def test_given_masses_stay_in_later_runs(self):
         once = self.pour("rigid/small/symplectic", "/talus", given=GIVEN, more="run 200")

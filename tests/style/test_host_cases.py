@@ -18,6 +18,7 @@ from talus_testing import SceneCase, read_dump
 DIRECTORY = os.path.join(os.environ.get("TALUS_LAMMPS_SOURCE", ""), "unittest", "granular", "tests")
 KINDS = {"run_pos": "x y z", "run_vel": "vx vy vz", "run_torque": "tqx tqy tqz", "run_omega": "omegax omegay omegaz"}
 TOLERANCE = 1e-10
+OF_CLUMPS = 1e-4    # their spheres touch each other, if rounding says so: fix rigid/small of another host is 1e-5 off
 
 
 def read_case(path):
@@ -58,7 +59,7 @@ class HostCases(SceneCase):
             for segment, tag, vector in expected[kind]:
                 found = [frames[segment].column(c)[tag] for c in columns.split()]
                 worst = max(worst, sum((a - b)**2 for a, b in zip(found, vector))**0.5 / scale)
-        self.assertLess(worst, TOLERANCE)
+        self.assertLess(worst, OF_CLUMPS if "fix rigid" in case["prerequisites"] else TOLERANCE)
         return worst
 
     def test_trajectories(self):
@@ -66,7 +67,7 @@ class HostCases(SceneCase):
         for path in sorted(glob.glob(os.path.join(DIRECTORY, "*.yaml"))):
             name, case = os.path.basename(path), read_case(path)
             needed = case["prerequisites"]
-            if "atom sphere" not in needed or "pair gran" not in needed or "fix rigid" in needed or \
+            if "atom sphere" not in needed or "pair gran" not in needed or \
                     not {"run_vel", "run_omega", "post_commands"} <= set(case):
                 left_out.append(name)
                 continue
@@ -74,6 +75,8 @@ class HostCases(SceneCase):
                 with self.subTest(case=name, newton=newton):
                     log = self.run_lammps(script(case, newton), arguments=["-sf", "talus"]).log
                     self.assertRegex(log, rf"pair {case['pair_style'].split()[0]} +accelerated")
+                    if "fix rigid" in needed:
+                        self.assertRegex(log, r"rigid/small +accelerated")
                     if "wall/gran" in case["post_commands"]:
                         self.assertRegex(log, r"wall/gran(/region)? +accelerated")
                     found[name] = max(found.get(name, 0.0), self.check(case))

@@ -111,27 +111,36 @@ double squared_error(const State &a, const State &b)
   return sum / static_cast<double>(a.size());
 }
 
-/// Slope of log error over log time step. Many numbers of steps: where in a step contacts begin and
-/// end scatters the errors.
+/// Root mean square error of numbers of steps between `fewest` and twice that: where in a step
+/// contacts begin, end, and friction begins to slide scatters the errors.
+double error(const Engine::Kernels &law, const Scene &scene, int fewest, const State &exact)
+{
+  constexpr int samples = 18;
+  double sum = 0.0;
+  for (int m = 0; m < samples; m++) {
+    const int steps = static_cast<int>(fewest * std::pow(2.0, (m + 0.5) / samples));
+    sum += squared_error(result(law, scene, steps), exact);
+  }
+  return std::sqrt(sum / samples);
+}
+
+/// Slope of log error over log time step, from 128 to 16384 steps. Contacts last for a tenth of the
+/// time of a scene to a half of it.
 double order(const Engine::Kernels &law, const Scene &scene)
 {
-  constexpr int samples = 80, fewest = 100, most = 3000;
-  const State exact = result(law, scene, 1 << 15);
+  constexpr int octaves = 6;
+  const State exact = result(law, scene, 1 << 16);
   double sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
-  for (int k = 0; k < samples; k++) {
-    const double share = k / (samples - 1.0);
-    const int steps = static_cast<int>(fewest * std::pow(most / fewest, share));
-    const double x = -std::log(steps);
-    const double y = 0.5 * std::log(squared_error(result(law, scene, steps), exact));
+  for (int k = 0; k < octaves; k++) {
+    const double x = -k, y = std::log2(error(law, scene, 128 << k, exact));
     sum_x += x;
     sum_y += y;
     sum_xx += x * x;
     sum_xy += x * y;
   }
-  return (samples * sum_xy - sum_x * sum_y) / (samples * sum_xx - sum_x * sum_x);
+  return (octaves * sum_xy - sum_x * sum_y) / (octaves * sum_xx - sum_x * sum_x);
 }
 
-/// With a tangential dashpot as well.
 const char *const normal_laws[] = {
     "hooke 2e4 0",
     "hertz 1.75e5 0",
@@ -141,49 +150,21 @@ const char *const normal_laws[] = {
     "hertz/material 1.5e5 0.6 0.3 limit_damping",
     "hooke 2e4 0.6 damping tsuji limit_damping",
     "hooke 2e4 20 damping velocity limit_damping",
-    "hertz/material 1.5e5 0.6 0.3 damping coeff_restitution limit_damping",
-};
-const char *const stiff_dampings[] = {
     "hertz 1.75e5 80 damping mass_velocity limit_damping",
     "hertz 1.75e5 20 damping velocity limit_damping",
-};
-const char *const frictions[] = {
-    "",
-    "tangential multistep NULL NULL 0.3 slider midpoint",
-    "tangential multistep NULL NULL 2 slider midpoint",
+    "hertz/material 1.5e5 0.6 0.3 damping coeff_restitution limit_damping",
 };
 
-/// The words of friction stand before limit_damping.
-std::string words_of(std::string normal, const std::string &more)
+/// The words of friction stand before limit_damping. An elastic hooke has kt of its own: with 2/7
+/// kn a contact that sticks ends with friction and normal force zero at the same time, see below.
+std::string words_of(const std::string &normal, const char *mu, const std::string &adhesion = "")
 {
-  const std::string limit = "limit_damping";
+  const std::string limit = "limit_damping", kt = normal == "hooke 2e4 0" ? "8e3" : "NULL";
+  std::string more = adhesion;
+  if (mu) more += " tangential multistep " + kt + " NULL " + mu + " slider midpoint";
   const std::size_t at = normal.find(limit);
   if (at == std::string::npos) return normal + " " + more;
   return normal.substr(0, at) + more + " " + limit;
-}
-
-/// Friction that begins to stick or to slip within a step gives errors of second order that scatter
-/// a lot; where all others are small they are what is seen at these numbers of steps, so that the
-/// slope is lower than 2.
-struct Exception {
-  const char *scene, *words;    ///< parts of names
-  double least;
-};
-const Exception exceptions[] = {
-    {"cluster", "tangential", 1.5},
-    {"oblique", "hooke 2e4 0 tangential", 1.2},
-    {"on a plane", "hertz/material 1.5e5 0.6 0.3 adhesion", 1.3},
-    {"on a plane", "hertz 1.75e5 400 adhesion constant", 1.5},
-    {"oblique", "damping velocity tangential multistep NULL NULL 2", 1.7},
-    {"stack", "damping mass_velocity tangential", 1.4},
-};
-
-double least_order(const std::string &words, const Scene &scene)
-{
-  for (const Exception &one : exceptions)
-    if (std::string(scene.name) == one.scene && words.find(one.words) != std::string::npos)
-      return one.least;
-  return 1.75;
 }
 
 void expect_second_order(const std::string &words, const Scene &scene)
@@ -191,7 +172,7 @@ void expect_second_order(const std::string &words, const Scene &scene)
   ASSERT_EQ(Engine::reason_against(words), "") << words;
   const double found = order(Engine::Kernels(words), scene);
   std::printf("%-12s %5.2f  %s\n", scene.name, found, words.c_str());
-  EXPECT_GT(found, least_order(words, scene)) << scene.name << ": " << words;
+  EXPECT_GT(found, 1.8) << scene.name << ": " << words;
 }
 
 }    // namespace
@@ -199,35 +180,32 @@ void expect_second_order(const std::string &words, const Scene &scene)
 TEST(OrderOfLaws, IsTwo)
 {
   for (const char *normal : normal_laws)
-    for (const char *friction : frictions)
+    for (const char *mu : {static_cast<const char *>(nullptr), "0.3", "2"})
       for (const Scene &scene : {head_on(), oblique(), on_plane(), stack(), cluster()})
-        expect_second_order(words_of(normal, friction), scene);
-}
-
-TEST(OrderOfLaws, IsTwoWithDampingThatDoesNotSoften)
-{
-  for (const char *normal : stiff_dampings)
-    for (const char *friction : {"", "tangential multistep NULL 0 0.3 slider midpoint"})
-      for (const Scene &scene : {head_on(), oblique(), on_plane(), stack(), cluster()})
-        expect_second_order(words_of(normal, friction), scene);
-}
-
-/// Refused: the law has a limit, this method is late where a contact begins.
-TEST(OrderOfLaws, IsOneWithATangentialDashpotThatDoesNotSoften)
-{
-  const std::string friction = "tangential multistep NULL NULL 0.3 slider midpoint";
-  for (const char *normal : stiff_dampings) {
-    const std::string words = words_of(normal, friction);
-    EXPECT_NE(Engine::reason_against(words), "");
-    EXPECT_LT(order(Engine::Kernels(words), oblique()), 1.6) << words;
-  }
+        expect_second_order(words_of(normal, mu), scene);
 }
 
 TEST(OrderOfLaws, IsTwoWithAdhesion)
 {
   for (const char *normal : normal_laws)
     for (const char *adhesion : {"adhesion constant 3", "adhesion dmt 3", "adhesion perko 3"})
-      for (const char *friction : {"", " tangential multistep NULL NULL 0.3 slider midpoint"})
+      for (const char *mu : {static_cast<const char *>(nullptr), "0.3"})
         for (const Scene &scene : {head_on(), oblique(), on_plane(), cluster()})
-          expect_second_order(words_of(normal, std::string(adhesion) + friction), scene);
+          expect_second_order(words_of(normal, mu, adhesion), scene);
+}
+
+/* Without damping and with kt = 2/7 kn a contact that sticks turns its spring back to zero just as
+   it ends: it slides for a time far below a step, which few steps see. Those have an error of
+   second order as well, but 100 times that of the others. */
+TEST(OrderOfLaws, IsTwoWhereASpringEndsWithItsContact)
+{
+  const Engine::Kernels law("hooke 2e4 0 tangential multistep NULL NULL 2 slider midpoint");
+  for (const Scene &scene : {oblique(), on_plane()}) {
+    const State exact = result(law, scene, 1 << 16);
+    for (int steps = 256; steps < 8192; steps += 1 + steps / 64) {
+      const double scaled = steps / 1024.0;
+      EXPECT_LT(squared_error(result(law, scene, steps), exact) * std::pow(scaled, 4.0), 4.0e-8)
+          << scene.name << ", " << steps;
+    }
+  }
 }

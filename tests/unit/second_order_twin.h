@@ -29,6 +29,12 @@
 
 namespace Twin {
 
+/// a by the rotation from one normal to n, which is half way at n - q; to second order in q.
+inline Vec rotated(Vec a, Vec n, Vec q)
+{
+  return a + dot(a, n) * (q - n);
+}
+
 /// Hurwitz' zeta(-p, t), p >= 0, t > 0: Euler-Maclaurin behind the first terms of the sum.
 inline double zeta(double p, double t)
 {
@@ -258,10 +264,14 @@ class System {
                            : law.limit_damping ? limited_end(p, c, before, speed)
                                                : unlimited_end(p, theta, speed);
       Vec friction{};
-      if (c.slid) {
+      if (law.mu > 0.0 && c.force > 0.0) {
         const Coefficients was = coefficients(law, before, p.mass, p.radius);
         const Vec u = surface_velocity(p.v, p.spin, p.n);
-        friction = law.mu * error * unit(was.kt * turned(c.s, p.n) + was.gt * u);
+        const Vec f = was.kt * rotated(c.s, p.n, half_turn(p)) + was.gt * u;
+        if (c.slid)
+          friction = law.mu * error * unit(f);
+        else if (with.slip)
+          friction = sticks_to_the_end(p, c, f, was, u, before, speed);
       }
       const double pull = -law.adhesion * zeta(0.0, theta);
       apply(p, -(error + pull) * p.n + friction, cross(p.n, friction), Vec{});
@@ -289,6 +299,38 @@ class System {
     const double most = (was.kn * before - was.gn * speed) * std::pow(e.reach / rest, exponent);
     const double push = most * dt * dt / (p.mass * e.reach);
     return most * (elastic_error(e, e.theta - 1.0) - push * second_at_end(exponent, e.theta));
+  }
+
+  /// The sum of a friction that sticks in the last step, less its integral: from there on to the
+  /// end of the normal force it changes as its spring does, and follows the limit once it meets it.
+  Vec sticks_to_the_end(const Pair &p, const Contact &c, Vec f, const Coefficients &was, Vec u,
+                        double before, double speed) const
+  {
+    const double rest = law.limit_damping ? before - was.gn * speed / was.kn : before;
+    const Edge e = edge(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    if (!e.is) return {};
+    const double limit = law.mu * c.force, falls = limit / e.theta;
+    const Vec rate = dt * was.kt * u;
+    const double rises = dot(unit(f), rate);
+    double sticks = e.theta;
+    if (falls + rises > 0.0) sticks = (limit - length(f)) / (falls + rises);
+    sticks = std::clamp(sticks, 0.0, e.theta);
+    const double slides_on = e.theta - sticks;
+    const Vec integral =
+        sticks * f + 0.5 * sticks * sticks * rate + 0.5 * falls * slides_on * slides_on * unit(f);
+    return 0.5 * f + (1.0 / 12.0) * rate - integral;
+  }
+
+  /// Damping has held the normal force at zero a step ago: since when in the step it has grown to
+  /// F, in parts of it. Its rate: of elastic force, dashpot's coefficient and velocity.
+  double since_return(const Pair &p, const Coefficients &now, double force) const
+  {
+    const double vn = dot(p.v, p.n);
+    const double turning = p.j ? (dot(p.v, p.v) - vn * vn) / p.distance : 0.0;
+    const double change = dot(p.a, p.n) + turning;
+    const double growth = -law.elastic_exponent() * now.kn * vn +
+                          law.damping_exponent() * now.gn / p.d * vn * vn - now.gn * change;
+    return growth * dt > force ? force / (growth * dt) : 1.0;
   }
 
   void touch(const Pair &p, Contact &c)
@@ -323,7 +365,9 @@ class System {
     Vec friction{};
     if (law.mu > 0.0) {
       const Vec u = surface_velocity(p.v + forward * p.a, p.spin + forward * p.alpha, p.n);
-      const Vec wanted = friction_of(p, c, now, u, theta, law.mu * std::fabs(pure));
+      const bool returns = with.slip && c.touches && c.force == 0.0 && pure > 0.0;
+      const double share = returns ? since_return(p, now, pure) : theta;
+      const Vec wanted = friction_of(p, c, now, u, share, law.mu * std::fabs(pure));
       friction = wanted;
       if (begins && with.ends)
         friction = friction + elastic_error(start, theta) * most.kt * dt * u +
@@ -372,6 +416,12 @@ class System {
 
   static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }
 
+  /// Half of what the normal turns in a step.
+  Vec half_turn(const Pair &p) const
+  {
+    return p.j ? (0.5 * dt / p.distance) * across(p.v, p.n) : Vec{};
+  }
+
   static Vec capped(Vec a, double limit)
   {
     const double l = length(a);
@@ -388,12 +438,10 @@ class System {
     const double lasted = with.midpoint ? theta * dt : dt;
     const double time = lag > 0.0 ? lasted : 0.0;
     Vec before, slip;
-    const Vec old_r = p.distance * p.n - dt * p.v;
-    const Vec old_n = p.j ? unit(old_r) : p.n;
     if (with.midpoint) {
-      const Vec half_n = p.j ? unit(p.distance * p.n - 0.5 * dt * p.v) : p.n;
-      before = turned(c.s, p.n);
-      slip = time * turned(surface_velocity(p.v, p.spin, half_n), p.n);
+      const Vec q = half_turn(p), spin = p.spin + dot(p.spin, p.n) * q;
+      before = rotated(c.s, p.n, q);
+      slip = time * (surface_velocity(p.v, spin, p.n) + dot(p.v, p.n) * q);
     } else {
       before = across(c.s, p.n);
       slip = time * surface_velocity(p.v, p.spin, p.n);
@@ -408,29 +456,34 @@ class System {
       c.s = (1.0 / now.kt) * (end - now.gt * u);
       return -1.0 * end;
     }
-    if (!with.slip || !c.touches || time == 0.0) {
+    if (!with.slip || time == 0.0) {
       if (time > 0.0) c.s = (1.0 / (tau + time)) * (tau * before + (time / now.kt) * end);
       const Vec reach = now.kt * c.s + now.gt * u;
       return -limit * unit(reach);
     }
-    // the force a step ago
-    const double d0 = std::max(p.d + dt * dot(p.v, p.n), 0.0);
+    // the force a step ago; of a contact that begins, that of the dashpot where it did
+    const double h = c.touches ? dt : time;
+    const double d0 = c.touches ? std::max(p.d + dt * dot(p.v, p.n), 0.0) : 0.0;
     const Coefficients old = coefficients(law, d0, p.mass, p.radius);
     const Coefficients mid = coefficients(law, 0.5 * (d0 + p.d), p.mass, p.radius);
-    const Vec u_old = turned(surface_velocity(p.v - lag * p.a, p.spin - lag * p.alpha, old_n), p.n);
-    const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
-    const Vec u_mid = (1.0 / time) * slip;
-    const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
-    // g = f/kt: at its limit half way along `along`
-    const Vec g_old = old.kt > 0.0 ? (1.0 / old.kt) * f_old : Vec{};
-    const double most = limit / now.kt, b = dot(along, g_old);
-    const double root = b * b + most * most - dot(g_old, g_old);
-    Vec g = (1.0 / now.kt) * end;
-    if (root >= 0.0 && b + std::sqrt(root) > 0.0) g = (b + std::sqrt(root)) * along - g_old;
-    // tau s' + s = g with g linear in time: second order for small dt/tau, s = g for large
+    Vec g = (1.0 / now.kt) * end, rate{};
+    if (c.touches) {
+      const Vec u_mid = (1.0 / time) * slip, u_old = 2.0 * u_mid - u;
+      const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
+      const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
+      // g = f/kt: at its limit half way along `along`
+      const Vec g_old = old.kt > 0.0 ? (1.0 / old.kt) * f_old : Vec{};
+      const double most = limit / now.kt, b = dot(along, g_old);
+      const double root = b * b + most * most - dot(g_old, g_old);
+      if (root >= 0.0 && b + std::sqrt(root) > 0.0) g = (b + std::sqrt(root)) * along - g_old;
+      if (old.gt > 0.0) rate = (1.0 / old.gt) * f_old;
+    } else if (now.gt > 0.0)
+      rate = std::max(-law.mu * now.gn * dot(p.v, p.n) / now.gt, 0.0) * unit(f);
+    // s' = f/gt - s/tau with f/gt linear in time: second order for small h/tau, s = g for large
+    if (now.gt > 0.0) rate = rate + (now.kt / now.gt) * g;
     const double t_mid = mid.gt / mid.kt;
-    c.s = (1.0 / (t_mid * t_mid + t_mid * dt + 0.5 * dt * dt)) *
-          (t_mid * t_mid * before + (0.5 * t_mid * dt) * g_old + (0.5 * dt * (t_mid + dt)) * g);
+    c.s = (1.0 / (t_mid * t_mid + t_mid * h + 0.5 * h * h)) *
+          (t_mid * t_mid * (before + 0.5 * h * rate) + 0.5 * h * h * g);
     return -limit * unit(now.kt * c.s + now.gt * u);
   }
 

@@ -13,6 +13,32 @@
 
 namespace Talus {
 
+/// How the spheres of a clump move. `place`: of a sphere relative to the center of mass, along the
+/// principal axes.
+template <class Real> struct SphereMotion {
+  Vector3<Real> velocity;       ///< of the center of mass
+  PrincipalAxes<Real> rates;    ///< at which the axes move
+  Vector3<Real> omega;
+
+  Vector3<Real> velocity_at(const Vector3<Real> &place) const
+  {
+    return velocity + rates.to_space(place);
+  }
+};
+
+/// Half way between two moments, to second order in the time between them.
+template <class Real>
+inline SphereMotion<Real> half_way_between(const SphereMotion<Real> &a, const SphereMotion<Real> &b)
+{
+  const Real half = splat<Real>(0.5);
+  const auto mean = [half](const Vector3<Real> &u, const Vector3<Real> &v) {
+    return half * (u + v);
+  };
+  return {mean(a.velocity, b.velocity),
+          {mean(a.rates.x, b.rates.x), mean(a.rates.y, b.rates.y), mean(a.rates.z, b.rates.z)},
+          mean(a.omega, b.omega)};
+}
+
 /// A clump in units of mass, length, time. Quantities of motion are those of its center of mass;
 /// angular ones have the axes of space.
 template <class Real> struct ClumpState {
@@ -26,6 +52,12 @@ template <class Real> struct ClumpState {
 
   /// Of its angular momentum, in its present orientation.
   Vector3<Real> omega_now() const { return omega_of(axes); }
+
+  /// Of its spheres, in its present orientation.
+  SphereMotion<Real> sphere_motion() const
+  {
+    return {velocity, {cross(omega, axes.x), cross(omega, axes.y), cross(omega, axes.z)}, omega};
+  }
 
   /// velocity += kick (force/mass), momentum += kick torque.
   void kick(double kick, const Vector3<Real> &force, const Vector3<Real> &torque)
@@ -61,6 +93,16 @@ template <class Real> struct ClumpState {
         rotate_freely(turn, momentum, axes.to_body(momentum), inverse_inertia, dt);
     axes = turn.axes();
     omega = axes.to_space(by_inertia(along));
+  }
+
+  /// The same; returns the motion of its spheres half way, in which they get from place to place,
+  /// for contacts of second order.
+  SphereMotion<Real> drift_half_way(double dt)
+  {
+    omega = omega_now();
+    const SphereMotion<Real> before = sphere_motion();
+    drift_freely(dt);
+    return half_way_between(before, sphere_motion());
   }
 
  private:

@@ -105,6 +105,23 @@ template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta
   return sum;
 }
 
+/// What the sum over the steps lacks of the friction f of a contact that sticks in its last step
+/// and ends theta steps later, where its limit is 0: on the way there it changes by `rate` in a step
+/// until it meets the limit, and follows it.
+template <class Real>
+TALUS_INLINE Vector3<Real> end_of_sticking(const Vector3<Real> &f, const Vector3<Real> &rate,
+                                           Real limit, Real theta)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), half = splat<Real>(0.5);
+  const Real size = square_root(dot(f, f)), some = select(size > zero, one / size, zero);
+  const Real falls = limit / theta, closes = falls + some * dot(f, rate);
+  const Real until = select(closes > zero, (limit - size) / closes, theta);
+  const Real sticks = select(until < theta, select(until > zero, until, zero), theta);
+  const Real slides = theta - sticks;
+  return (sticks - half + half * slides * slides * falls * some) * f +
+         (half * sticks * sticks - splat<Real>(1.0 / 12.0)) * rate;
+}
+
 /// Forces of contacts that have parted, and what these remember from now on.
 template <class Real> struct EndOfContact {
   bool_of<Real> parted;

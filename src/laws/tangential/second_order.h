@@ -14,11 +14,7 @@
 //     for a sum that does not begin on a grid point): it is subtracted. p: exponents of elastic
 //     force and damping. Only if the overlap is at most what one step brings;
 //   * where it ends the same, see end_of_contact.h;
-//   * the displacement of multistep midpoint;
-//   * a sliding contact moves along the mean of its old and its new force (generalized midpoint
-//     rule of plasticity: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561), and the spring
-//     follows the force g kt, |g kt| = L at its limit, by (gt/kt) d' + d = g: with g linear in the
-//     step an L-stable rule of second order. Equal to the rule of Ortiz and Popov if gt = 0.
+//   * the displacement, and the return of a sliding contact to its limit: see midpoint.h.
 //
 // The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
 // flags: it began in that step, it slid. So a force can be computed again without advancing. Of a
@@ -30,22 +26,11 @@
 #include "base/flagged_number.h"
 #include "laws/tangential/common.h"
 #include "laws/tangential/end_of_contact.h"
-#include "laws/tangential/multistep.h"
+#include "laws/tangential/midpoint.h"
 
 namespace Talus {
 
-/// x^p for p = 0, 1/4, 1/2, 1, 3/2 and x >= 0.
-template <class Real> TALUS_INLINE Real power(Real x, Real p)
-{
-  const Real root = square_root(x);
-  const auto chosen = [p](double below, Real yes, Real no) {
-    return select(p < splat<Real>(below), yes, no);
-  };
-  return chosen(0.125, splat<Real>(1.0),
-                chosen(0.375, square_root(root), chosen(0.75, root, chosen(1.25, x, x * root))));
-}
-
-/// Hurwitz' zeta(-p, t) for the same p and 0 < t <= 1: t^p + zeta(-p, 1 + t), and that by
+/// Hurwitz' zeta(-p, t) for the p of power() and 0 < t <= 1: t^p + zeta(-p, 1 + t), and that by
 /// polynomials, to 4e-8.
 template <class Real> TALUS_INLINE Real hurwitz_zeta(Real p, Real t)
 {
@@ -125,16 +110,6 @@ template <class Real> struct Beginning {
   Real elastic, damping;
 };
 
-/// What the return of a sliding contact to its limit takes of the state.
-template <class Real> struct Slide {
-  Real kt, gt, overlap, normal_velocity, inverse_distance;
-  Real old_limit;    ///< of the last step
-  double dt;
-  bool_of<Real> known;    ///< it was there a step ago
-  Vector3<Real> normal, velocity, turn;
-  Vector3<Real> old_velocity, old_rotation;    ///< a step ago
-};
-
 template <class Real> struct SecondOrderRow {
   Real mu, elastic_exponent, damping_exponent;
 };
@@ -162,26 +137,31 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return friction ? 0.5 * s.kt * dot(d, d) : 0.0;
   }
 
-  template <bool advance, class Real>
+  /// Contacts that begin or end in this step, or have had no normal force in the last one; few do.
+  /// Elsewhere compute<true, false>() is enough, with the same bits.
+  template <class Real> TALUS_INLINE static bool_of<Real> at_an_end(Real parted, Real stored)
+  {
+    return (stored >= splat<Real>(-no_force)) | (parted > splat<Real>(0.0));
+  }
+
+  template <bool advance, bool ends = true, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     s.adhesive_share = one;
     EndOfContact<Real> end;
-    const bool any_ended = any((s.parted > zero) | (h[3] > zero));
-    if (any_ended) end = end_of<advance>(c, s, h, dt);
+    if constexpr (ends) end = end_of<advance>(c, s, h, dt);
     const LastStep<Real> last = last_step(h[3]);
     Real pure = find_normal_force(s, last);
     if constexpr (!advance) pure = select(last.known, last.force, pure);
 
-    const Real approach = -dt * s.normal_velocity;
     auto begins = last.began;
-    if constexpr (advance)
-      begins = (h[3] >= zero) & (s.lag > zero) & (approach + approach >= s.overlap);
     Beginning<Real> start{one, zero, zero};
     Real force = pure, theta = one;
-    const bool any_begins = any(begins);
-    if (any_begins) {
+    if constexpr (ends) {
+      const Real approach = -dt * s.normal_velocity;
+      if constexpr (advance)
+        begins = (h[3] >= zero) & (s.lag > zero) & (approach + approach >= s.overlap);
       const Real others = 2.0 * dot(s.velocity_change, s.normal);
       const Edge<Real> edge =
           edge_of<Of::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
@@ -205,32 +185,67 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                                                   s.surface_rotation + s.rotation_change, s.normal);
       Vector3<Real> d{h[0], h[1], h[2]};
       const Real limit = c.mu * pure;
-      if constexpr (advance) {
-        slides = move<Real>(c, s, last, theta, u, limit, dt, d);
-        h[0] = d.x;
-        h[1] = d.y;
-        h[2] = d.z;
-      } else {
-        const Vector3<Real> f = s.kt * d + s.gt * u;
-        slides = slides | (dot(f, f) > limit * limit);
+      Real old_limit = c.mu * last.force;
+      if constexpr (ends && advance) {
+        const Real since = share_since_return(c, s, pure, dt);
+        theta = select(last.known & (last.force < splat<Real>(no_force)), since, theta);
+        old_limit = select(last.known, old_limit, limit_at_begin(c, s));
       }
-      const Vector3<Real> within = -(s.kt * d + s.gt * u);
-      t = select(slides, with_length(limit, within), within);
-      if (any_begins) {
+      const Real time = dt * theta;
+      Vector3<Real> before = d, half_way = u;
+      if constexpr (advance) {
+        const Vector3<Real> q = half_turn(s, dt);
+        before = turned_by(q, d, s.normal);
+        half_way = velocity_half_way(s, q);
+        d = before + time * half_way;
+      }
+      Vector3<Real> f = s.kt * d + s.gt * u;
+      const auto exceeds = dot(f, f) > limit * limit;
+      slides = advance ? exceeds : slides | exceeds;
+      t = -f;
+      if (any(slides)) {
+        if constexpr (advance) {
+          const Slide<Real> way{s.kt,
+                                s.gt,
+                                s.overlap,
+                                s.overlap + dt * s.normal_velocity,
+                                c.elastic_exponent - one,
+                                c.damping_exponent,
+                                limit,
+                                old_limit,
+                                before,
+                                half_way,
+                                u,
+                                f,
+                                time,
+                                dt};
+          Vector3<Real> slid = slide(way);
+          if constexpr (ends) slid = select(last.known, slid, first_slide(way));
+          d = select(slides, slid, d);
+          f = s.kt * d + s.gt * u;
+        }
+        t = select(slides, with_length(limit, -f), t);
+      }
+      if constexpr (ends) {
         const Real most = c.mu * s.critical_force;
         const Vector3<Real> early = start.elastic / start.ratio * dt * s.kt * u;
         const Vector3<Real> sticks = limited(t + early + start.damping * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
+      if constexpr (advance) {
+        h[0] = d.x;
+        h[1] = d.y;
+        h[2] = d.z;
+      }
     }
     if constexpr (advance)
       h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
-    if (any_ended) end.replace(s, t, h);
+    if constexpr (ends) end.replace(s, t, h);
     add_tangential(s, t);
   }
 
  private:
-  static constexpr double least_force = 1.0e-200;
+  static constexpr double least_force = 1.0e-200, no_force = 2.0e-200;
 
   /// Rounded to what is remembered of it, and above zero.
   template <class Real>
@@ -244,8 +259,27 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return without_flags(select(force > least, force, least));
   }
 
-  // These two are seldom called: functions of their own, which are not given the whole state, so
-  // that it can stay in registers.
+  /// Where damping has held a force at 0 which is F now, the part of the step since it began to
+  /// grow: before, the spring was at rest.
+  template <class Real>
+  static Real share_since_return(const Row<Real> &c, const ContactLanes<Real> &s, Real force,
+                                 double dt)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
+    const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
+    const auto touches = s.overlap > zero;
+    const Real of_gn = c.damping_exponent * s.gn * v / select(touches, s.overlap, one);
+    const Real growth = dt * v * (of_gn - s.tangent_n) - s.gn * change;
+    return select(growth > force, force / select(growth > zero, growth, one), one);
+  }
+
+  /// Of friction where the overlap is 0 and the normal force is that of damping.
+  template <class Real>
+  TALUS_INLINE static Real limit_at_begin(const Row<Real> &c, const ContactLanes<Real> &s)
+  {
+    const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
+    return select(limit > zero, limit, zero);
+  }
 
   template <Of which, class Real>
   static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, const Edge<Real> &edge)
@@ -289,7 +323,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     // limited damping: the force ends before the overlap
     const auto damped = s.gn * v > zero;
     const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
-    const auto pressed = ends & (last.force > splat<Real>(2.0 * least_force));
+    const auto pressed = ends & (last.force > splat<Real>(no_force));
     const Real left = s.elastic - s.gn * v;
     const Real others =
         2.0 * (dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force);
@@ -304,9 +338,12 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const Vector3<Real> d{h[0], h[1], h[2]};
     end.tangential = {zero, zero, zero};
     if constexpr (friction) {
-      const Vector3<Real> within = -(s.kt * turned(d, s.normal) + s.gt * surface_velocity(s));
-      end.tangential =
-          select(last.slid, with_length(c.mu * end.normal_force, within), end.tangential);
+      const Vector3<Real> now = turned_by(half_turn(s, dt), d, s.normal), u = surface_velocity(s);
+      const Vector3<Real> within = -(s.kt * now + s.gt * u);
+      const Vector3<Real> stuck =
+          end_of_sticking(within, -dt * s.kt * u, c.mu * last.force, edge.theta);
+      end.tangential = select(last.slid, with_length(c.mu * end.normal_force, within),
+                              select(edge.is, stuck, end.tangential));
     }
     for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
     const Real flags = select(last.slid, splat<Real>(2.0), zero);
@@ -314,84 +351,6 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     const auto again = (h[3] > zero) & (s.parted <= zero);
     for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
     return end;
-  }
-
-  /// v_t of these velocities, n across the surface.
-  template <class Real>
-  TALUS_INLINE static Vector3<Real>
-  surface_velocity_of(const Vector3<Real> &v, const Vector3<Real> &rotation, const Vector3<Real> &n)
-  {
-    return v - dot(v, n) * n - cross(rotation, n);
-  }
-
-  /// Advances d by a step; whether the contact slides.
-  template <class Real>
-  TALUS_INLINE static bool_of<Real>
-  move(const Row<Real> &c, const ContactLanes<Real> &s, const LastStep<Real> &last, Real theta,
-       const Vector3<Real> &u, Real limit, double dt, Vector3<Real> &d)
-  {
-    const Real time = dt * theta;
-    const Vector3<Real> before = turned(d, s.normal);
-    const Vector3<Real> slip = turned(step_displacement(s, dt, time), s.normal);
-    d = before + slip;
-    const Vector3<Real> f = s.kt * d + s.gt * u;
-    const auto slides = dot(f, f) > limit * limit;
-    if (any(slides)) {
-      const Slide<Real> its{s.kt,
-                            s.gt,
-                            s.overlap,
-                            s.normal_velocity,
-                            s.inverse_distance,
-                            c.mu * last.force,
-                            dt,
-                            last.known,
-                            s.normal,
-                            s.velocity,
-                            s.turn,
-                            s.velocity - s.velocity_change,
-                            s.surface_rotation - s.rotation_change};
-      d = select(slides, slide(c, its, before, slip, with_length(limit, f), time), d);
-    }
-    return slides;
-  }
-
-  /// Displacement of a sliding contact. `end`: force at its limit, by the end of the step.
-  template <class Real>
-  static Vector3<Real> slide(const Row<Real> &c, const Slide<Real> &s, const Vector3<Real> &before,
-                             const Vector3<Real> &slip, const Vector3<Real> &end, Real time)
-  {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    const double dt = s.dt;
-    const auto safe = [&](Real a) { return select(a > zero, a, one); };
-    const Real tau = s.gt / safe(s.kt);
-    const Vector3<Real> g_end = one / safe(s.kt) * end;
-    const Vector3<Real> at_once = one / (tau + time) * (tau * before + time * g_end);
-
-    // stiffness and damping a step ago and half way
-    const Real d0 = s.overlap + dt * s.normal_velocity;
-    const Real x_old = select(d0 > zero, d0, zero) / safe(s.overlap), x_mid = 0.5 * (one + x_old);
-    const Real of_kt = c.elastic_exponent - one, of_gt = c.damping_exponent;
-    const Real kt_old = s.kt * power(x_old, of_kt), gt_old = s.gt * power(x_old, of_gt);
-    const Real kt_mid = s.kt * power(x_mid, of_kt), gt_mid = s.gt * power(x_mid, of_gt);
-
-    const Vector3<Real> n_old =
-        with_length(one, s.normal - (dt * s.inverse_distance) * s.velocity - s.turn);
-    const Vector3<Real> u_old =
-        turned(surface_velocity_of(s.old_velocity, s.old_rotation, n_old), s.normal);
-    const Vector3<Real> f_old = limited(kt_old * before + gt_old * u_old, s.old_limit);
-    const Vector3<Real> along = with_length(one, kt_mid * (before + splat<Real>(0.5) * slip) +
-                                                     gt_mid * (one / safe(time) * slip));
-
-    const Vector3<Real> g_old = select(kt_old > zero, one / safe(kt_old), zero) * f_old;
-    const Real b = dot(along, g_old);
-    const Real root = b * b + dot(g_end, g_end) - dot(g_old, g_old);
-    const Real reach = b + square_root(select(root > zero, root, zero));
-    const Vector3<Real> g = select((root >= zero) & (reach > zero), reach * along - g_old, g_end);
-    const Real t = gt_mid / safe(kt_mid);
-    const Vector3<Real> half_way =
-        one / (t * t + dt * t + splat<Real>(0.5 * dt * dt)) *
-        (t * t * before + 0.5 * dt * t * g_old + 0.5 * dt * (t + splat<Real>(dt)) * g);
-    return select(s.known, half_way, at_once);
   }
 };
 
