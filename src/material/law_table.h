@@ -41,6 +41,8 @@ class LawTable {
     return (advance ? accounting : accounting_at_rest)[law_index];
   }
   const ContactLaw &distinct_law(int law_index) const { return distinct[law_index]; }
+  /// Elastic normal forces of a row grow as overlap^force_exponent.
+  double force_exponent(int row) const { return distinct[law_index(row)].normal().exponent; }
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
   bool uniform() const { return one_row; }

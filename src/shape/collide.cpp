@@ -45,16 +45,17 @@ void to_space(const Pose &pose, std::vector<ConvexContact> &contacts)
    margin, and what is looked at; contacts themselves are computed from the poses alone. */
 
 void find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, double merging,
-                   ConvexContacts &contacts)
+                   double force_exponent, ConvexContacts &contacts)
 {
   const double margin = too_near * pair.scale();
   if (radius.sum() > 0.0 && gap.width > margin) {
-    add_feature_contacts(pair, radius, gap, contacts.points);
+    add_feature_contacts(pair, radius, gap, force_exponent, contacts.points);
     return;
   }
   const LeastDepth least = find_least_depth(pair, gap);
   if (radius.sum() > 0.0 && least.depth < -margin) {
-    add_feature_contacts(pair, radius, {least.direction, -least.depth}, contacts.points);
+    add_feature_contacts(pair, radius, {least.direction, -least.depth}, force_exponent,
+                         contacts.points);
     return;
   }
   if (!(least.depth + radius.sum() > 0.0)) return;
@@ -70,7 +71,8 @@ double merging_length(const ConvexShape &a, const ConvexShape &b)
 }
 
 bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
-             SeparatingDirection &direction, ConvexContacts &contacts, NarrowPhase method)
+             SeparatingDirection &direction, ConvexContacts &contacts, NarrowPhase method,
+             double force_exponent)
 {
   contacts.clear();
   const Vector apart = pose_a.position - pose_b.position;
@@ -97,7 +99,7 @@ bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, con
     const Gap gap = find_gap(pair, start, enough, 1.0e-3 * radius.sum());
     direction.direction = pose_a.direction_in_space(gap.direction);
     if (gap.width > enough) return false;
-    find_contacts(pair, radius, gap, merging_length(a, b), contacts);
+    find_contacts(pair, radius, gap, merging_length(a, b), force_exponent, contacts);
   }
   to_space(pose_a, contacts.points);
   return !contacts.points.empty();

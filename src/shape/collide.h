@@ -6,9 +6,16 @@
 // cores are nearer than R = r_a + r_b, as sphero-polyhedra do (S. A. Galindo-Torres, Comput. Meth.
 // Appl. Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core,
 // and each pair of edges that are nearest to each other inside of both. A contact is one of two
-// spheres at the nearest points. All are continuous functions of the poses; edges have the weight
-// that their ends leave, 1 - (overlap of the deepest of the four ends)/(overlap of the edges), so
-// that nothing jumps where an edge contact runs into a vertex or edges become parallel.
+// spheres at the nearest points; overlaps are continuous functions of the poses, and so are their
+// derivatives. Forces follow from an energy, so that elastic impacts keep the sum: it is
+//
+//   sum over vertices of phi(o_v) + sum over pairs of edges of
+//   phi(o_e) prod over the four ends k of (1 - 3 p_k^2 + 2 p_k^3), p_k = phi(o_k)/phi(o_e),
+//
+// phi(o) ~ o^(force_exponent + 1). So an edge contact fades that runs into a vertex, or whose ends
+// are as deep (parallel edges), and nothing jumps. The derivatives by the overlaps, over phi', are
+// the weights: 1 of a contact that is alone; a vertex at which an edge contact is about to end may
+// have less than 0, and the edge then has more than 1.
 //
 // Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
 // the normals of faces and the cross products of edges (theorem of the separating axis). The faces
@@ -35,9 +42,11 @@ enum class NarrowPhase {
 };
 
 /// Contacts of two convex bodies; returns whether there are any. The direction is read and written.
+/// `force_exponent`: the elastic force of a contact grows as overlap^force_exponent (1: linear,
+/// 3/2: hertz), which weights depend on.
 bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, const Pose &pose_b,
              SeparatingDirection &direction, ConvexContacts &contacts,
-             NarrowPhase method = NarrowPhase::FEATURES);
+             NarrowPhase method = NarrowPhase::FEATURES, double force_exponent = 1.0);
 
 /// Contacts with what is not convex bodies. The body is a, and the other b: normals point to the
 /// body. At most one contact with a sphere, at the point of the core that is nearest to its center;

@@ -17,8 +17,9 @@ struct ConvexContact {
   Vector3<double> position;    ///< in space: half way between the two surfaces
   Vector3<double> normal;      ///< unit vector from b to a: what is repelled pushes a along it
   double overlap;              ///< > 0
-  /// 0 < weight: forces and torques of the law are multiplied by it. Points that come near each
-  /// other share the weight of one, so that forces are continuous where contact points merge.
+  /// Forces and torques of the law are multiplied by it, so that they are continuous where contact
+  /// points merge. Of a vertex beside an edge contact it may be negative, see collide.h; the force
+  /// of all points together repels.
   double weight;
   /// Which parts touch, see contact_name(): the same in successive steps as long as the same parts
   /// touch, and different for all contacts of a pair. History is kept by it.

@@ -13,6 +13,7 @@ using Vector = Vector3<double>;
 struct Candidates {
   std::vector<int> vertices, edges;
   std::vector<double> overlap;    // of all vertices; 0: none
+  std::vector<int> contact;       // of all vertices that overlap: which of the contacts
 
   void find(const ConvexCore &core, const Vector &direction, double height);
 };
@@ -24,6 +25,7 @@ void Candidates::find(const ConvexCore &core, const Vector &direction, double he
   vertices.clear();
   edges.clear();
   overlap.assign(core.num_vertices(), -1.0);
+  contact.resize(core.num_vertices());
   const VectorArray &x = core.all_vertices();
   const double *cx = x.of(0), *cy = x.of(1), *cz = x.of(2);
   for (int v = 0; v < core.num_vertices(); v++)
@@ -57,15 +59,21 @@ struct Segment {
   int edge;
   Vector from, along;
   double square;
-  double overlap_of_ends;
+  int end[2];
+  double overlap[2];    // of the ends
 };
 
 Segment segment_of(const ConvexCore &core, const Pose &frame, const Candidates &candidates, int e)
 {
   const ConvexCore::Edge &edge = core.edge(e);
-  const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
-  return {e, frame.point_in_space(from), frame.direction_in_space(along), dot(along, along),
-          std::max(candidates.overlap[edge.vertex[0]], candidates.overlap[edge.vertex[1]])};
+  const int from = edge.vertex[0], to = edge.vertex[1];
+  const Vector along = core.vertex(to) - core.vertex(from);
+  return {e,
+          frame.point_in_space(core.vertex(from)),
+          frame.direction_in_space(along),
+          dot(along, along),
+          {from, to},
+          {candidates.overlap[from], candidates.overlap[to]}};
 }
 
 /* The nearest points of two lines, if they are between the ends of both edges; see C. Ericson,
@@ -83,9 +91,57 @@ bool edges_touch(const Segment &a, const Segment &b, Rounding radius, ConvexCont
   if (square >= radius.sum() * radius.sum() || square == 0.0) return false;
   const double distance = std::sqrt(square);
   contact = sphere_contact(p, q, (1.0 / distance) * pq, distance, radius);
-  contact.weight = 1.0 - std::max(a.overlap_of_ends, b.overlap_of_ends) / contact.overlap;
   contact.name = contact_name(ContactParts::EDGES, a.edge, b.edge);
-  return contact.weight > least_weight;
+  return true;
+}
+
+/* (o_end/o)^m, m being the exponent of energies. */
+
+double energy_ratio(double of_end, double of_edges, double force_exponent)
+{
+  const double y = of_end / of_edges;
+  if (force_exponent == 1.0) return y * y;
+  if (force_exponent == 1.5) return y * y * std::sqrt(y);
+  return std::pow(y, force_exponent + 1.0);
+}
+
+/// Weights that a contact of two edges has, and takes from those of its ends (two of a, two of b).
+struct EdgeWeights {
+  double own, of_end[4];
+};
+
+/* The derivatives of the energy phi(o) prod_k (1 - 3 p_k^2 + 2 p_k^3), p_k = (o_k/o)^m, phi ~ o^m:
+   by o over phi'(o), and by -o_k over phi'(o_k). */
+
+bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double force_exponent,
+                      EdgeWeights &weights)
+{
+  const double of_end[4] = {a.overlap[0], a.overlap[1], b.overlap[0], b.overlap[1]};
+  double left[4], shared[4];
+  weights.own = 1.0;
+  for (int k = 0; k < 4; k++) {
+    if (of_end[k] >= overlap) return false;
+    const double p = energy_ratio(of_end[k], overlap, force_exponent);
+    left[k] = 1.0 - p * p * (3.0 - 2.0 * p);
+    weights.of_end[k] = 6.0 * p * (1.0 - p);
+    shared[k] = p * weights.of_end[k];
+    weights.own *= left[k];
+  }
+  for (int k = 0; k < 4; k++) {
+    double others = 1.0;
+    for (int l = 0; l < 4; l++)
+      if (l != k) others *= left[l];
+    weights.of_end[k] *= others;
+    weights.own += shared[k] * others;
+  }
+  return weights.own > least_weight;
+}
+
+void take_from_ends(const Segment &edge, const Candidates &candidates, const double *weight,
+                    std::vector<ConvexContact> &contacts)
+{
+  for (int k = 0; k < 2; k++)
+    if (edge.overlap[k] > 0.0) contacts[candidates.contact[edge.end[k]]].weight -= weight[k];
 }
 
 }    // namespace
@@ -99,7 +155,7 @@ void sort_by_name(std::vector<ConvexContact> &contacts)
 /* Whatever is nearer than the radii is nearer than that along any direction. */
 
 void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
-                          std::vector<ConvexContact> &contacts)
+                          double force_exponent, std::vector<ConvexContact> &contacts)
 {
   static thread_local Candidates of_a, of_b;
   static thread_local std::vector<Segment> segments;
@@ -117,6 +173,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
     const CorePoint near = nearest_point(pair.b, seen.point_in_body(x));
     of_a.overlap[v] = std::max(0.0, radius.sum() - near.distance);
     if (!(of_a.overlap[v] > 0.0)) continue;
+    of_a.contact[v] = static_cast<int>(contacts.size());
     contacts.push_back(sphere_contact(x, seen.point_in_space(near.point),
                                       seen.direction_in_space(near.normal), near.distance, radius));
     contacts.back().name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
@@ -126,6 +183,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
     const CorePoint near = nearest_point(pair.a, x);
     of_b.overlap[v] = std::max(0.0, radius.sum() - near.distance);
     if (!(of_b.overlap[v] > 0.0)) continue;
+    of_b.contact[v] = static_cast<int>(contacts.size());
     contacts.push_back(sphere_contact(near.point, x, -near.normal, near.distance, radius));
     contacts.back().name = contact_name(ContactParts::VERTEX_OF_B, 0, v);
   }
@@ -134,10 +192,17 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
   for (const int e : of_b.edges) segments.push_back(segment_of(pair.b, seen, of_b, e));
   const Pose own;
   ConvexContact contact;
+  EdgeWeights weights;
   for (const int e : of_a.edges) {
     const Segment a = segment_of(pair.a, own, of_a, e);
-    for (const Segment &b : segments)
-      if (edges_touch(a, b, radius, contact)) contacts.push_back(contact);
+    for (const Segment &b : segments) {
+      if (!edges_touch(a, b, radius, contact)) continue;
+      if (!weights_of_edges(a, b, contact.overlap, force_exponent, weights)) continue;
+      contact.weight = weights.own;
+      contacts.push_back(contact);
+      take_from_ends(a, of_a, weights.of_end, contacts);
+      take_from_ends(b, of_b, weights.of_end + 2, contacts);
+    }
   }
   sort_by_name(contacts);
 }

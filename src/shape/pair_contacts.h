@@ -20,9 +20,9 @@ struct Rounding {
 };
 
 /// Of rounded cores that are apart, in whatever direction (`gap.width` > 0): vertices of each with
-/// the nearest points of the other, and pairs of edges.
+/// the nearest points of the other, and pairs of edges. Forces ~ overlap^force_exponent.
 void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
-                          std::vector<ConvexContact> &contacts);
+                          double force_exponent, std::vector<ConvexContact> &contacts);
 
 /// Of cores that overlap by `least`: corners of the polygon that the faces along its direction have
 /// in common. Corners nearer to each other than `merging` are one.

@@ -139,7 +139,7 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
   chunk.points.clear();
   chunk.pair_of_point.clear();
   std::size_t old = 0;
-  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, step, chunk, p, old);
+  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, laws, step, chunk, p, old);
   batch.compute({laws, step.dt, step.advance, step.account}, chunk.points.data(),
                 chunk.points.size());
   sum_points(chunk);
@@ -147,14 +147,16 @@ void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, co
 
 /* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
 
-void ShapedPairs::find_points(const ShapedView &view, const Step &step, Chunk &chunk, int p,
-                              std::size_t &old)
+void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, const Step &step,
+                              Chunk &chunk, int p, std::size_t &old)
 {
   Pair &pair = list[p];
   const std::size_t known = old;
   while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
   const Solid &a = solids[pair.first], &b = solids[pair.second];
-  if (!a.may_touch(b) || !touch(a, b, shapes.method(), pair.direction, chunk.found)) return;
+  if (!a.may_touch(b)) return;
+  if (!touch(a, b, shapes.method(), laws.force_exponent(pair.row), pair.direction, chunk.found))
+    return;
   const int i = pair.first, j = pair.second;
   const double change = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   PointContact point{};

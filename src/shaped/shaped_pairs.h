@@ -106,8 +106,8 @@ class ShapedPairs {
   void place_solids(const ShapedView &view, int threads);
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                      PointBatch &batch);
-  void find_points(const ShapedView &view, const Step &step, Chunk &chunk, int pair,
-                   std::size_t &old);
+  void find_points(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
+                   int pair, std::size_t &old);
   void account(WorkAccount &to) const;
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;

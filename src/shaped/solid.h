@@ -27,8 +27,9 @@ struct Solid {
 
 /// Contacts of two particles of which at least one has a shape, with normals from b to a; returns
 /// whether there are any. The direction is read and written, see SeparatingDirection.
-bool touch(const Solid &a, const Solid &b, NarrowPhase method, SeparatingDirection &direction,
-           ConvexContacts &contacts);
+/// `force_exponent`: see collide().
+bool touch(const Solid &a, const Solid &b, NarrowPhase method, double force_exponent,
+           SeparatingDirection &direction, ConvexContacts &contacts);
 
 }    // namespace Talus
 
