@@ -35,7 +35,7 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
   for (const Law *its : {&law.rolling(), &law.twisting()})
     if (!second_order_stage(*its))
       return std::string("has the ") + name_of(its->stage) + " law " + its->name +
-             ": use 'rolling', 'spinning' or 'sds'";
+             ": use 'rolling mu' and 'spinning mu'";
   if (law.coefficient(Stage::ROLLING, "roll_min", row) > 0.0 ||
       law.coefficient(Stage::TWISTING, "twist_min", row) > 0.0)
     return "has speeds below which resistance does not act: give 0 as the second and third number "

@@ -172,8 +172,8 @@ inline Resisting resist(const Resistance &law, const ResistanceInput &in,
       result.moment = kept.age >= law.delay ? most * unit(w + change) : Vec{};
     else if (second) {
       const Vec own = turns * turned(kept.roll.moment, in.n);
-      result.moment = (1.0 / turns) * holding(law, w, change, own, turns * in.moment, turns * most,
-                                              kept.roll);
+      result.moment =
+          (1.0 / turns) * holding(law, w, change, own, turns * in.moment, turns * most, kept.roll);
       kept.roll.moment = result.moment + in.moment;
     } else
       result.moment = no_longer((0.25 / turns) * w - in.moment, most);
@@ -190,12 +190,13 @@ inline Resisting resist(const Resistance &law, const ResistanceInput &in,
     result.torque = -in.radius * cross(in.n, f);
   }
   if (law.mu_twist > 0.0) {
-    const Vec along{dot(in.omega, in.n), 0.0, 0.0}, its_change{dot(in.omega_change, in.n), 0.0, 0.0};
+    const Vec along{dot(in.omega, in.n), 0.0, 0.0},
+        its_change{dot(in.omega_change, in.n), 0.0, 0.0};
     Vec angle;
-    result.twist += spring(law.k_twist, law.gamma_twist, in, law.mu_twist, {kept.angle, 0.0, 0.0},
-                           time * along, along + ahead * its_change, along - its_change, second,
-                           angle)
-                        .x;
+    result.twist +=
+        spring(law.k_twist, law.gamma_twist, in, law.mu_twist, {kept.angle, 0.0, 0.0}, time * along,
+               along + ahead * its_change, along - its_change, second, angle)
+            .x;
     kept.angle = angle.x;
   }
   kept.age += in.dt;

@@ -160,8 +160,8 @@ class Motion {
     batch.arm_loss[k] = j ? (reach - distance) / reach : 0.0;
     batch.arm_difference[k] = j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
     const double d = reach - distance, in_plane = 2.0 * i.radius * d - d * d;
-    batch.circle[k] = j ? Talus::circle_of_intersection(i.radius, rj, d)
-                        : std::sqrt(std::max(in_plane, 0.0));
+    batch.circle[k] =
+        j ? Talus::circle_of_intersection(i.radius, rj, d) : std::sqrt(std::max(in_plane, 0.0));
     batch.lag = lag;
     batch.overlap[k] = reach - distance;
     batch.inverse_mass[k] = 1.0 / i.mass + mass_j;

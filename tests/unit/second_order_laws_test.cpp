@@ -163,7 +163,8 @@ class Impact {
       EXPECT_EQ(batch.moment[d][0], before.moment[d][0]);
       EXPECT_EQ(batch.twisting_torque[d][0], before.twisting_torque[d][0]);
     }
-    for (int n = 0; n < ContactBatch::history_size; n++) EXPECT_EQ(batch.history[n][0], before.history[n][0]);
+    for (int n = 0; n < ContactBatch::history_size; n++)
+      EXPECT_EQ(batch.history[n][0], before.history[n][0]);
   }
 
   const Kernels &kernels;
@@ -283,8 +284,8 @@ TEST(SecondOrderLaws, WithResistanceToRollingAndSpinning)
         " rolling " + std::to_string(mu) + " spinning " + std::to_string(mu) + " limit_damping";
     Twin::Law law = numbers(true, 1.75e5, 400, 0.3);
     law.resistance.mu_r = law.resistance.mu_s = mu;
-    expect_same(law, "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint" +
-                         resistance);
+    expect_same(law,
+                "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint" + resistance);
     law = numbers(false, 2e4, 80, 0.0);
     law.resistance.mu_r = law.resistance.mu_s = mu;
     expect_same(law, "hooke 2e4 80" + resistance);

@@ -55,9 +55,7 @@ template <class Real> TALUS_INLINE HeldRotation<Real> held_rotation(const Real *
 template <class Real> TALUS_INLINE Vector3<Real> as_remembered(const Vector3<Real> &moment)
 {
   const Real zero = splat<Real>(0.0), least = splat<Real>(1.0e-200);
-  const auto one = [&](Real a) {
-    return first_of_pair(select(magnitude(a) > zero, a, least));
-  };
+  const auto one = [&](Real a) { return first_of_pair(select(magnitude(a) > zero, a, least)); };
   return {one(moment.x), one(moment.y), one(moment.z)};
 }
 
@@ -126,8 +124,7 @@ TALUS_INLINE Vector3<Real> hold_rotation(const Vector3<Real> &w, const Vector3<R
   const auto steady = dot(jump, jump) <= splat<Real>(steady_jump * steady_jump);
 
   const RotationFlow<Real> flow = rotation_flow(w, others - given, most);
-  const auto by_flow =
-      steady & ((select(flow.stops, zero, one) > zero) | kept.moved);
+  const auto by_flow = steady & ((select(flow.stops, zero, one) > zero) | kept.moved);
   const Real share = splat<Real>(held_share);
   const Vector3<Real> held = before + share * (w + twice), turns = before + share * (w + change);
   kept.moved = select(by_flow, select(flow.stops, zero, one),

@@ -28,7 +28,8 @@ struct HoldingOrder2 : RollingLaw {
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real *h, double dt)
   {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), turns = response(s.inverse_mass, dt);
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0),
+               turns = response(s.inverse_mass, dt);
     const Real inverse = select(turns > zero, one / select(turns > zero, turns, one), zero);
     const Real presses = select(s.normal_force > zero, s.normal_force, zero);
     const auto across = [&s](const Vector3<Real> &v) { return v - dot(v, s.normal) * s.normal; };
@@ -36,9 +37,8 @@ struct HoldingOrder2 : RollingLaw {
     HeldRotation<Real> kept = held_rotation(h);
     const Vector3<Real> stored = kept.own;
     kept.own = turns * turned(kept.own, s.normal);
-    const Vector3<Real> found =
-        hold_rotation(across(s.surface_rotation), across(s.rotation_change), turns * s.moment,
-                      turns * c.mu * presses, kept);
+    const Vector3<Real> found = hold_rotation(across(s.surface_rotation), across(s.rotation_change),
+                                              turns * s.moment, turns * c.mu * presses, kept);
     Vector3<Real> whole = as_remembered(inverse * found + s.moment);
     if constexpr (advance) {
       kept.own = whole;

@@ -59,10 +59,10 @@ struct StoppingOrder2 : TwistingLaw {
     const Real stored[3] = {h[0], zero, zero};
     HeldRotation<Real> kept = held_rotation(stored);
     kept.own = turns * kept.own;
-    Real found = inverse * hold_rotation(vector(dot(s.relative_omega, s.normal)),
-                                         vector(dot(s.omega_change, s.normal)), vector(zero), limit,
-                                         kept)
-                               .x;
+    Real found =
+        inverse * hold_rotation(vector(dot(s.relative_omega, s.normal)),
+                                vector(dot(s.omega_change, s.normal)), vector(zero), limit, kept)
+                      .x;
     const auto is_smooth = rolls > smooth * smooth * reach * reach;
     const Real speed = square_root(square);
     found = select(is_smooth, most * along / select(speed > zero, speed, one), found);
