@@ -3,6 +3,7 @@
 #include "comm/comm_proxy.h"
 
 #include "exchange/exchange_tags.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -99,7 +100,7 @@ void CommProxy::begin(ProxyPacker *packer)
 {
   if (!have_plan) error->all(FLERR, "comm_proxy: no plan yet for an exchange (internal error)");
   finish();
-  transfer.begin(packer ? *packer : choose_packer());
+  transfer.begin(choose_packer(packer));
   if (checks) poison_proxies();
 }
 
@@ -110,10 +111,22 @@ void CommProxy::finish()
   if (checks) check_states();
 }
 
-ProxyPacker &CommProxy::choose_packer()
+ProxyPacker &CommProxy::choose_packer(ProxyPacker *given)
 {
-  if (own_packing) return sphere_packer;
-  return host_packer;
+  ProxyPacker *its = given;
+  if (!its && own_packing) its = &sphere_packer;
+  if (!its) its = &host_packer;
+  if (!system->shapes()) return *its;
+  with_orientations.set(*its, system->shapes()->orientations());
+  return with_orientations;
+}
+
+/* Of the states in the arrays of the host. */
+
+int CommProxy::stride() const
+{
+  const int of_state = own_packing ? sphere_packer.stride() : host_packer.stride();
+  return of_state + (system->shapes() ? PackerWithRows::columns : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -135,7 +148,8 @@ void CommProxy::derive_plan()
 int CommProxy::largest_stride() const
 {
   constexpr int identity = 2;
-  return std::max({sphere_packer.stride(), host_packer.stride(), identity});
+  const int largest = std::max({sphere_packer.stride(), host_packer.stride(), identity});
+  return largest + (system->shapes() ? PackerWithRows::columns : 0);
 }
 
 /* Runs once through the host's swaps, with the identity of particles instead of their state: what
@@ -202,17 +216,16 @@ double CommProxy::messages_per_exchange() const
 
 double CommProxy::bytes_per_exchange() const
 {
-  return transfer.bytes_per_exchange(own_packing ? sphere_packer.stride() : host_packer.stride());
+  return transfer.bytes_per_exchange(stride());
 }
 
 std::string CommProxy::describe_message() const
 {
-  if (!own_packing) {
-    const auto bytes = sizeof(double) * host_packer.stride();
-    return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {})", bytes,
-                       atom->atom_style);
-  }
-  return "72 bytes per particle: x, v, omega";
+  const auto bytes = sizeof(double) * stride();
+  const char *more = system->shapes() ? ", orientation" : "";
+  if (own_packing) return fmt::format("{} bytes per particle: x, v, omega{}", bytes, more);
+  return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {}){}", bytes,
+                     atom->atom_style, more);
 }
 
 double CommProxy::memory_usage()

@@ -15,6 +15,7 @@
 #define LMP_COMM_PROXY_H
 
 #include "comm/atom_packers.h"
+#include "exchange/packer_with_rows.h"
 #include "exchange/proxy_exchange.h"
 
 #include "system/granular_system.h"
@@ -97,7 +98,8 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   std::string describe_message() const override;
 
  private:
-  Talus::ProxyPacker &choose_packer();
+  Talus::ProxyPacker &choose_packer(Talus::ProxyPacker *given);
+  int stride() const;
   void look_for_unsupported();
   void derive_plan();
   int largest_stride() const;
@@ -111,6 +113,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   Talus::ProxyExchange transfer;
   Talus::HostPacker host_packer;
   Talus::SpherePacker sphere_packer;
+  Talus::PackerWithRows with_orientations;
   bool have_plan = false;      ///< the same on all ranks
   bool aside = false;          ///< in this run, see stands_aside()
   bool own_packing = false;    ///< atom style sphere

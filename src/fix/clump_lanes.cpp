@@ -3,44 +3,82 @@
 #include "clump_lanes.h"
 
 using namespace LAMMPS_NS;
-using Talus::Record;
+using Vector3 = Talus::Vector3<double>;
 
-void ClumpLanes::make(const ClumpTable &table)
+void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &records)
 {
-  Talus::renew(states, static_cast<std::size_t>(rows_per_clump) * table.size());
-  Talus::renew(places, table.spheres.size());
-  for (std::size_t n = 0; n < places.size(); n++) {
-    const Talus::Vector3<double> &d = table.spheres[n].place;
-    places[n] = {{d.x, d.y, d.z, 0.0}};
+  groups.assign((table.size() + lanes - 1) / lanes, Group{});
+  rows.clear();
+  for (int g = 0; g < num_groups(); g++) {
+    Group &group = groups[g];
+    group.first_clump = lanes * g;
+    group.end_clump = std::min(table.size(), lanes * (g + 1));
+    std::int64_t most = 0;
+    for (int c = group.first_clump; c < group.end_clump; c++)
+      most = std::max(most, table.first[c + 1] - table.first[c]);
+    group.first_row = static_cast<int>(rows.size());
+    for (int m = 0; m < most; m++) make_row(table, records, group, m);
+    group.end_row = static_cast<int>(rows.size());
+    for (int k = 0; k < lanes; k++)    // lanes without a clump
+      group.number[Group::MASS][k] = group.number[Group::TURN][k] = 1.0;
   }
   current = true;
 }
 
+void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords &records,
+                          const Group &group, int m)
+{
+  Row row{};
+  int usual = 0;
+  for_each_sphere(table, group, m, [&](int k, const ClumpSphere &sphere) {
+    const double place[3] = {sphere.place.x, sphere.place.y, sphere.place.z};
+    for (int d = 0; d < 3; d++) row.number[Row::PLACE + d][k] = place[d];
+    if (!sphere.owned) return;
+    row.slot[k] = sphere.slot;
+    row.number[Row::RADIUS][k] = records.position[sphere.slot].c[3];
+    row.number[Row::INVERSE_RADIUS][k] = records.omega(sphere.slot).c[3];
+    row.number[Row::INVERSE_MASS][k] = records.velocity(sphere.slot).c[3];
+    if (!sphere.wrapped && row.number[Row::INVERSE_MASS][k] > 0.0) usual++;
+  });
+  row.usual = usual == lanes;
+  rows.push_back(row);
+}
+
 void ClumpLanes::set(int clump, const Talus::ClumpState<double> &s)
 {
-  row(clump, POSITION) = {{s.position.x, s.position.y, s.position.z, s.mass}};
-  row(clump, VELOCITY) = {{s.velocity.x, s.velocity.y, s.velocity.z, 0.0}};
-  row(clump, MOMENTUM) = {{s.momentum.x, s.momentum.y, s.momentum.z, 0.0}};
-  row(clump, TURN) = {{s.turn.w, s.turn.x, s.turn.y, s.turn.z}};
-  row(clump, INERTIA) = {{s.inverse_inertia.x, s.inverse_inertia.y, s.inverse_inertia.z, 0.0}};
-  row(clump, OMEGA) = {{s.omega.x, s.omega.y, s.omega.z, 0.0}};
+  Group &group = groups[clump / lanes];
+  const int k = clump % lanes;
+  const auto put = [&](int which, const Vector3 &v) {
+    group.number[which][k] = v.x;
+    group.number[which + 1][k] = v.y;
+    group.number[which + 2][k] = v.z;
+  };
+  group.number[Group::MASS][k] = s.mass;
+  put(Group::POSITION, s.position);
+  put(Group::VELOCITY, s.velocity);
+  put(Group::MOMENTUM, s.momentum);
+  put(Group::TURN, {s.turn.w, s.turn.x, s.turn.y});
+  group.number[Group::TURN + 3][k] = s.turn.z;
+  put(Group::INERTIA, s.inverse_inertia);
+  put(Group::OMEGA, s.omega);
 }
 
 Talus::ClumpState<double> ClumpLanes::get(int clump) const
 {
-  const auto three = [&](Row which) {
-    const double *c = row(clump, which).c;
-    return Talus::Vector3<double>{c[0], c[1], c[2]};
+  const Group &group = groups[clump / lanes];
+  const int k = clump % lanes;
+  const auto three = [&](int which) {
+    return Vector3{group.number[which][k], group.number[which + 1][k], group.number[which + 2][k]};
   };
-  const double *q = row(clump, TURN).c;
   Talus::ClumpState<double> s;
-  s.mass = row(clump, POSITION).c[3];
-  s.inverse_inertia = three(INERTIA);
-  s.position = three(POSITION);
-  s.velocity = three(VELOCITY);
-  s.momentum = three(MOMENTUM);
-  s.omega = three(OMEGA);
-  s.turn = {q[0], q[1], q[2], q[3]};
+  s.mass = group.number[Group::MASS][k];
+  s.inverse_inertia = three(Group::INERTIA);
+  s.position = three(Group::POSITION);
+  s.velocity = three(Group::VELOCITY);
+  s.momentum = three(Group::MOMENTUM);
+  s.omega = three(Group::OMEGA);
+  const double(*q)[lanes] = &group.number[Group::TURN];
+  s.turn = {q[0][k], q[1][k], q[2][k], q[3][k]};
   s.axes = s.turn.axes();
   return s;
 }

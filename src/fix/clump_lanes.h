@@ -14,8 +14,12 @@
 namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
-   Clumps while their spheres are in the records: states of clumps and places of spheres as rows of
-   four numbers, eight of which become lanes and are moved together, with the bits of one by one.
+   Clumps while their spheres are in the records: groups of eight clumps, lane by lane, that are
+   moved together, with the bits of one by one. The m-th spheres of the clumps of a group are a row.
+
+   In a usual row all eight spheres are there, owned, free to move and in the periodic box of their
+   centers: what does not change of them is kept as lanes, and the rest of their records is read and
+   written as a whole. In other rows spheres are looked at one by one.
 
    Made by the fix that moves clumps; used until neighbor lists are made anew, or a step is made in
    the arrays of the host.
@@ -34,166 +38,220 @@ class ClumpLanes {
   bool are_current() const { return current; }
   void forget() { current = false; }
 
-  // rows for so many clumps, to be set by set(), and places of spheres
-  void make(const ClumpTable &table);
+  // places of spheres, whose slots are known, and room for the states of the clumps, to be set
+  void make(const ClumpTable &table, const Talus::ParticleRecords &records);
   void set(int clump, const Talus::ClumpState<double> &state);
   Talus::ClumpState<double> get(int clump) const;
+  int num_groups() const { return static_cast<int>(groups.size()); }
 
-  // find_motion(state, sums) moves clumps begin ... begin+7, of which those below `end` are there,
-  // and returns that of their spheres; those of this rank get their places and velocities. row(sphere): force and torque on one
-  // that another rank owns; shift(sphere): a record, by which the center of mass is away as it is
+  // find_motion(state, sums) moves the clumps of a group and returns the motion of their spheres;
+  // those of this rank get their places and velocities. row(sphere): force and torque on one that
+  // another rank owns; shift(sphere): a record, by which the center of mass is away as it is
   // counted, of one that is wrapped
   template <class FindMotion, class RowOfSphere, class Shift>
-  void move(const ClumpTable &table, Talus::ParticleRecords &records, int begin, int end,
+  void move(const ClumpTable &table, Talus::ParticleRecords &records, int group,
             FindMotion find_motion, RowOfSphere row, Shift shift)
   {
-    State s = load(begin, end);
-    const Sums sums = sum_loads(table, records, begin, end, s, row);
-    const Motion its = find_motion(s, sums);
-    keep(s, begin, end);
+    if (group + 1 < num_groups()) call(records, groups[group + 1]);
+    Group &its = groups[group];
+    State s = its.load();
+    const Motion motion = find_motion(s, sum_loads(table, records, its, s, row));
+    its.keep(s);
     if (records.keeps_changes())
-      place<true>(table, records, begin, end, s, its, shift);
+      place<true>(table, records, its, s, motion, shift);
     else
-      place<false>(table, records, begin, end, s, its, shift);
+      place<false>(table, records, its, s, motion, shift);
   }
 
  private:
-  static constexpr int rows_per_clump = 6;
-  enum Row { POSITION, VELOCITY, MOMENTUM, TURN, INERTIA, OMEGA };
+  static constexpr int lanes = Talus::lanes;
+
+  struct Group {
+    enum { POSITION, VELOCITY = 3, MOMENTUM = 6, TURN = 9, INERTIA = 13, OMEGA = 16, MASS = 19 };
+    alignas(64) double number[20][lanes];
+    int first_row, end_row;
+    int first_clump, end_clump;
+
+    Vec8 at(int which) const { return Talus::load8(number[which]); }
+    Vector three(int which) const { return {at(which), at(which + 1), at(which + 2)}; }
+    void put(int which, const Vector &v)
+    {
+      Talus::store(number[which], v.x);
+      Talus::store(number[which + 1], v.y);
+      Talus::store(number[which + 2], v.z);
+    }
+    State load() const;
+    void keep(const State &s);
+  };
+  struct Row {
+    enum { PLACE, RADIUS = 3, INVERSE_RADIUS, INVERSE_MASS };
+    alignas(64) double number[6][lanes];
+    int slot[lanes];
+    bool usual;
+
+    Vec8 at(int which) const { return Talus::load8(number[which]); }
+    Vector place() const { return {at(0), at(1), at(2)}; }
+  };
+
   bool current = false;
-  Talus::AlignedVector<Talus::Record> states, places;
+  Talus::AlignedVector<Group> groups;
+  Talus::AlignedVector<Row> rows;
 
-  const Talus::Record &row(int clump, int which) const
-  {
-    return states[static_cast<std::size_t>(rows_per_clump) * clump + which];
-  }
-  Talus::Record &row(int clump, int which)
-  {
-    return states[static_cast<std::size_t>(rows_per_clump) * clump + which];
-  }
+  void make_row(const ClumpTable &table, const Talus::ParticleRecords &records, const Group &group,
+                int m);
 
-  State load(int begin, int end) const
-  {
-    const auto eight = [&](int which) {
-      return Talus::to_lanes(
-          [&](int k) -> const Talus::Record & { return row(std::min(begin + k, end - 1), which); });
-    };
-    const Talus::EightRows x = eight(POSITION), v = eight(VELOCITY), l = eight(MOMENTUM),
-                           q = eight(TURN), i = eight(INERTIA), w = eight(OMEGA);
-    State s;
-    s.mass = x.number[3];
-    s.position = {x.number[0], x.number[1], x.number[2]};
-    s.velocity = {v.number[0], v.number[1], v.number[2]};
-    s.momentum = {l.number[0], l.number[1], l.number[2]};
-    s.turn = {q.number[0], q.number[1], q.number[2], q.number[3]};
-    s.inverse_inertia = {i.number[0], i.number[1], i.number[2]};
-    s.omega = {w.number[0], w.number[1], w.number[2]};
-    s.axes = s.turn.axes();
-    return s;
-  }
-
-  void keep(const State &s, int begin, int end)
-  {
-    const Vec8 none{};
-    const auto eight = [&](int which, Talus::EightRows from) {
-      Talus::Record rows[Talus::lanes];
-      Talus::to_rows(from, rows);
-      for (int k = 0; k < end - begin; k++) row(begin + k, which) = rows[k];
-    };
-    eight(POSITION, {s.position.x, s.position.y, s.position.z, s.mass});
-    eight(VELOCITY, {s.velocity.x, s.velocity.y, s.velocity.z, none});
-    eight(MOMENTUM, {s.momentum.x, s.momentum.y, s.momentum.z, none});
-    eight(TURN, {s.turn.w, s.turn.x, s.turn.y, s.turn.z});
-    eight(OMEGA, {s.omega.x, s.omega.y, s.omega.z, none});
-  }
-
-  // visit(k, sphere, place) for the m-th sphere of each clump; the largest number of spheres
-  static int most_spheres(const ClumpTable &table, int begin, int end)
-  {
-    std::int64_t most = 0;
-    for (int c = begin; c < end; c++) most = std::max(most, table.first[c + 1] - table.first[c]);
-    return static_cast<int>(most);
-  }
+  // visit(k, sphere) for the m-th sphere of each clump
   template <class Visit>
-  static void for_each_sphere(const ClumpTable &table, int begin, int end, int m, Visit visit)
+  static void for_each_sphere(const ClumpTable &table, const Group &group, int m, Visit visit)
   {
-    for (int k = 0; k < end - begin; k++) {
-      const std::int64_t n = table.first[begin + k] + m;
-      if (n < table.first[begin + k + 1]) visit(k, n);
+    for (int c = group.first_clump; c < group.end_clump; c++) {
+      const ClumpSphere *s = table.begin(c) + m;
+      if (s < table.end(c)) visit(c - group.first_clump, *s);
+    }
+  }
+
+  void call(const Talus::ParticleRecords &records, const Group &group) const
+  {
+    for (int r = group.first_row; r < group.end_row; r++) {
+      if (!rows[r].usual) continue;
+      for (const int slot : rows[r].slot) {
+        records.call(slot);
+        __builtin_prefetch(&records.load[2L * slot]);
+      }
     }
   }
 
   template <class RowOfSphere>
-  Sums sum_loads(const ClumpTable &table, const Talus::ParticleRecords &records, int begin, int end,
+  Sums sum_loads(const ClumpTable &table, const Talus::ParticleRecords &records, const Group &group,
                  const State &state, RowOfSphere row) const
   {
     Sums sum{};
-    const int most = most_spheres(table, begin, end);
-    for (int m = 0; m < most; m++) {
-      Talus::Record f[Talus::lanes] = {}, t[Talus::lanes] = {}, d[Talus::lanes] = {};
-      for_each_sphere(table, begin, end, m, [&](int k, std::int64_t n) {
-        const ClumpSphere &sphere = table.spheres[n];
-        d[k] = places[n];
-        if (!sphere.owned) {
-          const double *its = row(sphere);
-          std::copy(its, its + 3, f[k].c);
-          std::copy(its + 3, its + 6, t[k].c);
-        } else if (records.velocity(sphere.slot).c[3] > 0.0) {    // not frozen
-          f[k] = records.load[2L * sphere.slot];
-          store(t[k], records.torque(sphere.slot));
-        }
-      });
-      const Vector force = three(f), torque = three(t), arm = state.axes.to_space(three(d));
-      sum.force = sum.force + force;
-      sum.torque = sum.torque + (cross(arm, force) + torque);
+    for (int r = group.first_row; r < group.end_row; r++) {
+      const Sums its = rows[r].usual
+                           ? loads_of(records, rows[r])
+                           : loads_one_by_one(table, records, group, r - group.first_row, row);
+      sum.force = sum.force + its.force;
+      sum.torque =
+          sum.torque + (cross(state.axes.to_space(rows[r].place()), its.force) + its.torque);
     }
     return sum;
   }
 
-  static Vector three(const Talus::Record *rows)
+  template <class Which> static Talus::EightRows eight(const Row &row, Which which)
+  {
+    return Talus::to_lanes(
+        [&](int k) -> const Talus::Record & { return which(static_cast<long>(row.slot[k])); });
+  }
+
+  // what ParticleRecords::torque() says
+  static Sums loads_of(const Talus::ParticleRecords &records, const Row &row)
+  {
+    const Vec8 none{}, radius = row.at(Row::RADIUS);
+    const auto of = [&](const Talus::AlignedVector<Talus::Record> &of_all, int offset) {
+      return eight(row,
+                   [&](long slot) -> const Talus::Record & { return of_all[2 * slot + offset]; });
+    };
+    const Talus::EightRows f = of(records.load, 0), m = of(records.load, 1);
+    const Vector moment{m.number[0], m.number[1], m.number[2]};
+    Vector torque{none - radius * moment.x, none - radius * moment.y, none - radius * moment.z};
+    if (!records.twisting_torque.empty()) {
+      const Talus::EightRows t = eight(
+          row, [&](long slot) -> const Talus::Record & { return records.twisting_torque[slot]; });
+      torque = torque + Vector{t.number[0], t.number[1], t.number[2]};
+    }
+    torque = select(f.number[3] > none, moment, torque);
+    return {{f.number[0], f.number[1], f.number[2]}, torque};
+  }
+
+  template <class RowOfSphere>
+  static Sums loads_one_by_one(const ClumpTable &table, const Talus::ParticleRecords &records,
+                               const Group &group, int m, RowOfSphere row)
+  {
+    Talus::Record f[lanes] = {}, t[lanes] = {};
+    for_each_sphere(table, group, m, [&](int k, const ClumpSphere &sphere) {
+      if (!sphere.owned) {
+        const double *its = row(sphere);
+        std::copy(its, its + 3, f[k].c);
+        std::copy(its + 3, its + 6, t[k].c);
+      } else if (records.velocity(sphere.slot).c[3] > 0.0) {    // not frozen
+        f[k] = records.load[2L * sphere.slot];
+        store(t[k], records.torque(sphere.slot));
+      }
+    });
+    return {three(f), three(t)};
+  }
+
+  static Vector three(const Talus::Record *records)
   {
     const Talus::EightRows all =
-        Talus::to_lanes([rows](int k) -> const Talus::Record & { return rows[k]; });
+        Talus::to_lanes([records](int k) -> const Talus::Record & { return records[k]; });
     return {all.number[0], all.number[1], all.number[2]};
   }
 
   template <bool changes, class Shift>
-  void place(const ClumpTable &table, Talus::ParticleRecords &records, int begin, int end,
+  void place(const ClumpTable &table, Talus::ParticleRecords &records, const Group &group,
              const State &s, const Motion &motion, Shift shift) const
   {
-    Talus::Record w[Talus::lanes];
-    Talus::to_rows({motion.omega.x, motion.omega.y, motion.omega.z, Vec8{}}, w);
-    const int most = most_spheres(table, begin, end);
-    for (int m = 0; m < most; m++) {
-      Talus::Record d[Talus::lanes] = {}, away[Talus::lanes] = {}, x[Talus::lanes], v[Talus::lanes];
-      for_each_sphere(table, begin, end, m, [&](int k, std::int64_t n) {
-        d[k] = places[n];
-        if (table.spheres[n].wrapped) away[k] = shift(table.spheres[n]);
-      });
-      const Vector its = three(d), at = s.axes.to_space(its) + (s.position - three(away));
-      const Vector moves = motion.velocity_at(its);
-      Talus::to_rows({at.x, at.y, at.z, Vec8{}}, x);
-      Talus::to_rows({moves.x, moves.y, moves.z, Vec8{}}, v);
-      for_each_sphere(table, begin, end, m, [&](int k, std::int64_t n) {
-        const ClumpSphere &sphere = table.spheres[n];
-        if (!sphere.owned) return;
-        Talus::Record *state = &records.motion[2L * sphere.slot];
+    for (int r = group.first_row; r < group.end_row; r++) {
+      const Row &row = rows[r];
+      const Vector its = row.place(), arm = s.axes.to_space(its), v = motion.velocity_at(its);
+      Talus::Record x_row[lanes], v_row[lanes], w_row[lanes];
+      Talus::to_rows({v.x, v.y, v.z, row.at(Row::INVERSE_MASS)}, v_row);
+      Talus::to_rows({motion.omega.x, motion.omega.y, motion.omega.z, row.at(Row::INVERSE_RADIUS)},
+                     w_row);
+      const auto put_positions = [&](const Vector &center) {
+        const Vector at = arm + center;
+        Talus::to_rows({at.x, at.y, at.z, row.at(Row::RADIUS)}, x_row);
+      };
+      const auto put = [&](int k, long slot) {
+        Talus::Record *state = &records.motion[2 * slot];
         const Talus::Vec4 v_old = load4(state[0]), w_old = load4(state[1]);
-        put(records.position[sphere.slot], x[k]);
-        put(state[0], v[k]);
-        put(state[1], w[k]);
+        records.position[slot] = x_row[k];
+        state[0] = v_row[k];
+        state[1] = w_row[k];
         if constexpr (changes)
-          records.keep_change(sphere.slot, v_old, load4(state[0]), w_old, load4(state[1]));
+          records.keep_change(slot, v_old, load4(v_row[k]), w_old, load4(w_row[k]));
+      };
+      if (row.usual) {
+        put_positions(s.position);
+        for (int k = 0; k < lanes; k++) put(k, row.slot[k]);
+        continue;
+      }
+      Talus::Record away[lanes] = {};
+      for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
+        if (sphere.wrapped) away[k] = shift(sphere);
+      });
+      put_positions(s.position - three(away));
+      for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
+        if (sphere.owned) put(k, sphere.slot);
       });
     }
   }
-
-  // all but the fourth number
-  static void put(Talus::Record &to, const Talus::Record &from)
-  {
-    store(to, __builtin_shufflevector(load4(from), load4(to), 0, 1, 2, 7));
-  }
 };
+
+inline ClumpLanes::State ClumpLanes::Group::load() const
+{
+  State s;
+  s.mass = at(MASS);
+  s.position = three(POSITION);
+  s.velocity = three(VELOCITY);
+  s.momentum = three(MOMENTUM);
+  s.turn = {at(TURN), at(TURN + 1), at(TURN + 2), at(TURN + 3)};
+  s.inverse_inertia = three(INERTIA);
+  s.omega = three(OMEGA);
+  s.axes = s.turn.axes();
+  return s;
+}
+
+inline void ClumpLanes::Group::keep(const State &s)
+{
+  put(POSITION, s.position);
+  put(VELOCITY, s.velocity);
+  put(MOMENTUM, s.momentum);
+  put(TURN, {s.turn.w, s.turn.x, s.turn.y});
+  Talus::store(number[TURN + 3], s.turn.z);
+  put(OMEGA, s.omega);
+}
 
 }    // namespace LAMMPS_NS
 

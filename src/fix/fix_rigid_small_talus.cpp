@@ -200,7 +200,7 @@ bool FixRigidSmallTalus::moves_in_lanes() const
 
 void FixRigidSmallTalus::fill_lanes()
 {
-  lanes.make(table);
+  lanes.make(table, *records);
   for (int c = 0; c < table.size(); c++) lanes.set(c, state_of(body[table.body[c]]));
 }
 

@@ -98,13 +98,10 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   template <class Motion> void move_in_records(Motion motion)
   {
     if (!lanes.are_current()) fill_lanes();
-    constexpr int width = Talus::lanes;
-    const int n = table.size();
-    Talus::in_ranges((n + width - 1) / width, threads(), [&](int, int begin, int end) {
+    Talus::in_ranges(lanes.num_groups(), threads(), [&](int, int begin, int end) {
       for (int g = begin; g < end; g++)
         lanes.move(
-            table, *records, width * g, std::min(n, width * (g + 1)), motion,
-            [this](const ClumpSphere &s) { return row_of(s); },
+            table, *records, g, motion, [this](const ClumpSphere &s) { return row_of(s); },
             [this](const ClumpSphere &s) {
               const Talus::Vector3<double> its = shift_of(s);
               return Talus::Record{{its.x, its.y, its.z, 0.0}};

@@ -178,10 +178,20 @@ ShapedView FixShapeGran::view() const
           system->velocity_changes()};
 }
 
-void FixShapeGran::compute_contacts(const ContactStep &step)
+/* The direct exchange brings them with positions, a rebuild with its ghosts. */
+
+void FixShapeGran::send_orientations()
 {
+  const ProxyUpdates *direct = system->proxy_updates();
+  if (direct && direct->has_plan() && !orientations_were_set) return;
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
+  orientations_were_set = false;
+}
+
+void FixShapeGran::compute_contacts(const ContactStep &step)
+{
+  send_orientations();
   pairs.compute(view(), system->law_table(),
                 {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
   if (step.advance) memories_are_current = false;

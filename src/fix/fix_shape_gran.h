@@ -92,6 +92,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   }
   double volume_of(int type) const override { return table.of(type)->shape().volume(); }
   void keep_memories() override;
+  double *const *orientations() const override { return quat; }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
   std::string refusal_of(Talus::LargeBody &body) const override;
@@ -114,6 +115,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::ShapedView view() const;
   void set_maxexchange();
   void keep_change(Talus::ChangeRecord &change, int i, const Talus::ParticleShape &its) const;
+  void send_orientations();
   void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
   static std::int64_t name_of(const Talus::LargeBody &body);
   static constexpr int size_sums = 7;
@@ -134,8 +136,9 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
     std::unique_ptr<Talus::WallPoints> points;
   };
   std::map<const Talus::LargeBody *, Wall> walls;
-  double **quat = nullptr;      ///< w x y z of owned particles and ghosts; 0: not known yet
-  int other_integrators = 0;    ///< bits of groups that other fixes move
+  double **quat = nullptr;    ///< w x y z of owned particles and ghosts; 0: not known yet
+  bool orientations_were_set = false;    ///< by a command: ghosts do not know it
+  int other_integrators = 0;             ///< bits of groups that other fixes move
 
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember

@@ -71,6 +71,7 @@ int FixShapeGran::modify_param(int narg, char **arg)
       mine++;
     }
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
+  orientations_were_set = true;
   if (!all) words.fail(5, "no particle with this ID has a shape");
   return words.index();
 }

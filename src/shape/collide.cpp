@@ -16,10 +16,14 @@ using Vector = Vector3<double>;
 // no direction any more.
 constexpr double too_near = 1.0e-7;
 
-double width_along(const CorePair &pair, const Vector &n)
+/* Along a direction in space from b to a. */
+
+double width_along(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b,
+                   const Pose &pose_b, const Vector &n)
 {
-  return -highest_vertex(pair.a, -n).height -
-         highest_vertex(pair.b, pair.seen.direction_in_body(n)).height - dot(n, pair.seen.position);
+  return dot(n, pose_a.position - pose_b.position) -
+         largest_height(a.core(), pose_a.direction_in_body(-n)) -
+         largest_height(b.core(), pose_b.direction_in_body(n));
 }
 
 bool spheres_apart(const ConvexShape &a, const ConvexShape &b, const Vector &apart)
@@ -41,26 +45,38 @@ void to_space(const Pose &pose, std::vector<ConvexContact> &contacts)
   }
 }
 
-/* Contacts in the frame of a. What is returned of the gap decides only which way is gone, with a
-   margin, and what is looked at; contacts themselves are computed from the poses alone. */
+/* Need not be the direction of the gap: the search for the least depth of sharp cores, and that for
+   features along a gap that is nearly as wide as contacts of rounded ones reach, bring little more
+   to light along another one. */
 
-void find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, double merging,
-                   double force_exponent, ConvexContacts &contacts)
+bool is_good_enough(Rounding radius, double width)
+{
+  constexpr double nearly = 0.9;
+  return radius.sum() <= 0.0 || width > nearly * radius.sum();
+}
+
+/* Contacts in the frame of a. What is returned of the gap decides only which way is gone, with a
+   margin, and what is looked at; contacts themselves are computed from the poses alone. Returns the
+   direction that is worth to be known in the next step. */
+
+Vector find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, double merging,
+                     double force_exponent, ConvexContacts &contacts)
 {
   const double margin = too_near * pair.scale();
   if (radius.sum() > 0.0 && gap.width > margin) {
     add_feature_contacts(pair, radius, gap, force_exponent, contacts.points);
-    return;
+    return gap.direction;
   }
   const LeastDepth least = find_least_depth(pair, gap);
   if (radius.sum() > 0.0 && least.depth < -margin) {
     add_feature_contacts(pair, radius, {least.direction, -least.depth}, force_exponent,
                          contacts.points);
-    return;
+    return least.direction;
   }
-  if (!(least.depth + radius.sum() > 0.0)) return;
+  if (!(least.depth + radius.sum() > 0.0)) return least.direction;
   contacts.cores_overlap = radius.sum() > 0.0;
   add_face_contacts(pair, radius, least, merging, contacts.points);
+  return least.direction;
 }
 
 }    // namespace
@@ -77,29 +93,39 @@ bool collide(const ConvexShape &a, const Pose &pose_a, const ConvexShape &b, con
   contacts.clear();
   const Vector apart = pose_a.position - pose_b.position;
   if (spheres_apart(a, b, apart)) return false;
-  const CorePair pair{a.core(), b.core(), relative_pose(pose_a, pose_b)};
   const Rounding radius{a.radius(), b.radius()};
-  const double enough = radius.sum() + 1.0e-10 * pair.scale();
-  Vector start{1.0, 0.0, 0.0};
-  if (is_known(direction.direction)) {
-    start = pose_a.direction_in_body(direction.direction);
-    if (width_along(pair, start) > enough) return false;
-  } else if (dot(apart, apart) > 0.0) {
-    start = -pair.seen.position;
+  const double enough =
+      radius.sum() + 1.0e-10 * (a.core().outer_radius() + b.core().outer_radius());
+  Gap known{{1.0, 0.0, 0.0}, -1.0};
+  const bool is_old = is_known(direction.direction);
+  if (is_old) {
+    known.width = width_along(a, pose_a, b, pose_b, direction.direction);
+    if (known.width > enough) return false;
   }
+  const CorePair pair{a.core(), b.core(), relative_pose(pose_a, pose_b)};
+  if (is_old)
+    known.direction = pose_a.direction_in_body(direction.direction);
+  else if (dot(apart, apart) > 0.0)
+    known.direction = -pair.seen.position;
   if (method == NarrowPhase::MPR) {
     ConvexContact contact;
     if (find_mpr_contact(pair, radius, contact)) {
       contacts.points.push_back(contact);
     } else {
-      const Gap gap = find_gap(pair, start, enough, 1.0e-3 * enough);
+      const Gap gap = find_gap(pair, known.direction, enough, 1.0e-3 * enough);
       direction.direction = pose_a.direction_in_space(gap.direction);
     }
   } else {
-    const Gap gap = find_gap(pair, start, enough, 1.0e-3 * radius.sum());
-    direction.direction = pose_a.direction_in_space(gap.direction);
-    if (gap.width > enough) return false;
-    find_contacts(pair, radius, gap, merging_length(a, b), force_exponent, contacts);
+    const bool skip = is_old && is_good_enough(radius, known.width);
+    Gap gap = known;
+    if (!skip) gap = find_gap(pair, known.direction, enough, 1.0e-3 * radius.sum());
+    Vector next = gap.direction;
+    if (gap.width <= enough)
+      next = find_contacts(pair, radius, gap, merging_length(a, b), force_exponent, contacts);
+    // apart, but not along what is known: looked for now, not again in each step
+    if (skip && contacts.points.empty() && radius.sum() > 0.0)
+      next = find_gap(pair, known.direction, enough, 1.0e-3 * radius.sum()).direction;
+    direction.direction = pose_a.direction_in_space(next);
   }
   to_space(pose_a, contacts.points);
   return !contacts.points.empty();

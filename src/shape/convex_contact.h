@@ -21,6 +21,9 @@ struct ConvexContact {
   /// points merge. Of a vertex beside an edge contact it may be negative, see collide.h; the force
   /// of all points together repels.
   double weight;
+  /// What the contact stores over the energy of the law for this overlap; that of all points is the
+  /// energy from which weights follow, if there is one. Else the weight.
+  double energy = 1.0;
   /// Which parts touch, see contact_name(): the same in successive steps as long as the same parts
   /// touch, and different for all contacts of a pair. History is kept by it.
   std::uint32_t name;

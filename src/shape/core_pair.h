@@ -30,6 +30,9 @@ struct Support {
 /// first.
 Support highest_vertex(const ConvexCore &core, const Vector3<double> &direction);
 
+/// Only the height.
+double largest_height(const ConvexCore &core, const Vector3<double> &direction);
+
 /// A direction and what lies between two cores along it: the least height of a minus the largest of
 /// b. They are apart if it is positive.
 struct Gap {

@@ -29,9 +29,9 @@ double cross(Flat a, Flat b)
 {
   return a.x * b.y - a.y * b.x;
 }
-double distance(Flat a, Flat b)
+double square_of(Flat a)
 {
-  return std::sqrt(dot(a - b, a - b));
+  return dot(a, a);
 }
 
 /// A face in the plane of the contact: `height` along the normal is a linear function.
@@ -147,7 +147,7 @@ void cut(std::vector<Corner> &polygon, std::vector<Corner> &buffer, Flat from, F
 int corner_near(const Projected &face, Flat p, double reach)
 {
   for (std::size_t k = 0; k < face.corner.size(); k++)
-    if (distance(face.corner[k], p) < reach) return static_cast<int>(k);
+    if (square_of(face.corner[k] - p) < reach * reach) return static_cast<int>(k);
   return -1;
 }
 
@@ -187,14 +187,14 @@ void join_corners(std::vector<Corner> &polygon, double reach)
 {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < polygon.size(); k++) {
-    if (kept > 0 && distance(polygon[kept - 1].place, polygon[k].place) < reach) {
+    if (kept > 0 && square_of(polygon[kept - 1].place - polygon[k].place) < reach * reach) {
       polygon[kept - 1].of_a = polygon[k].of_a;
       polygon[kept - 1].edge = polygon[k].edge;
     } else {
       polygon[kept++] = polygon[k];
     }
   }
-  while (kept > 1 && distance(polygon[kept - 1].place, polygon[0].place) < reach) kept--;
+  while (kept > 1 && square_of(polygon[kept - 1].place - polygon[0].place) < reach * reach) kept--;
   polygon.resize(kept);
 }
 
@@ -311,6 +311,7 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
   sort_by_name(contacts);
   merge(contacts, first);
   strengthen(contacts.data() + first, contacts.data() + contacts.size());
+  for (std::size_t k = first; k < contacts.size(); k++) contacts[k].energy = contacts[k].weight;
   if (contacts.size() == first) contacts.push_back(single_contact(pair, radius, least));
 }
 

@@ -18,7 +18,8 @@ struct Candidates {
   void find(const ConvexCore &core, const Vector &direction, double height);
 };
 
-/* Vertices above a height, and all edges with one of them as an end, each once. */
+/* Vertices above a height, and all edges with one of them as an end, each once: in ascending order,
+   so that sums over those that touch do not depend on how many others are looked at. */
 
 void Candidates::find(const ConvexCore &core, const Vector &direction, double height)
 {
@@ -39,6 +40,7 @@ void Candidates::find(const ConvexCore &core, const Vector &direction, double he
       const int other = core.edge(e).vertex[core.edge(e).vertex[0] == v ? 1 : 0];
       if (overlap[other] < 0.0 || v < other) edges.push_back(e);
     }
+  std::sort(edges.begin(), edges.end());
   for (double &o : overlap) o = std::max(o, 0.0);
 }
 
@@ -108,6 +110,7 @@ double energy_ratio(double of_end, double of_edges, double force_exponent)
 /// Weights that a contact of two edges has, and takes from those of its ends (two of a, two of b).
 struct EdgeWeights {
   double own, of_end[4];
+  double energy;    ///< over phi(o)
 };
 
 /* The derivatives of the energy phi(o) prod_k (1 - 3 p_k^2 + 2 p_k^3), p_k = (o_k/o)^m, phi ~ o^m:
@@ -127,6 +130,7 @@ bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double
     shared[k] = p * weights.of_end[k];
     weights.own *= left[k];
   }
+  weights.energy = weights.own;
   for (int k = 0; k < 4; k++) {
     double others = 1.0;
     for (int l = 0; l < 4; l++)
@@ -199,6 +203,7 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
       if (!edges_touch(a, b, radius, contact)) continue;
       if (!weights_of_edges(a, b, contact.overlap, force_exponent, weights)) continue;
       contact.weight = weights.own;
+      contact.energy = weights.energy;
       contacts.push_back(contact);
       take_from_ends(a, of_a, weights.of_end, contacts);
       take_from_ends(b, of_b, weights.of_end + 2, contacts);

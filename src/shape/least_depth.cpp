@@ -34,7 +34,7 @@ FaceDepth least_of_faces(const ConvexCore &core, const ConvexCore &other, const 
     const Vector n = core.normal(f);
     const double above = core.offset(f) - dot(n, seen.position);
     if (above + other.inner_radius() >= best.depth) continue;
-    const double depth = above + highest_vertex(other, seen.direction_in_body(-n)).height;
+    const double depth = above + largest_height(other, seen.direction_in_body(-n));
     if (depth >= best.depth) continue;
     best = {f, n, depth};
   }
@@ -47,22 +47,44 @@ struct Arc {
   Vector from, along, normal[2];
 };
 
+/* A depth below a limit: balls inside of both cores tell that its direction is within a cone about
+   the line of centers. So is a direction across an edge only if the edge is not along that line. */
+
+struct Cone {
+  Vector line;       ///< of centers, in the frame of the pair
+  double largest;    ///< its square, times that of the sine of the angle of the cone
+
+  Cone(const CorePair &pair, double limit) : line(pair.seen.position), largest(dot(line, line))
+  {
+    const double inside = pair.a.inner_radius() + pair.b.inner_radius() - limit;
+    if (inside > 0.0) largest -= inside * inside;
+  }
+  /// Both in one frame.
+  bool is_across(const Vector &edge, const Vector &its_line) const
+  {
+    const double along = dot(edge, its_line);
+    return along * along <= largest * dot(edge, edge);
+  }
+};
+
 /* Edges of a core that reach above the height along a direction; both in the frame of the core,
    results in that of the pair. */
 
 void edges_above(const ConvexCore &core, const Pose &frame, const Vector &direction, double height,
-                 std::vector<double> &heights, std::vector<Arc> &found)
+                 const Cone &cone, std::vector<double> &heights, std::vector<Arc> &found)
 {
+  const Vector line = frame.direction_in_body(cone.line);
   heights.resize(core.num_vertices());
   for (int v = 0; v < core.num_vertices(); v++) heights[v] = dot(direction, core.vertex(v));
   found.clear();
   for (int e = 0; e < core.num_edges(); e++) {
     const ConvexCore::Edge &edge = core.edge(e);
     if (std::max(heights[edge.vertex[0]], heights[edge.vertex[1]]) < height) continue;
-    const Vector from = core.vertex(edge.vertex[0]);
+    const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
+    if (!cone.is_across(along, line)) continue;
     found.push_back({e,
                      frame.point_in_space(from),
-                     frame.direction_in_space(core.vertex(edge.vertex[1]) - from),
+                     frame.direction_in_space(along),
                      {frame.direction_in_space(core.normal(edge.face[0])),
                       frame.direction_in_space(core.normal(edge.face[1]))}});
   }
@@ -85,8 +107,8 @@ void try_flat(const CorePair &pair, const Arc &a, const Arc &b, double gain, Lea
   if (!(size > 1.0e-6 * length(a.along) * length(b.along))) return;
   for (const double sign : {-1.0, 1.0}) {
     const Vector n = (sign / size) * axis;
-    const double depth = highest_vertex(pair.a, -n).height +
-                         highest_vertex(pair.b, pair.seen.direction_in_body(n)).height +
+    const double depth = largest_height(pair.a, -n) +
+                         largest_height(pair.b, pair.seen.direction_in_body(n)) +
                          dot(n, pair.seen.position);
     if (depth < best.depth - gain) best = {LeastDepth::EDGES, a.edge, b.edge, n, depth};
   }
@@ -128,10 +150,11 @@ LeastDepth find_least_depth(const CorePair &pair, const Gap &known)
   // farther than that behind the surface of the other body
   const Vector n = best.direction, in_b = seen.direction_in_body(n);
   const double shift = dot(n, seen.position), slack = best.depth + margin;
-  const double top_of_b = highest_vertex(pair.b, in_b).height + shift;
-  const double bottom_of_a = -highest_vertex(pair.a, -n).height;
-  edges_above(pair.a, Pose(), -n, -top_of_b - slack, heights, arcs_of_a);
-  edges_above(pair.b, seen, in_b, bottom_of_a - slack - shift, heights, arcs_of_b);
+  const double top_of_b = largest_height(pair.b, in_b) + shift;
+  const double bottom_of_a = -largest_height(pair.a, -n);
+  const Cone cone(pair, slack);
+  edges_above(pair.a, Pose(), -n, -top_of_b - slack, cone, heights, arcs_of_a);
+  edges_above(pair.b, seen, in_b, bottom_of_a - slack - shift, cone, heights, arcs_of_b);
   const bool flat = pair.a.num_faces() == 2 || pair.b.num_faces() == 2;
   for (const Arc &a : arcs_of_a)
     for (const Arc &b : arcs_of_b) {

@@ -4,9 +4,53 @@
 
 #include "base/simd.h"
 
-#include <cstdint>
+#include <algorithm>
 
 namespace Talus {
+namespace {
+
+struct Eight {
+  alignas(64) double lane[lanes];
+  explicit Eight(Vec8 v) { store(lane, v); }
+  double largest() const
+  {
+    const double a = std::max(lane[0], lane[1]), b = std::max(lane[2], lane[3]),
+                 c = std::max(lane[4], lane[5]), d = std::max(lane[6], lane[7]);
+    return std::max(std::max(a, b), std::max(c, d));
+  }
+};
+
+/// Heights of eight vertices.
+class Heights {
+ public:
+  Heights(const VectorArray &vertices, const Vector3<double> &direction) :
+      x(vertices), dx(splat<Vec8>(direction.x)), dy(splat<Vec8>(direction.y)),
+      dz(splat<Vec8>(direction.z))
+  {
+  }
+  Vec8 from(int k) const
+  {
+    return dx * load8(x.of(0) + k) + dy * load8(x.of(1) + k) + dz * load8(x.of(2) + k);
+  }
+
+ private:
+  const VectorArray &x;
+  Vec8 dx, dy, dz;
+};
+
+}    // namespace
+
+double largest_height(const ConvexCore &core, const Vector3<double> &direction)
+{
+  const VectorArray &x = core.all_vertices();
+  const Heights height(x, direction);
+  Vec8 best = height.from(0);
+  for (int k = lanes; k < x.padded_size(); k += lanes) {
+    const Vec8 h = height.from(k);
+    best = select(best < h, h, best);
+  }
+  return Eight(best).largest();
+}
 
 /* Eight at a time; each lane remembers the block of its highest vertex. Of vertices with the same
    height the first is taken, so that the result does not depend on the width of vectors. */
@@ -14,30 +58,27 @@ namespace Talus {
 Support highest_vertex(const ConvexCore &core, const Vector3<double> &direction)
 {
   const VectorArray &x = core.all_vertices();
-  const Vec8 dx = splat<Vec8>(direction.x), dy = splat<Vec8>(direction.y),
-             dz = splat<Vec8>(direction.z);
-  const auto height = [&](int k) {
-    return dx * load8(x.of(0) + k) + dy * load8(x.of(1) + k) + dz * load8(x.of(2) + k);
-  };
-  Vec8 best = height(0), block = splat<Vec8>(0.0);
-  for (int k = 8; k < x.padded_size(); k += 8) {
-    const Vec8 h = height(k);
+  const Heights height(x, direction);
+  Vec8 best = height.from(0), block = splat<Vec8>(0.0);
+  for (int k = lanes; k < x.padded_size(); k += lanes) {
+    const Vec8 h = height.from(k);
     const auto higher = best < h;
     best = select(higher, h, best);
     block = select(higher, splat<Vec8>(k), block);
   }
-  alignas(64) double of_lane[8], block_of_lane[8];
-  store(of_lane, best);
-  store(block_of_lane, block);
-  int lane = 0;
-  for (int k = 1; k < 8; k++) {
-    const bool better = of_lane[k] > of_lane[lane] ||
-                        (of_lane[k] == of_lane[lane] && block_of_lane[k] < block_of_lane[lane]);
-    lane = better ? k : lane;
+  const double highest = Eight(best).largest();
+  unsigned bits = ~less_bits(best, splat<Vec8>(highest)) & 0xffU;
+  int found = __builtin_ctz(bits);
+  if (x.padded_size() > lanes) {
+    const Eight blocks(block);
+    found += static_cast<int>(blocks.lane[found]);
+    while (bits &= bits - 1) {
+      const int lane = __builtin_ctz(bits), other = static_cast<int>(blocks.lane[lane]) + lane;
+      found = std::min(found, other);
+    }
   }
-  const int found = static_cast<int>(block_of_lane[lane]) + lane;
   // padding repeats the last vertex
-  return {found < x.size() ? found : x.size() - 1, of_lane[lane]};
+  return {found < x.size() ? found : x.size() - 1, highest};
 }
 
 }    // namespace Talus

@@ -105,7 +105,8 @@ SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &la
                  found);
   found.force = point.weight * found.force;
   found.moment = found.twisting_torque = {0.0, 0.0, 0.0};
-  found.stored = point.weight * found.stored;
+  found.stored.normal *= point.energy;
+  found.stored.tangential *= point.weight;
   return found;
 }
 

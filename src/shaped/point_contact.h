@@ -15,7 +15,7 @@ namespace Talus {
 struct PointContact {
   // geometry, see ConvexContact
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
-  double overlap, weight;
+  double overlap, weight, energy;
   double inverse_radius;    ///< 1/R_eff
   std::uint64_t name;       ///< with the part of a large body in the upper half
 

@@ -168,6 +168,7 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
     point.normal = one.normal;
     point.overlap = one.overlap;
     point.weight = one.weight;
+    point.energy = one.energy;
     point.name = one.name;
     point.velocity = view.velocity_at(i, one.position) - view.velocity_at(j, one.position);
     if (change != 0.0)

@@ -102,6 +102,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.normal = one.normal;
       point.overlap = one.overlap;
       point.weight = one.weight;
+      point.energy = one.energy;
       point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
       const Vector3<double> place = frame.point_to_space(one.position);
       Vector3<double> v = view.velocity_at(i, place);

@@ -39,6 +39,9 @@ class SystemShapes : public SystemFix {
   /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
   /// puts what contacts remember to the particles. Collective.
   virtual void keep_memories() = 0;
+  /// Rows of four by host's index, of owned particles and ghosts: orientations, to be sent with
+  /// positions in each step.
+  virtual double *const *orientations() const = 0;
   /// At a rebuild, collective: the pairs with a shape (host's indices, at least one is owned).
   virtual void set_pairs(std::vector<std::array<int, 2>> pairs) = 0;
   /// Adds the forces of their contacts to the arrays of the host, which show all particles of this

@@ -5,7 +5,8 @@
 Particles at rest: the steps of a long run are those of a short one and more of the same.  What one
 step must send is worked out from the positions: a message to each rank that has at least one proxy of
 ours, of 72 bytes for each of our particles with a proxy there: once, however many images of it are there.  In
-scenes without friction steps without output send 48 bytes, from records to records."""
+scenes without friction steps without output send 48 bytes, from records to records; where types have a shape,
+all steps 104."""
 
 import itertools
 import os
@@ -131,7 +132,7 @@ class Counts(SceneCase):
     def check(self, grid, boundary="p p p", size=72, style="verlet/proxy overlap yes", law=None, more="", stats=True,
               in_records=True):
         particles = grains()
-        write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), particles)
+        write_sphere_data(self.path("grains"), tuple((0.0, length) for length in BOX), particles, types=2)
         ranks = grid[0] * grid[1] * grid[2]
         found, log = self.per_step(ranks, boundary=boundary, law=law or LAWS[size], style=style,
                                    grid="%d %d %d map zyx" % grid, proxies="yes", more=more,
@@ -150,7 +151,7 @@ class Counts(SceneCase):
             messages.append(len(others))
             sent.append(sum(size for _, size in others.values()))
         self.assert_own_counters(log, "messages per exchange", messages)
-        full = [72 * n // size for n in sent]    # from arrays to arrays
+        full = sent if size == 104 else [72 * n // size for n in sent]    # from arrays to arrays
         looked_at = 2 if size == 48 else LONG    # before and after those in records
         self.assert_own_counters(log, "bytes per exchange", full)
         self.assert_own_counters(log, "messages sent", [LONG * n for n in messages])
@@ -183,6 +184,12 @@ class Counts(SceneCase):
         # where others look at each step, the arrays of LAMMPS are complete
         self.check((2, 1, 1), size=72, law=LAWS[48], stats=False, in_records=False,
                    more="fix other all langevin 0.0 0.0 1.0 1")
+
+    def test_orientations_travel_along(self):
+        """Where types have a shape, with all particles in the same messages: 104 bytes."""
+        for style in "verlet/proxy overlap yes", "verlet/proxy overlap no":
+            self.check((2, 2, 1), size=104, law=LAWS[72], stats=False, in_records=False, style=style,
+                       more="fix s all shape/gran type 2 box 0.1 0.1 0.1 density 1")
 
     def test_with_friction_in_records(self):
         self.check((2, 1, 1), stats=False)

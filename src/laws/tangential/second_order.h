@@ -189,7 +189,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       if constexpr (ends && advance) {
         const Real since = share_since_return(c, s, pure, dt);
         theta = select(last.known & (last.force < splat<Real>(no_force)), since, theta);
-        old_limit = select(last.known, old_limit, limit_at_begin(c, s));
+        old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
       }
       const Real time = dt * theta;
       Vector3<Real> before = d, half_way = u;
@@ -220,7 +220,7 @@ template <bool friction> struct SecondOrder : FrictionLaw {
                                 time,
                                 dt};
           Vector3<Real> slid = slide(way);
-          if constexpr (ends) slid = select(last.known, slid, first_slide(way));
+          if constexpr (ends) slid = select(begins, first_slide(way), slid);
           d = select(slides, slid, d);
           f = s.kt * d + s.gt * u;
         }
