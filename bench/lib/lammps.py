@@ -15,6 +15,7 @@ import time
 import machine
 
 TALUS, STOCK, LIGGGHTS = "talus", "stock", "liggghts"
+BODY = "body"          # LAMMPS with package BODY
 SECOND = "order2"      # Talus with order 2 of its integrator
 TIMEOUT = 1800.0
 START_LIMIT, STARTS = 30.0, 3      # seconds until LAMMPS must have opened its log; attempts
@@ -76,7 +77,8 @@ def measured_peak(result):
 
 
 def _program(code):
-    return {TALUS: machine.TALUS_LMP, SECOND: machine.TALUS_LMP, STOCK: machine.STOCK_LMP, LIGGGHTS: machine.LIGGGHTS}[code]
+    return {TALUS: machine.TALUS_LMP, SECOND: machine.TALUS_LMP, STOCK: machine.STOCK_LMP, LIGGGHTS: machine.LIGGGHTS,
+            BODY: machine.BODY_LMP}[code]
 
 
 def _command(code, name, cores, ranks, threads, arguments):

@@ -19,6 +19,7 @@ ROOT = _required("TALUS_ROOT")
 BUILD = _required("TALUS_BUILD")
 TALUS_LMP = os.path.join(BUILD, "lmp")    # the host with the plugin loaded
 STOCK_LMP = _required("TALUS_BENCH_HOST")                    # the same host without it
+BODY_LMP = os.environ.get("TALUS_BENCH_BODY_HOST", "")       # a host with package BODY, or none
 HOST_SOURCE = os.environ.get("TALUS_BENCH_SOURCE", "")
 CACHE = _required("TALUS_BENCH_CACHE")
 LIGGGHTS = shutil.which("liggghts")

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Makes the STL files of the scenes, in units of their radius: drum, hopper, wheel.  Run in this folder."""
+"""Makes the STL files of the scenes, in units of their radius: drum, hopper, wheel; and stones.  Run in this folder."""
 
 import math
+import random
 import struct
 
 
@@ -74,3 +75,26 @@ wheel = turned([(0.0, -0.4), (0.9, -0.4), (0.9, 0.4), (0.0, 0.4)], 64, "y", inwa
 for k in range(16):
     wheel += lifter(2 * math.pi * k / 16, 0.85, 1.0, 0.02, 0.4)
 write_stl("wheel.stl", wheel)
+
+
+# stones of the scene gravel: corners on ellipsoids, each of which is one of the hull; sizes about 1 across
+def stone(seed, corners, half):
+    draw = random.Random(seed)
+    found = []
+    while len(found) < corners:
+        p = [draw.gauss(0, 1) for _ in range(3)]
+        n = math.sqrt(sum(c * c for c in p))
+        p = [c / n for c in p]
+        if all(sum(a * b for a, b in zip(p, q)) < 0.75 for q in found):
+            found.append(p)
+    return [[h * c for h, c in zip(half, p)] for p in found]
+
+
+with open("../include.stones", "w") as file:
+    file.write("# Made by meshes/make_meshes.py: convex stones about 1 across, for fix shape/gran.\n\n")
+    for k, (corners, half) in enumerate(((8, (0.5, 0.45, 0.4)), (10, (0.5, 0.4, 0.3)), (12, (0.45, 0.45, 0.45)),
+                                         (14, (0.55, 0.4, 0.35))), start=1):
+        file.write(f"variable        stone{k} string \"vertices {corners}")
+        for p in stone(k, corners, half):
+            file.write(" &\n                " + " ".join(f"{c:.4f}" for c in p))
+        file.write("\"\n")

@@ -59,6 +59,7 @@ FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
   Words words = command_words(lmp, "fix shape/gran", narg, arg, 3);
   table = ParticleShapes(lmp, words).parse();
 
+  system->run_monitor().add(this, {check_of_cores()});
   FixShapeGran::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -69,6 +70,7 @@ FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
 
 FixShapeGran::~FixShapeGran()
 {
+  system->run_monitor().remove(this);
   system->drop_shapes(this);
   for (const int which : {Atom::GROW, Atom::RESTART, Atom::BORDER})
     atom->delete_callback(id, which);
@@ -209,10 +211,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 
 std::string FixShapeGran::refusal_of(LargeBody &body) const
 {
-  if (BodyWalls(body.shape()).size() == 0)
-    return "particles with a shape touch no surface of this kind: use plane, box, sphere outside, "
-           "or "
-           "cylinder inside";
+  const std::string surface = BodyWalls::refusal(body.shape());
+  if (!surface.empty()) return surface;
   for (int type = 1; type <= table.last_type(); type++) {
     if (!is_shaped(type)) continue;
     const std::string its = PointBatch::refusal(body.law_of(type));

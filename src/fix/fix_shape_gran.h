@@ -37,6 +37,7 @@ FixStyle(shape/gran,FixShapeGran);
 #include "shaped/shaped_pairs.h"
 #include "shaped/wall_points.h"
 #include "system/granular_system.h"
+#include "system/run_monitor.h"
 #include "system/system_shapes.h"
 
 #include <array>
@@ -44,6 +45,7 @@ FixStyle(shape/gran,FixShapeGran);
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -120,6 +122,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   static std::int64_t name_of(const Talus::LargeBody &body);
   static constexpr int size_sums = 7;
   std::array<double, size_sums> sums() const;
+  int add_to_picture(int narg, char **arg);
 
   // fix_shape_gran_check.cpp
   void check_scene();
@@ -127,6 +130,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void check_fixes();
   void check_computes();
   void require_no_other_integrator() const;
+  RunMonitor::Check check_of_cores();
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ShapeTable table;
@@ -143,6 +147,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
 
+  std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
   std::vector<double> image_values;
   std::vector<double *> image_rows;
   std::vector<int> image_kinds;

@@ -1,10 +1,11 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
 
-// What fix shape/gran refuses: whatever would take its particles for spheres.
+// What fix shape/gran refuses: whatever would take its particles for spheres; and what it warns of.
 
 #include "fix/fix_shape_gran.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "compute.h"
 #include "error.h"
 #include "force.h"
@@ -71,10 +72,6 @@ void FixShapeGran::check_fixes()
       error->all(FLERR, Error::NOLASTLINE,
                  "Fix shape/gran: fix {} ({}) takes particles for spheres: use fix large/body",
                  fix->id, fix->style);
-    if (utils::strmatch(fix->style, "^rigid"))
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: fix {} ({}) cannot hold particles with a shape: leave it out",
-                 fix->id, fix->style);
     if (!utils::strmatch(fix->style, "^pour")) continue;    // fix deposit asks for distances
     for (int type = 1; type <= table.last_type(); type++) {
       int of_type = type;
@@ -118,4 +115,31 @@ void FixShapeGran::require_no_other_integrator() const
                  "Fix shape/gran: particle {} of type {} has a shape and belongs to the group of "
                  "another fix that moves particles: give that fix a group of spheres only",
                  atom->tag[i], atom->type[i]);
+}
+
+/* ---- warnings ---- */
+
+/* An overlap of cores is deeper than both radii: contacts are those of sharp bodies from there on. */
+
+RunMonitor::Check FixShapeGran::check_of_cores()
+{
+  const auto look = [this]() -> RunMonitor::Finding {
+    const ShapedPairs::CoreOverlap deepest = pairs.deepest_core_overlap();
+    if (!(deepest.depth > 0.0)) return {};
+    const auto [low, high] = std::minmax(atom->tag[deepest.first], atom->tag[deepest.second]);
+    return {deepest.ratio, {static_cast<double>(low), static_cast<double>(high)}};
+  };
+  const auto say = [this](const RunMonitor::Finding &worst) {
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          "Fix shape/gran: the cores of the rounded particles {:.0f} and {:.0f} overlap, "
+          "by {:.3g} of the smaller rounding radius, at step {} or since the last "
+          "rebuild: forces jump there and energy is not kept. Use stiffer contacts and a "
+          "smaller time step, round more, or look for particles that overlap from the "
+          "beginning. Said once, unless it becomes much worse",
+          worst.details[0], worst.details[1], worst.value, update->ntimestep);
+    return true;
+  };
+  return {0.0, look, say, 3.0};
 }

@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "force.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ double FixShapeGran::compute_vector(int n)
 
 int FixShapeGran::modify_param(int narg, char **arg)
 {
+  if (strcmp(arg[0], "picture") == 0) return add_to_picture(narg, arg);
   if (strcmp(arg[0], "orient") != 0) return 0;
   Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
   words.about("orient");
@@ -73,6 +75,22 @@ int FixShapeGran::modify_param(int narg, char **arg)
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
   orientations_were_set = true;
   if (!all) words.fail(5, "no particle with this ID has a shape");
+  return words.index();
+}
+
+int FixShapeGran::add_to_picture(int narg, char **arg)
+{
+  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
+  words.about("picture");
+  const std::string other = words.text("ID of a fix");
+  if (!modify->get_fix_by_id(other) || other == id)
+    words.fail(1, "there is no other fix with this ID: define it before");
+  const int type = words.integer("type N", 1);
+  if (type > atom->ntypes)
+    words.fail(1, "there are " + std::to_string(atom->ntypes) +
+                      " types: give a larger number to "
+                      "create_box for a color of its own");
+  also_drawn.emplace_back(other, type);
   return words.index();
 }
 
@@ -128,7 +146,7 @@ DeepestContact FixShapeGran::deepest_contact() const
 }
 
 /* For dump image: the type, which may choose the color, and the corners. LAMMPS lights the side
-   from which these go round clockwise. */
+   from which these go round clockwise. Others are drawn along, for a picture has one fix. */
 
 int FixShapeGran::image(int *&kinds, double **&values)
 {
@@ -141,6 +159,15 @@ int FixShapeGran::image(int *&kinds, double **&values)
       image_values.insert(image_values.end(), {p.x, p.y, p.z});
     }
   });
+  for (const auto &[other, type] : also_drawn) {
+    Fix *fix = modify->get_fix_by_id(other);
+    const int its = fix ? fix->image(kinds, values) : 0;
+    for (int k = 0; k < its; k++) {
+      if (kinds[k] != TALUS_IMAGE_TRIANGLE) continue;
+      image_values.push_back(type);
+      image_values.insert(image_values.end(), values[k] + 1, values[k] + size);
+    }
+  }
   const int count = static_cast<int>(image_values.size()) / size;
   image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
   image_rows.clear();

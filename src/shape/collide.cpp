@@ -175,27 +175,31 @@ bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector &nor
   return !contacts.points.empty();
 }
 
-bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector &point,
-                      const Vector &axis, double cylinder_radius, ConvexContacts &contacts)
+/* A sphere about the vertex that reaches far tells the distance of the walls, also from behind. */
+
+bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyShape &vessel,
+                    ConvexContacts &contacts)
 {
   contacts.clear();
-  const auto across = [&](const Vector &x) {
-    const Vector d = x - point;
-    return d - dot(d, axis) * axis;
-  };
-  if (length(across(pose.position)) + shape.bounding_radius() <= cylinder_radius) return false;
+  const double reach = shape.bounding_radius();
+  if (vessel.distance_bound(pose.position) >= reach) return false;
   const ConvexCore &core = shape.core();
+  SurfaceContact found[LargeBodyShape::max_contacts];
   for (int v = 0; v < core.num_vertices(); v++) {
-    const Vector x = pose.point_in_space(core.vertex(v)), out = across(x);
-    const double from_axis = length(out), overlap = from_axis + shape.radius() - cylinder_radius;
-    if (!(overlap > 0.0) || !(from_axis > 0.0)) continue;
-    ConvexContact contact;
-    contact.normal = (-1.0 / from_axis) * out;
-    contact.overlap = overlap;
-    contact.position = x - (shape.radius() - 0.5 * overlap) * contact.normal;
-    contact.weight = 1.0;
-    contact.name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
-    contacts.points.push_back(contact);
+    const Vector x = pose.point_in_space(core.vertex(v));
+    const int count = vessel.find_contacts(x, reach, {nullptr, nullptr}, found);
+    for (int k = 0; k < count; k++) {
+      const double overlap = found[k].overlap - (reach - shape.radius());
+      if (!(overlap > 0.0)) continue;
+      ConvexContact contact;
+      contact.normal = found[k].normal;
+      contact.overlap = overlap;
+      contact.position = x - (shape.radius() - 0.5 * overlap) * contact.normal;
+      contact.weight = 1.0;
+      contact.name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
+      contact.surface = static_cast<std::uint32_t>(found[k].part);
+      contacts.points.push_back(contact);
+    }
   }
   return !contacts.points.empty();
 }

@@ -59,11 +59,11 @@ bool collide_sphere(const ConvexShape &shape, const Pose &pose, const Vector3<do
 bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<double> &normal,
                    double offset, ConvexContacts &contacts);
 
-/// Inside of an infinite cylinder, such as a drum: every vertex of the core that is nearer to the
-/// wall than the radius, or beyond. `axis` is a unit vector through `point`.
-bool collide_cylinder(const ConvexShape &shape, const Pose &pose, const Vector3<double> &point,
-                      const Vector3<double> &axis, double cylinder_radius,
-                      ConvexContacts &contacts);
+/// Inside of a vessel, a body whose walls are flat or curved inward, such as a drum or a cone: every
+/// vertex of the core that is nearer to a wall than the radius, or beyond. `vessel` must find the
+/// walls near a sphere of any radius (LargeBodyShape::find_contacts()).
+bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyShape &vessel,
+                    ConvexContacts &contacts);
 
 /// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
 /// and those that are nearer to a vertex are named by it.

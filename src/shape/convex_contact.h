@@ -27,6 +27,9 @@ struct ConvexContact {
   /// Which parts touch, see contact_name(): the same in successive steps as long as the same parts
   /// touch, and different for all contacts of a pair. History is kept by it.
   std::uint32_t name;
+  /// Of a mesh: which of its surfaces is touched, a second half of the name; and which triangle.
+  std::uint32_t surface = 0;
+  int triangle = 0;
 };
 
 /// Parts by which a contact is named: a vertex of a, a vertex of b (on whatever of the other body),

@@ -5,22 +5,41 @@
 #include "body/shape/ball.h"
 #include "body/shape/box.h"
 #include "body/shape/frustum.h"
+#include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
+#include "body/shape/rectangle.h"
+#include "shape/collide_mesh.h"
+
+#include <memory>
 
 namespace Talus {
+namespace {
+
+/// The two triangles of a rectangle.
+std::shared_ptr<const MeshShape> mesh_of(const Rectangle &rectangle)
+{
+  std::vector<Triangle> triangles;
+  rectangle.tessellate({}, triangles);
+  return std::make_shared<const MeshShape>(
+      TriangleMesh(triangles), rectangle.has_two_sides() ? MeshSide::BOTH : MeshSide::NORMALS);
+}
+
+}    // namespace
 
 BodyWalls::BodyWalls(const LargeBodyShape &body)
 {
   const Vector3<double> middle = body.reference_point();
+  const auto add_vessel = [&] {
+    walls.emplace_back([&body](const Particle &one, ConvexContacts &contacts) {
+      return collide_vessel(one.shape, one.pose, body, contacts);
+    });
+  };
   if (const auto *plane = dynamic_cast<const Plane *>(&body)) {
     add_flat(plane->unit_normal(), middle, plane->has_two_sides());
   } else if (const auto *box = dynamic_cast<const Box *>(&body)) {
     const Vector3<double> half{box->half_edge(0), box->half_edge(1), box->half_edge(2)};
     if (!box->is_inside()) {
-      auto shape = std::make_shared<ConvexShape>(ConvexShape::box(2.0 * half, 0.0));
-      Pose its = shape->given_frame();
-      its.position = its.position + middle;
-      solid.push_back({shape, its});
+      add_solid_box(middle, 2.0 * half);
       return;
     }
     for (const double sign : {1.0, -1.0}) {
@@ -28,55 +47,66 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
       add_flat({0.0, sign, 0.0}, middle - sign * half, false);
       add_flat({0.0, 0.0, sign}, middle - sign * half, false);
     }
-  } else if (const auto *vessel = dynamic_cast<const Frustum *>(&body)) {
-    if (!vessel->is_vessel()) return;
-    const Vector3<double> &axis = vessel->unit_axis();
-    round.push_back({middle, axis, vessel->mantle_radius()});
-    if (vessel->is_endless()) return;
-    add_flat(axis, middle - vessel->half_length() * axis, false);
-    add_flat(-axis, middle + vessel->half_length() * axis, false);
-  } else if (const auto *sphere = dynamic_cast<const Talus::Ball *>(&body)) {
-    if (!sphere->is_inside()) ball.push_back({middle, sphere->radius()});
+  } else if (const auto *frustum = dynamic_cast<const Frustum *>(&body)) {
+    if (frustum->is_vessel()) add_vessel();
+  } else if (const auto *ball = dynamic_cast<const Talus::Ball *>(&body)) {
+    if (ball->is_inside()) {
+      add_vessel();
+      return;
+    }
+    walls.emplace_back(
+        [middle, radius = ball->radius()](const Particle &one, ConvexContacts &contacts) {
+          return collide_sphere(one.shape, one.pose, middle, radius, contacts);
+        });
+  } else if (const auto *mesh = dynamic_cast<const MeshShape *>(&body)) {
+    walls.emplace_back([mesh, features = std::make_shared<const MeshFeatures>(mesh->surface())](
+                           const Particle &one, ConvexContacts &contacts) {
+      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts);
+    });
+  } else if (const auto *rectangle = dynamic_cast<const Rectangle *>(&body)) {
+    const auto its = mesh_of(*rectangle);
+    walls.emplace_back([its, features = std::make_shared<const MeshFeatures>(its->surface())](
+                           const Particle &one, ConvexContacts &contacts) {
+      const bool touch = collide_mesh(one.shape, one.pose, {*its, *features}, contacts);
+      for (ConvexContact &point : contacts.points) point.triangle = 0;    // it has one part
+      return touch;
+    });
   }
+}
+
+std::string BodyWalls::refusal(const LargeBodyShape &body)
+{
+  if (dynamic_cast<const MeshShape *>(&body) || BodyWalls(body).size() > 0) return "";
+  return "particles with a shape touch no surface of this kind: use plane, rectangle, box, sphere, "
+         "cylinder or cone inside, or mesh";
+}
+
+/* A direction that separates is not kept: large bodies are few. */
+
+void BodyWalls::add_solid_box(const Vector3<double> &middle, const Vector3<double> &edges)
+{
+  const auto box = std::make_shared<const ConvexShape>(ConvexShape::box(edges, 0.0));
+  Pose its = box->given_frame();
+  its.position = its.position + middle;
+  walls.emplace_back([box, its](const Particle &one, ConvexContacts &contacts) {
+    SeparatingDirection direction;
+    return collide(one.shape, one.pose, *box, its, direction, contacts, NarrowPhase::FEATURES,
+                   one.force_exponent);
+  });
 }
 
 void BodyWalls::add_flat(const Vector3<double> &normal, const Vector3<double> &point,
                          bool two_sided)
 {
-  flat.push_back({normal, dot(normal, point), two_sided});
-}
-
-bool BodyWalls::touch_flat(const Flat &wall, const ConvexShape &shape, const Pose &pose,
-                           ConvexContacts &contacts) const
-{
-  const double height = dot(wall.normal, pose.position) - wall.offset,
-               reach = shape.bounding_radius();
-  if (height <= -reach || height >= reach) return false;
-  const bool flip = wall.two_sided && height < 0.0;
-  return collide_plane(shape, pose, flip ? -wall.normal : wall.normal,
-                       flip ? -wall.offset : wall.offset, contacts);
-}
-
-/* A direction that separates is not kept: large bodies are few. */
-
-bool BodyWalls::touch(int wall, const ConvexShape &shape, const Pose &pose,
-                      ConvexContacts &contacts) const
-{
-  const auto take = [&wall](const auto &list) {
-    const int size = static_cast<int>(list.size());
-    const bool mine = wall < size;
-    if (!mine) wall -= size;
-    return mine;
-  };
-  if (take(flat)) return touch_flat(flat[wall], shape, pose, contacts);
-  if (take(round))
-    return collide_cylinder(shape, pose, round[wall].point, round[wall].axis, round[wall].radius,
-                            contacts);
-  if (take(solid)) {
-    SeparatingDirection direction;
-    return collide(shape, pose, *solid[wall].shape, solid[wall].pose, direction, contacts);
-  }
-  return collide_sphere(shape, pose, ball[wall].center, ball[wall].radius, contacts);
+  walls.emplace_back([normal, offset = dot(normal, point), two_sided](const Particle &one,
+                                                                      ConvexContacts &contacts) {
+    const double height = dot(normal, one.pose.position) - offset,
+                 reach = one.shape.bounding_radius();
+    if (height <= -reach || height >= reach) return false;
+    const bool flip = two_sided && height < 0.0;
+    return collide_plane(one.shape, one.pose, flip ? -normal : normal, flip ? -offset : offset,
+                         contacts);
+  });
 }
 
 }    // namespace Talus

@@ -6,53 +6,42 @@
 #include "body/shape/large_body_shape.h"
 #include "shape/collide.h"
 
-#include <memory>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace Talus {
 
-/// The surface of a large body as convex particles touch it, in the frame of the body: planes, a
-/// cylinder from inside, a box or a ball from outside, or several of these.
+/// The surface of a large body as convex particles touch it, in the frame of the body: one wall, or
+/// several (the faces of a box from inside).
 class BodyWalls {
  public:
-  /// Has no walls if the body is of another kind.
+  /// The body must live as long as this. Has no walls where refusal() says why.
   explicit BodyWalls(const LargeBodyShape &body);
 
-  int size() const
-  {
-    return static_cast<int>(flat.size() + round.size() + solid.size() + ball.size());
-  }
+  /// "", or for people: which surfaces convex particles touch, for this is none of them.
+  static std::string refusal(const LargeBodyShape &body);
 
+  int size() const { return static_cast<int>(walls.size()); }
+
+  struct Particle {
+    const ConvexShape &shape;
+    const Pose &pose;
+    double force_exponent;    ///< see collide()
+  };
   /// Contacts of a particle with wall 0 ... size()-1; returns whether there are any. Like a sphere,
   /// a particle is pushed out by a plane up to a center one bounding radius behind it.
-  bool touch(int wall, const ConvexShape &shape, const Pose &pose, ConvexContacts &contacts) const;
+  bool touch(int wall, const Particle &particle, ConvexContacts &contacts) const
+  {
+    return walls[wall](particle, contacts);
+  }
 
  private:
-  struct Flat {
-    Vector3<double> normal;    ///< particles are where it points to
-    double offset;
-    bool two_sided;    ///< particles are on the side where their center is
-  };
-  struct Round {
-    Vector3<double> point, axis;
-    double radius;
-  };
-  struct Solid {
-    std::shared_ptr<const ConvexShape> shape;
-    Pose pose;
-  };
-  struct Ball {
-    Vector3<double> center;
-    double radius;
-  };
-  bool touch_flat(const Flat &wall, const ConvexShape &shape, const Pose &pose,
-                  ConvexContacts &contacts) const;
+  using Wall = std::function<bool(const Particle &, ConvexContacts &)>;
   void add_flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided);
+  void add_solid_box(const Vector3<double> &middle, const Vector3<double> &edges);
 
-  std::vector<Flat> flat;
-  std::vector<Round> round;
-  std::vector<Solid> solid;
-  std::vector<Ball> ball;
+  std::vector<Wall> walls;
 };
 
 }    // namespace Talus

@@ -17,7 +17,8 @@ struct PointContact {
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
   double overlap, weight, energy;
   double inverse_radius;    ///< 1/R_eff
-  std::uint64_t name;       ///< with the part of a large body in the upper half
+  std::uint64_t name;       ///< with the surface of a large body in the upper half
+  int part;                 ///< of a large body; of a mesh, the triangle
 
   // motion
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`

@@ -31,7 +31,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
   chunks.clear();
   const int all = static_cast<int>(list.size());
   for (int begin = 0; begin < all; begin += pairs_of_chunk)
-    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}});
+    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}, {}});
   set_sides(view, tag);
 }
 
@@ -157,6 +157,7 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
   if (!a.may_touch(b)) return;
   if (!touch(a, b, shapes.method(), laws.force_exponent(pair.row), pair.direction, chunk.found))
     return;
+  if (chunk.found.cores_overlap) look_at_cores(chunk, pair);
   const int i = pair.first, j = pair.second;
   const double change = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   PointContact point{};
@@ -180,6 +181,25 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
     chunk.points.push_back(point);
     chunk.pair_of_point.push_back(p);
   }
+}
+
+void ShapedPairs::look_at_cores(Chunk &chunk, const Pair &pair) const
+{
+  const double a = solids[pair.first].shape->radius(), b = solids[pair.second].shape->radius();
+  double overlap = 0.0;
+  for (const ConvexContact &one : chunk.found.points) overlap = std::max(overlap, one.overlap);
+  const double depth = overlap - (a + b);
+  if (depth > chunk.cores.depth)
+    chunk.cores = {depth, depth / (a > 0.0 && b > 0.0 ? std::min(a, b) : a + b), pair.first,
+                   pair.second};
+}
+
+ShapedPairs::CoreOverlap ShapedPairs::deepest_core_overlap() const
+{
+  CoreOverlap deepest;
+  for (const Chunk &chunk : chunks)
+    if (chunk.cores.depth > deepest.depth) deepest = chunk.cores;
+  return deepest;
 }
 
 void ShapedPairs::sum_points(const Chunk &chunk)

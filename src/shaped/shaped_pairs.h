@@ -71,6 +71,14 @@ class ShapedPairs {
   using VisitContact = std::function<void(const SurveyedContact &)>;
   void for_each_contact(const LawTable &laws, double dt, Ask ask, const VisitContact &visit) const;
 
+  /// The pair of rounded particles whose cores overlapped most since set_pairs(): by how much
+  /// (length; 0: none), over the smaller of both radii, and the host's indices of both.
+  struct CoreOverlap {
+    double depth = 0.0, ratio = 0.0;
+    int first = 0, second = 0;
+  };
+  CoreOverlap deepest_core_overlap() const;
+
   bool is_empty() const { return list.empty(); }
   /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
   double count_contacts() const;
@@ -100,6 +108,7 @@ class ShapedPairs {
     std::vector<PointContact> points, before;
     std::vector<int> pair_of_point, pair_before;
     ConvexContacts found;
+    CoreOverlap cores{};    ///< deepest since set_pairs()
   };
 
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
@@ -109,6 +118,7 @@ class ShapedPairs {
   void find_points(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                    int pair, std::size_t &old);
   void account(WorkAccount &to) const;
+  void look_at_cores(Chunk &chunk, const Pair &pair) const;
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
   double share(const Pair &pair) const

@@ -91,19 +91,22 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
   Pose pose = particle.pose(seen, view.turn(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
+  const int row = task.laws.row(view.type[i], view.type[i]);
+  const BodyWalls::Particle seen_particle{particle.shape(), pose, task.laws.force_exponent(row)};
   for (int w = 0; w < task.walls.size(); w++) {
-    if (!task.walls.touch(w, particle.shape(), pose, chunk.found)) continue;
+    if (!task.walls.touch(w, seen_particle, chunk.found)) continue;
     PointContact point{};
     point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
-    point.row = task.laws.row(view.type[i], view.type[i]);
+    point.row = row;
     for (const ConvexContact &one : chunk.found.points) {
       point.place = one.position;
       point.normal = one.normal;
       point.overlap = one.overlap;
       point.weight = one.weight;
       point.energy = one.energy;
-      point.name = static_cast<std::uint64_t>(w) << 32 | one.name;
+      point.name = (static_cast<std::uint64_t>(w) + one.surface) << 32 | one.name;
+      point.part = one.triangle;
       const Vector3<double> place = frame.point_to_space(one.position);
       Vector3<double> v = view.velocity_at(i, place);
       if (frame.moves) v = v - frame.velocity_at(place);
@@ -169,7 +172,7 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
       const Vector3<double> &n = point.normal, &v = point.velocity;
       const double pressed = dot(point.force, n);
       const Vector3<double> shear = -(point.force - pressed * n), slip = v - dot(v, n) * n;
-      chunk.touched.push_back({0, pressed, -point.force, shear, dot(shear, slip)});
+      chunk.touched.push_back({point.part, pressed, -point.force, shear, dot(shear, slip)});
     }
     if (!task.virial) continue;
     double *const virial = task.virial + 6L * i;

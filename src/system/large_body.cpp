@@ -111,12 +111,20 @@ void LargeBody::list_particles()
   masses.update();
   const BodyParticleView particles = view();
   const int *mask = mask_of_spheres();
-  if (its_shape->wants_focus())
-    its_shape->focus(
-        BodyCandidates::bounds_of_search(*frame, particles, mask, group_bits(), neighbor->skin,
-                                         contacts.largest_reach(particles, mask, group_bits())));
+  if (its_shape->wants_focus()) its_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+}
+
+/* Particles with a shape may be asked for anywhere: which are near is found in every step. */
+
+Eigen::AlignedBox3d LargeBody::bounds_of_focus(const BodyParticleView &particles, const int *mask)
+{
+  constexpr double everywhere = 1.0e100;
+  if (system.shapes())
+    return {Eigen::Vector3d::Constant(-everywhere), Eigen::Vector3d::Constant(everywhere)};
+  return BodyCandidates::bounds_of_search(*frame, particles, mask, group_bits(), neighbor->skin,
+                                          contacts.largest_reach(particles, mask, group_bits()));
 }
 
 /* Particles with a shape belong to no group here: the system computes their contacts. */

@@ -136,6 +136,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   BodyParticleView view() const;
   BodyStep step_of(bool advance);
   const int *mask_of_spheres();
+  Eigen::AlignedBox3d bounds_of_focus(const BodyParticleView &particles, const int *mask);
   BodyFindings findings_now() const;
   void find_frozen();
   void clear_frozen();

@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=300
 """One trajectory of convex particles mixed with spheres: the same bits on any ranks, threads and grid, in a periodic
-box, with bodies that move, particles that come in during the run, and across a restart."""
+box, with bodies and meshes that move, particles that come in during the run, and across a restart."""
 
 import os
 import random
@@ -9,6 +9,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
 STEPS, HALF = 3000, 1800
@@ -35,6 +36,7 @@ fix shapes all shape/gran type 1 box 0.8 0.7 0.6 density 1 orient random 11 &
     type 2 {corners} scale 0.35 rounded 0.08 density 1 orient random 12
 fix g all gravity/talus 15 vector 0.2 0.1 -1
 fix floor all large/body plane 0 0 0 0 0 1 contact {law}
+fix stirrer all large/body mesh ../stirrer.stl contact {law} move rotate 4 4 0 0 0 1 3
 fix sides all large/body box 4 4 6 {length} 8 12 inside contact {law} move wiggle 0 0.2 0 2.5
 region top block 0 8 0 8 8 11 units box
 fix more all deposit 8 1 60 77 region top near 1.6 vz -2 -2
@@ -70,6 +72,7 @@ class ShapeBits(SceneCase):
 
     def setUp(self):
         write_sphere_data(self.path("grains"), ((0, 8), (-1, 9), (-1, 12)), grains(), types=3)
+        body_meshes.write_stl(self.path("stirrer.stl"), body_meshes.box((2, 3.7, 0), (6, 4.3, 0.7), 4))
 
     def assert_same(self, where, other):
         mine, theirs = (read_dump(os.path.join(d, f"atoms.{HALF}"))[0] for d in (where, other))

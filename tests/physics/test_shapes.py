@@ -263,6 +263,30 @@ class Slopes(ShapeCase):
         self.assertGreater(self.of("omegay"), 0.1)
 
 
+class Rolling(ShapeCase):
+
+    def test_prism_on_a_slope(self):
+        # corner after corner strikes and stays: before an impact w^2 = 4 g s sin(slope)/((c + 1) R (1 - p^2)), after it p w,
+        # with s = sin(pi/n), c = I/(m R^2) = (2 + cos(2 pi/n))/6, p = (c + cos(2 pi/n))/(c + 1)
+        n, slope = 8, 0.3
+        corners = [(math.sin(2 * math.pi * (k + 0.5) / n), y, math.cos(2 * math.pi * (k + 0.5) / n))
+                   for k in range(n) for y in (-0.5, 0.5)]
+        words = " ".join(f"{c:.15g}" for corner in corners for c in corner)
+        law = "hooke 2e5 300 tangential multistep NULL NULL 1.0"
+        rows = self.simulate([Sphere((-12, 0, math.cos(math.pi / n)), omega=(0, 2.3, 0), v=(2.3 * math.cos(math.pi / n), 0, 0))],
+                             f"fix s all shape/gran type 1 vertices {2 * n} {words} density 1\n{FLOOR.format(law=law)}\n"
+                             f"fix g all gravity/talus 10 vector {math.sin(slope)!r} 0 {-math.cos(slope)!r}",
+                             50000, dt=1e-4, pair=law, every=10)
+        around = math.cos(2 * math.pi / n)
+        c = (2 + around) / 6
+        kept = (c + around) / (c + 1)
+        before = math.sqrt(40 * math.sin(math.pi / n) * math.sin(slope) / ((c + 1) * (1 - kept ** 2)))
+        inertia = c * n / 2 * math.sin(2 * math.pi / n)
+        late = [row["f_s[4]"] / inertia for row in rows[len(rows) // 2:]]
+        print(f"rolling prism: omega {min(late):.3f} to {max(late):.3f}, by hand {kept * before:.3f} to {before:.3f}")
+        self.assertAlmostEqual(max(late), before, delta=0.03 * before)
+
+
 class Bodies(ShapeCase):
 
     def test_rest_on_bodies(self):
@@ -299,6 +323,23 @@ class Stacks(ShapeCase):
                 for k in range(3):
                     self.assertAlmostEqual(self.of("z", k + 1), 0.5 + k, delta=1e-3)
                     self.assertAlmostEqual(self.of("x", k + 1), 0.05 * k, delta=1e-3)
+
+    def test_wall(self):
+        # the short form of 100 cubes for 10^6 steps: once it has settled nothing creeps
+        law = "hooke 1e5 60 tangential multistep NULL NULL 0.5"
+        for rounded in ("box 1 1 1", "box 0.9 0.9 0.9 rounded 0.05"):
+            with self.subTest(rounded):
+                places = []
+                for end in 30000, 40000:
+                    self.simulate([Sphere((1.002 * c + 0.25 * (k % 2), 0.0, 0.5 + k)) for k in range(4) for c in range(3)],
+                                  f"fix s all shape/gran type 1 {rounded} density 1\n{FLOOR.format(law=law)}\n"
+                                  "fix g all gravity/talus 10 vector 0 0 -1", end, dt=2e-4, pair=law)
+                    places.append([self.of(d, k) for k in range(1, 13) for d in "xyz"])
+                creep = max(abs(a - b) for a, b in zip(*places))
+                print(f"wall of {rounded}: creep {creep:.1e} in 10^4 steps")
+                self.assertLess(creep, 1e-6)
+                for k in range(12):
+                    self.assertAlmostEqual(self.of("z", k + 1), 0.5 + k // 3, delta=2e-3)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@
 // Contact points of convex bodies where they are known: cubes on planes, cubes and edges, spheres, drums; extreme shapes;
 // forces that are continuous along random paths.
 
+#include "body/shape/frustum.h"
 #include "convex_bodies.h"
 #include "shape/collide.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 using namespace Talus;
@@ -102,14 +104,18 @@ TEST(ConvexCylinder, InsideOfADrum)
   const double low = 1.5;
   const double from_axis = std::sqrt(0.25 + low * low);
   const Pose pose({7.0, 2.0, 3.0 - low + 0.5}, straight);
-  ASSERT_TRUE(collide_cylinder(cube, pose, {0, 2, 3}, {1, 0, 0}, from_axis + 0.09, contacts));
+  const auto drum = [](double radius) {
+    const double endless = std::numeric_limits<double>::infinity();
+    return Frustum({0, 2, 3}, {1, 0, 0}, radius, radius, endless, true);
+  };
+  ASSERT_TRUE(collide_vessel(cube, pose, drum(from_axis + 0.09), contacts));
   ASSERT_EQ(contacts.points.size(), 4U);
   for (const ConvexContact &c : contacts.points) {
     EXPECT_NEAR(c.overlap, 0.01, 1e-14);
     EXPECT_NEAR(c.normal.z, low / from_axis, 1e-14);
     EXPECT_EQ(c.normal.x, 0.0);
   }
-  EXPECT_FALSE(collide_cylinder(cube, pose, {0, 2, 3}, {1, 0, 0}, from_axis + 0.11, contacts));
+  EXPECT_FALSE(collide_vessel(cube, pose, drum(from_axis + 0.11), contacts));
 }
 
 /* ---- spheres --------------------------------------------------------------------------------- */

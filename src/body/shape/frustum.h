@@ -26,12 +26,8 @@ class Frustum : public LargeBodyShape {
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
           double length, bool inside, bool open = false);
 
-  /// A cylinder that is touched from inside, with caps unless it is infinite.
-  bool is_vessel() const { return inside && !open && low == high; }
-  const Vector3<double> &unit_axis() const { return axis; }
-  double mantle_radius() const { return low; }
-  bool is_endless() const { return endless; }
-  double half_length() const { return half; }
+  /// Touched from inside alone.
+  bool is_vessel() const { return inside && !open; }
 
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;

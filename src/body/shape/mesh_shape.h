@@ -57,6 +57,8 @@ class MeshShape : public LargeBodyShape {
   /// For messages: the file.
   const std::string &name() const { return file; }
   void set_name(const std::string &its) { file = its; }
+  /// What parts are, after focus().
+  const MeshDetail &near_detail() const { return *detail; }
   /// Triangles that may be found here.
   int size_of_detail() const { return detail ? detail->size() : 0; }
   double memory_usage() const;

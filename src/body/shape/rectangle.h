@@ -19,6 +19,8 @@ class Rectangle : public LargeBodyShape {
             const Vector3<double> &first_edge, double first_length, double second_length,
             bool two_sided);
 
+  bool has_two_sides() const { return two_sided; }
+
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
