@@ -95,14 +95,14 @@ def convex(bench):
         found[kind] = bed, mass, pairs, points
         variants = {TALUS: timed(bench, kind, bed, steps)}
         if kind in COMPARED and machine.BODY_LMP:
-            stock = shape_beds.stock_script(bench, kind, bed, 20, bench.size(100, 20), mass, moment_of(bench, kind, bed))
+            stock = shape_beds.stock_script(bench, kind, bed, 5, bench.size(30, 10), mass, moment_of(bench, kind, bed))
             variants[BODY] = lambda s=stock: run(bench, "body", s, BODY).loops()[-1].nanoseconds()
         bench.note(f"{kind}: {pairs:.2f} pairs, {points:.2f} points per body, kinetic energy {energy:.1e}")
         series = paired.measure(variants, bench.rounds)
         for name, values in series.items():
             for k, value in enumerate(values.values):
                 bench.section.record(case=kind, code=name, round=k + 1, ns_per_body=value)
-        share = narrow_share(bench, shape_beds.talus_script(bench, kind, bed, 0, 4 * steps)) if kind != "spheres" else float("nan")
+        share = narrow_share(bench, shape_beds.talus_script(bench, kind, bed, 0, steps)) if kind != "spheres" else float("nan")
         ratio = paired.ratio(series[BODY], series[TALUS]) if BODY in series else None
         rows.append([kind, len(bed[1]), pairs or "-", points or "-", series[TALUS].median, f"{100 * share:.0f} %" if share == share else "-",
                      memory(bench, kind, bed), series[BODY].median if ratio else "-", str(ratio) if ratio else "-"])
@@ -136,8 +136,8 @@ def packings(bench):
     for kind, (loose, dense) in MEASURED.items():
         if not bench.wants("packing"):
             return
-        for name, law in (("frictionless", shape_beds.FRICTIONLESS), ("friction .5", shape_beds.LAW)):
-            bed = shape_beds.settled(bench, kind, *bench.size(*SIZES), law, "-" + name)
+        for name, law, mark in (("frictionless", shape_beds.FRICTIONLESS, "-frictionless"), ("friction .5", shape_beds.LAW, "")):
+            bed = shape_beds.settled(bench, kind, *bench.size(*SIZES), law, mark)
             mass = state(bench, kind, bed, law)[3]
             fraction = volume_fraction(bed, mass)       # density 1
             rows.append([kind, name, fraction, loose, dense])

@@ -84,7 +84,7 @@ def dodecahedron():
 
 
 def tetrahedron():
-    s = 0.6
+    s = 0.45
     return Body([(s, s, s), (s, -s, -s), (-s, s, -s), (-s, -s, s)])
 
 
