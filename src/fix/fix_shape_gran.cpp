@@ -147,6 +147,7 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
+  list_lent();
   pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
   for (auto &[body, its] : walls) list_particles(*body, *its.points);
 }
@@ -194,8 +195,11 @@ void FixShapeGran::send_orientations()
 void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   send_orientations();
+  const bool in_records = system->residence() == Residence::RECORDS;
+  if (in_records) show_lent();
   pairs.compute(view(), system->law_table(),
                 {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
+  if (in_records) take_forces();
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
@@ -232,8 +236,12 @@ BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double 
     list_particles(body, *its.points);
   }
   if (step.advance) memories_are_current = false;
-  return its.points->compute(*its.surface, body.present_frame(), view(), body.law_table(), step,
-                             virial);
+  const bool in_records = system->residence() == Residence::RECORDS;
+  if (in_records) show_forces();
+  const BodyLoad load = its.points->compute(*its.surface, body.present_frame(), view(),
+                                            body.law_table(), step, virial);
+  if (in_records) take_forces();
+  return load;
 }
 
 /* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */
@@ -246,7 +254,7 @@ std::int64_t FixShapeGran::name_of(const LargeBody &body)
   return -static_cast<std::int64_t>(hash >> 1) - 1;
 }
 
-bool FixShapeGran::keeps_change_of(int i) const
+bool FixShapeGran::moves_particle(int i) const
 {
   return is_shaped(atom->type[i]) && (atom->mask[i] & groupbit);
 }
@@ -254,41 +262,48 @@ bool FixShapeGran::keeps_change_of(int i) const
 /* Half of what the kick gives to velocities: of omega not what free rotation changes, for this is
    exact at the positions on both sides of a step. */
 
-void FixShapeGran::keep_change(ChangeRecord &change, int i, const ParticleShape &its) const
+void FixShapeGran::keep_change(ChangeRecord &change, int i, const Loads &loads) const
 {
   const double half = 0.5 * update->dt * force->ftm2v;
-  const Vector3<double> v = (half / atom->rmass[i]) * row(atom->f[i]);
+  const Vector3<double> v = (half / atom->rmass[i]) * loads.force;
   const Vector3<double> omega =
-      its.rotation().omega_of(quaternion(quat[i]), (half * atom->radius[i]) * row(atom->torque[i]));
+      table.of(atom->type[i])
+          ->rotation()
+          .omega_of(quaternion(quat[i]), (half * atom->radius[i]) * loads.torque);
   change = {{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F,
              static_cast<float>(omega.x), static_cast<float>(omega.y), static_cast<float>(omega.z),
              0.0F}};
 }
 
+/* Moves the rows of one particle, wherever they are. */
+
+void FixShapeGran::move(int i, const Loads &loads, double *x, double *v, double *w)
+{
+  const double dt = update->dt, kick = dt * force->ftm2v / atom->rmass[i];
+  const double f[3] = {loads.force.x, loads.force.y, loads.force.z};
+  for (int d = 0; d < 3; d++) {
+    v[d] += kick * f[d];
+    x[d] += dt * v[d];
+  }
+  Eigen::Quaterniond q = quaternion(quat[i]);
+  Vector3<double> omega = row(w);
+  table.of(atom->type[i])->rotation().advance(q, omega, force->ftm2v * loads.torque, dt);
+  put(q, quat[i]);
+  w[0] = omega.x;
+  w[1] = omega.y;
+  w[2] = omega.z;
+}
+
 void FixShapeGran::initial_integrate(int /*vflag*/)
 {
-  const double dt = update->dt, kick = dt * force->ftm2v;
+  if (system->residence() == Residence::RECORDS) return advance_in_records();
   ChangeRecord *changes = system->velocity_changes();
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      const ParticleShape *its = table.of(atom->type[i]);
-      if (!its) continue;
-      double *x = atom->x[i], *v = atom->v[i], *w = atom->omega[i];
-      const double *f = atom->f[i];
-      const double kick_f = kick / atom->rmass[i];
-      for (int d = 0; d < 3; d++) {
-        v[d] += kick_f * f[d];
-        x[d] += dt * v[d];
-      }
-      Eigen::Quaterniond q = quaternion(quat[i]);
-      Vector3<double> omega = row(w);
-      if (changes) keep_change(changes[i], i, *its);
-      its->rotation().advance(q, omega, force->ftm2v * row(atom->torque[i]), dt);
-      put(q, quat[i]);
-      w[0] = omega.x;
-      w[1] = omega.y;
-      w[2] = omega.z;
+      if (!moves_particle(i)) continue;
+      const Loads loads{row(atom->f[i]), row(atom->torque[i])};
+      if (changes) keep_change(changes[i], i, loads);
+      move(i, loads, atom->x[i], atom->v[i], atom->omega[i]);
     }
   });
 }

@@ -82,8 +82,10 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double memory_usage() override;
 
   // SystemFix
-  std::string needs_host_arrays() override { return "some particles are not spheres"; }
+  std::string needs_host_arrays() override;
   bool integrates() const override { return true; }
+  bool places_particles() const override { return true; }
+  bool moves_particle(int i) const override;
 
   // SystemShapes
   bool is_shaped(int type) const override { return table.of(type) != nullptr; }
@@ -100,7 +102,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
-  bool keeps_change_of(int i) const override;
+  bool keeps_change_of(int i) const override { return moves_particle(i); }
   void for_each_contact(Talus::Ask ask, const VisitContact &visit) const override;
   void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
                                 const VisitContact &visit) const override;
@@ -116,7 +118,11 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void orient_new(int first, int last);
   Talus::ShapedView view() const;
   void set_maxexchange();
-  void keep_change(Talus::ChangeRecord &change, int i, const Talus::ParticleShape &its) const;
+  struct Loads {
+    Talus::Vector3<double> force, torque;
+  };
+  void keep_change(Talus::ChangeRecord &change, int i, const Loads &loads) const;
+  void move(int i, const Loads &loads, double *x, double *v, double *w);
   void send_orientations();
   void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
   static std::int64_t name_of(const Talus::LargeBody &body);
@@ -146,6 +152,15 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+
+  // fix_shape_gran_records.cpp: steps in the records
+  void list_lent();
+  void show_lent();
+  void show_forces();
+  void take_forces();
+  void advance_in_records();
+  std::vector<int> lent;    ///< own particles and partners, whose rows show the present step
+  int lent_owned = 0;       ///< the first of these
 
   std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
   std::vector<double> image_values;

@@ -10,6 +10,7 @@
 #include "system/fix_contact_store.h"
 #include "system/present_box.h"
 #include "system/system_run_style.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -103,8 +104,12 @@ std::string GranularSystem::reason_of_integrators() const
     return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
   if (integrators.size() > most_integrators) return "many fixes move particles";
   constexpr int all = 1;
+  const auto is_of_shapes = [this](const Fix *fix) {
+    return shaped && dynamic_cast<const SystemShapes *>(fix) == shaped;
+  };
   for (std::size_t n = 1; n < integrators.size(); n++)
     for (std::size_t m = 0; m < n; m++) {
+      if (is_of_shapes(integrators[n]) || is_of_shapes(integrators[m])) continue;    // sees to it
       const int one = integrators[m]->groupbit, other = integrators[n]->groupbit;
       bool both = one == other || one == all || other == all;
       for (int i = 0; i < atom->nlocal && !both; i++)

@@ -53,6 +53,7 @@ int GranularSystem::mover_of(int i) const
   for (std::size_t n = 0; n < integrators.size(); n++) {
     if (!(atom->mask[i] & integrators[n]->groupbit)) continue;
     const auto *its = dynamic_cast<const SystemFix *>(integrators[n]);
+    if (!its->moves_particle(i)) continue;
     return its->places_particles() ? -1 : static_cast<int>(n);
   }
   return -1;
@@ -242,11 +243,11 @@ std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
 
 /* Bodies add their forces in the records if the particles are there before and after the step;
    those behind one that does not join act on their own, so that the order of sums stays that of the
-   fixes. */
+   fixes. Contacts of shapes come before them, and after those of spheres. */
 
 std::size_t GranularSystem::bodies_that_join()
 {
-  if (next_residence == Residence::HOST || residence() == Residence::HOST) return 0;
+  if (shaped || next_residence == Residence::HOST || residence() == Residence::HOST) return 0;
   std::size_t joined = 0;
   while (joined < bodies_of_run.size() && bodies_of_run[joined]->join_step()) joined++;
   return joined;

@@ -29,6 +29,8 @@ class SystemFix {
   /// That moves particles: it has placed those of its group in the records before it calls
   /// GranularSystem::advance(), which then moves none of them.
   virtual bool places_particles() const { return false; }
+  /// That moves particles: of its group this one (host's index).
+  virtual bool moves_particle(int /*i*/) const { return true; }
   /// Particles go back to the arrays of LAMMPS, before anything else looks at them or migrates them:
   /// so does what it keeps of them on its own.
   virtual void leave_records() {}

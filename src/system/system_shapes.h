@@ -3,8 +3,8 @@
 // Particles that are not spheres, as GranularSystem knows them: fix shape/gran. They are particles
 // of the host like all others, with the radius of the sphere around their shape, so that neighbors,
 // ghosts and the order of sums are found as always. Pairs with a shape are taken out of the
-// neighbor list at a rebuild, and computed by the fix after those of spheres, in the arrays of the
-// host.
+// neighbor list at a rebuild, and computed by the fix after those of spheres. In steps in the
+// records it copies what concerns it to the arrays of the host, and forces back.
 
 #ifndef TALUS_SYSTEM_SYSTEM_SHAPES_H
 #define TALUS_SYSTEM_SYSTEM_SHAPES_H
@@ -44,8 +44,8 @@ class SystemShapes : public SystemFix {
   virtual double *const *orientations() const = 0;
   /// At a rebuild, collective: the pairs with a shape (host's indices, at least one is owned).
   virtual void set_pairs(std::vector<std::array<int, 2>> pairs) = 0;
-  /// Adds the forces of their contacts to the arrays of the host, which show all particles of this
-  /// step, ghosts included. Collective.
+  /// Adds the forces of their contacts where those of spheres are now, in the arrays of the host or
+  /// in the records, when all particles of this step are there, ghosts included. Collective.
   virtual void compute_contacts(const ContactStep &step) = 0;
 
   /// "" or why a large body cannot touch shapes, and the cure, for people.

@@ -188,7 +188,7 @@ class Counts(SceneCase):
     def test_orientations_travel_along(self):
         """Where types have a shape, with all particles in the same messages: 104 bytes."""
         for style in "verlet/proxy overlap yes", "verlet/proxy overlap no":
-            self.check((2, 2, 1), size=104, law=LAWS[72], stats=False, in_records=False, style=style,
+            self.check((2, 2, 1), size=104, law=LAWS[72], stats=False, style=style,
                        more="fix s all shape/gran type 2 box 0.1 0.1 0.1 density 1")
 
     def test_with_friction_in_records(self):

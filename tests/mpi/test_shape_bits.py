@@ -62,6 +62,8 @@ class ShapeBits(SceneCase):
     END = "\nwrite_dump all custom end id type x y z vx vy vz omegax omegay omegaz f_shapes[1] f_shapes[2] " \
           "f_shapes[3] f_shapes[4] modify format float %a"
 
+    IN_RECORDS = "steps without output              in the records"
+
     def frames(self, name, np=1, grid="* * *", commands=f"run {STEPS}", read="read_data ../grains", env=None, walls=False):
         """Periodic in x, or with walls there."""
         where = self.path(name)
@@ -97,8 +99,24 @@ class ShapeBits(SceneCase):
                 # sums over ranks: to rounding
                 for key in ("f_shapes", "f_shapes[6]", "f_shapes[7]", "Press"):
                     self.assert_close(thermo(log)[-1][key], rows[-1][key], 1e-12)
+                self.assertIn(self.IN_RECORDS, log)
         parts, _ = self.frames("parts", commands=f"run {HALF}\nrun {STEPS - HALF} pre no")
         self.assert_same(parts, one)
+
+    def test_records_and_arrays(self):
+        """Steps in the records, with messages beside the computation and before it, and in the arrays of LAMMPS."""
+        one, log = self.frames("one")
+        self.assertIn(self.IN_RECORDS, log)
+        for name, np, commands, in_records in (
+                ("arrays", 1, "run_style verlet/stock", False), ("arrays on two", 2, "run_style verlet/stock", False),
+                ("messages of LAMMPS", 2, "comm_proxy no", False),
+                ("overlap", 2, "run_style verlet/proxy overlap yes", True),
+                ("no overlap", 2, "run_style verlet/proxy overlap no", True),
+                ("energies", 2, "compute p all penalty/stats\nthermo_modify lost error", False)):
+            with self.subTest(name):
+                where, log = self.frames(name, np, commands=f"{commands}\nrun {STEPS}")
+                self.assertEqual(self.IN_RECORDS in log, in_records)
+                self.assert_same(where, one)
 
     def test_set_up_and_restart(self):
         one, _ = self.frames("one", walls=True)
