@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""What particles cost that are not spheres."""
+"""What convex particles cost, and how dense they pack."""
 
 import re
 import shutil
@@ -12,7 +12,7 @@ import shape_beds
 from lammps import BODY, STOCK, TALUS
 
 TITLE = "Particles that are not spheres"
-QUESTION = """What does a clump or a convex particle cost per step, beside a sphere and beside what LAMMPS has for it? Settled beds,
+QUESTION = """What does a convex particle cost per step, beside a sphere and beside what LAMMPS has for it? Settled beds,
 periodic in x and y, on a floor, one core; linear springs with damping and friction. Convex bodies are rounded by 1/20 of the edge of the cube."""
 
 KINDS = ("spheres", "cubes", "dodecahedra", "mixed")

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Settled beds of spheres, clumps and convex bodies, and the scripts that run them.
+"""Settled beds of spheres and convex bodies, and the scripts that run them.
 
 A bed is made once, by Talus: bodies on a lattice fall with random orientations, periodic in x and y, on a floor, and the
 result is kept as rows (type, diameter, center, quaternion) in the cache, for all codes. Unit of length: the edge of a cube

@@ -31,6 +31,7 @@
 #include "laws/normal/plaincoulomb_material.h"
 #include "laws/rolling/delayed.h"
 #include "laws/rolling/holding.h"
+#include "laws/rolling/holding_order_2.h"
 #include "laws/rolling/none.h"
 #include "laws/rolling/sds.h"
 #include "laws/tangential/dashpot.h"
@@ -46,6 +47,7 @@
 #include "laws/twisting/none.h"
 #include "laws/twisting/sds.h"
 #include "laws/twisting/stopping.h"
+#include "laws/twisting/stopping_order_2.h"
 
 #include <array>
 
@@ -105,12 +107,14 @@ const Law *const all_laws[] = {
 
     &law<RollingNone>,
     &law<HoldingRolling>,
+    &law<HoldingOrder2>,
     &law<DelayedRolling>,
     &law<SdsRolling>,
     &law<SynchronizedSds>,
 
     &law<TwistingNone>,
     &law<StoppingTwist>,
+    &law<StoppingOrder2>,
     &law<DelayedTwist>,
     &law<MarshallTwist>,
     &law<SdsTwist>,

@@ -21,6 +21,28 @@ bool damps(const ContactLaw &law, const ContactCoefficients &row)
   return !is_named(law.damping(), "none") && law.coefficients(Stage::DAMPING, row)[0] != 0.0;
 }
 
+/// The law of a stage for integrators of second order, nullptr if it has none.
+const Law *second_order_stage(const Law &law)
+{
+  return law.acts ? find_law(law.stage, std::string(law.name) + " order 2") : &law;
+}
+
+std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficients &row)
+{
+  if (law.delayed())
+    return "has resistance to rolling or spinning that is 'delayed', which begins with a jump and "
+           "pushes a body at rest back and forth: leave the word out";
+  for (const Law *its : {&law.rolling(), &law.twisting()})
+    if (!second_order_stage(*its))
+      return std::string("has the ") + name_of(its->stage) + " law " + its->name +
+             ": use 'rolling mu' and 'spinning mu'";
+  if (law.coefficient(Stage::ROLLING, "roll_min", row) > 0.0 ||
+      law.coefficient(Stage::TWISTING, "twist_min", row) > 0.0)
+    return "has speeds below which resistance does not act: give 0 as the second and third number "
+           "of 'vmin'";
+  return "";
+}
+
 }    // namespace
 
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
@@ -36,9 +58,8 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
            ", whose begin of a contact is not known: use hooke, hertz or hertz/material";
   if (damps(law, row) && std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
     return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";
-  if (law.resists())
-    return "has resistance to rolling or spinning, which holds a body a few time steps late: use "
-           "'rolling 0 spinning 0'";
+  const std::string resistance = reason_of_resistance(law, row);
+  if (!resistance.empty()) return resistance;
   if (tangential.acts && !is_named(tangential, "multistep slider midpoint"))
     return std::string("has the tangential law ") + tangential.name +
            ": use 'tangential multistep kt gt mu slider midpoint'";
@@ -50,6 +71,8 @@ ContactLaw second_order_law(ContactLaw law)
   law.choose(
       Stage::TANGENTIAL,
       find_law(Stage::TANGENTIAL, law.tangential().acts ? "multistep order 2" : "none order 2"));
+  for (const Stage stage : {Stage::ROLLING, Stage::TWISTING})
+    law.choose(stage, second_order_stage(law[stage]));
   return law;
 }
 

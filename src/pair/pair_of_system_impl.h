@@ -73,6 +73,10 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
     s.lag = system->lag();
     s.velocity_change = {change[0], change[1], change[2]};
     s.rotation_change = {change[4], change[5], change[6]};
+    const auto omega_change = [](const Talus::ChangeRecord &of, double radius) {
+      return Vector{of.c[4] / radius, of.c[5] / radius, of.c[6] / radius};
+    };
+    s.omega_change = omega_change(changes[i], ri) - omega_change(changes[j], rj);
   }
   if (atom->temperature_flag)
     s.temperature_difference = atom->temperature[j] - atom->temperature[i];

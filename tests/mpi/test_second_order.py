@@ -13,6 +13,7 @@ from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 SIDE = 6
 LAW = "hertz 2.0e4 50.0 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
+RESISTING = {"holding": LAW.replace("limit", "rolling 0.1 spinning 0.1 limit")}
 START = """
 units lj
 boundary {boundary}
@@ -128,6 +129,23 @@ class SecondOrder(SceneCase):
         law = "hertz 2.0e4 50.0 adhesion constant 0.5 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
         one = self.end("one", law=law, boundary="f f f")
         self.assert_same(self.end("other", "run 153\nrun 247\n", law=law, np=4, boundary="f f f"), one)
+
+    def test_resistance_to_rolling_and_spinning(self):
+        for name, law in RESISTING.items():
+            f = {"boundary": "f f f", "law": law, "bodies": BODIES.replace(LAW, law)}
+            one = self.end(name, **f)
+            for other, options in {
+                    "ranks": {"np": 4},
+                    "overlap": {"np": 4, "style": "comm_proxy yes\nrun_style verlet/proxy overlap yes\n"},
+                    "arrays": {"np": 2, "style": "run_style verlet/stock\n"},
+                    "runs": {"runs": "run 150\nrun 1\nrun 249\n"},
+                    "threads": {"arguments": ("-sf", "omp", "-pk", "omp", "2"), "env": {"OMP_NUM_THREADS": "2"}}}.items():
+                with self.subTest(name + " " + other):
+                    self.assert_same(self.end(name + other, **f, **options), one)
+            with self.subTest(name + " restart"):
+                self.end("first", "run 150\nwrite_restart half\n", **f)
+                self.assert_same(self.end("second", "run 250\n", head=CONTINUE, np=3, **f), one)
+            self.assertNotEqual(one[400].atoms, self.end("without", boundary="f f f", bodies=BODIES)[400].atoms)
 
     def test_it_is_another_method(self):
         one, other = self.end("one"), self.end("other", order="start half")

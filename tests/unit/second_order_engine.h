@@ -9,6 +9,7 @@
 #include "second_order_twin.h"
 
 #include "base/words.h"
+#include "laws/circle_of_intersection.h"
 #include "laws/contact_words.h"
 #include "laws/second_order_laws.h"
 #include "laws/tangential/end_of_contact.h"
@@ -155,6 +156,12 @@ class Motion {
     set(batch.relative_omega, k, i.w - other.w);
     set(batch.velocity_change, k, lag * (i.a - other.a));
     set(batch.rotation_change, k, lag * (i.radius * i.alpha + rj * other.alpha));
+    set(batch.omega_change, k, lag * (i.alpha - other.alpha));
+    batch.arm_loss[k] = j ? (reach - distance) / reach : 0.0;
+    batch.arm_difference[k] = j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
+    const double d = reach - distance, in_plane = 2.0 * i.radius * d - d * d;
+    batch.circle[k] =
+        j ? Talus::circle_of_intersection(i.radius, rj, d) : std::sqrt(std::max(in_plane, 0.0));
     batch.lag = lag;
     batch.overlap[k] = reach - distance;
     batch.inverse_mass[k] = 1.0 / i.mass + mass_j;

@@ -6,6 +6,7 @@
 #include "second_order_twin.h"
 
 #include "base/words.h"
+#include "laws/circle_of_intersection.h"
 #include "laws/contact_words.h"
 #include "laws/second_order_laws.h"
 #include "laws/tangential/end_of_contact.h"
@@ -116,7 +117,7 @@ class Impact {
                             ? i.x - j.x
                             : dot(i.x - planes[0].point, planes[0].normal) * planes[0].normal;
     const double distance = length(r), overlap = i.radius + rj - distance;
-    Twin::Vec force{}, moment{};
+    Twin::Vec force{}, moment{}, twist{};
     const bool lasts = overlap > 0.0 || Talus::has_just_ended(batch.history[3][0], advance);
     if (lasts) {
       set(batch.normal, (1.0 / distance) * r);
@@ -124,6 +125,13 @@ class Impact {
       set(batch.surface_rotation, i.radius * i.w + rj * j.w);
       set(batch.velocity_change, lag * (i.a - j.a));
       set(batch.rotation_change, lag * (i.radius * i.alpha + rj * j.alpha));
+      set(batch.relative_omega, i.w - j.w);
+      set(batch.omega_change, lag * (i.alpha - j.alpha));
+      const double sum = i.radius + rj, in_plane = 2.0 * i.radius * overlap - overlap * overlap;
+      batch.arm_loss[0] = planes.empty() ? overlap / sum : 0.0;
+      batch.arm_difference[0] = 0.5 * batch.arm_loss[0] * (rj - i.radius);
+      batch.circle[0] = planes.empty() ? Talus::circle_of_intersection(i.radius, rj, overlap)
+                                       : std::sqrt(std::max(in_plane, 0.0));
       batch.lag = lag;
       batch.overlap[0] = its_overlap = overlap;
       batch.inverse_mass[0] = 1.0 / i.mass + (planes.empty() ? 1.0 / j.mass : 0.0);
@@ -132,13 +140,14 @@ class Impact {
       (advance ? kernels.advancing : kernels.reading)(batch, 0, Talus::lanes, &kernels.row, dt);
       force = get(batch.force);
       moment = get(batch.moment);
+      if (kernels.law.twists()) twist = get(batch.twisting_torque);
     } else
       for (auto &value : batch.history) value[0] = 0.0;
     touched = lasts;
     for (std::size_t n = 0; n < particles.size(); n++) {
       Twin::Particle &p = particles[n];
       p.a = gravity + (n == 0 ? 1.0 : -1.0) / p.mass * force;
-      p.alpha = -p.radius / p.inertia() * moment;
+      p.alpha = 1.0 / p.inertia() * ((n == 0 ? 1.0 : -1.0) * twist - p.radius * moment);
     }
   }
 
@@ -152,8 +161,10 @@ class Impact {
     for (int d = 0; d < 3; d++) {
       EXPECT_EQ(batch.force[d][0], before.force[d][0]);
       EXPECT_EQ(batch.moment[d][0], before.moment[d][0]);
+      EXPECT_EQ(batch.twisting_torque[d][0], before.twisting_torque[d][0]);
     }
-    for (int n = 0; n < 4; n++) EXPECT_EQ(batch.history[n][0], before.history[n][0]);
+    for (int n = 0; n < ContactBatch::history_size; n++)
+      EXPECT_EQ(batch.history[n][0], before.history[n][0]);
   }
 
   const Kernels &kernels;
@@ -266,6 +277,21 @@ TEST(SecondOrderLaws, WithAdhesion)
   }
 }
 
+TEST(SecondOrderLaws, WithResistanceToRollingAndSpinning)
+{
+  for (double mu : {0.02, 0.1, 0.3}) {
+    const std::string resistance =
+        " rolling " + std::to_string(mu) + " spinning " + std::to_string(mu) + " limit_damping";
+    Twin::Law law = numbers(true, 1.75e5, 400, 0.3);
+    law.resistance.mu_r = law.resistance.mu_s = mu;
+    expect_same(law,
+                "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint" + resistance);
+    law = numbers(false, 2e4, 80, 0.0);
+    law.resistance.mu_r = law.resistance.mu_s = mu;
+    expect_same(law, "hooke 2e4 80" + resistance);
+  }
+}
+
 TEST(SecondOrderLaws, WithDampingOfTheStiffness)
 {
   Twin::Law law = numbers(true, 0, 0, 0.4);
@@ -297,7 +323,9 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3", "slider midpoint");
   expect_cure("hooke 2e4 0 tangential multistep NULL NULL 0.3 midpoint", "slider midpoint");
   expect_cure("hooke 2e4 0 tangential onestep 1e3 0 0.3", "slider midpoint");
-  expect_cure("hertz 2e4 0 rolling 0.1", "rolling");
+  EXPECT_EQ(reason("hertz 2e4 0 rolling 0.1 spinning 0.1"), "");
+  expect_cure("hertz 2e4 0 rolling 0.1 delayed", "delayed");
+  expect_cure("hertz 2e4 0 rolling 0.1 vmin 0 1e-4 0", "vmin");
   EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
   expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
   expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "flores");

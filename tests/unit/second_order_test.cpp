@@ -229,12 +229,60 @@ TEST(SecondOrder, OfManySpheres)
 TEST(SecondOrder, WithResistanceToRollingAndSpinning)
 {
   for (Law law : {hooke(0.3), hertz(400.0, 0.3)}) {
-    law.mu_r = law.mu_s = 0.1;
+    law.resistance.mu_r = law.resistance.mu_s = 0.1;
     expect_second_order(oblique(law));
   }
   Law law = hertz(1500.0, 0.3);
-  law.mu_r = law.mu_s = 0.1;
+  law.resistance.mu_r = law.resistance.mu_s = 0.1;
   expect_second_order(put_down(law));
+  law = hertz(400.0, 0.3);
+  law.resistance.mu_r = law.resistance.mu_s = 0.02;
+  expect_second_order(cluster(law));
+}
+
+TEST(SecondOrder, WithSpringsOfRollingAndTwisting)
+{
+  for (double damping : {0.0, 0.3, 5.0})
+    for (Law law : {hooke(0.3), hertz(400.0, 0.3)}) {
+      Resistance &its = law.resistance;
+      its = {0.0, 0.0, false, 0.0, 2000.0, damping, 0.1, 200.0, 0.1 * damping, 0.02};
+      expect_second_order(oblique(law));
+      expect_second_order(put_down(law));
+    }
+}
+
+// It begins with a jump once a contact has lasted some time, and pushes what rests back and forth.
+TEST(SecondOrder, IsOneWithDelayedResistance)
+{
+  for (Law law : {hooke(0.3), hertz(1500.0, 0.3)}) {
+    law.resistance.mu_r = 0.1;
+    law.resistance.delayed = true;
+    law.resistance.delay = 0.01;
+    EXPECT_LT(order(put_down(law), Measures{}).value, 1.5);
+  }
+}
+
+// Many contacts hold each other's bodies: what is left of a rotation must die away, not be pushed
+// on. A crystal, 12 neighbors each, held together by adhesion.
+TEST(SecondOrder, HeldRotationsOfACrystalComeToRest)
+{
+  System crystal;
+  crystal.law = hooke(0.0);
+  crystal.law.adhesion = 10.0;
+  crystal.law.resistance.mu_r = 0.1;
+  const double edge = std::sqrt(2.0) * 0.9995;
+  const Vec basis[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  for (int cell = 0; cell < 27; cell++)
+    for (const Vec &site : basis) {
+      const Vec corner{cell / 9 * 1.0, cell / 3 % 3 * 1.0, cell % 3 * 1.0};
+      const Vec spin{std::sin(1.0 + 37.0 * cell + site.x), std::sin(2.0 + 91.0 * cell + site.y),
+                     std::sin(3.0 + 17.0 * cell + site.z)};
+      crystal.particles.push_back(sphere(edge * (corner + site), {}, 0.02 * spin));
+    }
+  crystal.run(0.08, 200);
+  double sum = 0.0;
+  for (const Particle &p : crystal.particles) sum += square(p.w);
+  EXPECT_LT(std::sqrt(sum / 108.0), 1e-4);
 }
 
 TEST(SecondOrder, WithAdhesion)
@@ -271,7 +319,7 @@ TEST(SecondOrder, IsLostWithoutTheMeasures)
   without = Measures{};
   without.slip = false;
   Law law = hertz(400.0, 0.3);
-  law.mu_r = law.mu_s = 0.1;
+  law.resistance.mu_r = law.resistance.mu_s = 0.1;
   EXPECT_GT(worth(oblique(law), without), 5.0);
   without = Measures{};
   without.rolling = false;

@@ -20,6 +20,8 @@
 #ifndef TALUS_TESTS_SECOND_ORDER_TWIN_H
 #define TALUS_TESTS_SECOND_ORDER_TWIN_H
 
+#include "resistance_twin.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,42 +29,6 @@
 
 namespace Twin {
 
-struct Vec {
-  double x = 0.0, y = 0.0, z = 0.0;
-};
-inline Vec operator+(Vec a, Vec b)
-{
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec operator-(Vec a, Vec b)
-{
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec operator*(double s, Vec a)
-{
-  return {s * a.x, s * a.y, s * a.z};
-}
-inline double dot(Vec a, Vec b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline double length(Vec a)
-{
-  return std::sqrt(dot(a, a));
-}
-inline Vec cross(Vec a, Vec b)
-{
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Vec unit(Vec a)
-{
-  const double l = length(a);
-  return l > 0.0 ? (1.0 / l) * a : Vec{};
-}
-inline Vec across(Vec a, Vec n)
-{
-  return a - dot(a, n) * n;
-}
 /// a by the rotation from one normal to n, which is half way at n - q; to second order in q.
 inline Vec rotated(Vec a, Vec n, Vec q)
 {
@@ -104,7 +70,8 @@ struct Law {
   bool hertz = false;
   Damping damping = Damping::MASS;
   double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
-  double mu_r = 0.0, mu_s = 0.0, adhesion = 0.0;
+  double adhesion = 0.0;
+  Resistance resistance;
   bool limit_damping = true;
   bool slider = true;    // else the stock rule
 
@@ -142,6 +109,7 @@ struct Contact {
   double force = 0.0;    // normal one of the last step, without the correction of its beginning
   bool slid = false;
   Vec s;    // tangential displacement
+  RememberedResistance resistance;
 };
 
 /// Stiffness and damping of a contact with overlap d.
@@ -409,8 +377,37 @@ class System {
       if (begins && with.ends && slides) friction = (law.mu * std::fabs(force)) * unit(wanted);
     }
     Vec moment = cross(p.n, friction), twist{};
-    if (law.mu_r > 0.0) moment = moment + rolling(p, moment, std::max(force, 0.0), forward);
-    if (law.mu_s > 0.0) twist = spinning(p, std::max(force, 0.0), forward);
+    if (law.resistance.any()) {
+      ResistanceInput in;
+      in.n = in.half_n = in.old_n = p.n;
+      in.rotation = p.spin;
+      in.omega = p.i->w;
+      in.rotation_change = lag * p.alpha;
+      in.omega_change = lag * p.i->alpha;
+      in.moment = moment;
+      in.pure = std::max(pure, 0.0);
+      in.old_pure = c.touches ? std::max(c.force, 0.0) : 0.0;
+      in.force = std::max(force, 0.0);
+      in.share = begins && with.ends ? 1.0 - zeta(0.0, theta) : 1.0;
+      in.dt = dt;
+      in.lasted = with.midpoint ? theta * dt : dt;
+      in.lag = lag;
+      in.inverse_mass = p.inverse_mass;
+      in.inverse_inertia = 1.0 / p.i->inertia();
+      in.radius = p.radius;
+      in.circle = circle_of_intersection(p);
+      in.touches = c.touches;
+      if (p.j) {
+        in.omega = in.omega - p.j->w;
+        in.omega_change = in.omega_change - lag * p.j->alpha;
+        in.inverse_inertia += 1.0 / p.j->inertia();
+        in.half_n = unit(p.distance * p.n - 0.5 * dt * p.v);
+        in.old_n = unit(p.distance * p.n - dt * p.v);
+      }
+      const Resisting its = resist(law.resistance, in, c.resistance, with.rolling);
+      moment = moment + its.moment;
+      twist = its.torque - its.twist * p.n;
+    }
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
     c.force = pure;
@@ -488,33 +485,6 @@ class System {
     c.s = (1.0 / (t_mid * t_mid + t_mid * h + 0.5 * h * h)) *
           (t_mid * t_mid * (before + 0.5 * h * rate) + 0.5 * h * h * g);
     return -limit * unit(now.kt * c.s + now.gt * u);
-  }
-
-  /// What leaves three quarters of the rotation, at most mu_r F_n.
-  Vec rolling(const Pair &p, Vec moment, double force, double forward) const
-  {
-    const double response = 2.5 * dt * p.inverse_mass;
-    const Vec rotation = cross(p.n, cross(p.spin, p.n));
-    const Vec needed = (0.25 / response) * rotation - moment;
-    const double most = law.mu_r * force;
-    if (length(needed) <= most) return needed;
-    if (!with.rolling) return most * unit(needed);
-    const Vec later = cross(p.n, cross(p.spin + forward * p.alpha, p.n));
-    return most * unit(later);
-  }
-
-  Vec spinning(const Pair &p, double force, double forward) const
-  {
-    Vec w = p.i->w, alpha = p.i->alpha;
-    if (p.j) w = w - p.j->w, alpha = alpha - p.j->alpha;
-    w = w + forward * alpha;
-    const double speed = length(w);
-    if (speed == 0.0) return {};
-    const double response = 2.5 * dt * p.inverse_mass, inverse_radius = 1.0 / p.radius;
-    const double circle = circle_of_intersection(p);
-    const double wanted = law.mu_s * circle * force / speed;
-    const double most = 0.25 / (response * inverse_radius * inverse_radius);
-    return -std::min(wanted, most) * dot(w, p.n) * p.n;
   }
 
   static double circle_of_intersection(const Pair &p)

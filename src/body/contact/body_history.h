@@ -41,6 +41,13 @@ class BodyHistory {
     with_normals = several || normals;
   }
 
+  /// Later: laws of second order remember more than those that a body was defined with.
+  void keep_impacts()
+  {
+    with_impact = true;
+    impacts.resize(records.size());
+  }
+
   void grow(int num_particles) { entry_of.resize(num_particles, nowhere); }
   void copy(int from, int to) { entry_of[to] = entry_of[from]; }
   void forget(int particle) { entry_of[particle] = nowhere; }

@@ -137,11 +137,12 @@ template <bool friction> struct SecondOrder : FrictionLaw {
     return friction ? 0.5 * s.kt * dot(d, d) : 0.0;
   }
 
-  /// Contacts that begin or end in this step, or have had no normal force in the last one; few do.
-  /// Elsewhere compute<true, false>() is enough, with the same bits.
+  /// Contacts that begin or end in this step; few do. Elsewhere compute<true, false>() is enough,
+  /// with the same bits.
   template <class Real> TALUS_INLINE static bool_of<Real> at_an_end(Real parted, Real stored)
   {
-    return (stored >= splat<Real>(-no_force)) | (parted > splat<Real>(0.0));
+    const Real zero = splat<Real>(0.0);
+    return (stored >= zero) | (parted > zero);
   }
 
   template <bool advance, bool ends = true, class Real>
@@ -186,10 +187,12 @@ template <bool friction> struct SecondOrder : FrictionLaw {
       Vector3<Real> d{h[0], h[1], h[2]};
       const Real limit = c.mu * pure;
       Real old_limit = c.mu * last.force;
-      if constexpr (ends && advance) {
-        const Real since = share_since_return(c, s, pure, dt);
-        theta = select(last.known & (last.force < splat<Real>(no_force)), since, theta);
+      if constexpr (ends && advance)
         old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
+      if constexpr (advance) {
+        const Real none = splat<Real>(no_force);
+        const auto returns = last.known & (last.force < none) & (pure > none);
+        if (any(returns)) theta = select(returns, share_since_return(c, s, pure, dt), theta);
       }
       const Real time = dt * theta;
       Vector3<Real> before = d, half_way = u;
@@ -262,8 +265,8 @@ template <bool friction> struct SecondOrder : FrictionLaw {
   /// Where damping has held a force at 0 which is F now, the part of the step since it began to
   /// grow: before, the spring was at rest.
   template <class Real>
-  static Real share_since_return(const Row<Real> &c, const ContactLanes<Real> &s, Real force,
-                                 double dt)
+  TALUS_INLINE static Real share_since_return(const Row<Real> &c, const ContactLanes<Real> &s,
+                                              Real force, double dt)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
     const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
