@@ -76,7 +76,7 @@ class Scenes(SceneCase):
         self.assertEqual(mass[0], 0.0)
 
     def test_dice(self):
-        found = self.simulate("dice", np=2, way="through the arrays", n=3, layers=3, time=1.5)
+        found = self.simulate("dice", np=2, n=3, layers=3, time=1.5)
         self.assertAlmostEqual(found["force on the floor / weight"], 1.0, delta=0.05)
         self.assertLess(found["kinetic energy / weight / edge"], 1e-3)
 
