@@ -38,7 +38,8 @@ void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords 
     row.number[Row::RADIUS][k] = records.position[sphere.slot].c[3];
     row.number[Row::INVERSE_RADIUS][k] = records.omega(sphere.slot).c[3];
     row.number[Row::INVERSE_MASS][k] = records.velocity(sphere.slot).c[3];
-    if (!sphere.wrapped && row.number[Row::INVERSE_MASS][k] > 0.0) usual++;
+    if (sphere.wrapped) row.wrapped |= 1U << k;
+    if (row.number[Row::INVERSE_MASS][k] > 0.0) usual++;
   });
   row.usual = usual == lanes;
   rows.push_back(row);

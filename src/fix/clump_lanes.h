@@ -17,9 +17,9 @@ namespace LAMMPS_NS {
    Clumps while their spheres are in the records: groups of eight clumps, lane by lane, that are
    moved together, with the bits of one by one. The m-th spheres of the clumps of a group are a row.
 
-   In a usual row all eight spheres are there, owned, free to move and in the periodic box of their
-   centers: what does not change of them is kept as lanes, and the rest of their records is read and
-   written as a whole. In other rows spheres are looked at one by one.
+   In a usual row all eight spheres are there, owned and free to move: what does not change of them
+   is kept as lanes, and the rest of their records is read and written as a whole. In other rows
+   spheres are looked at one by one.
 
    Made by the fix that moves clumps; used until neighbor lists are made anew, or a step is made in
    the arrays of the host.
@@ -87,6 +87,7 @@ class ClumpLanes {
     enum { PLACE, RADIUS = 3, INVERSE_RADIUS, INVERSE_MASS };
     alignas(64) double number[6][lanes];
     int slot[lanes];
+    unsigned wrapped;    // bits of the lanes whose spheres are in another period than their centers
     bool usual;
 
     Vec8 at(int which) const { return Talus::load8(number[which]); }
@@ -212,20 +213,26 @@ class ClumpLanes {
         if constexpr (changes)
           records.keep_change(slot, v_old, load4(v_row[k]), w_old, load4(w_row[k]));
       };
-      if (row.usual) {
-        put_positions(s.position);
+      const int m = r - group.first_row;
+      put_positions(row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift)
+                                : s.position);
+      if (row.usual)
         for (int k = 0; k < lanes; k++) put(k, row.slot[k]);
-        continue;
-      }
-      Talus::Record away[lanes] = {};
-      for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
-        if (sphere.wrapped) away[k] = shift(sphere);
-      });
-      put_positions(s.position - three(away));
-      for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
-        if (sphere.owned) put(k, sphere.slot);
-      });
+      else
+        for_each_sphere(table, group, m, [&](int k, const ClumpSphere &sphere) {
+          if (sphere.owned) put(k, sphere.slot);
+        });
     }
+  }
+
+  template <class Shift>
+  static Vector shifts(const ClumpTable &table, const Group &group, int m, unsigned wrapped,
+                       Shift shift)
+  {
+    Talus::Record away[lanes] = {};
+    for (int k = 0; k < lanes; k++)
+      if (wrapped >> k & 1U) away[k] = shift(table.begin(group.first_clump + k)[m]);
+    return three(away);
   }
 };
 

@@ -186,6 +186,56 @@ fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential m
                     self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
 
 
+MIXED = """
+units lj
+boundary p p f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+read_data grains fix prop NULL Molecules
+group shapes type 2
+group clumps type 1
+neighbor 0.2 bin
+neigh_modify every 1 delay 0 check yes exclude molecule/intra clumps
+pair_style gran/penalty
+pair_coeff * * hertz 2.0e4 50 tangential multistep NULL NULL 0.5
+timestep 0.0005
+fix fall all gravity/talus 10 vector 0.2 0 -1
+fix move clumps rigid/small/symplectic molecule start half
+fix s shapes shape/gran type 2 box 0.8 0.7 0.6 density 1.0 orient random 4711
+fix floor all large/body plane 0 0 0 0 0 1 contact hertz 2.0e4 50 tangential multistep NULL NULL 0.5
+compute b all rigid/local move id mass x y z quatw quati quatj quatk angmomx angmomy angmomz
+compute sum all reduce sum c_b[2] inputs local
+thermo 100
+thermo_style custom step c_sum
+dump local all local 300 local.{np} index c_b[1] c_b[2] c_b[3] c_b[4] c_b[5] c_b[6] c_b[7] c_b[8] c_b[9]
+{run}
+write_dump all custom last id mol {all} modify format float %a sort id
+"""
+
+
+class ClumpsAndShapes(ClumpCase):
+
+    def test_one_scene_has_both(self):
+        """Clumps, and boxes among them: the same bits on ranks and in several runs; and what outputs tell of clumps."""
+        frames = []
+        for np, run in (1, "run 300"), (2, "run 300"), (4, "run 130\nrun 170"):
+            log = self.run_lammps(MIXED.format(np=np, run=run, all=" ".join(ALL)), np=np).log
+            self.assertNotIn("ERROR", log)
+            frames += read_dump(self.path("last"))
+        for frame in frames[1:]:
+            self.assert_same_bits(frame, frames[0], MOTION)
+        self.assertEqual(len(set(frames[0].column("mol").values())), 23)    # and 0 of the boxes
+        with open(self.path("local.1")) as file:
+            rows = [[float(w) for w in line.split()] for line in file.read().split("c_b[9]")[-1].splitlines() if line.strip()]
+        self.assertEqual(len(rows), 22)
+        for row in rows:    # the mass of three spheres of density 1, by their diameters, and a quaternion
+            self.assertAlmostEqual(row[2], math.pi / 6.0 * (1.0 + 0.9**3 + 0.8**3), delta=1e-5)
+            self.assertAlmostEqual(sum(q * q for q in row[6:10]), 1.0, delta=1e-4)
+
+
 FREE = """
 units lj
 boundary p p p
