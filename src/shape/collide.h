@@ -36,6 +36,8 @@
 
 namespace Talus {
 
+class Frustum;
+
 enum class NarrowPhase {
   FEATURES,    ///< as above
   MPR          ///< one point per pair, by Minkowski Portal Refinement
@@ -64,6 +66,12 @@ bool collide_plane(const ConvexShape &shape, const Pose &pose, const Vector3<dou
 /// walls near a sphere of any radius (LargeBodyShape::find_contacts()).
 bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyShape &vessel,
                     ConvexContacts &contacts);
+
+/// Outside of a cylinder or cone. Every vertex of the core that is nearer to it than the radius, or
+/// inside; every edge whose nearest point is between its ends, with the weight that these leave;
+/// and the rims of caps: at twelve places, and in between where they are deepest behind a face.
+bool collide_round(const ConvexShape &shape, const Pose &pose, const Frustum &body,
+                   ConvexContacts &contacts);
 
 /// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
 /// and those that are nearer to a vertex are named by it.

@@ -49,6 +49,10 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
     }
   } else if (const auto *frustum = dynamic_cast<const Frustum *>(&body)) {
     if (frustum->is_vessel()) add_vessel();
+    if (frustum->is_solid())
+      walls.emplace_back([frustum](const Particle &one, ConvexContacts &contacts) {
+        return collide_round(one.shape, one.pose, *frustum, contacts);
+      });
   } else if (const auto *ball = dynamic_cast<const Talus::Ball *>(&body)) {
     if (ball->is_inside()) {
       add_vessel();
@@ -78,7 +82,7 @@ std::string BodyWalls::refusal(const LargeBodyShape &body)
 {
   if (dynamic_cast<const MeshShape *>(&body) || BodyWalls(body).size() > 0) return "";
   return "particles with a shape touch no surface of this kind: use plane, rectangle, box, sphere, "
-         "cylinder or cone inside, or mesh";
+         "cylinder or cone without 'open', or mesh";
 }
 
 /* A direction that separates is not kept: large bodies are few. */

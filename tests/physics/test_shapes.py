@@ -293,7 +293,8 @@ class Bodies(ShapeCase):
         # the height of the center of a cube, less the overlap; in the cylinder its lower edges touch
         law = "hooke 1e5 200 tangential multistep NULL NULL 0.5"
         for body, z in (("plane 0 0 0 0 0 1", 0.5), ("box 0 0 -1 4 4 2 outside", 0.5), ("box 0 0 4 8 8 8 inside", 0.5),
-                        ("sphere 0 0 -2 2 outside", 0.5),
+                        ("sphere 0 0 -2 2 outside", 0.5), ("cylinder 0 0 -1 0 0 1 3 2 outside", 0.5),
+                        ("cylinder 0 0 -2 0 1 0 2 8 outside", 0.5), ("cone 0 0 -1 0 0 1 3 2 2 outside", 0.5),
                         ("cylinder 0 0 5 0 1 0 5 8 inside", 0.5 + 5.0 - math.sqrt(25.0 - 0.25))):
             with self.subTest(body):
                 rows = self.simulate([Sphere((0, 0, z))],

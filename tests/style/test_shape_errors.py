@@ -75,7 +75,7 @@ class ShapeErrors(SceneCase):
                 (f"{FIX}\nfix 1 balls nve/sphere/symplectic order 2", "order"),
                 (f"{FIX}\nfix w all wall/gran granular hooke 1e4 10 tangential linear_nohistory 0 0 zplane 0 NULL",
                  "fix large/body"),
-                (f"{FIX}\nfix w all large/body cylinder 0 0 0 0 0 1 8 8 outside {hooke}", "use plane, rectangle, box, sphere, cylinder or cone inside, or mesh"),
+                (f"{FIX}\nfix w all large/body cylinder 0 0 0 0 0 1 8 8 open {hooke}", "use plane, rectangle, box, sphere, cylinder or cone without 'open', or mesh"),
                 (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke} tangential multistep NULL NULL 0.5 rolling 0.1", "rolling"),
                 (f"{FIX}\ncompute c all pair/local dist", "use compute contact/gran/local"),
                 (f"{FIX}\nminimize 0 1e-4 10 10", "minimize"),

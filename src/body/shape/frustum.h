@@ -26,8 +26,22 @@ class Frustum : public LargeBodyShape {
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
           double length, bool inside, bool open = false);
 
-  /// Touched from inside alone.
+  /// Touched from inside alone, or from outside alone.
   bool is_vessel() const { return inside && !open; }
+  bool is_solid() const { return !inside && !open; }
+  bool is_endless() const { return endless; }
+  /// The edge of a cap, 0 at the low end, 1 at the high one.
+  struct Rim {
+    Vector3<double> center;
+    Vector3<double> axis;    ///< out of the cap, a unit vector
+    Vector3<double> side;    ///< a unit vector normal to it
+    double radius;
+  };
+  Rim rim(int end) const
+  {
+    const double s = end ? 1.0 : -1.0;
+    return {middle + s * half * axis, s * axis, side, end ? high : low};
+  }
 
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
