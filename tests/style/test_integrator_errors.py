@@ -106,7 +106,7 @@ REFUSED += [
      O + "the contact of types 1 and 1 has the tangential law linear_history, which .*: use xt = 0"),
     (f"pair_style gran/hooke/history 1e4 NULL 0 NULL 0.5 1\npair_coeff * *\n{SECOND}\nrun 0",
      O + "contacts of particles are not those of a pair style of Talus"),
-    (f"{PAIR}hertz 1e4 0 rolling 0.1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance"),
+    (f"{PAIR}hertz 1e4 0 rolling 0.1 delayed\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance.*'delayed'"),
     (f"{PAIR}dmt 1e5 0 0.3 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has the normal law dmt"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
      O + r"fix other \(nve/sphere\) moves particles as well"),
