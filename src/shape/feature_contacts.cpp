@@ -113,8 +113,25 @@ struct EdgeWeights {
   double energy;    ///< over phi(o)
 };
 
-/* The derivatives of the energy phi(o) prod_k (1 - 3 p_k^2 + 2 p_k^3), p_k = (o_k/o)^m, phi ~ o^m:
-   by o over phi'(o), and by -o_k over phi'(o_k). */
+/* What the contact of an end leaves of the energy of a contact of two edges, and minus its slope, for
+   the ratio p of their energies: 1 - a p, which ends at p = 1 without a kink, as a parabola over a
+   fifth. Where the slope is above 1 the weight of the end is negative, and pulls at what should
+   topple about the edge; the mean slope is 1, so that it cannot be below 1 everywhere. */
+
+struct Left {
+  double share, slope;
+};
+
+Left left_by_end(double p)
+{
+  constexpr double bend = 0.2, steepest = 1.0 / (1.0 - 0.5 * bend), to_end = 1.0 - bend;
+  if (p < to_end) return {1.0 - steepest * p, steepest};
+  const double slope = steepest * (1.0 - p) / bend;
+  return {0.5 * slope * (1.0 - p), slope};
+}
+
+/* The derivatives of the energy phi(o) prod_k left(p_k), p_k = (o_k/o)^m, phi ~ o^m: by o over
+   phi'(o), and by -o_k over phi'(o_k). */
 
 bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double force_exponent,
                       EdgeWeights &weights)
@@ -125,9 +142,10 @@ bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double
   for (int k = 0; k < 4; k++) {
     if (of_end[k] >= overlap) return false;
     const double p = energy_ratio(of_end[k], overlap, force_exponent);
-    left[k] = 1.0 - p * p * (3.0 - 2.0 * p);
-    weights.of_end[k] = 6.0 * p * (1.0 - p);
-    shared[k] = p * weights.of_end[k];
+    const Left by_end = left_by_end(p);
+    left[k] = by_end.share;
+    weights.of_end[k] = by_end.slope;
+    shared[k] = p * by_end.slope;
     weights.own *= left[k];
   }
   weights.energy = weights.own;

@@ -307,6 +307,18 @@ class Bodies(ShapeCase):
                 self.assertLess(rows[-1]["f_s[1]"] + rows[-1]["f_s[2]"], 1e-12)
                 self.assertAlmostEqual(rows[-1]["f_body[3]"], -10.0, delta=1e-6)
 
+    def test_stands_or_falls_at_an_edge(self):
+        # the edge of a box at x = 2: what has its center beyond it topples; rounded, up to .03 of it is held (page)
+        law = "hooke 1e5 200 tangential multistep NULL NULL 0.5"
+        for shape in "box 1 1 1", "box .9 .9 .9 rounded .05":
+            for x, stands in ((1.95, True), (2.05, False)):
+                with self.subTest(shape, x=x):
+                    self.simulate([Sphere((x, 0.1, 0.5))],
+                                  f"fix s all shape/gran type 1 {shape} density 1\n"
+                                  f"fix body all large/body box -1 0 -.5 6 8 1 outside contact {law}\n"
+                                  "fix g all gravity/talus 10 vector 0 0 -1", 15000, dt=2e-4, pair=law, size=100.0)
+                    self.assertEqual(self.of("z") > 0.49, stands)
+
 
 class Stacks(ShapeCase):
 
