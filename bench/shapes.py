@@ -1,10 +1,11 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""What convex particles cost, and how dense they pack."""
+"""What convex particles and clumps cost, and how dense convex ones pack."""
 
 import re
 import shutil
 import subprocess
 
+import clump_beds
 import lammps
 import machine
 import paired
@@ -12,8 +13,9 @@ import shape_beds
 from lammps import BODY, STOCK, TALUS
 
 TITLE = "Particles that are not spheres"
-QUESTION = """What does a convex particle cost per step, beside a sphere and beside what LAMMPS has for it? Settled beds,
-periodic in x and y, on a floor, one core; linear springs with damping and friction. Convex bodies are rounded by 1/20 of the edge of the cube."""
+QUESTION = """What do a convex particle and a clump cost per step, beside a sphere and beside what LAMMPS has for them? Settled beds,
+periodic in x and y, on a floor, one core; linear springs with damping and friction, of clumps Hertzian ones. Convex bodies are rounded by 1/20 of
+the edge of the cube."""
 
 KINDS = ("spheres", "cubes", "dodecahedra", "mixed")
 COMPARED = ("cubes", "dodecahedra")     # with pair body/rounded/polyhedron
@@ -108,6 +110,8 @@ def convex(bench):
                      memory(bench, kind, bed), series[BODY].median if ratio else "-", str(ratio) if ratio else "-"])
         bench.section.record(case=kind, code=TALUS, bodies=len(bed[1]), pairs=pairs, points=points, narrow_share=share,
                              bytes_per_body=rows[-1][6])
+    if not rows:
+        return
     bench.section.heading("Convex particles")
     bench.section.table(["bed", "bodies", "pairs that touch per body", "points per body", "ns per body and step", "narrow phase",
                          "bytes per body", "body/rounded/polyhedron, ns", "ratio"], rows)
@@ -118,6 +122,44 @@ the difference in bodies. Narrow phase: share of samples (perf) of a whole run."
         if row[0] in COMPARED and row[-1] != "-":
             bench.section.headline(f"shapes: a step of settled {row[0]} takes {row[4] / 1000:.2f} us per body; with pair body/rounded/polyhedron "
                                    f"of LAMMPS {row[-1]} times as long.")
+
+
+# ---- clumps -----------------------------------------------------------------------------------
+
+CLUMPS = (      # what, a bed of clumps, code, mover, arguments
+    ("spheres, nve/sphere/talus", False, TALUS, "nve/sphere", ["-sf", "talus"]),
+    ("clumps, fix rigid/small of LAMMPS", True, STOCK, "rigid/small molecule", []),
+    ("clumps, rigid/small/talus", True, TALUS, "rigid/small molecule", ["-sf", "talus"]),
+    ("clumps, rigid/small/symplectic", True, TALUS, "rigid/small/symplectic molecule start half", ["-sf", "talus"]))
+CLUMP_FLOOR, CLUMP_LIMIT = 4.0, 3.5
+
+
+def clumps(bench):
+    """Time per body and step: of a sphere, or of a clump of three."""
+    if not bench.wants("clumps"):
+        return
+    across, steps = bench.size(10, 4), bench.size(2000, 200)
+    per_body = {False: 1, True: len(clump_beds.SPHERES)}
+
+    def timed_clumps(clumped, code, mover, arguments):
+        script = clump_beds.script(clump_beds.settled(bench, clumped, across), clumped, mover,
+                                   steps // (4 if code == STOCK else 1))
+        return lambda: per_body[clumped] * run(bench, "clumps", script, code, arguments=arguments).loops()[-1].nanoseconds()
+
+    series = paired.measure({what: timed_clumps(*how) for what, *how in CLUMPS}, bench.rounds)
+    sphere, stock = CLUMPS[0][0], CLUMPS[1][0]
+    rows = []
+    for what, clumped, *_ in CLUMPS:
+        faster, spheres = paired.ratio(series[stock], series[what]), paired.ratio(series[what], series[sphere])
+        rows.append([what, series[what].median, str(spheres), str(faster) if clumped else "-"])
+        for k, value in enumerate(series[what].values):
+            bench.section.record(case="clumps", code=what, round=k + 1, ns_per_body=value)
+    bench.section.heading("Clumps of three spheres")
+    bench.section.table(["bed", "ns per body and step", "over a sphere", "rigid/small of LAMMPS over it"], rows)
+    bench.section.text(f"""Whole loops: contacts, motion, floor, rebuilds of neighbor lists. LAMMPS: fix rigid/small with gran/hertz/history. Goals: at most
+{CLUMP_LIMIT} of a sphere, and {CLUMP_FLOOR:.0f} times faster than LAMMPS.""")
+    bench.section.headline(f"shapes: a step of a settled clump of three spheres takes {rows[2][1]:.0f} ns; with fix rigid/small of LAMMPS "
+                           f"{rows[2][3]} times as long.")
 
 
 # ---- packings ---------------------------------------------------------------------------------
@@ -151,5 +193,6 @@ def packings(bench):
 def measure(bench):
     if not machine.BODY_LMP:
         bench.section.text("Left out: pair body/rounded/polyhedron, for there is no LAMMPS with package BODY.")
+    clumps(bench)
     convex(bench)
     packings(bench)
