@@ -227,7 +227,9 @@ const char *const adhesive_laws[] = {
     "dmt 1.5e5 0 0.3 0.3 tangential mindlin NULL 0 0.3",
     "dmt 1.5e5 0 0.3 3 tangential mindlin NULL 0 0.3",
     "dmt 1.5e5 0 0.3 3 tangential linear_history 5e3 0 0.3",
+    "dmt 1.5e5 1 0.3 3 damping none tangential mindlin NULL 1 0.05",
     "dmt 1.5e5 0 0.3 3 tangential dashpot 100 0.3",
+    "dmt 1.5e5 0 0.3 3 tangential multistep NULL 100 0.3 slider midpoint",
 };
 
 /// What the laws of order 1 converge to, at first order, is the same.
