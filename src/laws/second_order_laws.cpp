@@ -87,11 +87,14 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
 {
   const Law &normal = law.normal(), &tangential = law.tangential();
-  if (normal.cohesive)
+  if (normal.lasts_beyond_contact)
     return std::string("has the normal law ") + normal.name +
            ", whose contacts tear: use hertz/material with 'adhesion constant F'";
   if (damps(law, row) && std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
-    return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";
+    return std::string("has damping that may attract, whose force ends with a jump: ") +
+           (normal.cohesive ? "use hertz/material with 'adhesion perko S', S = 4 pi gamma, and "
+                              "'limit_damping', or no damping"
+                            : "add 'limit_damping'");
   const std::string resistance = reason_of_resistance(law, row);
   if (!resistance.empty()) return resistance;
   if (!twin_of(tangential))

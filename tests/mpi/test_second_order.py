@@ -143,6 +143,7 @@ class SecondOrder(SceneCase):
         for name, pair, own in (
                 ("granular", "granular/talus", "hertz 2.0e4 50.0 tangential mindlin 1.0e4 0.0 0.5 damping viscoelastic "
                                                "limit_damping"),
+                ("dmt", "granular/talus", "dmt 2.0e4 0.0 0.3 0.02 tangential mindlin NULL 0.0 0.5"),
                 ("history", "gran/hertz/history/talus 2.0e4 NULL 50.0 0.0 0.5 1 limit_damping", "")):
             with self.subTest(name):
                 f = {"pair": pair, "own": own, "boundary": "f f f"}

@@ -221,6 +221,17 @@ TEST(OrderOfLaws, IsTwoOfOtherLaws)
       expect_second_order(words, scene);
 }
 
+/// Friction is limited by mu (F_e + 2 F_p): it begins and ends with a limit above zero.
+const char *const adhesive_laws[] = {
+    "dmt 1.5e5 0 0.3 0.3",
+    "dmt 1.5e5 0 0.3 0.3 tangential mindlin NULL 0 0.3",
+    "dmt 1.5e5 0 0.3 3 tangential mindlin NULL 0 0.3",
+    "dmt 1.5e5 0 0.3 3 tangential linear_history 5e3 0 0.3",
+    "dmt 1.5e5 1 0.3 3 damping none tangential mindlin NULL 1 0.05",
+    "dmt 1.5e5 0 0.3 3 tangential dashpot 100 0.3",
+    "dmt 1.5e5 0 0.3 3 tangential multistep NULL 100 0.3 slider midpoint",
+};
+
 /// What the laws of order 1 converge to, at first order, is the same.
 TEST(OrderOfLaws, OfOneHaveTheSameLimit)
 {
@@ -233,6 +244,38 @@ TEST(OrderOfLaws, OfOneHaveTheSameLimit)
     EXPECT_LT(std::sqrt(less), 2.0e-4) << words;
     EXPECT_LT(less, some / 25.0) << words;
   }
+}
+
+/// Their error is that of the jumps, which depends on where in a step contacts begin.
+TEST(OrderOfLaws, OfOneHaveTheSameLimitOfDmt)
+{
+  for (const char *words : adhesive_laws) {
+    const State limit = result(Engine::Kernels(words), oblique(), 1 << 15);
+    const Engine::Kernels first(words, false);
+    const double error = std::sqrt(squared_error(result(first, oblique(), 1 << 15), limit));
+    std::printf("%.1e  %s\n", error, words);
+    EXPECT_LT(error, 5.0e-5) << words;
+  }
+}
+
+TEST(OrderOfLaws, IsTwoOfDmt)
+{
+  for (const char *words : adhesive_laws)
+    for (const Scene &scene : {oblique(), on_plane(), cluster()}) expect_second_order(words, scene);
+  for (const Scene &scene : {oblique(), on_plane()})
+    expect_second_order("dmt 1.5e5 0 0.3 0.3 tangential mindlin NULL 0 0.3 rolling 0.02 "
+                        "spinning 0.02",
+                        scene);
+}
+
+TEST(OrderOfLaws, DmtIsPerkoWithoutFriction)
+{
+  const Engine::Kernels dmt("dmt 1.5e5 0 0.3 0.25"),
+      perko("hertz/material 1.5e5 1 0.3 adhesion perko 3.14159265358979323846");
+  for (const Scene &scene : {head_on(), oblique(), on_plane(), cluster()})
+    for (int steps : {60, 157, 1000})
+      EXPECT_LT(squared_error(result(dmt, scene, steps), result(perko, scene, steps)), 1.0e-22)
+          << scene.name;
 }
 
 /// Where a body is held by one contact.

@@ -339,7 +339,10 @@ TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)
   expect_cure("hertz 2e4 0 rolling 0.1 delayed", "delayed");
   expect_cure("hertz 2e4 0 rolling 0.1 vmin 0 1e-4 0", "vmin");
   EXPECT_EQ(reason("hertz 2e4 0 adhesion constant 1"), "");
-  expect_cure("dmt 1e5 0 0.3 1", "adhesion constant");
+  EXPECT_EQ(reason("dmt 1e5 0 0.3 1"), "");
+  EXPECT_EQ(reason("dmt 1e5 1 0.3 1 damping none"), "");
+  expect_cure("dmt 1e5 1 0.3 1", "adhesion perko");
+  expect_cure("jkr 1e5 0 0.3 1", "adhesion constant");
   expect_cure("flores 1e5 1 tangential multistep NULL 1 0.3 slider midpoint", "limit_damping");
   EXPECT_EQ(reason("hertz 2e4 0 heat radius 1"), "");
   const std::string friction = " tangential multistep NULL NULL 0.3 slider midpoint limit_damping";

@@ -14,6 +14,9 @@
 //     for a sum that does not begin on a grid point): it is subtracted. p: exponents of elastic
 //     force and damping. Only if the overlap is at most what one step brings;
 //   * where it ends the same, see end_of_contact.h;
+//   * adhesion that the normal law has itself, the constant pull_off of dmt, is taken out of the
+//     elastic force before and added again behind, with the share of p = 0. It raises the limit of
+//     friction to mu (F + pull_off), so that friction may end while the contact still sticks;
 //   * the displacement, and the return of a sliding contact to its limit: see midpoint.h.
 //
 // The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
@@ -156,6 +159,7 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     s.adhesive_share = one;
+    s.elastic = s.elastic + s.pull_off;
     s.kt = stiffness(c, s);
     if constexpr (granular) s.gt = c.xt * s.gn;
     EndOfContact<Real> end;
@@ -194,8 +198,8 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
     if constexpr (friction) {
       const Vector3<Real> u = present_velocity(s);
       Vector3<Real> d{h[0], h[1], h[2]};
-      const Real limit = c.mu * pure;
-      Real old_limit = c.mu * last.force;
+      const Real limit = c.mu * (pure + s.pull_off);
+      Real old_limit = c.mu * (last.force + s.pull_off);
       if constexpr (ends && advance)
         old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
       if constexpr (advance) {
@@ -229,7 +233,7 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
         t = select(slides, with_length(limit, -f), t);
       }
       if constexpr (ends) {
-        const Real most = c.mu * s.critical_force;
+        const Real most = c.mu * (s.critical_force + s.adhesive_share * s.pull_off);
         const Vector3<Real> early = start.spring / start.ratio * dt * s.kt * u;
         const Vector3<Real> sticks = limited(t + early + start.dashpot * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
@@ -243,6 +247,7 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
     if constexpr (advance)
       h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
     if constexpr (ends) end.replace(s, t, h);
+    add_pull(s);
     if constexpr (lever_arms)
       add_tangential_in_overlap(s, t);
     else
@@ -256,6 +261,15 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
     if constexpr (kind == Friction::DASHPOT) return splat<Real>(0.0);
     if constexpr (mindlin) return c.kt * s.contact_radius;
     return granular ? c.kt : s.kt;
+  }
+
+  template <class Real> TALUS_INLINE static void add_pull(ContactLanes<Real> &s)
+  {
+    const Real pull = s.adhesive_share * s.pull_off;
+    s.elastic = s.elastic - pull;
+    s.normal_force = s.normal_force - pull;
+    s.critical_force = s.critical_force + pull;
+    s.force = s.force - pull * s.normal;
   }
 
   /// Of the surfaces, at the time of the positions.
@@ -300,7 +314,7 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
   TALUS_INLINE static Real limit_at_begin(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
-    return select((limit > zero) & (c.damping <= c.dashpot), limit, zero);
+    return select((limit > zero) & (c.damping <= c.dashpot), limit, zero) + c.mu * s.pull_off;
   }
 
   template <Of which, class Real>
@@ -371,10 +385,18 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
     if constexpr (friction) {
       const Vector3<Real> now = turned_by(half_turn(s, dt), d, s.normal), u = surface_velocity(s);
       const Vector3<Real> within = -(s.kt * now + s.gt * u);
-      const Vector3<Real> stuck =
-          end_of_sticking(within, -dt * s.kt * u, c.mu * last.force, edge.theta);
-      end.tangential = select(last.slid, with_length(c.mu * end.normal_force, within),
-                              select(edge.is, stuck, end.tangential));
+      Vector3<Real> stuck = end_of_sticking(within, -dt * s.kt * u, c.mu * last.force, edge.theta);
+      auto slid = last.slid;
+      const auto adheres = s.pull_off > zero;
+      if (any(adheres)) {    // the limit does not end at 0, what vanishes with the overlap sticks
+        slid = slid & ((s.pull_off <= zero) |
+                       ((kind == Friction::DASHPOT ? c.dashpot : c.spring) <= zero));
+        const Real of_spring = power(error.ratio, c.spring) * hurwitz_zeta(c.spring, edge.theta);
+        stuck = select(adheres, of_spring * s.kt * now + error.dashpot * s.gt * u, stuck);
+      }
+      const Real limit = end.normal_force + end.adhesive_share * s.pull_off;
+      end.tangential =
+          select(slid, with_length(c.mu * limit, within), select(edge.is, stuck, end.tangential));
     }
     for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
     const Real flags = select(last.slid, splat<Real>(2.0), zero);
