@@ -304,6 +304,7 @@ void DumpVtkGran::write_part(const std::string &name, VtkPolyData &part, bool in
   if (filewriter) check(part.write(piece(comm->me ? my_number : 0), time));
   if (comm->me == 0) {
     std::vector<std::string> pieces;
+    pieces.reserve(count);
     for (int k = 0; k < count; k++) pieces.push_back(in_folder(piece(k)));
     check(part.write_list(file_name(name, ".pvtp"), pieces));
   }

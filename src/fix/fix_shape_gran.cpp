@@ -90,6 +90,12 @@ void FixShapeGran::init()
   set_maxexchange();
 }
 
+void FixShapeGran::setup_pre_neighbor()
+{
+  is_set_up = true;
+  pre_neighbor();
+}
+
 /* Radius and mass belong to the type; the host makes new particles with others. */
 
 void FixShapeGran::set_sizes(int first, int last)
@@ -143,6 +149,7 @@ void FixShapeGran::pre_neighbor()
 
 void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
 {
+  require_set_up();
   const int nall = atom->nlocal + atom->nghost;
   send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
@@ -194,6 +201,7 @@ void FixShapeGran::send_orientations()
 
 void FixShapeGran::compute_contacts(const ContactStep &step)
 {
+  require_set_up();
   send_orientations();
   const bool in_records = system->residence() == Residence::RECORDS;
   if (in_records) show_lent();

@@ -56,7 +56,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   ~FixShapeGran() override;
   int setmask() override;
   void init() override;
-  void setup_pre_neighbor() override { pre_neighbor(); }
+  void setup_pre_neighbor() override;
   void pre_neighbor() override;
   void initial_integrate(int) override;
   double compute_scalar() override;
@@ -95,6 +95,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
     return table.of(type)->shape().inscribed_radius();
   }
   double volume_of(int type) const override { return table.of(type)->shape().volume(); }
+  const Talus::ParticleShape *shape_of(int type) const override { return table.of(type); }
   void keep_memories() override;
   double *const *orientations() const override { return quat; }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
@@ -136,6 +137,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void check_fixes();
   void check_computes();
   void require_no_other_integrator() const;
+  void require_set_up() const;
   RunMonitor::Check check_of_cores();
 
   std::shared_ptr<Talus::GranularSystem> system;
@@ -148,6 +150,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   std::map<const Talus::LargeBody *, Wall> walls;
   double **quat = nullptr;    ///< w x y z of owned particles and ghosts; 0: not known yet
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it
+  bool is_set_up = false;                ///< setup_pre_neighbor() has been called
   int other_integrators = 0;             ///< bits of groups that other fixes move
 
   Talus::PointMemories memories;

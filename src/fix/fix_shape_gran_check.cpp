@@ -28,6 +28,10 @@ void FixShapeGran::check_scene()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran cannot be used with run_style respa: use run_style verlet");
+  if (system->order() == 2)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes "
+               "nve/sphere/symplectic and rigid/small/symplectic");
   if (!system->accelerates_pairs())
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
@@ -86,25 +90,35 @@ void FixShapeGran::check_fixes()
                    2.0 * needed * (1.0 + 1.0e-6));
     }
   }
-  if (system->order() == 2)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in fix "
-               "nve/sphere/symplectic");
   require_no_other_integrator();
   // of the group only some move: LAMMPS would warn of two integrators of spheres in it
   time_integrate = other_integrators == 0;
 }
 
-/* It asks the pair style for contacts of spheres. */
+/* They compare distances with radii, or ask the pair style for contacts of spheres. */
 
 void FixShapeGran::check_computes()
 {
+  struct {
+    const char *style, *instead;
+  } constexpr of_spheres[] = {
+      {"pair/local", "compute contact/gran/local"},
+      {"contact/atom", "compute contact/gran/atom"},
+      {"rattlers/atom", "compute contact/gran/atom"},
+      {"fabric", "the normals of compute contact/gran/local"},
+      {"group/group", "the rows of compute contact/gran/local"},
+      {"stress/cartesian", "compute coarse/grid"},
+      {"stress/cylinder", "compute coarse/grid"},
+      {"stress/spherical", "compute coarse/grid"},
+      {"stress/mop", "compute coarse/grid"},
+      {"stress/mop/profile", "compute coarse/grid"},
+  };
   for (auto &compute : modify->get_compute_list())
-    if (strcmp(compute->style, "pair/local") == 0)
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: compute {} (pair/local) knows contacts of spheres only: use "
-                 "compute contact/gran/local",
-                 compute->id);
+    for (const auto &one : of_spheres)
+      if (strcmp(compute->style, one.style) == 0)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Fix shape/gran: compute {} ({}) knows contacts of spheres only: use {}",
+                   compute->id, compute->style, one.instead);
 }
 
 void FixShapeGran::require_no_other_integrator() const
@@ -115,6 +129,17 @@ void FixShapeGran::require_no_other_integrator() const
                  "Fix shape/gran: particle {} of type {} has a shape and belongs to the group of "
                  "another fix that moves particles: give that fix a group of spheres only",
                  atom->tag[i], atom->type[i]);
+}
+
+/* Called in a step: a run without set-up knows neither the pairs nor the ghosts of shapes. */
+
+void FixShapeGran::require_set_up() const
+{
+  if (!is_set_up)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Fix shape/gran: 'run ... pre no' cannot follow a new fix shape/gran: leave 'pre no' "
+        "out");
 }
 
 /* ---- warnings ---- */

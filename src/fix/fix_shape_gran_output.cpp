@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "force.h"
+#include "input.h"
 #include "modify.h"
 #include "update.h"
 
@@ -54,11 +55,18 @@ double FixShapeGran::compute_vector(int n)
   return sums()[n];
 }
 
+/* The words behind the keyword; of the command line those before it are missing. */
+
+static Words words_of_modify(LAMMPS *lmp, int narg, char **arg)
+{
+  return command_words(lmp, "fix_modify shape/gran", narg, arg, 1, lmp->input->narg - narg);
+}
+
 int FixShapeGran::modify_param(int narg, char **arg)
 {
   if (strcmp(arg[0], "picture") == 0) return add_to_picture(narg, arg);
   if (strcmp(arg[0], "orient") != 0) return 0;
-  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
+  Words words = words_of_modify(lmp, narg, arg);
   words.about("orient");
   const int tag = words.integer("ID of a particle", 1);
   double q[4];
@@ -80,7 +88,7 @@ int FixShapeGran::modify_param(int narg, char **arg)
 
 int FixShapeGran::add_to_picture(int narg, char **arg)
 {
-  Words words = command_words(lmp, "fix_modify shape/gran", narg, arg, 1);
+  Words words = words_of_modify(lmp, narg, arg);
   words.about("picture");
   const std::string other = words.text("ID of a fix");
   if (!modify->get_fix_by_id(other) || other == id)

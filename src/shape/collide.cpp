@@ -75,7 +75,7 @@ Vector find_contacts(const CorePair &pair, Rounding radius, const Gap &gap, doub
   }
   if (!(least.depth + radius.sum() > 0.0)) return least.direction;
   contacts.cores_overlap = radius.sum() > 0.0;
-  add_face_contacts(pair, radius, least, merging, contacts.points);
+  add_face_contacts(pair, radius, least, merging, force_exponent, contacts.points);
   return least.direction;
 }
 
@@ -198,6 +198,7 @@ bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyS
       contact.weight = 1.0;
       contact.name = contact_name(ContactParts::VERTEX_OF_A, v, 0);
       contact.surface = static_cast<std::uint32_t>(found[k].part);
+      contact.part = found[k].part;
       contacts.points.push_back(contact);
     }
   }

@@ -7,23 +7,20 @@
 // Appl. Mech. Eng. 265, 10, 2013): each vertex of a core with the nearest point of the other core,
 // and each pair of edges that are nearest to each other inside of both. A contact is one of two
 // spheres at the nearest points; overlaps are continuous functions of the poses, and so are their
-// derivatives. Forces follow from an energy, so that elastic impacts keep the sum: it is
-//
-//   sum over vertices of phi(o_v) + sum over pairs of edges of
-//   phi(o_e) prod over the four ends k of (1 - 3 p_k^2 + 2 p_k^3), p_k = phi(o_k)/phi(o_e),
-//
-// phi(o) ~ o^(force_exponent + 1). So an edge contact fades that runs into a vertex, or whose ends
-// are as deep (parallel edges), and nothing jumps. The derivatives by the overlaps, over phi', are
-// the weights: 1 of a contact that is alone; a vertex at which an edge contact is about to end may
-// have less than 0, and the edge then has more than 1.
+// derivatives but where an edge contact begins beside its end. Forces follow from an energy, so that
+// elastic impacts keep the sum: phi(o) of each vertex, and of each pair of edges phi(o) times what
+// the contacts of its four ends leave, see shared_energy.h. So an edge contact fades that runs into
+// a vertex, or whose ends are as deep (parallel edges), and nothing jumps. A vertex beside edge
+// contacts has less weight than 1, down to -1/9 for one, and the edge has more.
 //
 // Where the cores overlap, or both bodies are sharp, the direction of least depth is found among
-// the normals of faces and the cross products of edges (theorem of the separating axis). The faces
-// that look along it most are projected along it; the contacts are the corners of the polygon that
-// they have in common, each with its own depth, so that a flat cube does not rock. The weight of a
-// corner is the angle by which the polygon turns there, over a right angle: 1 for those of a
-// square, 4 for all of them, whatever their number; but all together bear as much as the deepest
-// of them would with the weight 1.
+// the normals of faces and the cross products of edges (theorem of the separating axis). The energy
+// is phi(o + R) of one overlap o of both bodies, see mean_overlap.h: as large as the depth where a
+// corner is in a face or two edges cross, and larger along an edge or a face. Force and torque are
+// its derivatives, one force along an axis. It is shared by the corners of the polygon that the two
+// faces have in common, all with the least depth as their overlap, so that a flat cube has friction
+// and damping at each of its corners; weights make up for the difference between o and the depth.
+// The energy is continuous where the direction jumps, forces are not.
 //
 // All numbers are computed in the frame of a from the pose of b relative to it, by the same code
 // on all instruction sets. Functions are thread-safe; they use buffers of their thread.
@@ -68,13 +65,14 @@ bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyS
                     ConvexContacts &contacts);
 
 /// Outside of a cylinder or cone. Every vertex of the core that is nearer to it than the radius, or
-/// inside; every edge whose nearest point is between its ends, with the weight that these leave;
-/// and the rims of caps: at twelve places, and in between where they are deepest behind a face.
+/// inside; every edge whose nearest point is between its ends; and the rims of caps: at twelve
+/// places, and in between where they are deepest behind a face. An edge shares its energy with its
+/// ends, and the last ones with the two places and the vertices and edges of the face.
 bool collide_round(const ConvexShape &shape, const Pose &pose, const Frustum &body,
-                   ConvexContacts &contacts);
+                   ConvexContacts &contacts, double force_exponent = 1.0);
 
-/// Sharp contacts: corners of the common polygon that are nearer to each other than this are one,
-/// and those that are nearer to a vertex are named by it.
+/// Sharp contacts: corners of the common polygon that are nearer to a vertex than this are named by
+/// it.
 double merging_length(const ConvexShape &a, const ConvexShape &b);
 
 }    // namespace Talus

@@ -70,11 +70,9 @@ bool MeshContacts::find()
     for (int e = 0; e < core.num_edges(); e++) {
       const ConvexCore::Edge &edge = core.edge(e);
       const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
-      with.edges.push_back({e,
-                            pose.point_in_space(from),
-                            pose.direction_in_space(along),
-                            dot(along, along),
-                            {edge.vertex[0], edge.vertex[1]}});
+      const Segment segment{pose.point_in_space(from), pose.direction_in_space(along),
+                            dot(along, along)};
+      with.edges.push_back({e, segment, {edge.vertex[0], edge.vertex[1]}});
     }
     for (std::size_t r = 0; r < with.ridges.size(); r++)
       add_edges(*with.ridges[r], with.of_ridge[r]);
@@ -121,16 +119,16 @@ void MeshContacts::add_corner(const MeshCorner &corner, int t)
   contact.weight = 1.0;
   contact.name = contact_name(ContactParts::VERTEX_OF_B, 0, 0);
   contact.surface = static_cast<std::uint32_t>(corner.vertex);
-  contact.triangle = t;
+  contact.part = t;
   with.of_corner.emplace_back(corner.vertex, static_cast<int>(points.size()));
   points.push_back(contact);
 }
 
 bool collide_mesh(const ConvexShape &shape, const Pose &pose, const SolidMesh &mesh,
-                  ConvexContacts &contacts)
+                  ConvexContacts &contacts, double force_exponent)
 {
   contacts.clear();
-  return MeshContacts(shape, pose, mesh, contacts.points).find();
+  return MeshContacts(shape, pose, mesh, force_exponent, contacts.points).find();
 }
 
 }    // namespace Talus

@@ -8,11 +8,13 @@
 //                              MeshShape); one behind the surface is pushed out through the nearest
 //                              triangle, or through all those of the valley in which it is
 //   a corner of the mesh       touches the nearest point of the core
-//   an edge of each            touch at the nearest points of the two lines, with the weight that
-//                              their ends leave, 1 - (overlap of the deepest end)/(overlap)
+//   an edge of each            touch at the nearest points of the two lines, and share the energy
+//                              with the contacts of their ends, see shared_energy.h: with those of
+//                              the particle as far as the edge of the mesh is not in front of what
+//                              they touch, for then this is another part of the surface
 //
-// Weights are never negative: a particle that reaches over an edge falls as soon as its center does.
-// Unlike those of two rounded shapes (collide.h) they follow from no energy.
+// So the contacts of a rounded particle with a convex mesh are those with a convex body, weights
+// included.
 //
 // Edges and corners of the mesh are those of its surface, see MeshFeatures: a floor of many
 // triangles yields the contacts of a plane. As a sphere, a particle touches a triangle only if its
@@ -35,8 +37,9 @@ struct SolidMesh {
 };
 
 /// Contacts of the body a with the mesh; returns whether there are any. Their `surface` is set.
+/// `force_exponent`: see collide().
 bool collide_mesh(const ConvexShape &shape, const Pose &pose, const SolidMesh &mesh,
-                  ConvexContacts &contacts);
+                  ConvexContacts &contacts, double force_exponent = 1.0);
 
 }    // namespace Talus
 

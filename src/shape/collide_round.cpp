@@ -8,6 +8,7 @@
 
 #include "body/shape/frustum.h"
 #include "shape/pair_contacts.h"
+#include "shape/shared_energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +23,10 @@ constexpr int rim_points = 12;
 class RoundContacts {
  public:
   RoundContacts(const ConvexShape &shape, const Pose &its_pose, const Frustum &its_body,
-                std::vector<ConvexContact> &its_points) :
+                double its_exponent, std::vector<ConvexContact> &its_points) :
       core(shape.core()),
       pose(its_pose), body(its_body), radius(shape.radius()), reach(4.0 * shape.bounding_radius()),
-      points(its_points)
+      force_exponent(its_exponent), points(its_points)
   {
   }
 
@@ -47,22 +48,39 @@ class RoundContacts {
     outward = found.normal;
     return reach - found.overlap;
   }
-  void add(const Vector &on_particle, const Vector &normal, double overlap, double weight,
-           std::uint32_t name)
+  /// Returns its number.
+  int add(const Vector &on_particle, const Vector &normal, double overlap, std::uint32_t name)
   {
     ConvexContact contact;
     contact.normal = normal;
     contact.overlap = overlap;
     contact.position = on_particle - (radius - 0.5 * overlap) * normal;
-    contact.weight = contact.energy = weight;
+    contact.weight = 1.0;
     contact.name = name;
     points.push_back(contact);
+    return static_cast<int>(points.size()) - 1;
+  }
+  /// One that shares its energy, see `energy`, if anything is left of it.
+  int add_shared(const Vector &on_particle, const Vector &normal, double overlap,
+                 std::uint32_t name)
+  {
+    if (!energy.finish()) return -1;
+    const int contact = add(on_particle, normal, overlap, name);
+    points[contact].weight = energy.weight();
+    points[contact].energy = energy.energy();
+    energy.take_from(points);
+    return contact;
+  }
+  /// With the share that it has left to its own ends, so that it counts less the nearer it is to them.
+  void add_end(int contact)
+  {
+    if (contact >= 0) energy.add_end(contact, points[contact].overlap, points[contact].energy);
   }
   void add_vertices();
   void add_edges();
   void add_edge(int e);
   void add_rim(int end);
-  void add_deepest(int end, const double (&overlap)[rim_points]);
+  void add_deepest(int end, const int (&contact)[rim_points]);
   /// Of a point of a rim with the particle: 0 if they do not touch.
   double overlap_at(const Vector &x, const Vector &away, const Vector &axis, Vector &normal,
                     CorePoint &nearest) const;
@@ -70,16 +88,18 @@ class RoundContacts {
   struct Vertex {
     Vector place, outward;
     double distance;
+    int contact;    // or -1
   };
   const ConvexCore &core;
   const Pose &pose;
   const Frustum &body;
-  const double radius, reach;
+  const double radius, reach, force_exponent;
   std::vector<ConvexContact> &points;
   // of this thread, used again
   struct Buffers {
     std::vector<Vertex> vertices;
-    std::vector<double> of_edge;    // overlap of its deepest point, ends included
+    std::vector<int> of_edge;    // its contact between the ends, or -1
+    SharedEnergy energy;
   };
   static Buffers &buffers()
   {
@@ -87,7 +107,8 @@ class RoundContacts {
     return its;
   }
   std::vector<Vertex> &vertices = buffers().vertices;
-  std::vector<double> &of_edge = buffers().of_edge;
+  std::vector<int> &of_edge = buffers().of_edge;
+  SharedEnergy &energy = buffers().energy;
 };
 
 void RoundContacts::add_vertices()
@@ -97,20 +118,20 @@ void RoundContacts::add_vertices()
     Vertex &its = vertices[v];
     its.place = pose.point_in_space(core.vertex(v));
     its.distance = distance(its.place, its.outward);
+    its.contact = -1;
     if (its.distance < radius)
-      add(its.place, its.outward, radius - its.distance, 1.0,
-          contact_name(ContactParts::VERTEX_OF_A, v, 0));
+      its.contact = add(its.place, its.outward, radius - its.distance,
+                        contact_name(ContactParts::VERTEX_OF_A, v, 0));
   }
 }
 
 void RoundContacts::add_edges()
 {
-  of_edge.assign(core.num_edges(), 0.0);
+  of_edge.assign(core.num_edges(), -1);
   for (int e = 0; e < core.num_edges(); e++) {
     const int *end = core.edge(e).vertex;
     const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
     const Vector along = b.place - a.place;
-    of_edge[e] = std::max(radius - std::min(a.distance, b.distance), 0.0);
     // no point of it is nearer than this
     if (0.5 * (a.distance + b.distance - length(along)) >= radius) continue;
     if (dot(a.outward, along) < 0.0 && dot(b.outward, along) > 0.0) add_edge(e);
@@ -133,11 +154,11 @@ void RoundContacts::add_edge(int e)
     (dot(outward, along) < 0.0 ? low : high) = middle;
   }
   const double overlap = radius - least;
-  if (!(overlap > of_edge[e])) return;
-  const double weight = 1.0 - of_edge[e] / overlap;
-  of_edge[e] = overlap;
-  if (weight > least_weight)
-    add(place, outward, overlap, weight, contact_name(ContactParts::EDGES, e, 0));
+  if (!(overlap > 0.0)) return;
+  energy.begin(overlap, force_exponent);
+  add_end(a.contact);
+  add_end(b.contact);
+  of_edge[e] = add_shared(place, outward, overlap, contact_name(ContactParts::EDGES, e, 0));
 }
 
 /* ---- rims ------------------------------------------------------------------------------------- */
@@ -155,25 +176,26 @@ void RoundContacts::add_rim(int end)
 {
   const Frustum::Rim rim = body.rim(end);
   const int count = rim.radius > 0.0 ? rim_points : 1;
-  double overlap[rim_points] = {};
+  int contact[rim_points];
   for (int k = 0; k < count; k++) {
     const double angle = 2.0 * 3.14159265358979323846 * k / rim_points;
     const Vector away = std::cos(angle) * rim.side + std::sin(angle) * cross(rim.axis, rim.side);
     const Vector x = rim.center + rim.radius * away;
     Vector normal;
     CorePoint nearest;
-    overlap[k] = overlap_at(x, away, rim.axis, normal, nearest);
-    if (overlap[k] > 0.0)
-      add(x + (radius - overlap[k]) * normal, normal, overlap[k], 1.0,
-          contact_name(ContactParts::VERTEX_OF_B, 0, end * rim_points + k));
+    const double overlap = overlap_at(x, away, rim.axis, normal, nearest);
+    contact[k] = -1;
+    if (overlap > 0.0)
+      contact[k] = add(x + (radius - overlap) * normal, normal, overlap,
+                       contact_name(ContactParts::VERTEX_OF_B, 0, end * rim_points + k));
   }
-  if (rim.radius > 0.0) add_deepest(end, overlap);
+  if (rim.radius > 0.0) add_deepest(end, contact);
 }
 
 /* Between two of those points, against each face: of the rim, what is deepest behind its plane, with
-   the weight that the two points and the edges of the face leave. */
+   what the two points and the corners and edges of the face leave. */
 
-void RoundContacts::add_deepest(int end, const double (&overlap)[rim_points])
+void RoundContacts::add_deepest(int end, const int (&contact)[rim_points])
 {
   const Frustum::Rim rim = body.rim(end);
   const Vector other = cross(rim.axis, rim.side);
@@ -189,24 +211,26 @@ void RoundContacts::add_deepest(int end, const double (&overlap)[rim_points])
     if (!(its > 0.0) || nearest.kind != CorePoint::FACE || nearest.part != f) continue;
     const double at = std::atan2(y, x) / (2.0 * 3.14159265358979323846) * rim_points;
     const int before = (static_cast<int>(std::floor(at)) + rim_points) % rim_points;
-    double of_ends = std::max(overlap[before], overlap[(before + 1) % rim_points]);
-    for (int k = 0; k < core.num_corners(f); k++)
-      of_ends = std::max(of_ends, of_edge[core.edges_of_face(f)[k]]);
-    const double weight = 1.0 - of_ends / its;
-    if (weight > least_weight)
-      add(place + (radius - its) * normal, normal, its, weight,
-          contact_name(ContactParts::WHOLE, f, end));
+    energy.begin(its, force_exponent);
+    add_end(contact[before]);
+    add_end(contact[(before + 1) % rim_points]);
+    for (int k = 0; k < core.num_corners(f); k++) {
+      add_end(vertices[core.corners(f)[k]].contact);
+      add_end(of_edge[core.edges_of_face(f)[k]]);
+    }
+    add_shared(place + (radius - its) * normal, normal, its,
+               contact_name(ContactParts::WHOLE, f, end));
   }
 }
 
 }    // namespace
 
 bool collide_round(const ConvexShape &shape, const Pose &pose, const Frustum &body,
-                   ConvexContacts &contacts)
+                   ConvexContacts &contacts, double force_exponent)
 {
   contacts.clear();
   if (body.distance_bound(pose.position) >= shape.bounding_radius()) return false;
-  RoundContacts(shape, pose, body, contacts.points).find();
+  RoundContacts(shape, pose, body, force_exponent, contacts.points).find();
   return !contacts.points.empty();
 }
 

@@ -18,8 +18,8 @@ struct ConvexContact {
   Vector3<double> normal;      ///< unit vector from b to a: what is repelled pushes a along it
   double overlap;              ///< > 0
   /// Forces and torques of the law are multiplied by it, so that they are continuous where contact
-  /// points merge. Of a vertex beside an edge contact it may be negative, see collide.h; the force
-  /// of all points together repels.
+  /// points merge. Of a vertex beside an edge contact it may be negative, see shared_energy.h; the
+  /// force of all points together repels.
   double weight;
   /// What the contact stores over the energy of the law for this overlap; that of all points is the
   /// energy from which weights follow, if there is one. Else the weight.
@@ -27,9 +27,9 @@ struct ConvexContact {
   /// Which parts touch, see contact_name(): the same in successive steps as long as the same parts
   /// touch, and different for all contacts of a pair. History is kept by it.
   std::uint32_t name;
-  /// Of a mesh: which of its surfaces is touched, a second half of the name; and which triangle.
+  /// Of a mesh or vessel: which of its surfaces is touched, a second half of the name.
   std::uint32_t surface = 0;
-  int triangle = 0;
+  int part = 0;    ///< of a large body, see SurfaceContact
 };
 
 /// Parts by which a contact is named: a vertex of a, a vertex of b (on whatever of the other body),

@@ -1,70 +1,23 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The faces of two cores that overlap are projected along the normal of the contact; the polygon
-// that they have in common is that of the first one, cut along the edges of the second one
-// (I. E. Sutherland, G. W. Hodgman, Commun. ACM 17, 32, 1974).
+// The elastic force of cores that overlap is that of their mean overlap (mean_overlap.h): one force
+// and its axis. It is shared among the corners of the polygon that the two faces have in common,
+// which friction and damping know: by the barycentric coordinates of the axis in the polygon
+// (M. Meyer, A. Barr, H. Lee, M. Desbrun, J. Graph. Tools 7, 13, 2002), none of which is negative.
 
+#include "shape/face_projection.h"
+#include "shape/mean_overlap.h"
 #include "shape/pair_contacts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Talus {
 namespace {
 
 using Vector = Vector3<double>;
-
-struct Flat {
-  double x, y;
-};
-Flat operator-(Flat a, Flat b)
-{
-  return {a.x - b.x, a.y - b.y};
-}
-double dot(Flat a, Flat b)
-{
-  return a.x * b.x + a.y * b.y;
-}
-double cross(Flat a, Flat b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-double square_of(Flat a)
-{
-  return dot(a, a);
-}
-
-/// A face in the plane of the contact: `height` along the normal is a linear function.
-struct Projected {
-  std::vector<Flat> corner;
-  std::vector<int> vertex, edge;    // edge k from corner k to the next
-  double at_origin, slope_x, slope_y;
-  double height(Flat p) const { return at_origin + slope_x * p.x + slope_y * p.y; }
-};
-
-/// A corner of the common polygon, and the edge that begins there: of a, or of b.
-struct Corner {
-  Flat place;
-  bool of_a;
-  int edge;
-};
-
-/// Axes of the plane of the contact.
-struct Frame {
-  Vector x, y, normal;
-  explicit Frame(const Vector &n) : normal(n)
-  {
-    const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-    const Vector other = ax <= ay && ax <= az ? Vector{1.0, 0.0, 0.0}
-                         : ay <= az           ? Vector{0.0, 1.0, 0.0}
-                                              : Vector{0.0, 0.0, 1.0};
-    const Vector across = Talus::cross(other, n);
-    x = (1.0 / length(across)) * across;
-    y = Talus::cross(n, x);
-  }
-  Flat projected(const Vector &v) const { return {Talus::dot(x, v), Talus::dot(y, v)}; }
-  Vector in_space(Flat p, double height) const { return p.x * x + p.y * y + height * normal; }
-};
+using Corner = PolygonCorner;
 
 /* The face that looks along a direction most, among those that meet in the highest point of the
    core: the face of the direction itself, or those of its edge (or -1), or of its highest
@@ -77,7 +30,7 @@ int face_along(const ConvexCore &core, const Vector &direction, int face, int ed
   double most = -2.0;
   const auto look_at = [&](const ConvexCore::Edge &near) {
     for (const int f : near.face) {
-      const double along = Talus::dot(core.normal(f), direction);
+      const double along = dot(core.normal(f), direction);
       if (along <= most) continue;
       most = along;
       best = f;
@@ -93,68 +46,19 @@ int face_along(const ConvexCore &core, const Vector &direction, int face, int ed
   return best;
 }
 
-/* Corners counterclockwise as seen against the normal of the contact: those of a face that looks
-   the other way are taken backward. */
-
-void project(const ConvexCore &core, int f, const Pose &pose, const Frame &frame, bool backward,
-             Projected &face)
-{
-  const int count = core.num_corners(f);
-  face.corner.clear();
-  face.vertex.clear();
-  face.edge.clear();
-  for (int k = 0; k < count; k++) {
-    const int at = backward ? count - 1 - k : k;
-    const int v = core.corners(f)[at];
-    face.vertex.push_back(v);
-    face.corner.push_back(frame.projected(pose.point_in_space(core.vertex(v))));
-    // backward, the edge to the corner before
-    face.edge.push_back(core.edges_of_face(f)[backward ? (at + count - 1) % count : at]);
-  }
-  const Vector n = pose.direction_in_space(core.normal(f));
-  const double offset = core.offset(f) + Talus::dot(n, pose.position);
-  const double along = Talus::dot(n, frame.normal);
-  face.at_origin = offset / along;
-  face.slope_x = -Talus::dot(n, frame.x) / along;
-  face.slope_y = -Talus::dot(n, frame.y) / along;
-}
-
-/* Keeps what is left of the line from one corner of b to the next. */
-
-void cut(std::vector<Corner> &polygon, std::vector<Corner> &buffer, Flat from, Flat to, int edge)
-{
-  buffer.clear();
-  const Flat along = to - from;
-  const std::size_t count = polygon.size();
-  for (std::size_t k = 0; k < count; k++) {
-    const Corner &here = polygon[k], &next = polygon[k + 1 < count ? k + 1 : 0];
-    const double side = cross(along, here.place - from), beyond = cross(along, next.place - from);
-    if (side >= 0.0) buffer.push_back(here);
-    if ((side >= 0.0) == (beyond >= 0.0)) continue;
-    const double t = side / (side - beyond);
-    const Flat place{here.place.x + t * (next.place.x - here.place.x),
-                     here.place.y + t * (next.place.y - here.place.y)};
-    if (side >= 0.0)
-      buffer.push_back({place, false, edge});    // from here on along the edge of b
-    else
-      buffer.push_back({place, here.of_a, here.edge});
-  }
-  polygon.swap(buffer);
-}
-
 /* ---- names ----------------------------------------------------------------------------------- */
 
-int corner_near(const Projected &face, Flat p, double reach)
+int corner_near(const ProjectedFace &face, Flat p, double reach)
 {
-  for (std::size_t k = 0; k < face.corner.size(); k++)
-    if (square_of(face.corner[k] - p) < reach * reach) return static_cast<int>(k);
+  for (int k = 0; k < face.num_corners(); k++)
+    if (square_of(face.corner[k] - p) < reach * reach) return k;
   return -1;
 }
 
 /// The corner where edges k and l of a face meet, or -1.
-int common_corner(const Projected &face, int k, int l)
+int common_corner(const ProjectedFace &face, int k, int l)
 {
-  const int count = static_cast<int>(face.edge.size());
+  const int count = face.num_corners();
   for (int c = 0; c < count; c++) {
     const int after = face.edge[c], before = face.edge[(c + count - 1) % count];
     if ((after == k && before == l) || (after == l && before == k)) return c;
@@ -165,20 +69,34 @@ int common_corner(const Projected &face, int k, int l)
 /* By the vertices that are near, not by the side of an edge on which rounding puts them: bodies
    that stand on each other edge to edge keep their contacts. */
 
-std::uint32_t name_of(const Corner &before, const Corner &here, const Projected &a,
-                      const Projected &b, double reach)
+std::uint32_t name_of(const Corner &before, const Corner &here, const ProjectedFace &a,
+                      const ProjectedFace &b, double reach)
 {
+  const bool a_before = before.side == Corner::OF_A, a_here = here.side == Corner::OF_A;
   int at_a = corner_near(a, here.place, reach), at_b = corner_near(b, here.place, reach);
-  if (before.of_a && here.of_a && at_a < 0) at_a = common_corner(a, before.edge, here.edge);
+  if (a_before && a_here && at_a < 0) at_a = common_corner(a, before.edge, here.edge);
   if (at_a >= 0) return contact_name(ContactParts::VERTEX_OF_A, a.vertex[at_a], 0);
-  if (!before.of_a && !here.of_a && at_b < 0) at_b = common_corner(b, before.edge, here.edge);
+  if (!a_before && !a_here && at_b < 0) at_b = common_corner(b, before.edge, here.edge);
   if (at_b >= 0) return contact_name(ContactParts::VERTEX_OF_B, 0, b.vertex[at_b]);
-  const int of_a = before.of_a ? before.edge : here.edge,
-            of_b = before.of_a ? here.edge : before.edge;
+  const int of_a = a_before ? before.edge : here.edge, of_b = a_before ? here.edge : before.edge;
   return contact_name(ContactParts::EDGES, of_a, of_b);
 }
 
-/* ---- weights --------------------------------------------------------------------------------- */
+/* Where the faces have nothing in common: the parts that made the direction. */
+
+std::uint32_t name_of(const CorePair &pair, const LeastDepth &least)
+{
+  const Vector n = least.direction;
+  if (least.kind == LeastDepth::FACE_OF_A) {
+    const Support high = highest_vertex(pair.b, pair.seen.direction_in_body(n));
+    return contact_name(ContactParts::VERTEX_OF_B, 0, high.vertex);
+  }
+  if (least.kind == LeastDepth::FACE_OF_B)
+    return contact_name(ContactParts::VERTEX_OF_A, highest_vertex(pair.a, -n).vertex, 0);
+  return contact_name(ContactParts::EDGES, std::max(0, least.of_a), std::max(0, least.of_b));
+}
+
+/* ---- shares ---------------------------------------------------------------------------------- */
 
 /* Corners that are one but for rounding: directions of sides need some length. The edge that begins
    at the last of them begins at the one that stays. */
@@ -188,7 +106,7 @@ void join_corners(std::vector<Corner> &polygon, double reach)
   std::size_t kept = 0;
   for (std::size_t k = 0; k < polygon.size(); k++) {
     if (kept > 0 && square_of(polygon[kept - 1].place - polygon[k].place) < reach * reach) {
-      polygon[kept - 1].of_a = polygon[k].of_a;
+      polygon[kept - 1].side = polygon[k].side;
       polygon[kept - 1].edge = polygon[k].edge;
     } else {
       polygon[kept++] = polygon[k];
@@ -198,31 +116,43 @@ void join_corners(std::vector<Corner> &polygon, double reach)
   polygon.resize(kept);
 }
 
-/* The angle by which the polygon turns at its corner, over a right angle: those of a square have
-   the weight 1, all corners together that of four. Where corners merge their angles add up, and one
-   on the line between two others has none, so that nothing jumps. */
+/* Of the corners at a point, or at the one of the polygon that is nearest to it: positive, with the
+   sum 1, and the sum of shares times corners is the point. A corner on the line between two others
+   has none, and where corners merge theirs add up, so that nothing jumps. */
 
-double turn_at(const std::vector<Corner> &polygon, std::size_t k)
+void find_shares(const std::vector<Corner> &polygon, Flat at, double reach,
+                 std::vector<double> &share)
 {
   const std::size_t count = polygon.size();
-  if (count < 3) return 4.0 / static_cast<double>(count);
-  const Flat before = polygon[k].place - polygon[k > 0 ? k - 1 : count - 1].place;
-  const Flat after = polygon[k + 1 < count ? k + 1 : 0].place - polygon[k].place;
-  return std::max(0.0, std::atan2(cross(before, after), dot(before, after)) / 1.57079632679489662);
-}
-
-/* A blunt corner that is alone is as stiff as a contact of two bodies is: with linear springs the
-   contacts bear at least as much as the deepest of them would with the weight 1. */
-
-void strengthen(ConvexContact *first, ConvexContact *last)
-{
-  double deepest = 0.0, sum = 0.0;
-  for (const ConvexContact *c = first; c != last; ++c) {
-    deepest = std::max(deepest, c->overlap);
-    sum += c->weight * c->overlap;
+  share.assign(count, 0.0);
+  double least = std::numeric_limits<double>::infinity(), part = 0.0;
+  std::size_t nearest = 0;
+  bool inside = count > 2;
+  for (std::size_t k = 0; k < count; k++) {
+    const Flat from = polygon[k].place, along = polygon[k + 1 < count ? k + 1 : 0].place - from;
+    const double square = square_of(along), before = dot(at - from, along);
+    const double t = square > 0.0 ? std::clamp(before / square, 0.0, 1.0) : 0.0;
+    const double away = square_of(at - from - t * along);
+    inside = inside && cross(along, at - from) > 0.0;
+    if (away >= least) continue;
+    least = away;
+    nearest = k;
+    part = t;
   }
-  if (!(sum < deepest) || sum <= 0.0) return;
-  for (ConvexContact *c = first; c != last; ++c) c->weight *= deepest / sum;
+  if (!inside || least < reach * reach) {
+    share[nearest] += 1.0 - part;
+    share[nearest + 1 < count ? nearest + 1 : 0] += part;
+    return;
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < count; k++) {
+    const Flat here = polygon[k].place, before = polygon[k > 0 ? k - 1 : count - 1].place,
+               after = polygon[k + 1 < count ? k + 1 : 0].place;
+    share[k] = std::max(0.0, cross(here - before, after - here)) /
+               (cross(before - at, here - at) * cross(here - at, after - at));
+    sum += share[k];
+  }
+  for (double &one : share) one /= sum;
 }
 
 /* Contacts of the same name become one at their common center. */
@@ -239,80 +169,133 @@ void merge(std::vector<ConvexContact> &contacts, std::size_t from)
     ConvexContact &one = contacts[kept - 1];
     const double sum = one.weight + contact.weight, part = contact.weight / sum;
     one.position = one.position + part * (contact.position - one.position);
-    one.overlap += part * (contact.overlap - one.overlap);
     one.weight = sum;
+    one.energy += contact.energy;
   }
   contacts.resize(kept);
 }
 
-/* What is left where the faces have nothing in common: the parts that made the direction. */
+/* A force along an axis has no torque about it, and points that share it have if they lean: those
+   that are r away from the middle by tilt (normal x r). */
 
-ConvexContact single_contact(const CorePair &pair, Rounding radius, const LeastDepth &least)
+void lean(std::vector<ConvexContact> &contacts, std::size_t from, double pitch, double reach)
 {
-  const Vector n = least.direction;
-  const Support low = highest_vertex(pair.a, -n);
-  const Support high = highest_vertex(pair.b, pair.seen.direction_in_body(n));
-  ConvexContact contact;
-  contact.normal = n;
-  contact.overlap = least.depth + radius.sum();
-  contact.weight = 1.0;
-  const Vector at_a = pair.a.vertex(low.vertex), at_b = pair.vertex_of_b(high.vertex);
-  const double shift = 0.5 * (radius.of_b - radius.of_a);
-  if (least.kind == LeastDepth::FACE_OF_A) {
-    contact.name = contact_name(ContactParts::VERTEX_OF_B, 0, high.vertex);
-    contact.position = at_b - (0.5 * least.depth - shift) * n;
-  } else if (least.kind == LeastDepth::FACE_OF_B) {
-    contact.name = contact_name(ContactParts::VERTEX_OF_A, low.vertex, 0);
-    contact.position = at_a + (0.5 * least.depth + shift) * n;
-  } else {
-    contact.name = contact_name(ContactParts::EDGES, least.of_a, least.of_b);
-    contact.position = 0.5 * (at_a + at_b) + shift * n;
+  constexpr double most = 0.1;
+  const Vector n = contacts[from].normal;
+  double all = 0.0, square = 0.0, farthest = 0.0;
+  Vector middle{0.0, 0.0, 0.0};
+  for (std::size_t k = from; k < contacts.size(); k++) {
+    all += contacts[k].weight;
+    middle = middle + contacts[k].weight * contacts[k].position;
   }
-  return contact;
+  middle = (1.0 / all) * middle;
+  for (std::size_t k = from; k < contacts.size(); k++) {
+    const Vector r = cross(n, contacts[k].position - middle);
+    square += contacts[k].weight / all * dot(r, r);
+    farthest = std::max(farthest, dot(r, r));
+  }
+  if (!(square > reach * reach)) return;
+  const double tilt =
+      std::clamp(pitch / square, -most / std::sqrt(farthest), most / std::sqrt(farthest));
+  for (std::size_t k = from; k < contacts.size(); k++) {
+    const Vector leaning = n + tilt * cross(n, contacts[k].position - middle);
+    const double size = length(leaning);
+    contacts[k].normal = (1.0 / size) * leaning;
+    contacts[k].weight *= size;
+  }
 }
 
 }    // namespace
 
 void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &least,
-                       double merging, std::vector<ConvexContact> &contacts)
+                       double merging, double force_exponent, std::vector<ConvexContact> &contacts)
 {
-  static thread_local Projected of_a, of_b;
+  static thread_local ProjectedFace of_a, of_b;
   static thread_local std::vector<Corner> polygon, buffer;
-  const Frame frame(least.direction);
+  static thread_local std::vector<double> share;
+  const Vector n = least.direction;
+  const double beside_middle = 0.5 * (radius.of_b - radius.of_a);
+  ConvexContact contact;
+  contact.overlap = least.depth + radius.sum();
+  contact.weight = contact.energy = 1.0;
+  contact.normal = n;
+  Vector deepest = pair.a.vertex(highest_vertex(pair.a, -n).vertex);
+  if (find_single_point(pair, least, deepest)) {
+    contact.position = deepest + (0.5 * least.depth + beside_middle) * n;
+    contact.name = name_of(pair, least);
+    contacts.push_back(contact);
+    return;
+  }
   const bool edges = least.kind == LeastDepth::EDGES;
-  const int face_of_a =
-      face_along(pair.a, -least.direction, edges ? -1 : least.of_a, edges ? least.of_a : -1);
-  const int face_of_b = face_along(pair.b, pair.seen.direction_in_body(least.direction),
-                                   edges ? -1 : least.of_b, edges ? least.of_b : -1);
-  project(pair.a, face_of_a, Pose(), frame, true, of_a);
-  project(pair.b, face_of_b, pair.seen, frame, false, of_b);
-
-  polygon.clear();
-  for (std::size_t k = 0; k < of_a.corner.size(); k++)
-    polygon.push_back({of_a.corner[k], true, of_a.edge[k]});
-  for (std::size_t k = 0, count = of_b.corner.size(); k < count && !polygon.empty(); k++)
-    cut(polygon, buffer, of_b.corner[k], of_b.corner[k + 1 < count ? k + 1 : 0], of_b.edge[k]);
-
+  const Vector in_b = pair.seen.direction_in_body(n);
+  const ProjectionFrame frame(n);
+  project(pair.a, face_along(pair.a, -n, edges ? -1 : least.of_a, edges ? least.of_a : -1), Pose(),
+          frame, of_a);
+  project(pair.b, face_along(pair.b, in_b, edges ? -1 : least.of_b, edges ? least.of_b : -1),
+          pair.seen, frame, of_b);
+  common_polygon(of_a, of_b, polygon, buffer);
   join_corners(polygon, 1.0e-5 * merging);
+
+  const double bottom_of_a = -largest_height(pair.a, -n),
+               top_of_b = largest_height(pair.b, in_b) + dot(n, pair.seen.position);
+  const double height = 0.5 * (bottom_of_a + top_of_b) + beside_middle;
+  Vector at = deepest;
+  double pitch = 0.0;
+  MeanOverlap mean;
+  if (find_mean_overlap(pair, least, bottom_of_a, top_of_b, mean)) {
+    const double size = length(mean.push), ratio = (mean.value + radius.sum()) / contact.overlap,
+                 more = force_exponent == 1.0 ? ratio : std::pow(ratio, force_exponent);
+    contact.weight = size * more;
+    contact.energy = ratio * more;
+    contact.normal = (1.0 / size) * mean.push;
+    at = (1.0 / size) * cross(contact.normal, mean.turn);
+    pitch = dot(contact.normal, mean.turn) / size;
+  }
+  const Vector along = (1.0 / dot(n, contact.normal)) * contact.normal;
+  const auto axis_at = [&](double z) { return frame.projected(at + (z - dot(n, at)) * along); };
   const std::size_t first = contacts.size();
+  if (polygon.empty()) {
+    contact.position = frame.in_space(axis_at(height), height);
+    contact.name = name_of(pair, least);
+    contacts.push_back(contact);
+    return;
+  }
+  find_shares(polygon, axis_at(height), 1.0e-3 * merging, share);
+  const ConvexContact all = contact;
+  const auto middle_height = [&](Flat p) {
+    return 0.5 * (of_a.height(p) + of_b.height(p)) + beside_middle;
+  };
+  Flat middle{0.0, 0.0};
+  double z = 0.0, kept = 0.0;
   for (std::size_t k = 0; k < polygon.size(); k++) {
+    if (share[k] < least_weight) continue;
+    kept += share[k];
+    middle = middle + share[k] * polygon[k].place;
+    z += share[k] * middle_height(polygon[k].place);
+  }
+  middle = (1.0 / kept) * middle;
+  z /= kept;
+  // an axis beside the polygon, where other faces touch as well, draws the corners near
+  double spread = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); k++)
+    if (share[k] >= least_weight) spread = std::max(spread, square_of(polygon[k].place - middle));
+  const Flat axis = axis_at(z);
+  const double beside = square_of(axis - middle),
+               scale = beside < spread ? 1.0 - std::sqrt(beside / spread) : 0.0;
+  for (std::size_t k = 0; k < polygon.size(); k++) {
+    if (share[k] < least_weight) continue;
     const Flat p = polygon[k].place;
-    const double bottom = of_a.height(p), top = of_b.height(p);
-    ConvexContact contact;
-    contact.overlap = top - bottom + radius.sum();
-    contact.weight = turn_at(polygon, k);
-    if (!(contact.overlap > 0.0) || contact.weight < least_weight) continue;
-    contact.position = frame.in_space(p, 0.5 * (bottom + top + radius.of_b - radius.of_a));
-    contact.normal = least.direction;
+    contact.weight = share[k] / kept * all.weight;
+    contact.energy = share[k] / kept * all.energy;
+    contact.position =
+        frame.in_space(axis + scale * (p - middle), z + scale * (middle_height(p) - z));
     contact.name =
         name_of(polygon[k > 0 ? k - 1 : polygon.size() - 1], polygon[k], of_a, of_b, merging);
     contacts.push_back(contact);
   }
   sort_by_name(contacts);
   merge(contacts, first);
-  strengthen(contacts.data() + first, contacts.data() + contacts.size());
-  for (std::size_t k = first; k < contacts.size(); k++) contacts[k].energy = contacts[k].weight;
-  if (contacts.size() == first) contacts.push_back(single_contact(pair, radius, least));
+  lean(contacts, first, pitch, 1.0e-2 * merging);
 }
 
 }    // namespace Talus

@@ -1,6 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
+#include "shape/nearest_lines.h"
 #include "shape/pair_contacts.h"
+#include "shape/shared_energy.h"
 
 #include <algorithm>
 
@@ -57,113 +59,42 @@ ConvexContact sphere_contact(const Vector &of_a, const Vector &of_b, const Vecto
   return contact;
 }
 
-struct Segment {
-  int edge;
-  Vector from, along;
-  double square;
+/// An edge of a core.
+struct Edge {
+  int number;
+  Segment segment;
   int end[2];
   double overlap[2];    // of the ends
 };
 
-Segment segment_of(const ConvexCore &core, const Pose &frame, const Candidates &candidates, int e)
+Edge edge_of(const ConvexCore &core, const Pose &frame, const Candidates &candidates, int e)
 {
   const ConvexCore::Edge &edge = core.edge(e);
   const int from = edge.vertex[0], to = edge.vertex[1];
   const Vector along = core.vertex(to) - core.vertex(from);
-  return {e,
-          frame.point_in_space(core.vertex(from)),
-          frame.direction_in_space(along),
-          dot(along, along),
-          {from, to},
-          {candidates.overlap[from], candidates.overlap[to]}};
+  return {
+      e,
+      {frame.point_in_space(core.vertex(from)), frame.direction_in_space(along), dot(along, along)},
+      {from, to},
+      {candidates.overlap[from], candidates.overlap[to]}};
 }
 
-/* The nearest points of two lines, if they are between the ends of both edges; see C. Ericson,
-   Real-time collision detection (2005), section 5.1.9. */
-
-bool edges_touch(const Segment &a, const Segment &b, Rounding radius, ConvexContact &contact)
+bool edges_touch(const Edge &a, const Edge &b, Rounding radius, ConvexContact &contact)
 {
-  const Vector d = a.from - b.from;
-  const double ab = dot(a.along, b.along), ad = dot(a.along, d), bd = dot(b.along, d);
-  const double det = a.square * b.square - ab * ab;
-  const double s = ab * bd - ad * b.square, t = a.square * bd - ab * ad;
-  if (!(s > 0.0 && t > 0.0 && s < det && t < det)) return false;
-  const Vector p = a.from + (s / det) * a.along, q = b.from + (t / det) * b.along, pq = p - q;
+  Vector p, q;
+  if (!find_nearest_inside(a.segment, b.segment, p, q)) return false;
+  const Vector pq = p - q;
   const double square = dot(pq, pq);
   if (square >= radius.sum() * radius.sum() || square == 0.0) return false;
   const double distance = std::sqrt(square);
   contact = sphere_contact(p, q, (1.0 / distance) * pq, distance, radius);
-  contact.name = contact_name(ContactParts::EDGES, a.edge, b.edge);
+  contact.name = contact_name(ContactParts::EDGES, a.number, b.number);
   return true;
 }
 
-/* (o_end/o)^m, m being the exponent of energies. */
-
-double energy_ratio(double of_end, double of_edges, double force_exponent)
+void add_ends(const Edge &edge, const Candidates &candidates, SharedEnergy &energy)
 {
-  const double y = of_end / of_edges;
-  if (force_exponent == 1.0) return y * y;
-  if (force_exponent == 1.5) return y * y * std::sqrt(y);
-  return std::pow(y, force_exponent + 1.0);
-}
-
-/// Weights that a contact of two edges has, and takes from those of its ends (two of a, two of b).
-struct EdgeWeights {
-  double own, of_end[4];
-  double energy;    ///< over phi(o)
-};
-
-/* What the contact of an end leaves of the energy of a contact of two edges, and minus its slope, for
-   the ratio p of their energies: 1 - a p, which ends at p = 1 without a kink, as a parabola over a
-   fifth. Where the slope is above 1 the weight of the end is negative, and pulls at what should
-   topple about the edge; the mean slope is 1, so that it cannot be below 1 everywhere. */
-
-struct Left {
-  double share, slope;
-};
-
-Left left_by_end(double p)
-{
-  constexpr double bend = 0.2, steepest = 1.0 / (1.0 - 0.5 * bend), to_end = 1.0 - bend;
-  if (p < to_end) return {1.0 - steepest * p, steepest};
-  const double slope = steepest * (1.0 - p) / bend;
-  return {0.5 * slope * (1.0 - p), slope};
-}
-
-/* The derivatives of the energy phi(o) prod_k left(p_k), p_k = (o_k/o)^m, phi ~ o^m: by o over
-   phi'(o), and by -o_k over phi'(o_k). */
-
-bool weights_of_edges(const Segment &a, const Segment &b, double overlap, double force_exponent,
-                      EdgeWeights &weights)
-{
-  const double of_end[4] = {a.overlap[0], a.overlap[1], b.overlap[0], b.overlap[1]};
-  double left[4], shared[4];
-  weights.own = 1.0;
-  for (int k = 0; k < 4; k++) {
-    if (of_end[k] >= overlap) return false;
-    const double p = energy_ratio(of_end[k], overlap, force_exponent);
-    const Left by_end = left_by_end(p);
-    left[k] = by_end.share;
-    weights.of_end[k] = by_end.slope;
-    shared[k] = p * by_end.slope;
-    weights.own *= left[k];
-  }
-  weights.energy = weights.own;
-  for (int k = 0; k < 4; k++) {
-    double others = 1.0;
-    for (int l = 0; l < 4; l++)
-      if (l != k) others *= left[l];
-    weights.of_end[k] *= others;
-    weights.own += shared[k] * others;
-  }
-  return weights.own > least_weight;
-}
-
-void take_from_ends(const Segment &edge, const Candidates &candidates, const double *weight,
-                    std::vector<ConvexContact> &contacts)
-{
-  for (int k = 0; k < 2; k++)
-    if (edge.overlap[k] > 0.0) contacts[candidates.contact[edge.end[k]]].weight -= weight[k];
+  for (int k = 0; k < 2; k++) energy.add_end(candidates.contact[edge.end[k]], edge.overlap[k]);
 }
 
 }    // namespace
@@ -180,7 +111,8 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
                           double force_exponent, std::vector<ConvexContact> &contacts)
 {
   static thread_local Candidates of_a, of_b;
-  static thread_local std::vector<Segment> segments;
+  static thread_local std::vector<Edge> edges_of_b;
+  static thread_local SharedEnergy energy;
   const Pose &seen = pair.seen;
   const Vector n = gap.direction, in_b = seen.direction_in_body(n);
   const double bottom_of_a = -highest_vertex(pair.a, -n).height;
@@ -210,21 +142,22 @@ void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
     contacts.back().name = contact_name(ContactParts::VERTEX_OF_B, 0, v);
   }
 
-  segments.clear();
-  for (const int e : of_b.edges) segments.push_back(segment_of(pair.b, seen, of_b, e));
+  edges_of_b.clear();
+  for (const int e : of_b.edges) edges_of_b.push_back(edge_of(pair.b, seen, of_b, e));
   const Pose own;
   ConvexContact contact;
-  EdgeWeights weights;
   for (const int e : of_a.edges) {
-    const Segment a = segment_of(pair.a, own, of_a, e);
-    for (const Segment &b : segments) {
+    const Edge a = edge_of(pair.a, own, of_a, e);
+    for (const Edge &b : edges_of_b) {
       if (!edges_touch(a, b, radius, contact)) continue;
-      if (!weights_of_edges(a, b, contact.overlap, force_exponent, weights)) continue;
-      contact.weight = weights.own;
-      contact.energy = weights.energy;
+      energy.begin(contact.overlap, force_exponent);
+      add_ends(a, of_a, energy);
+      add_ends(b, of_b, energy);
+      if (!energy.finish()) continue;
+      contact.weight = energy.weight();
+      contact.energy = energy.energy();
       contacts.push_back(contact);
-      take_from_ends(a, of_a, weights.of_end, contacts);
-      take_from_ends(b, of_b, weights.of_end + 2, contacts);
+      energy.take_from(contacts);
     }
   }
   sort_by_name(contacts);

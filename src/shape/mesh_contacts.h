@@ -6,6 +6,8 @@
 #define TALUS_SHAPE_MESH_CONTACTS_H
 
 #include "shape/collide_mesh.h"
+#include "shape/nearest_lines.h"
+#include "shape/shared_energy.h"
 
 #include <utility>
 #include <vector>
@@ -24,8 +26,7 @@ struct NearTriangle {
 /// An edge of the particle.
 struct ParticleEdge {
   int number;
-  Vector3<double> from, along;
-  double square;
+  Segment segment;
   int end[2];
 };
 
@@ -36,11 +37,11 @@ class MeshContacts {
 
  public:
   MeshContacts(const ConvexShape &its_shape, const Pose &its_pose, const SolidMesh &mesh,
-               std::vector<ConvexContact> &its_points) :
+               double its_exponent, std::vector<ConvexContact> &its_points) :
       core(its_shape.core()),
       pose(its_pose), surface(mesh.shape), features(mesh.features),
       detail(mesh.shape.near_detail()), radius(its_shape.radius()),
-      bound(its_shape.bounding_radius()), points(its_points)
+      bound(its_shape.bounding_radius()), force_exponent(its_exponent), points(its_points)
   {
   }
 
@@ -57,7 +58,6 @@ class MeshContacts {
   void add_vertex_contact(int v, const Vector &x, const Vector &normal, double overlap, int t);
   bool stands_out(const MeshCorner &corner, const Vector &from_center, const Vector &normal,
                   bool overlaps) const;
-  void keep_deepest(int v, int contact);
   void add_corner(const MeshCorner &corner, int t);
   void add_edges(const Ridge &ridge, int t);
   bool turn_outward(const Ridge &ridge, const Vector &at, Vector &normal) const;
@@ -66,6 +66,7 @@ class MeshContacts {
     const ParticleEdge *edge;
     Vector of_edge, of_ridge;
   };
+  bool share_with_ends(const EdgePoint &at, const Ridge &ridge, double overlap) const;
   Vector plane_normal(int t) const
   {
     const TriangleMesh &mesh = surface.surface();
@@ -86,18 +87,19 @@ class MeshContacts {
   const MeshShape &surface;
   const MeshFeatures &features;
   const MeshDetail &detail;
-  const double radius, bound;
+  const double radius, bound, force_exponent;
   std::vector<ConvexContact> &points;
 
   // of this thread, used again
   struct Buffers {
     std::vector<NearPart> parts;
     std::vector<NearTriangle> near;
-    std::vector<int> of_vertex;                         // its deepest contact, or -1
+    int of_vertices;                                    // how many contacts, the first
     std::vector<std::pair<int, int>> of_corner;         // vertex of the mesh, contact
     std::vector<const MeshFeatures::Ridge *> ridges;    // and triangles that they belong to
     std::vector<int> of_ridge;
     std::vector<ParticleEdge> edges;
+    SharedEnergy energy;
   };
   static Buffers &buffers()
   {

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "shape/mesh_contacts.h"
-#include "shape/pair_contacts.h"
+#include "shape/nearest_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,10 @@ constexpr double deepest = 0.3;    // edges overlap by less of the size of the p
 
 // How exactly edges are behind faces, over the size of the particle.
 constexpr double near_enough = 1.0e-3;
+
+// A ridge in front of what an end touches by this, over the size of the particle, is of another part
+// of the surface.
+constexpr double unrelated = 0.1;
 
 bool is_known(const Vector &v)
 {
@@ -64,7 +68,7 @@ bool MeshContacts::is_beside(const Ridge &ridge, const Vector &normal) const
 bool MeshContacts::overlaps(const EdgePoint &at, const Ridge &ridge, int t,
                             const Vector &normal) const
 {
-  const Vector along = pose.direction_in_body(at.edge->along),
+  const Vector along = pose.direction_in_body(at.edge->segment.along),
                toward = pose.direction_in_body(-normal);
   const ConvexCore::Edge &edge = core.edge(at.edge->number);
   const double limit = lean * length(along);
@@ -76,7 +80,8 @@ bool MeshContacts::overlaps(const EdgePoint &at, const Ridge &ridge, int t,
   if (depth > deepest * bound) return false;
   for (const int v : ridge.end)
     if (length(surface.surface().vertex(v) - at.of_ridge) < depth) return false;
-  for (const Vector &end : {at.edge->from, at.edge->from + at.edge->along})
+  const Segment &segment = at.edge->segment;
+  for (const Vector &end : {segment.from, segment.from + segment.along})
     if (length(end - at.of_edge) < depth) return false;
   const Vector q = pose.point_in_body(at.of_ridge);
   for (int f = 0; f < core.num_faces(); f++) {
@@ -102,51 +107,66 @@ bool MeshContacts::is_nearest(const Ridge &ridge, int t, const Vector &x, double
   return true;
 }
 
+/* An end may also touch what has nothing to do with the ridge, such as the floor on which an upright
+   edge stands that leans against it. They belong together as far as one convex body can have both:
+   the ridge is behind the plane that the end touches. */
+
+bool MeshContacts::share_with_ends(const EdgePoint &at, const Ridge &ridge, double overlap) const
+{
+  const double apart = unrelated * bound;
+  const auto is_of_edge = [&](const ConvexContact &one) {
+    return std::any_of(at.edge->end, at.edge->end + 2, [&](int v) {
+      return one.name >> 15 == contact_name(ContactParts::VERTEX_OF_A, v, 0) >> 15;
+    });
+  };
+  with.energy.begin(overlap, force_exponent);
+  for (int k = 0; k < with.of_vertices; k++) {
+    const ConvexContact &one = points[k];
+    if (!is_of_edge(one)) continue;
+    const Vector place = one.position + 0.5 * one.overlap * one.normal;
+    const double before = dot(one.normal, at.of_ridge - place);
+    with.energy.add_end(k, one.overlap, 1.0 - std::clamp(before / apart, 0.0, 1.0));
+  }
+  for (const auto &[vertex, contact] : with.of_corner)
+    if (vertex == ridge.end[0] || vertex == ridge.end[1])
+      with.energy.add_end(contact, points[contact].overlap);
+  return with.energy.finish();
+}
+
 void MeshContacts::add_edges(const Ridge &ridge, int t)
 {
-  const double square = dot(ridge.along, ridge.along);
+  const Segment its{ridge.from, ridge.along, dot(ridge.along, ridge.along)};
   const Vector to_center = pose.position - ridge.from;
-  const double part = std::clamp(dot(to_center, ridge.along) / square, 0.0, 1.0);
+  const double part = std::clamp(dot(to_center, ridge.along) / its.square, 0.0, 1.0);
   const Vector apart = to_center - part * ridge.along;
   if (dot(apart, apart) >= bound * bound) return;
-  int ends[4] = {-1, -1, -1, -1};    // contacts of the ends
-  for (const auto &[vertex, contact] : with.of_corner)
-    for (int k = 0; k < 2; k++)
-      if (vertex == ridge.end[k]) ends[2 + k] = contact;
   for (const ParticleEdge &edge : with.edges) {
-    const Vector d = edge.from - ridge.from;
-    const double ab = dot(edge.along, ridge.along), ad = dot(edge.along, d),
-                 bd = dot(ridge.along, d);
-    const double det = edge.square * square - ab * ab;
-    const double s = ab * bd - ad * square, u = edge.square * bd - ab * ad;
-    if (!(s > 0.0 && u > 0.0 && s < det && u < det)) continue;
-    const Vector of_edge = edge.from + (s / det) * edge.along,
-                 of_ridge = ridge.from + (u / det) * ridge.along;
-    const Vector across = cross(edge.along, ridge.along);
+    Vector of_edge, of_ridge;
+    if (!find_nearest_inside(edge.segment, its, of_edge, of_ridge)) continue;
+    const Vector across = cross(edge.segment.along, ridge.along);
     Vector normal = (1.0 / length(across)) * across;
     if (!turn_outward(ridge, of_ridge, normal)) continue;
     double gap = dot(normal, of_edge - of_ridge);
-    if (gap < 0.0 && !overlaps({&edge, of_edge, of_ridge}, ridge, t, normal)) {
+    const EdgePoint at{&edge, of_edge, of_ridge};
+    if (gap < 0.0 && !overlaps(at, ridge, t, normal)) {
       normal = -normal;    // they are apart, and pass each other beside the ridge
       gap = -gap;
       if (!is_beside(ridge, normal)) continue;
     }
     const double overlap = radius - gap;
     if (!(overlap > 0.0)) continue;
+    if (!share_with_ends(at, ridge, overlap)) continue;
     ConvexContact contact;
-    for (int k = 0; k < 2; k++) ends[k] = with.of_vertex[edge.end[k]];
-    double of_end[4];
-    for (int k = 0; k < 4; k++) of_end[k] = ends[k] < 0 ? 0.0 : points[ends[k]].overlap;
-    contact.weight = 1.0 - *std::max_element(of_end, of_end + 4) / overlap;
-    if (!(contact.weight > least_weight)) continue;
-    contact.energy = contact.weight;
+    contact.weight = with.energy.weight();
+    contact.energy = with.energy.energy();
     contact.normal = normal;
     contact.overlap = overlap;
     contact.position = 0.5 * (of_edge + of_ridge - radius * normal);
     contact.name = contact_name(ContactParts::EDGES, edge.number, 0);
     contact.surface = ridge.name;
-    contact.triangle = t;
+    contact.part = t;
     points.push_back(contact);
+    with.energy.take_from(points);
   }
 }
 

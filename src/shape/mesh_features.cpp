@@ -191,11 +191,4 @@ void MeshFeatures::find_corners(const TriangleMesh &mesh)
   }
 }
 
-double MeshFeatures::memory_usage() const
-{
-  const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(bends) + bytes(neighbors) + bytes(ridges) + bytes(corners) + bytes(first_ridge) +
-         bytes(first_corner) + bytes(first_around) + bytes(around);
-}
-
 }    // namespace Talus

@@ -61,8 +61,6 @@ class MeshFeatures {
     for (int n = first_around[vertex]; n < first_around[vertex + 1]; n++) visit(around[n]);
   }
 
-  double memory_usage() const;
-
  private:
   void look_at_edges(const TriangleMesh &mesh, const MeshEdges &edges);
   void find_ridges(const TriangleMesh &mesh, const MeshEdges &edges);

@@ -15,7 +15,6 @@ using Vector = Vector3<double>;
 
 void MeshContacts::add_vertices()
 {
-  with.of_vertex.assign(core.num_vertices(), -1);
   for (int v = 0; v < core.num_vertices(); v++) {
     const Vector x = pose.point_in_space(core.vertex(v));
     double lowest = radius;
@@ -24,6 +23,7 @@ void MeshContacts::add_vertices()
     if (radius > 0.0) add_in_front(v, x);
     if (lowest < 0.0) add_behind(v, x);
   }
+  with.of_vertices = static_cast<int>(points.size());
 }
 
 /* What a vertex touches from the other side than that of the center it has gone through. */
@@ -120,7 +120,7 @@ void MeshContacts::add_vertex_contact(int v, const Vector &x, const Vector &norm
   contact.position = x - (radius - 0.5 * overlap) * normal;
   contact.weight = 1.0;
   contact.surface = static_cast<std::uint32_t>(mesh.patch(t));
-  contact.triangle = t;
+  contact.part = t;
   int others = 0;
   for (ConvexContact &one : points) {
     if (one.name >> 15 != contact_name(ContactParts::VERTEX_OF_A, v, 0) >> 15) continue;
@@ -128,20 +128,12 @@ void MeshContacts::add_vertex_contact(int v, const Vector &x, const Vector &norm
     if (dot(one.normal, normal) > TriangleMesh::smooth_cosine) {
       contact.name = one.name;
       if (one.overlap < overlap) one = contact;
-      keep_deepest(v, static_cast<int>(&one - points.data()));
       return;
     }
     others++;
   }
   contact.name = contact_name(ContactParts::VERTEX_OF_A, v, others);
   points.push_back(contact);
-  keep_deepest(v, static_cast<int>(points.size()) - 1);
-}
-
-void MeshContacts::keep_deepest(int v, int contact)
-{
-  int &kept = with.of_vertex[v];
-  if (kept < 0 || points[contact].overlap > points[kept].overlap) kept = contact;
 }
 
 }    // namespace Talus

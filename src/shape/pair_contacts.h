@@ -8,11 +8,9 @@
 
 #include "shape/convex_contact.h"
 #include "shape/core_pair.h"
+#include "shape/shared_energy.h"
 
 namespace Talus {
-
-/// Contacts of less weight are none.
-constexpr double least_weight = 1.0e-6;
 
 struct Rounding {
   double of_a, of_b;    ///< radii
@@ -24,10 +22,11 @@ struct Rounding {
 void add_feature_contacts(const CorePair &pair, Rounding radius, const Gap &gap,
                           double force_exponent, std::vector<ConvexContact> &contacts);
 
-/// Of cores that overlap by `least`: corners of the polygon that the faces along its direction have
-/// in common. Corners nearer to each other than `merging` are one.
+/// Of cores that overlap by `least`: one point, or corners of the polygon that the faces along its
+/// direction have in common. Those that are nearer to a vertex than `merging` are named by it.
+/// Forces ~ overlap^force_exponent.
 void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &least,
-                       double merging, std::vector<ConvexContact> &contacts);
+                       double merging, double force_exponent, std::vector<ConvexContact> &contacts);
 
 /// One point of the rounded bodies by Minkowski Portal Refinement (libccd), in the frame of a;
 /// returns false where they do not overlap.

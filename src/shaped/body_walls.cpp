@@ -26,7 +26,7 @@ std::shared_ptr<const MeshShape> mesh_of(const Rectangle &rectangle)
 
 }    // namespace
 
-BodyWalls::BodyWalls(const LargeBodyShape &body)
+BodyWalls::BodyWalls(const LargeBodyShape &body) : parts(body.most_contacts() > 1)
 {
   const Vector3<double> middle = body.reference_point();
   const auto add_vessel = [&] {
@@ -43,15 +43,16 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
       return;
     }
     for (const double sign : {1.0, -1.0}) {
-      add_flat({sign, 0.0, 0.0}, middle - sign * half, false);
-      add_flat({0.0, sign, 0.0}, middle - sign * half, false);
-      add_flat({0.0, 0.0, sign}, middle - sign * half, false);
+      const int face = sign > 0.0 ? 0 : 1;    // as Box numbers them
+      add_flat({sign, 0.0, 0.0}, middle - sign * half, false, face);
+      add_flat({0.0, sign, 0.0}, middle - sign * half, false, face + 2);
+      add_flat({0.0, 0.0, sign}, middle - sign * half, false, face + 4);
     }
   } else if (const auto *frustum = dynamic_cast<const Frustum *>(&body)) {
     if (frustum->is_vessel()) add_vessel();
     if (frustum->is_solid())
       walls.emplace_back([frustum](const Particle &one, ConvexContacts &contacts) {
-        return collide_round(one.shape, one.pose, *frustum, contacts);
+        return collide_round(one.shape, one.pose, *frustum, contacts, one.force_exponent);
       });
   } else if (const auto *ball = dynamic_cast<const Talus::Ball *>(&body)) {
     if (ball->is_inside()) {
@@ -65,15 +66,13 @@ BodyWalls::BodyWalls(const LargeBodyShape &body)
   } else if (const auto *mesh = dynamic_cast<const MeshShape *>(&body)) {
     walls.emplace_back([mesh, features = std::make_shared<const MeshFeatures>(mesh->surface())](
                            const Particle &one, ConvexContacts &contacts) {
-      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts);
+      return collide_mesh(one.shape, one.pose, {*mesh, *features}, contacts, one.force_exponent);
     });
   } else if (const auto *rectangle = dynamic_cast<const Rectangle *>(&body)) {
     const auto its = mesh_of(*rectangle);
     walls.emplace_back([its, features = std::make_shared<const MeshFeatures>(its->surface())](
                            const Particle &one, ConvexContacts &contacts) {
-      const bool touch = collide_mesh(one.shape, one.pose, {*its, *features}, contacts);
-      for (ConvexContact &point : contacts.points) point.triangle = 0;    // it has one part
-      return touch;
+      return collide_mesh(one.shape, one.pose, {*its, *features}, contacts, one.force_exponent);
     });
   }
 }
@@ -100,16 +99,18 @@ void BodyWalls::add_solid_box(const Vector3<double> &middle, const Vector3<doubl
 }
 
 void BodyWalls::add_flat(const Vector3<double> &normal, const Vector3<double> &point,
-                         bool two_sided)
+                         bool two_sided, int part)
 {
-  walls.emplace_back([normal, offset = dot(normal, point), two_sided](const Particle &one,
-                                                                      ConvexContacts &contacts) {
+  walls.emplace_back([normal, offset = dot(normal, point), two_sided,
+                      part](const Particle &one, ConvexContacts &contacts) {
     const double height = dot(normal, one.pose.position) - offset,
                  reach = one.shape.bounding_radius();
     if (height <= -reach || height >= reach) return false;
     const bool flip = two_sided && height < 0.0;
-    return collide_plane(one.shape, one.pose, flip ? -normal : normal, flip ? -offset : offset,
-                         contacts);
+    const bool touch = collide_plane(one.shape, one.pose, flip ? -normal : normal,
+                                     flip ? -offset : offset, contacts);
+    for (ConvexContact &point : contacts.points) point.part = part;
+    return touch;
   });
 }
 

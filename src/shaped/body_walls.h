@@ -23,6 +23,8 @@ class BodyWalls {
   static std::string refusal(const LargeBodyShape &body);
 
   int size() const { return static_cast<int>(walls.size()); }
+  /// Contacts tell which part they touch, as those of spheres do.
+  bool has_parts() const { return parts; }
 
   struct Particle {
     const ConvexShape &shape;
@@ -38,9 +40,11 @@ class BodyWalls {
 
  private:
   using Wall = std::function<bool(const Particle &, ConvexContacts &)>;
-  void add_flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided);
+  void add_flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided,
+                int part = 0);
   void add_solid_box(const Vector3<double> &middle, const Vector3<double> &edges);
 
+  bool parts;
   std::vector<Wall> walls;
 };
 

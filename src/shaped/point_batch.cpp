@@ -15,10 +15,9 @@ std::string PointBatch::refusal(const ContactLaw &law)
   if (law.normal().lasts_beyond_contact)
     return std::string("has the normal law ") + law.normal().name +
            ", which lasts beyond contact: use dmt or another law";
-  if (law.tangential().second_order) return "is of second order: use order 1";
   if (law.synchronized())
     return std::string("has the tangential law ") + law.tangential().name +
-           ", whose normal is that of half a step before: use multistep";
+           ", whose normal is that of half a step before: leave 'synchronized_verlet' out";
   return "";
 }
 
@@ -82,8 +81,7 @@ void PointBatch::hand_out(PointContact &point, int lane) const
   const double w = point.weight;
   point.force =
       w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
-  if (task->account)
-    point.work = w * EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
+  if (task->account) point.work = w * work_of_lane(batch, lane);
   if (task->advance && remembers)
     for (int k = 0; k < ContactBatch::history_size; k++)
       point.memory.value[k] = batch.history[k][lane];

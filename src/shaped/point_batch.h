@@ -34,7 +34,8 @@ class PointBatch {
   static SurveyedContact survey(const PointContact &point, const LawTable &laws, double dt,
                                 Ask ask);
 
-  /// "" or why points of shapes cannot have this law, and the cure, for people.
+  /// "" or why points of shapes cannot have this law, and the cure, for people. Not asked about
+  /// laws of second order, which no integrator may use then.
   static std::string refusal(const ContactLaw &law);
 
  private:

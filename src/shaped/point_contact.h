@@ -18,7 +18,7 @@ struct PointContact {
   double overlap, weight, energy;
   double inverse_radius;    ///< 1/R_eff
   std::uint64_t name;       ///< with the surface of a large body in the upper half
-  int part;                 ///< of a large body; of a mesh, the triangle
+  int part;                 ///< of a large body, see SurfaceContact; -1 if it has none
 
   // motion
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`

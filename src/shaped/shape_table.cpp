@@ -21,7 +21,7 @@ FreeRotation rotation_of(const ConvexShape &shape, double density)
 
 ParticleShape::ParticleShape(ConvexShape its_shape, double density) :
     geometry(std::move(its_shape)), its_mass(density * geometry.volume()),
-    free(rotation_of(geometry, density))
+    free(rotation_of(geometry, density)), held(geometry)
 {
 }
 

@@ -6,6 +6,7 @@
 #include "body/motion/free_rotation.h"
 #include "shape/collide.h"
 #include "shape/convex_shape.h"
+#include "shape/face_stiffness.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@ class ParticleShape {
   const ConvexShape &shape() const { return geometry; }
   double mass() const { return its_mass; }
   const FreeRotation &rotation() const { return free; }
+  const FaceStiffness &faces() const { return held; }
   /// Of the core, for a particle with its center of mass at x.
   Pose pose(const Vector3<double> &x, const Eigen::Quaterniond &orientation) const
   {
@@ -46,6 +48,7 @@ class ParticleShape {
   ConvexShape geometry;
   double its_mass;
   FreeRotation free;
+  FaceStiffness held;
   Eigen::Quaterniond fixed = Eigen::Quaterniond::Identity();
   bool random = false;
   std::uint64_t seed = 0;

@@ -106,7 +106,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.weight = one.weight;
       point.energy = one.energy;
       point.name = (static_cast<std::uint64_t>(w) + one.surface) << 32 | one.name;
-      point.part = one.triangle;
+      point.part = task.walls.has_parts() ? one.part : -1;
       const Vector3<double> place = frame.point_to_space(one.position);
       Vector3<double> v = view.velocity_at(i, place);
       if (frame.moves) v = v - frame.velocity_at(place);
@@ -193,6 +193,7 @@ void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view
     for (std::size_t k = 0; k < chunk.points.size(); k++) {
       const PointContact &point = chunk.points[k];
       SurveyedContact found = PointBatch::survey(point, laws, dt, ask);
+      found.part = point.part;
       found.i = particles[chunk.of_point[k]];
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);

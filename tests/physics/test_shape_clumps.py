@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
 """Clumps of spheres and convex particles in one scene: momentum and angular momentum are kept, and the same bits on any
-ranks and threads, across a restart, and on a mesh."""
+ranks and threads, and on a mesh."""
 
 import os
 import sys

@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
 """Energies of convex particles: kinetic with rotation + gravitational + stored + dissipated is what it was, to second
-order in the time step where no contacts share a weight; what dissipates is known by hand."""
+order in the time step; what dissipates is known by hand."""
 
 import os
 import random
@@ -129,7 +129,7 @@ class ShapeEnergy(SceneCase):
         self.assertGreater(rows[-1]["f_box"], 0.5)
 
     def test_heap(self):
-        """27 bodies, rounded and sharp; edges share their weight, which adds or takes a little."""
+        """27 bodies, rounded and sharp."""
         draw = random.Random(3)
         grains = [Sphere((1.9 * i + 1.1, 1.9 * j + 1.1, 1.9 * k + 1.2), v=tuple(draw.gauss(0, .5) for _ in "xyz"),
                          omega=tuple(draw.gauss(0, 1) for _ in "xyz"), type=1 + (i + j + k) % 3, diameter=0.9)

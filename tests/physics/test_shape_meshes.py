@@ -252,14 +252,20 @@ class MovingMeshes(MeshCase):
         # a cube at rest: the pressures of the triangles times their areas carry it
         floor = self.floor(half=2.0, cells=4)
         body = self.mesh(floor)
-        columns = " ".join(f"f_body[{t + 1}][1]" for t in range(len(floor)))
+        columns = " ".join(f"f_body[{t + 1}][1]" for t in range(len(floor))) + " c_low c_sum c_high"
         rows = self.simulate([Sphere((0.3, 0.2, 0.5))], body, 20000, motion="pressure yes", columns=columns,
-                             commands=gravity())
+                             commands=gravity() + self.PARTS)
         carried = [rows[-1][f"f_body[{t + 1}][1]"] * self.area(floor[t]) for t in range(len(floor))]
         self.assertAlmostEqual(rows[-1]["f_body[3]"], -10.0, delta=1e-5)
         self.assertAlmostEqual(sum(carried), 10.0, delta=1e-5)
         # the triangles under its four corners
         self.assertEqual(sum(force > 0 for force in carried), 4)
+        # which the rows of contacts name
+        parts = [t + 1 for t, force in enumerate(carried) if force > 0]
+        self.assertEqual([rows[-1][f"c_{name}"] for name in ("low", "sum", "high")], [parts[0], sum(parts), parts[-1]])
+
+    PARTS = "\ncompute parts all contact/gran/local part\n" + "\n".join(
+        f"compute {name} all reduce {way} c_parts inputs local" for name, way in (("low", "min"), ("sum", "sum"), ("high", "max")))
 
     @staticmethod
     def area(triangle):

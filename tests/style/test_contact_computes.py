@@ -108,6 +108,19 @@ class Bed(SceneCase):
                             self.assertAlmostEqual(a[word], b[word], delta=1e-9 * max(1.0, abs(a[word])), msg=word)
                 first = first or last
 
+    def test_rows_of_second_order(self):
+        """Of contacts that begin or end as well: their forces are those of one step."""
+        law = LAW.replace("0.5 rolling", "0.5 slider midpoint rolling") + " limit_damping adhesion constant 1e-3"
+        script = BED.format(boundary="f f f").replace(LAW, law).replace("symplectic", "symplectic order 2")
+        write_sphere_data(self.path("data"), ((-0.001, 0.051), (-0.001, 0.041), (-0.01, 0.1)), grains())
+        self.run_lammps(script + "run 900\n" + DUMPS.format(every=3) + "thermo 500\nrun 300")
+        frames, every = read_dump(self.path("atoms")), [named(f) for f in read_local(self.path("rows"))]
+        ended = [row for rows in every for row in rows if row["overlap"] <= 0]
+        self.assertGreater(sum(row["force"] != 0 for row in ended), 10)
+        self.assertEqual({row["eng"] for row in ended}, {0.0})
+        for rows, frame in zip(every, frames, strict=True):
+            self.assert_rows_are_those_of_particles(rows, frame)
+
     def test_energies_by_particle(self):
         """Sums are those of penalty/stats; steps are made in the records all the same."""
         for np, threads in (1, 1), (2, 1), (1, 2), (2, 2):

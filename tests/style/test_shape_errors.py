@@ -3,11 +3,12 @@
 """fix shape/gran: every wrong word, and all that would take its particles for spheres, ends in one message that names it."""
 
 import os
+import re
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, ranks_of_refusal, write_sphere_data
+from talus_testing import SceneCase, Sphere, marked_word, ranks_of_refusal, write_sphere_data
 
 SCENE = """
 units lj
@@ -28,6 +29,10 @@ run 1
 """
 BOX = "type 2 box 1 1 1 density 1"
 FIX = f"fix s all shape/gran {BOX}"
+ORDER = "ERROR: Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes nve/sphere/symplectic " \
+        "and rigid/small/symplectic"
+OF_SPHERES = "knows contacts of spheres only: use"
+PRE_NO = "Fix shape/gran: 'run ... pre no' cannot follow a new fix shape/gran: leave 'pre no' out"
 
 
 class ShapeErrors(SceneCase):
@@ -36,9 +41,12 @@ class ShapeErrors(SceneCase):
         write_sphere_data(self.path("grains"), 3 * ((-9, 9),), [Sphere((-3, 0, 0)), Sphere((3, 0, 0), type=2)])
 
     def error(self, number, commands, pair="hooke 1e4 10"):
+        """The message; the log is in self.log."""
         for np in ranks_of_refusal(number):
-            log = self.run_lammps(SCENE.format(commands=commands, pair=pair), np=np, expect_error=True).log
-        return " ".join(next(line for line in log.splitlines() if line.startswith("ERROR")).split())
+            self.log = self.run_lammps(SCENE.format(commands=commands, pair=pair), np=np, expect_error=True).log
+            errors = [line for line in self.log.splitlines() if line.startswith("ERROR")]
+            self.assertTrue(errors, self.log[-1000:])
+        return " ".join(errors[0].split())
 
     def test_words(self):
         path = self.path("open.stl")
@@ -72,23 +80,54 @@ class ShapeErrors(SceneCase):
                 (f"{FIX}\nfix t all shape/gran {BOX}", "can be used only once"),
                 (f"{FIX}\nfix 1 all nve/sphere/symplectic", "group of another fix that moves particles"),
                 (f"{FIX}\nfix 1 all nve/sphere", "group of another fix that moves particles"),
-                (f"{FIX}\nfix 1 balls nve/sphere/symplectic order 2", "order"),
+                (f"{FIX}\nfix 1 balls nve/sphere/symplectic order 2", ORDER),
+                (f"{FIX}\nfix 1 balls nve/sphere/symplectic order 2", ORDER,
+                 "hooke 1e4 10 tangential multistep 2e3 5 0.5 slider midpoint"),
                 (f"{FIX}\nfix w all wall/gran granular hooke 1e4 10 tangential linear_nohistory 0 0 zplane 0 NULL",
                  "fix large/body"),
                 (f"{FIX}\nfix w all large/body cylinder 0 0 0 0 0 1 8 8 open {hooke}", "use plane, rectangle, box, sphere, cylinder or cone without 'open', or mesh"),
                 (f"{FIX}\nfix w all large/body plane 0 0 -9 0 0 1 {hooke} tangential multistep NULL NULL 0.5 rolling 0.1", "rolling"),
-                (f"{FIX}\ncompute c all pair/local dist", "use compute contact/gran/local"),
+                (f"{FIX}\ncompute c all pair/local dist",
+                 f"compute c (pair/local) {OF_SPHERES} compute contact/gran/local"),
+                (f"{FIX}\ncompute c all contact/atom",
+                 f"compute c (contact/atom) {OF_SPHERES} compute contact/gran/atom"),
+                (f"{FIX}\ncompute c all fabric radius contact",
+                 f"compute c (fabric) {OF_SPHERES} the normals of compute contact/gran/local"),
+                (f"{FIX}\ncompute c balls group/group dice",
+                 f"compute c (group/group) {OF_SPHERES} the rows of compute contact/gran/local"),
                 (f"{FIX}\nminimize 0 1e-4 10 10", "minimize"),
                 (f"{FIX}\nrun_style respa 1", "respa"),
                 (f"{FIX}\npair_style hybrid gran/penalty\npair_coeff * * gran/penalty hooke 1e4 10", "hybrid"),
                 (FIX, "rolling or twisting resistance", "hooke 1e4 10 tangential multistep NULL NULL 0.5 rolling 0.1"),
                 (f"{FIX}\nfix p all pour 10 2 4711 vol 0.2 10 diam one 1.0 region top", "give it a diameter of 1.73205"),
-                (f"{FIX}\nfix_modify s orient 1 1 0 0 0", "no particle with this ID has a shape"))):
+                (f"run 1\n{FIX}\nrun 1 pre no", PRE_NO),
+                (f"run 1\n{FIX}\nwrite_restart first\nrun 1 pre no", PRE_NO),
+                (f"run 2 pre no every 1 '{FIX}'", PRE_NO))):
             if "fix p" in commands:
                 commands = "region top block -5 5 -5 5 5 8 units box\nfix g all gravity 1 vector 0 0 -1\n" + commands
             with self.subTest(commands):
                 error = self.error(number, commands, *pair)
                 self.assertIn(expected, error)
+
+    def test_modify(self):
+        orient, picture = "fix_modify s orient ", "fix_modify s picture "
+        for number, (words, expected, word) in enumerate((
+                (f"{orient}1 1 0 0 0", "no particle with this ID has a shape", "1"),
+                (f"{orient}77 1 0 0 0", "no particle with this ID has a shape", "77"),
+                (f"{orient}0 1 0 0 0", "ID of a particle", "0"),
+                (f"{orient}2 1 0 up 0", "expected w x y z (a number) instead of 'up'", "up"),
+                (f"{orient}2 0 0 0 0.0", "a quaternion must not be zero", "0.0"),
+                (f"{orient}2 1 0 0", "missing w x y z", "0"),
+                ("fix_modify s dynamic/dof yes orient 77 1 0 0 0", "no particle with this ID has a shape", "77"),
+                (f"{picture}nope 1", "there is no other fix with this ID: define it before", "nope"),
+                (f"{picture}s 1", "there is no other fix with this ID: define it before", "s"),
+                (f"{picture}b 0", "type N", "0"),
+                (f"{picture}b 3", "there are 2 types: give a larger number to create_box", "3"),
+                (f"{picture}b", "missing type N", "b"))):
+            with self.subTest(words):
+                error = self.error(number, f"{FIX}\nfix b balls nve/sphere/symplectic\n{words}")
+                self.assertRegex(error, f"^ERROR: fix_modify shape/gran (orient|picture): .*{re.escape(expected)}")
+                self.assertEqual(marked_word(self.log), word)
 
 
 if __name__ == "__main__":

@@ -103,12 +103,6 @@ Load load_of(const ConvexContacts &contacts)
   }
   return load;
 }
-/// Without weights: what tells whether points are the same.
-Load load_of_points(ConvexContacts contacts)
-{
-  for (ConvexContact &c : contacts.points) c.weight = 1.0;
-  return load_of(contacts);
-}
 double difference(const Load &a, const Load &b)
 {
   return std::max(length(a.force - b.force), length(a.torque - b.torque));
@@ -230,7 +224,7 @@ TEST(ConvexMesh, RoundedBodiesOutsideABoxOfManyTriangles)
     coarse.touch(body, pose);
     fine.touch(body, pose);
     EXPECT_LT(difference(load_of(coarse.contacts), load_of(fine.contacts)), 1e-12) << n;
-    EXPECT_LT(difference(load_of_points(fine.contacts), load_of_points(pair)), 1e-9) << n;
+    EXPECT_LT(difference(load_of(fine.contacts), load_of(pair)), 1e-9) << n;
     compared += !pair.points.empty();
   }
   EXPECT_GT(compared, 300);
@@ -249,7 +243,8 @@ TEST(ConvexMesh, CubeOverTheEdgeOfATable)
     const Pose tilted({1.9, 0.0, 0.2 + half - 0.01}, turned(0.01, 0, 1, 0));
     ASSERT_TRUE(table.touch(cube, tilted));
     EXPECT_EQ(table.contacts.points.size(), 4U);
-    EXPECT_GT(weight_of(table.contacts), 2.2);
+    // with energies shared: two edges, and what they leave of the corners
+    EXPECT_NEAR(weight_of(table.contacts), 2.0 - 2.0 / 9.0, 1e-3);
     std::set<std::uint64_t> names;
     for (const ConvexContact &c : table.contacts.points) {
       EXPECT_GT(c.normal.z, 0.999);
@@ -340,4 +335,59 @@ TEST(ConvexMesh, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
   }
   EXPECT_GT(touching, 4000);
   EXPECT_LT(largest, 0.02);
+}
+
+/* ---- one edge ----------------------------------------------------------------------------- */
+
+TEST(ConvexMesh, UprightEdgeOfACubeOnTheFloorMeetsALevelRidge)
+{
+  // a wedge with its ridge along y, toward the edge; what the floor bears takes nothing from it
+  const double floor_overlap = 0.02, overlap = 0.01;
+  for (const double radius : {0.0, 0.1}) {
+    const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, radius);
+    const double x = std::sqrt(0.5) + radius - overlap;
+    std::vector<Triangle> triangles;
+    add_quad(triangles, {-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0});
+    add_quad(triangles, {x, -1, 0.5}, {x + 1, -1, 1}, {x + 1, 1, 1}, {x, 1, 0.5});
+    add_quad(triangles, {x, 1, 0.5}, {x + 1, 1, 0}, {x + 1, -1, 0}, {x, -1, 0.5});
+    Mesh mesh(triangles);
+    ASSERT_TRUE(mesh.touch(cube, Pose({0, 0, 0.5 + radius - floor_overlap},
+                                      turned(0.25 * 3.14159265358979, 0, 0, 1))));
+    EXPECT_EQ(mesh.contacts.points.size(), 5U);
+    const Load load = load_of(mesh.contacts);
+    EXPECT_NEAR(load.force.x, -overlap, 1e-12);
+    EXPECT_NEAR(load.force.z, 4 * floor_overlap, 1e-12);
+  }
+}
+
+TEST(ConvexMesh, NearlyParallelEdgesTouchOnlyWhereTheyAreNear)
+{
+  // a cube on its edge, above a ridge along y and beside it
+  std::vector<Triangle> roof;
+  add_quad(roof, {0, -3, 0}, {2, -3, -2}, {2, 3, -2}, {0, 3, 0});
+  add_quad(roof, {-2, -3, -2}, {0, -3, 0}, {0, 3, 0}, {-2, 3, -2});
+  Mesh ridge(roof);
+  const double radius = 0.1;
+  const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, radius);
+  const Eigen::Quaterniond on_edge = turned(0.25 * 3.14159265358979, 0, 1, 0);
+  RandomBodies random(75);
+  for (int n = 0; n < 2000; n++) {
+    const Vector axis = random.direction();
+    const Eigen::Quaterniond q = turned(1e-15, axis.x, axis.y, axis.z) * on_edge;
+    const double distance = random.uniform(0.05, 0.15), side = random.uniform(-0.6, 0.6);
+    const Vector away{distance * std::sin(side), 0.0, distance * std::cos(side)};
+    ridge.touch(cube, Pose(away + Vector{0, random.uniform(-1, 1), std::sqrt(0.5)}, q));
+    if (distance > radius) {
+      EXPECT_EQ(ridge.contacts.points.size(), 0U) << n;
+    }
+    double weight = 0.0;
+    for (const ConvexContact &c : ridge.contacts.points) {
+      EXPECT_NEAR(c.overlap, radius - distance, 1e-9) << n;
+      EXPECT_NEAR(dot(c.normal, away), distance, 1e-9) << n;
+      weight += c.weight;
+    }
+    if (distance < radius - 1e-9) {
+      EXPECT_NEAR(weight, 2.0, 1e-3) << n;
+    }
+  }
 }
