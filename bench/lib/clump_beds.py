@@ -10,7 +10,9 @@ import shutil
 import beds
 import lammps
 
-LAW = "hertz/history 200000 NULL 50 NULL 0.5 1"
+HISTORY = "hertz/history 200000 NULL 50 NULL 0.5 1"     # of pair gran and fix wall/gran
+# nearly the same stiffness and damping, for pair granular: E = 3/4 kn 2 (1 - nu^2)
+GRANULAR = "hertz/material 273000 50 0.3 tangential mindlin NULL 1.0 0.5 damping viscoelastic"
 SPHERES = ((0.0, 0.0, 0.0, 1.0, 0.6), (0.8, 0.1, 0.0, 0.9, 0.4), (0.3, 0.7, 0.2, 0.8, 0.3))    # center, diameter, mass
 NONE = "molecule/intra all"     # spheres of a clump do not touch each other
 SETTLING, REST = 17000, 500     # steps
@@ -29,11 +31,13 @@ def head():
             "fix prop all property/atom mol ghost yes\n")
 
 
-def physics(clumped, mover):
+def physics(clumped, mover, granular=False):
+    pair = f"granular\npair_coeff * * {GRANULAR}" if granular else f"gran/{HISTORY}\npair_coeff * *"
+    wall = f"granular {GRANULAR}" if granular else HISTORY
     exclude = f"exclude {NONE}" if clumped else ""
-    return (f"neighbor 0.2 bin\nneigh_modify delay 0 every 1 {exclude}\npair_style gran/{LAW}\npair_coeff * *\n"
+    return (f"neighbor 0.2 bin\nneigh_modify delay 0 every 1 {exclude}\npair_style {pair}\n"
             f"timestep 0.0005\nfix g all gravity 10 vector 0 0 -1\nfix move all {mover}\n"
-            f"fix floor all wall/gran {LAW} zplane 0 NULL\nthermo 1000000\nthermo_style custom step atoms\nthermo_modify norm no lost error\n")
+            f"fix floor all wall/gran {wall} zplane 0 NULL\nthermo 1000000\nthermo_style custom step atoms\nthermo_modify norm no lost error\n")
 
 
 def settled(bench, clumped, across):
@@ -62,5 +66,5 @@ def settle(bench, clumped, across):
     lammps.run(bench.workdir, "settle", script, lammps.TALUS, arguments=["-sf", "talus"])
 
 
-def script(data, clumped, mover, steps):
-    return head() + f"read_data {data} fix prop NULL Molecules\n" + physics(clumped, mover) + f"run {REST}\nrun {steps}\n"
+def script(data, clumped, mover, steps, granular=False):
+    return head() + f"read_data {data} fix prop NULL Molecules\n" + physics(clumped, mover, granular) + f"run {REST}\nrun {steps}\n"

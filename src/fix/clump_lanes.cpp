@@ -3,7 +3,6 @@
 #include "clump_lanes.h"
 
 using namespace LAMMPS_NS;
-using Vector3 = Talus::Vector3<double>;
 
 void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &records)
 {
@@ -48,38 +47,14 @@ void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords 
 void ClumpLanes::set(int clump, const Talus::ClumpState<double> &s)
 {
   Group &group = groups[clump / lanes];
-  const int k = clump % lanes;
-  const auto put = [&](int which, const Vector3 &v) {
-    group.number[which][k] = v.x;
-    group.number[which + 1][k] = v.y;
-    group.number[which + 2][k] = v.z;
-  };
-  group.number[Group::MASS][k] = s.mass;
-  put(Group::POSITION, s.position);
-  put(Group::VELOCITY, s.velocity);
-  put(Group::MOMENTUM, s.momentum);
-  put(Group::TURN, {s.turn.w, s.turn.x, s.turn.y});
-  group.number[Group::TURN + 3][k] = s.turn.z;
-  put(Group::INERTIA, s.inverse_inertia);
-  put(Group::OMEGA, s.omega);
+  Group::visit_all(s, [&](int which, double its) { group.number[which][clump % lanes] = its; });
 }
 
 Talus::ClumpState<double> ClumpLanes::get(int clump) const
 {
   const Group &group = groups[clump / lanes];
-  const int k = clump % lanes;
-  const auto three = [&](int which) {
-    return Vector3{group.number[which][k], group.number[which + 1][k], group.number[which + 2][k]};
-  };
   Talus::ClumpState<double> s;
-  s.mass = group.number[Group::MASS][k];
-  s.inverse_inertia = three(Group::INERTIA);
-  s.position = three(Group::POSITION);
-  s.velocity = three(Group::VELOCITY);
-  s.momentum = three(Group::MOMENTUM);
-  s.omega = three(Group::OMEGA);
-  const double(*q)[lanes] = &group.number[Group::TURN];
-  s.turn = {q[0][k], q[1][k], q[2][k], q[3][k]};
+  Group::visit_all(s, [&](int which, double &its) { its = group.number[which][clump % lanes]; });
   s.axes = s.turn.axes();
   return s;
 }

@@ -67,21 +67,48 @@ class ClumpLanes {
   static constexpr int lanes = Talus::lanes;
 
   struct Group {
-    enum { POSITION, VELOCITY = 3, MOMENTUM = 6, TURN = 9, INERTIA = 13, OMEGA = 16, MASS = 19 };
-    alignas(64) double number[20][lanes];
+    enum { POSITION, VELOCITY = 3, MOMENTUM = 6, OMEGA = 9, TURN = 12, INERTIA = 16, MASS = 19 };
+    alignas(64) double number[20][lanes];    // of states; axes are those of TURN
     int first_row, end_row;
     int first_clump, end_clump;
 
-    Vec8 at(int which) const { return Talus::load8(number[which]); }
-    Vector three(int which) const { return {at(which), at(which + 1), at(which + 2)}; }
-    void put(int which, const Vector &v)
+    // visit(which, number) for those of the state of one clump or of eight that change in a step
+    template <class AnyState, class Visit> static void visit_motion(AnyState &s, Visit visit)
     {
-      Talus::store(number[which], v.x);
-      Talus::store(number[which + 1], v.y);
-      Talus::store(number[which + 2], v.z);
+      visit_three(POSITION, s.position, visit);
+      visit_three(VELOCITY, s.velocity, visit);
+      visit_three(MOMENTUM, s.momentum, visit);
+      visit_three(OMEGA, s.omega, visit);
+      visit(TURN, s.turn.w);
+      visit(TURN + 1, s.turn.x);
+      visit(TURN + 2, s.turn.y);
+      visit(TURN + 3, s.turn.z);
     }
-    State load() const;
-    void keep(const State &s);
+    template <class AnyState, class Visit> static void visit_all(AnyState &s, Visit visit)
+    {
+      visit_motion(s, visit);
+      visit_three(INERTIA, s.inverse_inertia, visit);
+      visit(MASS, s.mass);
+    }
+    template <class AnyVector, class Visit>
+    static void visit_three(int which, AnyVector &v, const Visit &visit)
+    {
+      visit(which, v.x);
+      visit(which + 1, v.y);
+      visit(which + 2, v.z);
+    }
+
+    State load() const
+    {
+      State s;
+      visit_all(s, [this](int which, Vec8 &its) { its = Talus::load8(number[which]); });
+      s.axes = s.turn.axes();
+      return s;
+    }
+    void keep(const State &s)
+    {
+      visit_motion(s, [this](int which, const Vec8 &its) { Talus::store(number[which], its); });
+    }
   };
   struct Row {
     enum { PLACE, RADIUS = 3, INVERSE_RADIUS, INVERSE_MASS };
@@ -196,14 +223,14 @@ class ClumpLanes {
     for (int r = group.first_row; r < group.end_row; r++) {
       const Row &row = rows[r];
       const Vector its = row.place(), arm = s.axes.to_space(its), v = motion.velocity_at(its);
+      const int m = r - group.first_row;
+      const Vector x = arm + (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift)
+                                          : s.position);
       Talus::Record x_row[lanes], v_row[lanes], w_row[lanes];
+      Talus::to_rows({x.x, x.y, x.z, row.at(Row::RADIUS)}, x_row);
       Talus::to_rows({v.x, v.y, v.z, row.at(Row::INVERSE_MASS)}, v_row);
       Talus::to_rows({motion.omega.x, motion.omega.y, motion.omega.z, row.at(Row::INVERSE_RADIUS)},
                      w_row);
-      const auto put_positions = [&](const Vector &center) {
-        const Vector at = arm + center;
-        Talus::to_rows({at.x, at.y, at.z, row.at(Row::RADIUS)}, x_row);
-      };
       const auto put = [&](int k, long slot) {
         Talus::Record *state = &records.motion[2 * slot];
         const Talus::Vec4 v_old = load4(state[0]), w_old = load4(state[1]);
@@ -213,9 +240,6 @@ class ClumpLanes {
         if constexpr (changes)
           records.keep_change(slot, v_old, load4(v_row[k]), w_old, load4(w_row[k]));
       };
-      const int m = r - group.first_row;
-      put_positions(row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift)
-                                : s.position);
       if (row.usual)
         for (int k = 0; k < lanes; k++) put(k, row.slot[k]);
       else
@@ -235,30 +259,6 @@ class ClumpLanes {
     return three(away);
   }
 };
-
-inline ClumpLanes::State ClumpLanes::Group::load() const
-{
-  State s;
-  s.mass = at(MASS);
-  s.position = three(POSITION);
-  s.velocity = three(VELOCITY);
-  s.momentum = three(MOMENTUM);
-  s.turn = {at(TURN), at(TURN + 1), at(TURN + 2), at(TURN + 3)};
-  s.inverse_inertia = three(INERTIA);
-  s.omega = three(OMEGA);
-  s.axes = s.turn.axes();
-  return s;
-}
-
-inline void ClumpLanes::Group::keep(const State &s)
-{
-  put(POSITION, s.position);
-  put(VELOCITY, s.velocity);
-  put(MOMENTUM, s.momentum);
-  put(TURN, {s.turn.w, s.turn.x, s.turn.y});
-  Talus::store(number[TURN + 3], s.turn.z);
-  put(OMEGA, s.omega);
-}
 
 }    // namespace LAMMPS_NS
 

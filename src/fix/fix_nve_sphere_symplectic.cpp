@@ -119,7 +119,7 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
-  if (its_order == 2) second_order.check(*system);
+  if (its_order == 2) second_order.check(*system, start);
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())

@@ -104,7 +104,7 @@ void FixRigidSmallSymplectic::init()
     error->all(FLERR, Error::NOLASTLINE, "{} {}: {}: use fix rigid/small", title, id, reason);
   for (const Fix *fix : modify->get_fix_list())
     if (fix != this) check_fix(fix);
-  if (its_order == 2) second_order.check(*system);
+  if (its_order == 2) second_order.check(*system, start);
 }
 
 /* Without a pair style of Talus as well: forces are those of the arrays. */
@@ -149,6 +149,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
   v_init(vflag);
   const double dt = update->dt, kick_time = start.next_kick(dt), time = kick_time * force_unit();
   if (start.is_half()) extrapolation = start.lag() / kick_time;
+  way_back = its_order == 2 ? start.lag() : 0.0;
   look_at_storage();
   share_loads();
   const double *g = gravity.acceleration();
@@ -169,19 +170,17 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
       ClumpState s = state_of(b);
       const auto its = motion(s, loads_on(clump, s));
       put_state(s, b);
-      place_spheres(clump, s, its, b, true, kick);
+      place_spheres(clump, s, its, b, Get::PLACES_AND_VELOCITIES, kick);
     });
   }
   if (in_records_now()) system->advance(record_step(time));
 }
 
-/* With order 2 velocities are those half way through the last step. */
-
 Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const ClumpState &state) const
 {
-  if (its_order == 1) return state.sphere_motion();
+  if (way_back == 0.0) return state.sphere_motion();
   ClumpState before = state;
-  before.drift_freely(-2.0 * start.lag());
+  before.drift_freely(-2.0 * way_back);
   return half_way_between(before.sphere_motion(), state.sphere_motion());
 }
 
@@ -201,10 +200,12 @@ double FixRigidSmallSymplectic::next_kick_in_steps() const
 
 void FixRigidSmallSymplectic::write_restart(FILE *fp)
 {
-  start.write_restart(fp);
+  start.write_restart(fp, way_back);
 }
+
+/* Velocities of spheres are those of the file until the first step. */
 
 void FixRigidSmallSymplectic::restart(char *buf)
 {
-  start.restart(buf);
+  way_back = start.restart(buf);
 }

@@ -20,7 +20,7 @@
    rigid/small of LAMMPS, whose words for bodies, `mol`, `infile` and `reinit` are the same.
 
    Called by: Verlet::run() at the start of a step through Modify::initial_integrate().
-   Restart: that of clumps, the start word and the lag.
+   Restart: that of clumps, the start word, the lag and `way_back`.
    Errors: all by error->all on every rank. Constructor: words of the command. init(): run_style
    respa, minimize, particles that are no spheres, another fix that moves spheres of clumps, freezes
    them, or lets them fall a second time; with `order 2` see second_order_check.h.
@@ -66,7 +66,6 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   std::string find_reason() override;
   bool given_masses_stay() const override { return true; }
   Talus::SphereMotion<double> sphere_motion_of(const Talus::ClumpState<double> &) const override;
-  bool velocities_stay() const override { return states_are_known(); }
 
  private:
   // the words of the stock style, and what the others say
@@ -81,6 +80,9 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
 
   StartTime start;
   int its_order;
+  // spheres have the velocities of a moment that is so long before the end of the step: with order 2
+  // those half way through it
+  double way_back = 0.0;
   SecondOrderCheck second_order;
   ConstantGravity gravity;
 

@@ -13,6 +13,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using ClumpState = Talus::ClumpState<double>;
@@ -40,7 +41,7 @@ void put(const Vector &v, double *a)
 /* ---------------------------------------------------------------------- */
 
 FixRigidSmallTalus::FixRigidSmallTalus(LAMMPS *lmp, int narg, char **arg) :
-    FixRigidSmall(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
+    FixRigidSmall(lmp, narg, with_masses(lmp, narg, arg)), system(Talus::GranularSystem::of(lmp)),
     extrapolation(half_of_change)
 {
   restart_peratom = 1;
@@ -63,6 +64,10 @@ void FixRigidSmallTalus::post_constructor()
 void FixRigidSmallTalus::init()
 {
   FixRigidSmall::init();
+  const int mine = restored;    // a rank without particles has not been told
+  int from_file = 0;
+  MPI_Allreduce(&mine, &from_file, 1, MPI_INT, MPI_MAX, world);
+  restored = from_file != 0;
   reason = find_reason();
   if (!reason.empty()) return;
   comm->cutghostuser = std::max(comm->cutghostuser, 2.0 * maxextent);
@@ -211,29 +216,45 @@ void FixRigidSmallTalus::take_from_lanes()
   lanes.forget();
 }
 
-/* As ParticleRecords::keep_change() does. */
+/* ----------------------------------------------------------------------
+   one clump after another
+------------------------------------------------------------------------- */
 
-void FixRigidSmallTalus::write_change(Talus::ChangeRecord &change, const double *v,
-                                      const Vector &v_old, const double *w, const Vector &w_old,
-                                      double radius) const
+FixRigidSmallTalus::SphereVelocity FixRigidSmallTalus::velocity_of(const ClumpSphere &s) const
 {
-  const Vector dv = extrapolation * (vector_of(v) - v_old),
-               dw = radius * (extrapolation * (vector_of(w) - w_old));
-  const double values[8] = {dv.x, dv.y, dv.z, 0.0, dw.x, dw.y, dw.z, 0.0};
-  std::transform(values, values + 8, change.c, [](double one) { return static_cast<float>(one); });
+  if (in_records)
+    return {vector_of(records->velocity(s.slot).c), vector_of(records->omega(s.slot).c)};
+  return {vector_of(atom->v[s.atom]), vector_of(atom->omega[s.atom])};
+}
+
+Talus::ChangeRecord *FixRigidSmallTalus::changes_of_spheres() const
+{
+  if (in_records) return records->keeps_changes() ? records->change.data() : nullptr;
+  return keeps_changes() ? system->velocity_changes() : nullptr;
+}
+
+/* With the bits of ParticleRecords::keep_change(). */
+
+void FixRigidSmallTalus::keep_change(Talus::ChangeRecord &change, const ClumpSphere &s,
+                                     const SphereVelocity &old) const
+{
+  const SphereVelocity now = velocity_of(s);
+  const Vector dv = extrapolation * (now.v - old.v),
+               dw = atom->radius[s.atom] * (extrapolation * (now.omega - old.omega));
+  store(change,
+        Talus::change_of(Talus::Vec4{dv.x, dv.y, dv.z, 0.0}, Talus::Vec4{dw.x, dw.y, dw.z, 0.0}));
 }
 
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond
    what is accounted for, at the places before. */
 
 void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
-                                       const Talus::SphereMotion<double> &motion, Body &b,
-                                       bool moves, const Kick &kick)
+                                       const Talus::SphereMotion<double> &motion, Body &b, Get what,
+                                       const Kick &kick, const SphereVelocity *before)
 {
+  const bool moves = what == Get::PLACES_AND_VELOCITIES;
   const bool tallies = evflag && kick.share > 0.0;
-  const bool keeps_change = in_records && moves && records->keeps_changes();
-  Talus::ChangeRecord *const changes =
-      !in_records && moves && keeps_changes() ? system->velocity_changes() : nullptr;
+  Talus::ChangeRecord *const changes = moves ? changes_of_spheres() : nullptr;
   const bool flat = domain->dimension == 2;
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
     if (!s->owned) continue;
@@ -241,26 +262,24 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
     double *x = in_records ? records->position[s->slot].c : atom->x[i];
     double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
     double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
-    const Vector x_old = vector_of(x), v_old = vector_of(v), w_old = vector_of(w);
-    const Talus::Vec4 before[2] = {keeps_change ? load4(records->velocity(s->slot)) : Talus::Vec4{},
-                                   keeps_change ? load4(records->omega(s->slot)) : Talus::Vec4{}};
+    const Vector x_old = vector_of(x);
+    const SphereVelocity old = velocity_of(*s);
     const Vector arm = state.axes.to_space(s->place);
     const Vector shift = shift_of(*s);
     if (moves) put(arm + (state.position - shift), x);
     if (flat && moves) x[2] = 0.0;
-    if (moves || !velocities_stay()) {
+    if (what != Get::NOTHING) {
       put(motion.velocity_at(s->place), v);
       if (flat) v[2] = 0.0;
       put(motion.omega, w);
     }
-    if (changes) write_change(changes[i], v, v_old, w, w_old, atom->radius[i]);
-    if (keeps_change)
-      records->keep_change(s->slot, before[0], load4(records->velocity(s->slot)), before[1],
-                           load4(records->omega(s->slot)));
+    if (changes)
+      keep_change(changes[in_records ? s->slot : i], *s,
+                  before ? before[s - table.begin(clump)] : old);
     if (!tallies) continue;
 
     const double *f = in_records ? records->load[2L * s->slot].c : atom->f[i];
-    const Vector change = vector_of(v) - v_old - vector_of(kick.fall);
+    const Vector change = vector_of(v) - old.v - vector_of(kick.fall);
     const Vector holds = (atom->rmass[i] / kick.time) * change - vector_of(f);
     const Vector at = x_old + shift, part = kick.share * holds;
     double virial_of[6] = {at.x * part.x, at.y * part.y, at.z * part.z,
@@ -289,7 +308,8 @@ void FixRigidSmallTalus::setup(int vflag)
     put(sum.torque, b.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, sphere_motion_of(s), b, false, {dtf, {0.0, 0.0, 0.0}, 1.0});
+    place_spheres(clump, s, sphere_motion_of(s), b, states_known ? Get::NOTHING : Get::VELOCITIES,
+                  {dtf, {0.0, 0.0, 0.0}, 1.0});
   });
 }
 
@@ -328,17 +348,23 @@ void FixRigidSmallTalus::begin_step(bool completes)
   for_each_clump([&](int clump, Body &b) {
     ClumpState s = state_of(b);
     Loads loads{vector_of(b.fcm), vector_of(b.torque)};
+    std::vector<SphereVelocity> before;
     if (completes) {
       loads = loads_on(clump, s);
       if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);
       s.omega = s.omega_now();
-      if (evflag) place_spheres(clump, s, s.sphere_motion(), b, false, no_share);
+      if (evflag) {    // their velocities after the first of both kicks, for virials
+        for (const ClumpSphere *one = table.begin(clump); one != table.end(clump); one++)
+          before.push_back(one->owned ? velocity_of(*one) : SphereVelocity{});
+        place_spheres(clump, s, s.sphere_motion(), b, Get::VELOCITIES, no_share);
+      }
     }
     s.kick(dtf, loads.force, loads.torque);
     s.drift_extrapolated(dtv);
     put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, true, kick);
+    place_spheres(clump, s, s.sphere_motion(), b, Get::PLACES_AND_VELOCITIES, kick,
+                  before.empty() ? nullptr : before.data());
   });
 }
 
@@ -360,7 +386,7 @@ void FixRigidSmallTalus::final_integrate()
     s.kick(dtf, loads.force, loads.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, false, {dtf, {0.0, 0.0, 0.0}, 0.5});
+    place_spheres(clump, s, s.sphere_motion(), b, Get::VELOCITIES, {dtf, {0.0, 0.0, 0.0}, 0.5});
   });
 }
 

@@ -82,7 +82,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   virtual bool given_masses_stay() const { return false; }
 
   // of a clump in a step: the kick (time), what it adds to velocities by itself, and which part of
-  // the step it is for virials; see move_clump()
+  // the step it is for virials; see place_spheres()
   struct Kick {
     double time;
     double fall[3];
@@ -123,11 +123,15 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   static Talus::ClumpState<double> state_of(const Body &b);
   static void put_state(const Talus::ClumpState<double> &s, Body &b);
   Loads loads_on(int clump, const Talus::ClumpState<double> &state) const;
-  // the spheres that this rank owns get velocities, and places on request, from the clump's state
-  // and their motion
+  struct SphereVelocity {
+    Talus::Vector3<double> v, omega;
+  };
+  // the spheres that this rank owns get this from the clump's state and their motion. Changes, of
+  // those that get places, are those since `before`, of all spheres, or those that this makes
+  enum class Get { NOTHING, VELOCITIES, PLACES_AND_VELOCITIES };
   void place_spheres(int clump, const Talus::ClumpState<double> &state,
-                     const Talus::SphereMotion<double> &motion, Body &b, bool moves,
-                     const Kick &kick);
+                     const Talus::SphereMotion<double> &motion, Body &b, Get what, const Kick &kick,
+                     const SphereVelocity *before = nullptr);
   // of the spheres of a clump between two steps
   virtual Talus::SphereMotion<double> sphere_motion_of(const Talus::ClumpState<double> &s) const
   {
@@ -135,10 +139,6 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   }
   // of the changes of velocities that this fix keeps, see RecordStep; before spheres are placed
   double extrapolation;
-  // a set-up has found clumps as the last run has left them
-  bool states_are_known() const { return states_known; }
-  // spheres have velocities that a set-up would find again with other rounding
-  virtual bool velocities_stay() const { return false; }
   // for GranularSystem::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
   // before the first of these in a step, once `extrapolation` is known
@@ -157,17 +157,19 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   std::vector<double> ghost_rows;     // of ghosts: rows of what was sent last
   int row_size = 0;
   bool slots_known = false;
-  bool restored = false;    // from a restart file, and no run since
-  bool states_known = false;
+  bool restored = false;        // from a restart file, and no run since
+  bool states_known = false;    // the set-up has found clumps as the last run has left them
 
   // where spheres are in this step
   bool in_records = false;
   Talus::ParticleRecords *records = nullptr;
 
   int threads() const;
-  void write_change(Talus::ChangeRecord &change, const double *v,
-                    const Talus::Vector3<double> &v_old, const double *w,
-                    const Talus::Vector3<double> &w_old, double radius) const;
+  SphereVelocity velocity_of(const ClumpSphere &sphere) const;    // owned
+  // by slot or by atom, as spheres are; nullptr: they are not kept
+  Talus::ChangeRecord *changes_of_spheres() const;
+  void keep_change(Talus::ChangeRecord &change, const ClumpSphere &sphere,
+                   const SphereVelocity &old) const;
   std::string reason_of_spheres() const;
   tagint clump_of(int i) const;
   void write_row(int i, double *row) const;
@@ -182,6 +184,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   void restore_bodies();
   void find_bodies();
   void find_body(int clump);
+  static char **with_masses(LAMMPS *lmp, int narg, char **arg);
+  void require_whole_clumps() const;
   bool keeps_states();
   bool is_kept(int clump) const;
 

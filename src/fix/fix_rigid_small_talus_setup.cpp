@@ -10,7 +10,9 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "math_const.h"
+#include "molecule.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -71,11 +73,57 @@ void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state, dou
 
 }    // namespace
 
-/* ---------------------------------------------------------------------- */
+/* The stock class takes masses that a template lacks from those of atom types, also where the atom
+   style has none. Returns the words. */
+
+char **FixRigidSmallTalus::with_masses(LAMMPS *lmp, int narg, char **arg)
+{
+  const auto lacks_masses = [](const Molecule &m) {
+    return !m.rmassflag && !(m.massflag && m.comflag && m.inertiaflag);
+  };
+  Atom *const atom = lmp->atom;
+  for (int n = 3; n + 1 < narg && !atom->mass; n++) {
+    const int first = std::strcmp(arg[n], "mol") == 0 ? atom->find_molecule(arg[n + 1]) : -1;
+    for (int k = 0; first >= 0 && k < atom->molecules[first]->nset; k++)
+      if (lacks_masses(*atom->molecules[first + k]))
+        lmp->error->all(FLERR,
+                        "Fix {} {}: spheres of molecule template {} have no masses: give it a "
+                        "section Masses",
+                        arg[2], arg[0], arg[n + 1]);
+  }
+  return arg;
+}
+
+/* delete_atoms may take the sphere that the stock class keeps the body with, or give others new IDs;
+   the stock class reads on then. Ghosts do not tell yet what they own. */
+
+void FixRigidSmallTalus::require_whole_clumps() const
+{
+  tagint mine = MAXTAGINT, first = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!bodytag[i]) continue;
+    const int owner = atom->map(bodytag[i]);
+    const bool found = owner >= atom->nlocal || (owner >= 0 && bodyown[owner] >= 0);
+    const bool renamed = bodyown[i] >= 0 && bodytag[i] != atom->tag[i];
+    if (!found || renamed) mine = std::min(mine, atom->tag[i]);
+  }
+  for (int b = 0; b < nlocal_body; b++)
+    if (body[b].ilocal >= atom->nlocal || bodyown[body[b].ilocal] != b)
+      mine = std::min<tagint>(mine, 0);
+  MPI_Allreduce(&mine, &first, 1, MPI_LMP_TAGINT, MPI_MIN, world);
+  if (first == MAXTAGINT) return;
+  error->all(
+      FLERR,
+      "Fix {} {}: spheres of clumps are missing or have new IDs{}: delete whole clumps and keep "
+      "IDs (delete_atoms with 'mol yes' and 'compress no'), or, if none was deleted, make "
+      "'comm_modify cutoff' larger than the clumps",
+      style, id, first ? fmt::format(", in that of particle {}", first) : "");
+}
 
 void FixRigidSmallTalus::setup_pre_neighbor()
 {
   if (!reason.empty()) return FixRigidSmall::setup_pre_neighbor();
+  require_whole_clumps();
   bool keep = false;
   states_known = false;
   if (setupflag || restored) {
@@ -220,9 +268,11 @@ void FixRigidSmallTalus::find_body(int clump)
 }
 
 /* ----------------------------------------------------------------------
-   restart files: of each particle the ID of its body and its place in it, of the one that owns the
-   body the state as well
+   restart files: of each particle whether a set-up has been made, the ID of its body and its place in
+   it, of the one that owns the body the state as well
 ------------------------------------------------------------------------- */
+
+static constexpr tagint no_setup = -1;    // in the place of the ID
 
 int FixRigidSmallTalus::size_restart(int i)
 {
@@ -236,9 +286,9 @@ int FixRigidSmallTalus::maxsize_restart()
 
 int FixRigidSmallTalus::pack_restart(int i, double *buf)
 {
-  const bool owns = bodyown[i] >= 0 && setupflag;
+  const bool known = setupflag || restored, owns = bodyown[i] >= 0 && known;
   buf[0] = size_restart(i);
-  buf[1] = ubuf(setupflag ? bodytag[i] : 0).d;
+  buf[1] = ubuf(known ? bodytag[i] : no_setup).d;
   std::copy_n(displace[i], 3, buf + 2);
   buf[5] = owns ? 1.0 : 0.0;
   if (bodyown[i] >= 0) std::memcpy(buf + 6, &body[bodyown[i]], sizeof(Body));
@@ -247,16 +297,18 @@ int FixRigidSmallTalus::pack_restart(int i, double *buf)
 
 void FixRigidSmallTalus::unpack_restart(int i, int nth)
 {
+  const double *buf = atom->extra[i];
+  int m = 0;
+  for (int k = 0; k < nth; k++) m += static_cast<int>(buf[m]);
+  const tagint tag = static_cast<tagint>(ubuf(buf[m + 1]).i);
+  if (tag == no_setup) return;
   if (!restored) {    // the constructor has looked for bodies on its own
     nlocal_body = 0;
     std::fill_n(bodytag, atom->nlocal, 0);
     std::fill_n(bodyown, atom->nlocal, -1);
   }
   restored = true;
-  const double *buf = atom->extra[i];
-  int m = 0;
-  for (int k = 0; k < nth; k++) m += static_cast<int>(buf[m]);
-  bodytag[i] = static_cast<tagint>(ubuf(buf[m + 1]).i);
+  bodytag[i] = tag;
   std::copy_n(buf + m + 2, 3, displace[i]);
   if (buf[m + 5] == 0.0) return;
   if (nlocal_body == nmax_body) grow_body();

@@ -25,9 +25,11 @@ void SecondOrderCheck::set_half(LAMMPS *lmp, const char *title, StartTime &start
   start.set_half(true);
 }
 
-void SecondOrderCheck::check(Talus::GranularSystem &system)
+void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
 {
+  bool seen = false;    // this fix
   for (const auto &other : modify->get_fix_list()) {
+    seen = seen || other == fix;
     if (other == fix || !other->time_integrate) continue;
     const auto *ours = dynamic_cast<const Talus::SystemFix *>(other);
     if (!ours || ours->order() != 2)
@@ -35,6 +37,8 @@ void SecondOrderCheck::check(Talus::GranularSystem &system)
                  "{} order 2: fix {} ({}) moves particles as well, with order 1: use order 1, or "
                  "only fixes nve/sphere/symplectic and rigid/small/symplectic with 'order 2'",
                  title, other->id, other->style);
+    if (start.lag() == 0.0) start.set_lag(ours->lag());
+    if (!seen) announced = true;    // by that one
   }
   for (const auto &other : modify->get_fix_list())
     if (utils::strmatch(other->style, "^wall/gran"))

@@ -16,7 +16,7 @@ class StartTime;
    `order 2` of a fix that moves particles: what it implies, and what of a scene it cannot have.
 
    Proxies find the changes of velocities from those that they receive: all particles must be moved
-   by fixes of order 2.
+   by fixes of order 2, with the same lag.
 
    Errors: by error->all on every rank, they name the fix and the cure.
 ------------------------------------------------------------------------- */
@@ -31,8 +31,9 @@ class SecondOrderCheck : protected Pointers {
 
   // order 2 is `start half`; constructor
   static void set_half(class LAMMPS *, const char *title, StartTime &, bool says_start);
-  // init(), collective; the first time the log says what is of second order
-  void check(Talus::GranularSystem &);
+  // init(), collective; the log says what is of second order once, for the first fix. A fix that has not made
+  // a step gets the lag of those that have
+  void check(Talus::GranularSystem &, StartTime &);
 
  private:
   const class Fix *fix;

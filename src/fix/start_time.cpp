@@ -17,9 +17,10 @@ double StartTime::next_kick(double dt)
   return kick;
 }
 
-void StartTime::write_restart(FILE *fp) const
+void StartTime::write_restart(FILE *fp, double half_way) const
 {
-  const double state[2] = {half ? 1.0 : 0.0, time_behind};
+  const double state[2] = {(half ? 1.0 : 0.0) + (half_way > 0.0 ? 2.0 : 0.0),
+                           half ? time_behind : half_way};
   const int size = sizeof(state);
   if (comm->me == 0) {
     fwrite(&size, sizeof(int), 1, fp);
@@ -27,18 +28,19 @@ void StartTime::write_restart(FILE *fp) const
   }
 }
 
-void StartTime::restart(const char *buf)
+double StartTime::restart(const char *buf)
 {
   double state[2];
   memcpy(state, buf, sizeof(state));
-  const bool was_half = state[0] != 0.0;
+  const bool is_half_way = state[0] >= 2.0, was_half = state[0] - (is_half_way ? 2.0 : 0.0) > 0.0;
 
   if (was_half == half) {
-    time_behind = state[1];
+    if (half) time_behind = state[1];
   } else if (comm->me == 0) {
     error->warning(FLERR, "{} start {}: the restart file was written with start {}: {}", command,
                    half ? "half" : "plain", was_half ? "half" : "plain",
                    was_half ? "velocities stay behind positions by half a time step"
                             : "velocities count as those of the present step");
   }
+  return is_half_way ? state[1] : 0.0;
 }

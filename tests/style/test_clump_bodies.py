@@ -2,6 +2,7 @@
 # ctest: timeout=200 procs=2
 """Clumps against large bodies of every kind, each with an answer; masses and inertia that are given, with numbers by hand."""
 
+import itertools
 import math
 import os
 import sys
@@ -33,6 +34,21 @@ thermo_style custom step
 END = """
 run {steps}
 write_dump all custom last id {motion} modify format float %.17g sort id
+"""
+AGAIN = """
+units lj
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+read_restart state
+fix prop all property/atom mol ghost yes
+pair_style gran/penalty
+pair_coeff * * {law}
+neigh_modify exclude molecule/intra all
+timestep {dt!r}
+thermo_style custom step
+fix move all rigid/small/symplectic molecule {words}
 """
 
 
@@ -111,22 +127,51 @@ class Bodies(BodyCase):
 class GivenMasses(BodyCase):
     """Spheres that overlap, with mass, center and moments of their own: other answers than the spheres would give."""
 
-    def test_free_motion_by_hand(self):
-        """It turns about the axis z of its inertia at L/I, and its center, which is that of no sphere, goes straight on."""
-        center, v, l, moment, mass = (0.1, 0.05, 1.0), (0.5, -0.2, 0.1), 0.3, 0.4, 1.5
-        places = [(-0.3, 0.0, 1.0), (0.4, 0.2, 1.1)]
+    center, v, l, moment = (0.1, 0.05, 1.0), (0.5, -0.2, 0.1), 0.3, 0.4
+    places = [(-0.3, 0.0, 1.0), (0.4, 0.2, 1.1)]
+    in_free_motion = dict(gravity="", steps=2000, dt=1e-3, law="hooke 2e4 0")
+
+    def start_freely(self, words, more=""):
         with open(self.path("bodies"), "w") as file:
-            file.write(f"1\n1 {mass} {' '.join(map(repr, center))} 0.2 0.3 {moment} 0 0 0 {' '.join(map(repr, v))} 0 0 {l} 0 0 0\n")
-        frame = self.end(spheres_at(places), "", move="rigid/small/symplectic molecule infile bodies", gravity="", steps=2000,
-                         dt=1e-3)
-        angle = 2.0 * l / moment
-        for tag, place in enumerate(places, 1):
-            a, b, c = (p - q for p, q in zip(place, center))
-            expected = (center[0] + 2.0 * v[0] + math.cos(angle) * a - math.sin(angle) * b,
-                        center[1] + 2.0 * v[1] + math.sin(angle) * a + math.cos(angle) * b, center[2] + 2.0 * v[2] + c)
-            for column, value in zip("xyz", expected):
-                self.assertAlmostEqual(frame.column(column)[tag], value, delta=1e-11)
-            self.assertAlmostEqual(frame.column("omegaz")[tag], l / moment, delta=1e-12)
+            file.write(f"1\n1 1.5 {' '.join(map(repr, self.center))} 0.2 0.3 {self.moment} 0 0 0 "
+                       f"{' '.join(map(repr, self.v))} 0 0 {self.l} 0 0 0\n")
+        return self.end(spheres_at(self.places), "", f"rigid/small/symplectic molecule infile bodies {words}", more=more,
+                        **self.in_free_motion)
+
+    def assert_free_motion(self, frame, time):
+        """It turns about the axis z of its inertia at L/I, and its center, which is that of no sphere, goes straight on."""
+        angle = time * self.l / self.moment
+        for tag, place in enumerate(self.places, 1):
+            a, b, c = (p - q for p, q in zip(place, self.center))
+            arm = math.cos(angle) * a - math.sin(angle) * b, math.sin(angle) * a + math.cos(angle) * b, c
+            for n, column in enumerate("xyz"):
+                self.assertAlmostEqual(frame.column(column)[tag], self.center[n] + time * self.v[n] + arm[n], delta=1e-11)
+            self.assertAlmostEqual(frame.column("omegaz")[tag], self.l / self.moment, delta=1e-12)
+
+    def test_free_motion_by_hand(self):
+        self.assert_free_motion(self.start_freely(""), 2.0)
+
+    def test_a_restart_with_another_order_or_start_keeps_them(self):
+        for old, new in itertools.permutations(("start plain", "start half", "order 2"), 2):
+            with self.subTest(old=old, new=new):
+                for before in old, new:
+                    self.start_freely(old, "run 500\nwrite_restart state")
+                    self.run_lammps(AGAIN.format(words=before, **self.in_free_motion) + "write_restart state")    # before a run
+                    self.run_lammps(AGAIN.format(words=new, **self.in_free_motion) + "run 700\n" +
+                                    END.format(motion=" ".join(MOTION), steps=800), np=2)
+                    frame, = read_dump(self.path("last"))
+                    self.assert_free_motion(frame, 2.0)
+
+    def test_a_restart_before_the_first_run(self):
+        """Nothing is known of clumps then but which spheres they have."""
+        scene = dict(gravity="", velocity="0.2 0 0.1", spin="1 2 0.5", steps=500)
+        expected = self.end(spheres_at(self.places), "", **scene)
+        self.end(spheres_at(self.places), "", **dict(scene, more="write_restart state"))
+        options = dict(law=LAW, dt=4.0e-4, words="start half")
+        self.run_lammps(AGAIN.format(**options) + END.format(motion=" ".join(MOTION), steps=500), np=2)
+        frame, = read_dump(self.path("last"))
+        self.assertLess(max_difference(frame, expected, MOTION), 1e-12)
+        self.assertGreater(abs(frame.column("omegaz")[1]), 0.1)
 
     def test_an_impact_by_hand(self):
         """Without friction and damping, on the sphere at the end of a rod: e = 1, with 1/m = 1/M + a^2/I."""

@@ -57,6 +57,8 @@ BAD_WORDS = [
 # commands, what the message says
 REFUSED = [
     (f"{FIX} mol pebble", "Molecule template ID pebble for fix rigid/small/symplectic does not exist"),
+    (f"molecule pebble pebble.mol\n{FIX} mol pebble", TITLE + "spheres of molecule template pebble have no masses: give it a "
+     "section Masses"),
     (f"{FIX}\nfix other all nve/sphere", MOVED.format("nve/sphere") + "moves them as well: give it another group"),
     (f"{FIX}\nfix other all freeze", MOVED.format("freeze") + "freezes them, but they move: give it another group"),
     (f"{FIX} gravity 9.81 vector 0 0 -1\nfix other all gravity 9.81 vector 0 0 -1",
@@ -69,11 +71,39 @@ REFUSED = [
      "fix wall all wall/gran/region hooke 1000 NULL 1 NULL 0.5 1 region ball",
      r"Fix rigid/small/symplectic order 2: contacts with fix wall \(wall/gran/region\) are of first order: use fix large/body"),
     (f"{FIX}\nrun_style respa 2 2", TITLE + "run_style respa has levels: use fix rigid/small"),
+    (f"{FIX}\ngroup gone id 1\ndelete_atoms group gone compress no",
+     TITLE + "spheres of clumps are missing or have new IDs, in that of particle 2: .*'mol yes' and 'compress no'"),
+    (f"{FIX}\ngroup gone id 1 2\ndelete_atoms group gone", TITLE + "spheres of clumps are missing or have new IDs"),
     (f"{FIX}\nfix_modify move bodyforces early", TITLE + "'fix_modify bodyforces early' is set: use fix rigid/small"),
 ]
 
 
+PEBBLE = """A clump without masses
+
+2 atoms
+
+Coords
+
+1 0 0 0
+2 0.5 0 0
+
+Types
+
+1 1
+2 1
+
+Diameters
+
+1 0.8
+2 0.8
+"""
+
+
 class ClumpErrors(SceneCase):
+
+    def setUp(self):
+        with open(self.path("pebble.mol"), "w") as file:
+            file.write(PEBBLE)
 
     def refuse(self, np, commands, expected, run="run 1", style="sphere", size="0.8", map="map array"):
         log = self.run_lammps(BOX.format(style=style, size=size, map=map) + commands + "\n" + run, np=np,

