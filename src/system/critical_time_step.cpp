@@ -3,7 +3,7 @@
 #include "system/critical_time_step.h"
 
 #include "system/granular_system.h"
-#include "system/stable_time_step.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"
@@ -49,6 +49,7 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   consider_pairs(laws, speed);
   contact = reduce_smallest(contacts.smallest_contact_period());
   if (!(contact > 0.0)) contact = law_period;
+  contact = smaller_defined(contact, period_of_shapes);
   contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));
 }
 
@@ -62,7 +63,7 @@ void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
 
 void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
 {
-  law_period = rayleigh = hertz = stable = 0.0;
+  law_period = period_of_shapes = rayleigh = hertz = stable = 0.0;
   order = GranularSystem::of(lmp)->order();
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
@@ -73,21 +74,23 @@ double CriticalTimeStep::smallest() const
   return smaller_defined(contact, smaller_defined(rayleigh, hertz));
 }
 
-/* Of the particles that are members of all groups, given by their bits: radius by type, then mass
-   by type. */
+/* Of the particles that are members of all groups, given by their bits: radius by type, then mass in
+   contacts by type, then own mass by type. */
 
 std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
 {
-  std::vector<double> mine(2 * (types + 1), never);
+  const GranularSystem &system = *GranularSystem::of(lmp);
+  std::vector<double> mine(3 * (static_cast<size_t>(types) + 1), never);
   std::vector<std::vector<double>> found(comm->nthreads);
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
     std::vector<double> its(mine.size(), never);
-    double *const r = its.data(), *const m = r + types + 1;
+    double *const r = its.data(), *const m = r + types + 1, *const own = m + types + 1;
     for (int i = begin; i < end; i++) {
       if ((atom->mask[i] & groups) != groups) continue;
       const int type = atom->type[i];
       r[type] = std::min(r[type], atom->radius[i]);
-      m[type] = std::min(m[type], atom->rmass[i]);
+      if (system.knows_mass(i)) m[type] = std::min(m[type], system.mass_with_walls(i));
+      own[type] = std::min(own[type], atom->rmass[i]);
     }
     found[t] = std::move(its);
   });
@@ -116,9 +119,23 @@ CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int grou
   const std::vector<double> mine = smallest_here(types, groups);
   std::vector<double> all(mine);
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
-  const auto middle = all.begin() + types + 1;
-  std::for_each(middle, all.end(), [this](double &mass) { mass /= force->ftm2v; });
-  return {{all.begin(), middle}, {middle, all.end()}};
+  const auto masses = all.begin() + types + 1, own = masses + types + 1;
+  std::for_each(masses, all.end(), [this](double &mass) { mass /= force->ftm2v; });
+  std::transform(masses, own, own, masses,    // nobody knows that of a body yet
+                 [](double mass, double its) { return std::isinf(mass) ? its : mass; });
+  Sizes its{{all.begin(), masses}, {masses, own}, {own, all.end()}, {}};
+  for (std::size_t type = 0; type < its.radius.size(); type++) {
+    const ParticleShape *shape = shape_of(static_cast<int>(type));
+    its.overlap.push_back(0.01 * (shape ? shape->shape().inscribed_radius() : its.radius[type]));
+    if (shape && !std::isinf(its.radius[type])) its.radius[type] = shape->shape().contact_radius();
+  }
+  return its;
+}
+
+const ParticleShape *CriticalTimeStep::shape_of(int type) const
+{
+  const SystemShapes *shapes = GranularSystem::of(lmp)->shapes();
+  return shapes ? shapes->shape_of(type) : nullptr;
 }
 
 double CriticalTimeStep::reduce_smallest(double mine) const
@@ -131,21 +148,29 @@ double CriticalTimeStep::reduce_smallest(double mine) const
 
 void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double speed)
 {
-  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass;
+  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass, &own = sizes.own_mass;
   if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
   if (!laws.known(i, j)) return;
   const ContactLaw &law = laws.law(i, j);
   const ContactCoefficients c = laws.coefficients(i, j);
   const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
+  const double own_m = own[i] * own[j] / (own[i] + own[j]);
   const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
 
-  const double overlap = 0.01 * std::min(radius[i], radius[j]);
+  const double overlap = std::min(sizes.overlap[i], sizes.overlap[j]);
   if (looks_at_damping)
     consider_damping(fmt::format("types {} and {}", i, j), law, c, overlap, m, r);
 
-  consider_stability(law, c, overlap, m, r, around_a_particle);
+  const ParticleShape *one = shape_of(i), *other = shape_of(j);
+  if (one || other)
+    consider_faces(response(law, c, overlap, m, r), {{own[i], one ? &one->faces() : nullptr},
+                                                     {own[j], other ? &other->faces() : nullptr}});
+  else
+    consider_stability(law, c, overlap, {m, own_m}, r, around_a_particle);
   const double k = tangent_stiffness(law, c, overlap, m, r);
   if (k > 0.0) law_period = smaller_defined(law_period, std::sqrt(m / k));
+  if (k > 0.0 && (one || other))
+    period_of_shapes = smaller_defined(period_of_shapes, std::sqrt(m / k));
   const double modulus = law.normal().modulus(law.coefficients(Stage::NORMAL, c));
   if (modulus > 0.0 && speed > 0.0)
     hertz = smaller_defined(hertz, 2.87 * std::pow(m * m / (r * modulus * modulus * speed), 0.2));
@@ -162,11 +187,18 @@ void CriticalTimeStep::consider_damping(const std::string &who, const ContactLaw
 }
 
 void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCoefficients &c,
-                                          double overlap, double mass_eff, double radius_eff,
+                                          double overlap, const Masses &mass_eff, double radius_eff,
                                           int contacts)
 {
-  const ContactResponse its = response(law, c, overlap, mass_eff, radius_eff);
-  stable = smaller_defined(stable, largest_stable_time_step(its, mass_eff, contacts, order));
+  const ContactResponse its = response(law, c, overlap, mass_eff.of_law, radius_eff);
+  const double moved = std::min(mass_eff.of_law, mass_eff.own);
+  stable = smaller_defined(stable, largest_stable_time_step(its, moved, contacts, order));
+}
+
+void CriticalTimeStep::consider_faces(const ContactResponse &contact_response,
+                                      const std::vector<HeldBody> &bodies)
+{
+  stable = smaller_defined(stable, largest_stable_time_step(contact_response, bodies));
 }
 
 /* Of particles that a body can touch. */
@@ -178,15 +210,21 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
   for (LargeBody *body : GranularSystem::of(lmp)->bodies()) {
     const int groups = group | body->group_bits();
     if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
-    const auto &[radius, mass] = known[groups];
+    const auto &[radius, mass, own_mass, overlap] = known[groups];
     for (int type = 1; type <= types; type++) {
       if (std::isinf(radius[type])) continue;
-      smallest = smaller_defined(smallest, body->contact_period(type, mass[type], radius[type]));
-      consider_stability(body->law_of(type), body->coefficients_of(type), 0.01 * radius[type],
-                         mass[type], radius[type], in_a_corner);
+      smallest = smaller_defined(
+          smallest, body->contact_period(type, mass[type], radius[type], overlap[type]));
+      if (const ParticleShape *shape = shape_of(type))
+        consider_faces(response(body->law_of(type), body->coefficients_of(type), overlap[type],
+                                mass[type], radius[type]),
+                       {{own_mass[type], &shape->faces(), true}});
+      else
+        consider_stability(body->law_of(type), body->coefficients_of(type), overlap[type],
+                           {mass[type], own_mass[type]}, radius[type], in_a_corner);
       if (looks_at_damping)
         consider_damping(fmt::format("type {} with {}", type, body->name()), body->law_of(type),
-                         body->coefficients_of(type), 0.01 * radius[type], mass[type], radius[type],
+                         body->coefficients_of(type), overlap[type], mass[type], radius[type],
                          body->shape().most_contacts() == 1);
     }
   }
@@ -195,8 +233,10 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 
 double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
 {
-  const double r = sizes.radius[type];
-  const double density = sizes.mass[type] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r);
+  const ParticleShape *its = shape_of(type);
+  const double r = its ? its->shape().inscribed_radius() : sizes.radius[type];
+  const double volume = its ? its->shape().volume() : 4.0 / 3.0 * MathConst::MY_PI * r * r * r;
+  const double density = sizes.own_mass[type] / volume;
   const double poisson = spec.given.value("nu");
   const double shear = spec.given.value("E") / (2.0 * (1.0 + poisson));
   return MathConst::MY_PI * r * std::sqrt(density / shear) / (0.1631 * poisson + 0.8766);

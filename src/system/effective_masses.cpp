@@ -25,6 +25,7 @@ void EffectiveMasses::find_fixes()
 void EffectiveMasses::update()
 {
   masses.clear();
+  num_known = atom->nlocal;
   if (!needed()) return;
   masses.assign(std::max(atom->nmax, atom->nlocal + atom->nghost), 0.0);
 
@@ -50,8 +51,9 @@ double EffectiveMasses::unit() const
 
 double EffectiveMasses::of_body(int i) const
 {
-  const bool replaced = !masses.empty() && masses[i] > 0.0 && std::isfinite(masses[i]);
-  return replaced ? masses[i] : atom->rmass[i];
+  const bool replaced =
+      bodies_are_rigid() && !masses.empty() && masses[i] > 0.0 && std::isfinite(masses[i]);
+  return replaced ? masses[i] / unit() : atom->rmass[i];
 }
 
 double EffectiveMasses::mass(int i) const

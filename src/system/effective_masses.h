@@ -36,8 +36,11 @@ class EffectiveMasses : protected Pointers {
   const double *override_or_null() const { return masses.empty() ? nullptr : masses.data(); }
 
   /// Of an owned particle that is a member of a rigid body: that of the body, else its own; as
-  /// walls of LAMMPS see it, frozen or not, where no mass is converted.
+  /// walls of LAMMPS see it, frozen or not, not converted.
   double of_body(int i) const;
+  /// Whether update() has seen this owned particle; of those that come later it is not known which
+  /// body they belong to.
+  bool knows(int i) const { return !bodies_are_rigid() || i < num_known; }
   /// Of an owned or ghost particle, converted.
   double mass(int i) const;
 
@@ -48,6 +51,7 @@ class EffectiveMasses : protected Pointers {
   int freeze_groups = 0;    // bits of all groups with a fix freeze
   std::vector<Fix *> rigid_fixes;
   std::vector<double> masses;
+  int num_known = 0;
 };
 
 }    // namespace LAMMPS_NS

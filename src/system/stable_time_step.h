@@ -16,11 +16,18 @@
 //
 // With twelve contacts this is within 2 % of what is found in the densest packing of spheres and in
 // a cage of twelve fixed ones (m: effective mass of a contact), see `scripts/bench stability`.
+//
+// A body with faces is held at their corners: K and G are matrices there, see
+// shape/face_stiffness.h, and order 1 ends where the largest eigenvalue of M^-1 (K dt^2 + 2 G dt)
+// is 4. Of two bodies that hold each other the sum of both eigenvalues is a bound of it.
 
 #ifndef TALUS_SYSTEM_STABLE_TIME_STEP_H
 #define TALUS_SYSTEM_STABLE_TIME_STEP_H
 
 #include "laws/contact_energy.h"
+#include "shape/face_stiffness.h"
+
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -28,6 +35,16 @@ namespace LAMMPS_NS {
 /// least 3, order 1 or 2.
 double largest_stable_time_step(const Talus::ContactResponse &contact, double mass, int contacts,
                                 int order);
+
+/// One side of contacts of which at least one has faces.
+struct HeldBody {
+  double mass;                          ///< in units of force/acceleration
+  const Talus::FaceStiffness *faces;    ///< nullptr: a sphere among twelve
+  bool on_large_bodies = false;         ///< are what it touches
+};
+/// The same of such bodies, with order 1; 0 if nothing limits it.
+double largest_stable_time_step(const Talus::ContactResponse &contact,
+                                const std::vector<HeldBody> &bodies);
 
 }    // namespace LAMMPS_NS
 

@@ -12,6 +12,7 @@
 #include "body/contact/body_contacts.h"
 #include "contact/contact_pipeline.h"
 #include "shaped/point_contact.h"
+#include "shaped/shape_table.h"
 #include "system/system_fix.h"
 
 #include <array>
@@ -35,6 +36,8 @@ class SystemShapes : public SystemFix {
   /// Of the largest sphere inside (length), and the volume; only of types with a shape.
   virtual double inner_radius_of(int type) const = 0;
   virtual double volume_of(int type) const = 0;
+  /// nullptr of a type of spheres.
+  virtual const ParticleShape *shape_of(int type) const = 0;
 
   /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
   /// puts what contacts remember to the particles. Collective.

@@ -85,8 +85,8 @@ void TimeStepMonitor::judge()
   if (comm->me == 0 && unstable)
     error->warning(
         FLERR,
-        "Pair style {}: the time step is {:.3g} of the largest with which particles "
-        "among twelve others are stable with the damping of their contacts ({:.4g}): "
+        "Pair style {}: the time step is {:.3g} of the largest with which particles among twelve "
+        "others, shapes by their faces, are stable with the damping of their contacts ({:.4g}): "
         "use a smaller one, less damping{}",
         GranularSystem::of(lmp)->style_name(), update->dt / critical.stable, critical.stable,
         GranularSystem::of(lmp)->order() > 1 ? " (gt above all), or order 1" : " (gt above all)");

@@ -15,6 +15,7 @@ import body_twin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
+TEARING = "jkr 2.0e4 300.0 0.3 0.3 tangential mindlin NULL 0.0 0.3"
 COUNT = 8    # spheres in a row along y, 2 from each other
 SCENE = f"""
 units lj
@@ -27,7 +28,7 @@ read_data data
 neighbor 0.5 bin
 neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
-pair_coeff * * {LAW}
+pair_coeff * * {{law}}
 fix step all nve/sphere/symplectic {{order}} gravity 10 vector 0 0 -1
 {{body}}
 timestep {{dt!r}}
@@ -42,6 +43,7 @@ class OrderCase(SceneCase):
     steps = (128, 2048)
     exact_steps = 16384
     old_steps = 32768    # of order 1
+    law = LAW
 
     def write(self, x, z, v=(1.0, 0.5, -0.5), w=(0.0, 3.0, 1.0), number=COUNT):
         draw = random.Random(3)
@@ -55,7 +57,7 @@ class OrderCase(SceneCase):
     def end(self, body, time, steps, order="order 2", output=None):
         """Positions, velocities and angular velocities times radius of all spheres at the end."""
         name, dt = f"end{steps}", time / steps
-        self.run_lammps(SCENE.format(body=body, order=order, dt=dt, steps=steps, name=name), name=f"run{steps}")
+        self.run_lammps(SCENE.format(law=self.law, body=body, order=order, dt=dt, steps=steps, name=name), name=f"run{steps}")
         at, = read_dump(self.path(name))
         values = {key: at.column(key) for key in at.columns}
         found = []
@@ -74,7 +76,7 @@ class OrderCase(SceneCase):
         return math.sqrt(sum((p - q)**2 for p, q in zip(a, b)) / (len(a) / 9))
 
     def assert_second_order(self, body, time, least=1.8, old_limit=2.0e-3):
-        body = body.replace("LAW", LAW)
+        body = body.replace("LAW", self.law)
         exact = self.end(body, time, self.exact_steps)
         coarse, fine = (self.error(self.end(body, time, n), exact) for n in self.steps)
         order = math.log(coarse / fine) / math.log(self.steps[1] / self.steps[0])
@@ -134,6 +136,20 @@ class NormalsThatTurn(OrderCase):
         fold = self.mesh((-3, 0), (0, 0), (3, 0.3))
         with self.assertRaises(AssertionError):
             self.assert_second_order(fold, 0.4)
+
+
+class ContactsThatTear(OrderCase):
+    law = TEARING
+
+    def test_planes_and_round_surfaces(self):
+        self.write(0.3, 0.52)
+        self.assert_second_order("fix b all large/body plane 0 0 0 0 0 1 contact LAW", 0.4)
+        self.write(0.5, -1.3)
+        self.assert_second_order("fix b all large/body cylinder 0 0 0 0 1 0 2 INF inside contact LAW", 0.3)
+
+    def test_prescribed_motion(self):
+        self.write(0.3, 0.56)
+        self.assert_second_order("fix b all large/body plane 0 0 0 0 0 1 contact LAW move wiggle 0.05 0.02 0.03 0.3", 0.4)
 
 
 class BodiesThatMove(OrderCase):

@@ -59,6 +59,21 @@ def hertz_time(types, young, speed):
     return 2.87 * (m * m / (r * young**2 * speed))**0.2
 
 
+CLUMPS = begin(units="si") + """
+pair_coeff * * {law}
+{body}
+fix prop all property/atom mol ghost yes
+set atom 1*2 mol 1
+set atom 3*4 mol 2
+neigh_modify every 1 exclude molecule/intra all
+neighbor 0.2 bin
+fix move all {move}
+compute t all timestep/gran
+thermo_style custom step c_t[1] c_t[2] c_t[3] c_t[7]
+thermo_modify format float %.17g norm no
+timestep 1e-7
+run 0
+"""
 # two touching unlike spheres, a third near one of them, all at rest but the third
 OVERLAP, SPEED = 2e-3, 3.0
 TOUCHING = [sphere(0, (0, 0, 0)), sphere(1, (RADII[0] + RADII[1] - OVERLAP, 0, 0)),
@@ -85,6 +100,31 @@ class TimestepCompute(SceneCase):
                 self.assert_close(f, e, 1e-9, f"{what}: {found} against {expected}")
             for fraction, step in zip(found[3:], expected):
                 self.assert_close(fraction, dt / step if step else 0.0, 1e-9, what)
+
+    def of_clumps(self, gap, move, law="hooke 1e6 0", body="", np=1):
+        """Of two dumbbells in a row, which are apart by so much."""
+        d = 2 * RADII[0]
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, [sphere(0, (x, 0, 0), (v, 0, 0)) for x, v in
+                          ((-d - 0.7, SPEED), (-d, SPEED), (gap, 0), (gap + 0.7, 0))], types=2)
+        return thermo(self.run_lammps(CLUMPS.format(law=law, move=move, body=body), np=np).log)[0]
+
+    def test_clumps_have_their_mass(self):
+        """Whether they touch or not; for stability each sphere has its own."""
+        m = mass(0)
+        for move in "rigid/small/symplectic molecule", "rigid/small molecule", "rigid molecule":
+            for np in 1, 2:
+                for gap in -OVERLAP, 0.1:
+                    with self.subTest(move, gap=gap, ranks=np):
+                        row = self.of_clumps(gap, move, np=np)
+                        self.assert_close(row["c_t[1]"], math.sqrt(m / 1e6), 1e-9)
+                        self.assert_close(row["c_t[7]"], math.sqrt(4 * 0.5 * m / (4 * 1e6)), 1e-9)
+        row = self.of_clumps(0.1, "rigid/small/symplectic molecule", body="fix b all large/body plane 0 0 -3 0 0 1 contact hooke 1e6 0")
+        self.assert_close(row["c_t[1]"], math.sqrt(m / 1e6), 1e-9)    # two clumps: half the mass of one with the floor
+        row = self.of_clumps(0.1, "rigid/small/symplectic molecule", body="fix b all large/body plane 0 0 -3 0 0 1 contact hooke 4e6 0")
+        self.assert_close(row["c_t[1]"], math.sqrt(2 * m / 4e6), 1e-9)
+        row = self.of_clumps(0.1, "rigid/small/symplectic molecule", "hertz/material 1e8 0.5 0.3")
+        self.assert_close(row["c_t[2]"], rayleigh(0, 1e8, 0.3), 1e-9)
+        self.assert_close(row["c_t[3]"], 2.87 * (m * m / (0.25 * modulus((1e8, 0.3), (1e8, 0.3))**2 * SPEED))**0.2, 1e-9)
 
     def test_hooke(self):
         """Only the contact time is defined: sqrt(m/kn), of contacts, else of the lightest pair."""
