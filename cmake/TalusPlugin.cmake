@@ -47,7 +47,9 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set_source_files_properties(
     "${PROJECT_SOURCE_DIR}/src/fix/fix_rigid_small_talus.cpp"
+    "${PROJECT_SOURCE_DIR}/src/shape/face_stiffness.cpp"
     "${PROJECT_SOURCE_DIR}/src/shape/mass_properties.cpp"
+    "${PROJECT_SOURCE_DIR}/src/shape/mean_overlap.cpp"
     PROPERTIES COMPILE_OPTIONS -fno-tree-slp-vectorize)
 endif()
 

@@ -24,6 +24,7 @@ set(TALUS_TEST_ENVIRONMENT
   "LAMMPS_PLUGIN_PATH=${PROJECT_BINARY_DIR}"
   "PYTHONDONTWRITEBYTECODE=1"
   "OMP_NUM_THREADS=1"
+  "MALLOC_PERTURB_=128"    # glibc fills new memory with 1e306: what is read before it is set shows
   "OMPI_MCA_rmaps_base_oversubscribe=1"
   "OMPI_ALLOW_RUN_AS_ROOT=1"
   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")

@@ -116,7 +116,7 @@ ProxyPacker &CommProxy::choose_packer(ProxyPacker *given)
   ProxyPacker *its = given;
   if (!its && own_packing) its = &sphere_packer;
   if (!its) its = &host_packer;
-  if (!system->shapes()) return *its;
+  if (!plan_has_orientations || !system->shapes()) return *its;
   with_orientations.set(*its, system->shapes()->orientations());
   return with_orientations;
 }
@@ -126,13 +126,16 @@ ProxyPacker &CommProxy::choose_packer(ProxyPacker *given)
 int CommProxy::stride() const
 {
   const int of_state = own_packing ? sphere_packer.stride() : host_packer.stride();
-  return of_state + (system->shapes() ? PackerWithRows::columns : 0);
+  return of_state + (plan_has_orientations ? PackerWithRows::columns : 0);
 }
 
 /* ---------------------------------------------------------------------- */
 
+/* A fix shape/gran that comes later ends the run with an error; the messages before must fit. */
+
 void CommProxy::derive_plan()
 {
+  plan_has_orientations = system->shapes() != nullptr;
   try {
     transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors(), largest_stride());
   } catch (const std::length_error &problem) {
@@ -149,7 +152,7 @@ int CommProxy::largest_stride() const
 {
   constexpr int identity = 2;
   const int largest = std::max({sphere_packer.stride(), host_packer.stride(), identity});
-  return largest + (system->shapes() ? PackerWithRows::columns : 0);
+  return largest + (plan_has_orientations ? PackerWithRows::columns : 0);
 }
 
 /* Runs once through the host's swaps, with the identity of particles instead of their state: what
@@ -222,7 +225,7 @@ double CommProxy::bytes_per_exchange() const
 std::string CommProxy::describe_message() const
 {
   const auto bytes = sizeof(double) * stride();
-  const char *more = system->shapes() ? ", orientation" : "";
+  const char *more = plan_has_orientations ? ", orientation" : "";
   if (own_packing) return fmt::format("{} bytes per particle: x, v, omega{}", bytes, more);
   return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {}){}", bytes,
                      atom->atom_style, more);

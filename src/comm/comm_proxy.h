@@ -114,9 +114,10 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   Talus::HostPacker host_packer;
   Talus::SpherePacker sphere_packer;
   Talus::PackerWithRows with_orientations;
-  bool have_plan = false;      ///< the same on all ranks
-  bool aside = false;          ///< in this run, see stands_aside()
-  bool own_packing = false;    ///< atom style sphere
+  bool have_plan = false;                ///< the same on all ranks
+  bool plan_has_orientations = false;    ///< room for them in its messages
+  bool aside = false;                    ///< in this run, see stands_aside()
+  bool own_packing = false;              ///< atom style sphere
   bool checks = false;
   bool overlapped_run = false;
 };

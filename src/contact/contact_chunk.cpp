@@ -3,6 +3,7 @@
 #include "contact/contact_chunk.h"
 
 #include "contact/narrow_phase.h"
+#include "laws/change_of_order.h"
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
@@ -34,6 +35,20 @@ void ContactChunk::start_pairs(const ContactScene &scene, const HistoryStore &hi
   else
     history.release();
   touching = 0;
+}
+
+void ContactChunk::change_order(int order, const std::function<const ContactLaw &(int, int)> &law)
+{
+  const std::int64_t count = history.is_kept() ? pairs.num_pairs() : 0;
+  for (std::int64_t n = 0; n < count; n++) {
+    if (!history.touches(n)) continue;
+    double values[ContactBatch::history_size] = {},
+           *end = std::copy_n(history.record(n).c, 4, values);
+    if (history.with_impacts()) std::copy_n(history.impact(n).c, 4, end);
+    Talus::change_order(law(pairs.first[n], pairs.second[n]), order, values);
+    std::copy_n(values, 4, history.record(n).c);
+    if (history.with_impacts()) std::copy_n(end, 4, history.impact(n).c);
+  }
 }
 
 void ContactChunk::forget_contacts()
@@ -402,21 +417,19 @@ void ContactChunk::account_by_particle(const Step &step, const std::uint32_t *bl
   for (int n = 0; n < count; n++) {
     const int lane = lane_of_contact[n], first = pairs.first[block[n]];
     const int i = order.atom_of_slot[first], j = order.atom_of_slot[pairs.second[block[n]]];
-    if (order.is_owned(j)) add_work(*step.account, j, batch, lane, 0.5);
+    const EnergyByCause its = work_of_lane(batch, lane);
+    if (order.is_owned(j)) add_work(*step.account, j, its, 0.5);
     if (!order.is_owned(i)) continue;
     if (pairs.is_foreign(first))
-      work_left.push_back(
-          {i, {0.5 * batch.work[0][lane], 0.5 * batch.work[1][lane], 0.5 * batch.work[2][lane]}});
+      work_left.push_back({i, its});
     else
-      add_work(*step.account, i, batch, lane, 0.5);
+      add_work(*step.account, i, its, 0.5);
   }
 }
 
 void ContactChunk::add_work_left(const WorkAccount &to) const
 {
-  for (const WorkLeft &left : work_left)
-    for (double **rows : to.by_particle)
-      for (int n = 0; n < ContactBatch::num_causes; n++) rows[left.atom][3 + n] += left.half[n];
+  for (const WorkLeft &left : work_left) add_work(to, left.atom, left.work, 0.5);
 }
 
 double ContactChunk::memory_usage() const

@@ -67,9 +67,9 @@ struct ContactStep {
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
   const double *temperature = nullptr;    ///< by host's index, in scenes that conduct heat
   double lag = 0.0;    ///< time by which velocities are behind positions; for second order
-  /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work alone
-  /// a few steps may be looked at with the weight of all, the others with 0: a correction that is of
-  /// first order in the step stays so to second order.
+  /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work
+  /// alone a few steps may be looked at with the weight of all, the others with 0: a correction that
+  /// is of first order in the step stays so to second order.
   float weight_of_changes = 0.0F;
 };
 
@@ -82,6 +82,8 @@ class ContactChunk {
 
   /// After pairs.collect(): histories of the new pairs, see ContactHistory::fetch().
   void start_pairs(const ContactScene &scene, const HistoryStore &histories);
+  /// See ContactPipeline::change_order(); `law`: of two slots.
+  void change_order(int order, const std::function<const ContactLaw &(int, int)> &law);
 
   /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
   /// ask.
@@ -173,7 +175,7 @@ class ContactChunk {
   EnergyByCause its_work;
   struct WorkLeft {
     int atom;
-    double half[ContactBatch::num_causes];
+    EnergyByCause work;
   };
   std::vector<WorkLeft> work_left;
   int block_size = ContactBatch::width;

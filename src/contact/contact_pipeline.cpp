@@ -84,6 +84,19 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
   make_room();
 }
 
+void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
+{
+  if (!scene.with_history) return;
+  const auto type = [this](int slot) {
+    return scene.slot_type.empty() ? 1 : scene.slot_type[slot];
+  };
+  for_chunks([&](int c) {
+    chunks[c].change_order(to_order, [&](int a, int b) -> const ContactLaw & {
+      return law(std::min(type(a), type(b)), std::max(type(a), type(b)));
+    });
+  });
+}
+
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,

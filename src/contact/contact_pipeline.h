@@ -70,6 +70,10 @@ class ContactPipeline {
   void set_pairs(const Particles &particles, const NeighborView &neighbors);
   /// After set_pairs(), when the neighbors are no longer needed.
   void start_pairs(HistoryStore &histories);
+  /// After it, where the histories are those of laws for the other order of the integrator: by those
+  /// of order 1 of two types. See change_of_order.h.
+  using LawOfTypes = std::function<const ContactLaw &(int, int)>;
+  void change_order(int order, const LawOfTypes &law);
 
   /// Give memory back if it is much, for rebuilds need as much for a while: that of the sums in the
   /// records, which the next compute() makes anew; the state must be in the host's arrays. And that
@@ -157,9 +161,9 @@ class ContactPipeline {
   double early_share() const;
 
   /// visit(contact) for each contact of the last compute(), with the state that it found and the
-  /// history after it, while the pairs are there. `dt`: of that step.
+  /// history after it, while the pairs are there. `dt`, `lag`: of that step, see ContactStep.
   using VisitContact = std::function<void(const SurveyedContact &)>;
-  void for_each_contact(double dt, Ask ask, const VisitContact &visit) const;
+  void for_each_contact(double dt, double lag, Ask ask, const VisitContact &visit) const;
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
@@ -185,7 +189,8 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
-  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt, Ask ask) const;
+  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt, double lag,
+                         Ask ask) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void make_room();

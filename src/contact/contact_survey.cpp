@@ -6,6 +6,7 @@
 #include "contact/contact_pipeline.h"
 
 #include "base/in_parallel.h"
+#include "contact/state_of_pair.h"
 #include "laws/circle_of_intersection.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ double ContactPipeline::early_share() const
 /* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
 
 SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair, double dt,
-                                        Ask ask) const
+                                        double lag, Ask ask) const
 {
   const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
   const Record &xi = particles.position[i], &xj = particles.position[j];
@@ -73,6 +74,10 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
     const Vector3<double> wi = three(particles.omega(i)), wj = three(particles.omega(j));
     s.surface_rotation = ri * wi + rj * wj;
     s.relative_omega = wi - wj;
+  }
+  if (particles.keeps_changes()) {
+    s.lag = lag;
+    set_changes(s, particles.change[i], particles.change[j], ri, rj);
   }
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
@@ -95,11 +100,12 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
   return found;
 }
 
-void ContactPipeline::for_each_contact(double dt, Ask ask, const VisitContact &visit) const
+void ContactPipeline::for_each_contact(double dt, double lag, Ask ask,
+                                       const VisitContact &visit) const
 {
   if (!pairs_known) return;
   for (const ContactChunk &chunk : chunks)
-    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt, ask)); });
+    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt, lag, ask)); });
 }
 
 double ContactPipeline::squared_distance(int slot_a, int slot_b) const

@@ -40,6 +40,8 @@ class ContactHistory {
   }
 
   unsigned touching_bits(std::int64_t block) const { return touching[block]; }
+  /// Not after release().
+  bool is_kept() const { return !touching.empty(); }
   bool touches(std::int64_t pair) const { return touching[pair / 8] >> (pair % 8) & 1U; }
   /// Of a pair that touches.
   Record &record(std::int64_t pair) { return records[places[pair]]; }

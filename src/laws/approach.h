@@ -24,11 +24,25 @@ template <bool advance, class Real>
 inline void follow_impact(ContactImpact<Real> &impact, Real speed, Real parted, double dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const auto ends = parted > zero, begun = (impact.begun > zero) | ends;
+  const auto ends = parted > zero;
+  const auto begun = (impact.begun > zero) | ends;
   impact.speed = select(begun, impact.speed, speed);
   if (!advance) return;
   impact.age = select(begun, impact.age + dt, zero);
   impact.begun = select(ends, zero, one);
+}
+
+/// v_t^2 over the distance of the centers.
+template <class Real> TALUS_INLINE Real centrifugal(const ContactState<Real> &s, Real v_n)
+{
+  return s.inverse_distance * (dot(s.velocity, s.velocity) - v_n * v_n);
+}
+
+/// What a contact has lasted of the step that led here: one that began on the way overlap/(-v_n).
+template <class Real> TALUS_INLINE Real share_of_step(const ContactLanes<Real> &s, double dt)
+{
+  const Real way = -s.normal_velocity * dt;
+  return select(way > s.overlap, s.overlap / way, splat<Real>(1.0));
 }
 
 /// Normal speed in the step in which a contact begins; with the changes of velocities that laws of
@@ -38,11 +52,8 @@ TALUS_INLINE Real speed_at_begin(const ContactLanes<Real> &s, double dt)
 {
   const Real v = s.normal_velocity;
   if constexpr (!second_order) return magnitude(v);
-  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), way = -dt * v;
-  const Real theta = select(way > s.overlap, s.overlap / select(way > zero, way, one), one);
-  const Real turning = s.inverse_distance * (dot(s.velocity, s.velocity) - v * v);
-  const Real change = 2.0 * dot(s.velocity_change, s.normal) + 2.0 * s.lag * turning;
-  return magnitude(v + (splat<Real>(0.5) - theta) * change);
+  const Real change = 2.0 * dot(s.velocity_change, s.normal) + 2.0 * s.lag * centrifugal(s, v);
+  return magnitude(v + (splat<Real>(0.5) - share_of_step(s, dt)) * change);
 }
 
 /// The normal half a step before, dt/2: centers came here along straight lines, or a large body

@@ -16,6 +16,7 @@ void ContactBatch::clear()
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
   std::fill(std::begin(parted), std::end(parted), 0.0);
+  std::fill(std::begin(reach), std::end(reach), 0.0);
   std::fill(std::begin(circle), std::end(circle), 0.0);
   std::fill(std::begin(temperature_difference), std::end(temperature_difference), 0.0);
   std::fill(std::begin(heat_flow), std::end(heat_flow), 0.0);

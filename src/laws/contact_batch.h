@@ -29,7 +29,7 @@ struct ContactBatch {
   alignas(64) double temperature_difference[width];
   alignas(64) double velocity_change[3][width], rotation_change[3][width], omega_change[3][width];
   alignas(64) double turn[3][width];
-  alignas(64) double parted[width];
+  alignas(64) double parted[width], reach[width];
   double lag = 0.0;                       ///< of all
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
@@ -56,7 +56,7 @@ struct ContactBatch {
     alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],
         contact_radius[width], elastic[width], pull_off[width];
     alignas(64) double gn[width], gt[width], normal_force[width], critical_force[width],
-        adhesive_share[width], delayed_force[width];
+        adhesive_share[width], uncorrected_force[width], delayed_force[width];
   } between;
 
   /// Puts a harmless contact of overlap zero into every lane. Call once after construction.

@@ -43,14 +43,14 @@ void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
     return law[stage].stored(s, law.coefficients(stage, row), values);
   };
   to.force = s.force;
-  to.moment = to.twisting_torque = {0.0, 0.0, 0.0};
+  to.moment = s.moment;
+  to.twisting_torque = s.twisting_torque;
   to.memory = memory;
   to.stored = EnergyByCause{};
+  if (s.parted > 0.0) return;    // the overlap and the springs are those of the last step
   to.stored.normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
   if (law.normal().lasts_beyond_contact) to.stored.tearing = to.stored.normal;
   if (!law.has_friction()) return;
-  to.moment = s.moment;
-  to.twisting_torque = s.twisting_torque;
   to.stored.tangential = stored(Stage::TANGENTIAL);
   to.stored.resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
 }

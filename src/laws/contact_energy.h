@@ -133,13 +133,12 @@ inline void begin_work(double *row, bool again)
   }
 }
 
-/// Adds `share` of the work of one lane to a particle.
-inline void add_work(const WorkAccount &to, int atom, const ContactBatch &batch, int lane,
-                     double share)
+inline EnergyByCause work_of_lane(const ContactBatch &batch, int lane)
 {
-  for (double **rows : to.by_particle)
-    for (int n = 0; n < 3; n++) rows[atom][3 + n] += share * batch.work[n][lane];
+  return {batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
 }
+
+/// Adds a share of the work to a particle.
 inline void add_work(const WorkAccount &to, int atom, const EnergyByCause &work, double share)
 {
   for (double **rows : to.by_particle) {

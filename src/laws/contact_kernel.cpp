@@ -32,7 +32,8 @@ void return_to_full_step(ContactBatch &b, int begin, int end, const StageInput &
     store_vector(b.normal, k, load_vector<Vec8>(b.between.full_normal, k));
 }
 
-/// Few contacts have ended.
+/// Few contacts have ended. `beyond`: some last beyond zero overlap.
+template <bool beyond>
 void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -43,6 +44,11 @@ void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in
     s.normal = load_vector<Vec8>(b.normal, k);
     s.velocity = load_vector<Vec8>(b.velocity, k);
     s.inverse_distance = load8(&b.inverse_distance[k]);
+    s.reach = splat<Vec8>(0.0);
+    if constexpr (beyond)
+      s.reach = load8(&b.reach[k]);
+    else
+      store(&b.reach[k], s.reach);
     last_overlap(s, in.dt);
     store(&b.overlap[k], s.overlap);
     store(&b.parted[k], s.parted);
@@ -115,13 +121,21 @@ bool ContactKernel::operator==(const ContactKernel &other) const
                     });
 }
 
+void ContactKernel::add_end_of_contact(const ContactLaw &law)
+{
+  if (!law.tangential().second_order) return;
+  if (!law.normal().lasts_beyond_contact) return add(find_last_overlap<false>);
+  add(law.normal().find_reach, law.first_coefficient(Stage::NORMAL));
+  add(find_last_overlap<true>);
+}
+
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   const HistoryLayout history = law.history();
   ContactKernel kernel;
   kernel.uniform = uniform;
   if (law.synchronized()) kernel.add(go_half_way_back, law.place_of_time_step());
-  if (law.tangential().second_order) kernel.add(find_last_overlap);
+  kernel.add_end_of_contact(law);
   kernel.add(law.needs_radius() ? approach_function<true>(law, advance)
                                 : approach_function<false>(law, advance),
              0, history.impact);
@@ -153,7 +167,7 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
-  if (law.tangential().second_order) kernel.add(find_last_overlap);
+  kernel.add_end_of_contact(law);
   kernel.add(fused, 0, places_one_behind_the_other(law));
   return kernel;
 }
@@ -163,7 +177,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
   ContactKernel kernel;
   kernel.uniform = uniform;
   if (const StageFunction fused = uniform && advance ? fused_accounting_function(law) : nullptr) {
-    if (law.tangential().second_order) kernel.add(find_last_overlap);
+    kernel.add_end_of_contact(law);
     kernel.add(fused, 0, places_one_behind_the_other(law));
     return kernel;
   }
@@ -180,7 +194,10 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   static_cast<ContactState<double> &>(s) = state;
   s.full_normal = s.normal;
   if (law.synchronized()) s.normal = normal_half_way(s, coefficients.c[law.place_of_time_step()]);
-  if (law.tangential().second_order) last_overlap(s, dt);
+  if (law.tangential().second_order) {
+    if (s.overlap <= 0.0) s.reach = reach_of(law, coefficients, 1.0 / s.inverse_radius);
+    last_overlap(s, dt);
+  }
   if (law.needs_radius())
     approach<true>(s);
   else

@@ -48,6 +48,9 @@ class ContactKernel {
     for (int n = 0; n < other.count; n++) steps[count++] = other.steps[n];
   }
 
+  /// What comes first of laws of second order.
+  void add_end_of_contact(const ContactLaw &law);
+
   struct Step {
     StageFunction run;
     int first_coefficient;

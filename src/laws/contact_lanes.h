@@ -35,6 +35,7 @@ template <class Real> struct ContactState {
   /// body, whose inverse_distance is 0; 0 in the first step.
   Vector3<Real> turn{};
   Real parted{};    ///< 1 if the contact has ended in this step, see tangential/end_of_contact.h
+  Real reach{};     ///< how far it lasts beyond zero overlap; only where the bodies are apart
 };
 
 /// The state, and what the stages make of it. Torques about the centers: -r_1 moment + twisting
@@ -63,6 +64,8 @@ template <class Real> struct ContactLanes : ContactState<Real> {
   /// What of an adhesion that is constant acts in this step: 1, but where a contact of second order
   /// begins or ends, see tangential/second_order.h.
   Real adhesive_share{};
+  /// normal_force and pull_off of these where it is not 1, without the correction of begin and end.
+  Real uncorrected_force{};
 
   Real delayed_force{};    ///< normal force, 0 until the contact has lasted one collision time
 

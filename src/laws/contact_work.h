@@ -30,8 +30,9 @@ enum class Cause : int { DAMPING, FRICTION, RESISTANCE };
 
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
-/// The work, when all stages have run: s.tangential is that of the tangential stage. `twists`: ContactLaw::twists(); `resists`: the same; `tears`:
-/// as Law::lasts_beyond_contact of the normal law.
+/// The work, when all stages have run: s.tangential is that of the tangential stage. `friction`,
+/// `twists`, `resists`: as ContactLaw has them; `tears`: as Law::lasts_beyond_contact of the normal
+/// law.
 /// The torques about the centers are -r moment and +- twisting torque: of the moment that much
 /// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.
 template <bool friction, bool twists, bool resists, bool tears, class Real>

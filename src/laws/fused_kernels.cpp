@@ -72,7 +72,7 @@ struct Fused {
                                    const StageInput &in)
   {
     if constexpr (Tangential::second_order) {
-      if (any_at_an_end<Tangential, Real>(b, k, in.places[remembered - 1])) {
+      if (any_at_an_end<Tangential, Real>(b, k, in.places[values_of<Tangential> - 1])) {
         for (int n = 0; n < width_of<Real>; n += lanes) compute_ends<accounts>(b, k + n, in);
         return;
       }

@@ -117,6 +117,8 @@ struct Law {
   double (*modulus)(const double *c);
   /// Normal: how far a contact that has begun lasts beyond zero overlap (length); nullptr if not.
   double (*reach)(const double *c, double effective_radius);
+  /// Normal: ContactBatch::reach of contacts whose bodies are apart; nullptr if not.
+  StageFunction find_reach;
 };
 
 }    // namespace Talus

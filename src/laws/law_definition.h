@@ -187,6 +187,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.omega_change = load_vector<Real>(b.omega_change, k);
   s.turn = load_vector<Real>(b.turn, k);
   s.parted = In::load(&b.parted[k]);
+  s.reach = In::load(&b.reach[k]);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -240,6 +241,7 @@ TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s
   if (stage == Stage::DAMPING) return;
   visit_written<Stage::DAMPING>(s, b, load);
   load(s.adhesive_share, b.between.adhesive_share);
+  load(s.uncorrected_force, b.between.uncorrected_force);
   load(s.delayed_force, b.between.delayed_force);
   s.full_normal = load_vector<Real>(b.between.full_normal, k);
   s.force = load_vector<Real>(b.force, k);
@@ -284,8 +286,8 @@ template <class L, class Real> TALUS_INLINE bool any_at_an_end(ContactBatch &b, 
 }
 
 template <class L, bool advance, bool ends>
-void run_lanes(ContactBatch &b, int k, const typename L::template Row<Vec8> &c,
-               const StageInput &in)
+TALUS_INLINE void run_lanes(ContactBatch &b, int k, const typename L::template Row<Vec8> &c,
+                            const StageInput &in)
 {
   constexpr int remembered = history_size_of<L>;
   ContactLanes<Vec8> s;
@@ -298,6 +300,7 @@ void run_lanes(ContactBatch &b, int k, const typename L::template Row<Vec8> &c,
   if constexpr (L::second_order) {    // finds the normal force anew
     visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
     store(&b.between.adhesive_share[k], s.adhesive_share);
+    if constexpr (ends) store(&b.between.uncorrected_force[k], s.uncorrected_force);
   }
   if constexpr (advance)
     for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
@@ -371,6 +374,16 @@ template <class L> double reach_by(const double *c, double effective_radius)
   return L::reach(row_of<L>(c), effective_radius);
 }
 
+/// Few bodies are apart.
+template <class L> void run_reach(ContactBatch &b, int begin, int end, const StageInput &in)
+{
+  for (int k = begin; k < end; k++) {
+    if (b.overlap[k] > 0.0) continue;
+    const double *c = in.table[in.uniform ? 0 : b.coefficients[k]].c + in.first_coefficient;
+    b.reach[k] = reach_by<L>(c, 1.0 / b.inverse_radius[k]);
+  }
+}
+
 template <class L> constexpr Law make_law()
 {
   constexpr int n = num_coefficients_of<L>();
@@ -418,7 +431,10 @@ template <class L> constexpr Law make_law()
   }
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
-    if constexpr (L::lasts_beyond_contact) law.reach = reach_by<L>;
+    if constexpr (L::lasts_beyond_contact) {
+      law.reach = reach_by<L>;
+      law.find_reach = run_reach<L>;
+    }
     law.delay = run_delay<L>;
     law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {
       find_delayed_force<L>(s);

@@ -34,6 +34,7 @@
 #include "laws/rolling/holding_order_2.h"
 #include "laws/rolling/none.h"
 #include "laws/rolling/sds.h"
+#include "laws/rolling/sds_order_2.h"
 #include "laws/tangential/dashpot.h"
 #include "laws/tangential/granular.h"
 #include "laws/tangential/multistep.h"
@@ -92,6 +93,18 @@ const Law *const all_laws[] = {
     &law<SecondOrder<Friction::DASHPOT, LinearNoHistory>>,
     &law<SecondOrder<Friction::SPRING, LinearHistory>>,
     &law<SecondOrder<Friction::SPRING, Mindlin>>,
+    &law<SecondOrder<Friction::SPRING, MindlinForce>>,
+    &law<SecondOrder<Friction::SPRING, MindlinRescale>>,
+    &law<SecondOrder<Friction::SPRING, MindlinRescaleForce>>,
+    &law<SecondOrder<Friction::NONE, void, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, void, Pull::YES>>,
+    &law<SecondOrder<Friction::DASHPOT, void, Pull::YES>>,
+    &law<SecondOrder<Friction::DASHPOT, LinearNoHistory, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, LinearHistory, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, Mindlin, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, MindlinForce, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, MindlinRescale, Pull::YES>>,
+    &law<SecondOrder<Friction::SPRING, MindlinRescaleForce, Pull::YES>>,
     &law<Tanh>,
     &law<LinearNoHistory>,
     &law<LinearHistory>,
@@ -115,6 +128,7 @@ const Law *const all_laws[] = {
     &law<HoldingOrder2>,
     &law<DelayedRolling>,
     &law<SdsRolling>,
+    &law<SdsOrder2>,
     &law<SynchronizedSds>,
 
     &law<TwistingNone>,

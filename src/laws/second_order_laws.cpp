@@ -15,28 +15,22 @@ bool is_named(const Law &law, const char *name)
   return std::strcmp(law.name, name) == 0;
 }
 
-/// Tangential laws and those of second order with the same limit.
-struct Twin {
-  const char *name, *second_order;
-};
-constexpr Twin twins[] = {
-    {"none", "none order 2"},
-    {"multistep", "multistep order 2"},
-    {"multistep midpoint", "multistep order 2"},
-    {"multistep slider", "multistep order 2"},
-    {"multistep slider midpoint", "multistep order 2"},
-    {"dashpot", "dashpot order 2"},
-    {"tanh", "tanh order 2"},
-    {"linear_nohistory", "linear_nohistory order 2"},
-    {"linear_history", "linear_history order 2"},
-    {"mindlin", "mindlin order 2"},
-};
-
-const char *twin_of(const Law &tangential)
+/// The law of a stage for integrators of second order, nullptr if it has none. Without a tangential
+/// force there is one, for the normal force; all of multistep have the same, and so has a law of
+/// pair granular whether it is synchronized or classic or not: they differ in how far they are from
+/// the same limit. Normal laws with adhesion have tangential ones of their own.
+const Law *twin_of(const ContactLaw &law, Stage stage)
 {
-  for (const Twin &one : twins)
-    if (is_named(tangential, one.name)) return one.second_order;
-  return nullptr;
+  const Law &its = law[stage];
+  const bool tangential = stage == Stage::TANGENTIAL;
+  if (!its.acts && !tangential) return &its;
+  constexpr const char *multistep = "multistep";
+  const bool is_multistep = std::strncmp(its.name, multistep, std::strlen(multistep)) == 0;
+  std::string name = is_multistep ? multistep : its.name;
+  for (const char *ending : {" synchronized_verlet", "_classic"})
+    name = name.substr(0, name.find(ending));
+  const char *adhesive = tangential && law.normal().cohesive ? " adhesive" : "";
+  return find_law(stage, name + " order 2" + adhesive);
 }
 
 /// All of them have their first coefficient in gn, but for `none`.
@@ -45,13 +39,13 @@ bool damps(const ContactLaw &law, const ContactCoefficients &row)
   return !is_named(law.damping(), "none") && law.coefficients(Stage::DAMPING, row)[0] != 0.0;
 }
 
-/// The spring is set back by the rule "stock", see sliding.h, and there is a dashpot beside it: else
-/// the rules are the same.
+/// The spring is set back by the rule "stock", see sliding.h, and there is a dashpot beside it:
+/// else the rules are the same.
 bool winds_up(const ContactLaw &law, const ContactCoefficients &row)
 {
   const Law &tangential = law.tangential(), &damping = law.damping();
   if (tangential.lever_arms)
-    return tangential.has_spring && damps(law, row) &&
+    return tangential.odd_history > 0 && damps(law, row) &&
            law.coefficient(Stage::TANGENTIAL, "xt", row) != 0.0;
   if (!is_named(tangential, "multistep") && !is_named(tangential, "multistep midpoint"))
     return false;
@@ -60,10 +54,11 @@ bool winds_up(const ContactLaw &law, const ContactCoefficients &row)
   return damps(law, row);
 }
 
-/// The law of a stage for integrators of second order, nullptr if it has none.
-const Law *second_order_stage(const Law &law)
+/// In words of the command that has the law: those of lever_arms are pair style granular's.
+std::string cure_of_tangential(const Law &tangential)
 {
-  return law.acts ? find_law(law.stage, std::string(law.name) + " order 2") : &law;
+  if (tangential.lever_arms) return "use 'tangential linear_history' or 'tangential mindlin'";
+  return "use 'tangential multistep kt gt mu slider midpoint'";
 }
 
 std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficients &row)
@@ -71,10 +66,11 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
   if (law.delayed())
     return "has resistance to rolling or spinning that is 'delayed', which begins with a jump and "
            "pushes a body at rest back and forth: leave the word out";
-  for (const Law *its : {&law.rolling(), &law.twisting()})
-    if (!second_order_stage(*its))
-      return std::string("has the ") + name_of(its->stage) + " law " + its->name +
-             ": use 'rolling mu' and 'spinning mu'";
+  if (!twin_of(law, Stage::TWISTING))
+    return std::string("has the twisting law ") + law.twisting().name +
+           ", whose torque jumps from one side to the other where a twist that slides comes to "
+           "rest, so that runs with small time steps do not agree: leave 'twisting' out, or use "
+           "'spinning mu' of gran/penalty";
   if (law.coefficient(Stage::ROLLING, "roll_min", row) > 0.0 ||
       law.coefficient(Stage::TWISTING, "twist_min", row) > 0.0)
     return "has speeds below which resistance does not act: give 0 as the second and third number "
@@ -86,34 +82,33 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
 
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
 {
-  const Law &normal = law.normal(), &tangential = law.tangential();
-  if (normal.lasts_beyond_contact)
-    return std::string("has the normal law ") + normal.name +
-           ", whose contacts tear: use hertz/material with 'adhesion constant F'";
-  if (damps(law, row) && std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
-    return std::string("has damping that may attract, whose force ends with a jump: ") +
-           (normal.cohesive ? "use hertz/material with 'adhesion perko S', S = 4 pi gamma, and "
-                              "'limit_damping', or no damping"
-                            : "add 'limit_damping'");
+  const Law &tangential = law.tangential();
+  if (!law.normal().cohesive && damps(law, row) &&
+      std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
+    return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";
   const std::string resistance = reason_of_resistance(law, row);
   if (!resistance.empty()) return resistance;
-  if (!twin_of(tangential))
-    return std::string("has the tangential law ") + tangential.name +
-           ": use 'tangential multistep kt gt mu slider midpoint'";
+  if (!twin_of(law, Stage::TANGENTIAL))
+    return std::string("has the tangential law ") + tangential.name + ": " +
+           cure_of_tangential(tangential);
   if (winds_up(law, row))
     return std::string("has the tangential law ") + tangential.name +
            ", which sets a sliding spring back by the rule of stock LAMMPS, with a dashpot that "
            "winds it up: use " +
            (tangential.lever_arms ? "xt = 0"
-                                  : "'tangential multistep kt gt mu slider midpoint' or gt = 0");
+                                  : "'tangential multistep kt gt mu slider midpoint' or gt = 0 "
+                                    "(in gran/hooke/history: dampflag 0)");
+  if (!second_order_law(law).history().fits)
+    return "remembers more than there is room for, an impact, a spring and a rotation that is "
+           "held: leave 'rolling' and 'spinning' out, or use hertz/material";
   return "";
 }
 
 ContactLaw second_order_law(ContactLaw law)
 {
-  law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, twin_of(law.tangential())));
-  for (const Stage stage : {Stage::ROLLING, Stage::TWISTING})
-    law.choose(stage, second_order_stage(law[stage]));
+  const ContactLaw its = law;
+  for (const Stage stage : {Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING})
+    if (const Law *twin = twin_of(its, stage)) law.choose(stage, twin);
   return law;
 }
 

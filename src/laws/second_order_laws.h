@@ -16,8 +16,9 @@ namespace Talus {
 /// for people: it follows on the name of what has the law.
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row);
 
-/// The same law for integrators of second order; there must be no reason against it. Coefficients
-/// have to be mixed for it.
+/// The same law for integrators of second order. Stages that have none stay what they are: it may
+/// be asked for before somebody has looked for a reason against it, as by a large body that is
+/// defined. Coefficients have to be mixed for it.
 ContactLaw second_order_law(ContactLaw law);
 
 }    // namespace Talus

@@ -33,6 +33,8 @@ constexpr StockLaw law_of<PairGranHertzHistory> = {"gran/hertz/history", "hertz"
 template <class Stock>
 PairGranTalus<Stock>::PairGranTalus(LAMMPS *lmp) : AcceleratedPair<Stock>(lmp, law_of<Stock>.style)
 {
+  this->limit_damping =
+      0;    // restart files of the stock styles do not hold it, nor do they set it
 }
 
 template <class Stock> PairGranTalus<Stock>::~PairGranTalus()

@@ -83,12 +83,12 @@ void PairGranularTalus::reset_dt()
 }
 
 /* The stock style may have a larger cutoff: a user's, or that of contacts that last beyond an
-   overlap. */
+   overlap. For a type that has no particles yet it takes the largest radius of all types. */
 
 double PairGranularTalus::init_pair_of_types(int i, int j)
 {
   const LargestRadii &radii = system->largest_radii();
-  for (const int type : {i, j}) {
+  for (int type = 1; type <= atom->ntypes; type++) {
     maxrad_dynamic[type] = radii.of_free(type);
     maxrad_frozen[type] = radii.of_frozen(type);
   }

@@ -7,6 +7,7 @@
 
 #include "pair/pair_of_system.h"
 
+#include "contact/state_of_pair.h"
 #include "laws/circle_of_intersection.h"
 #include "laws/tangential/end_of_contact.h"
 
@@ -69,14 +70,8 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
   if (const Talus::ChangeRecord *changes = system->velocity_changes()) {
-    const Talus::Float8 change = Talus::change_of_contact(changes[i], changes[j]);
     s.lag = system->lag();
-    s.velocity_change = {change[0], change[1], change[2]};
-    s.rotation_change = {change[4], change[5], change[6]};
-    const auto omega_change = [](const Talus::ChangeRecord &of, double radius) {
-      return Vector{of.c[4] / radius, of.c[5] / radius, of.c[6] / radius};
-    };
-    s.omega_change = omega_change(changes[i], ri) - omega_change(changes[j], rj);
+    Talus::set_changes(s, changes[i], changes[j], ri, rj);
   }
   if (atom->temperature_flag)
     s.temperature_difference = atom->temperature[j] - atom->temperature[i];

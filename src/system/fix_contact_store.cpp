@@ -85,9 +85,12 @@ void FixContactStore::init()
   keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
-  int mine = store.largest_list(atom->nlocal), largest = 0;    // from a restart file
-  MPI_Allreduce(&mine, &largest, 1, MPI_INT, MPI_MAX, world);
-  set_maxexchange(largest);
+  // from a restart file, of which a rank without particles may know nothing
+  const int mine[2] = {store.largest_list(atom->nlocal), order};
+  int largest[2] = {0, 0};
+  MPI_Allreduce(mine, largest, 2, MPI_INT, MPI_MAX, world);
+  set_maxexchange(largest[0]);
+  order = largest[1];
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -340,7 +343,8 @@ void FixContactStore::keep_positions()
 {
   if (!guards_positions) return;
   domain->pbc();    // as fix balance will: what it then changes is rounding only
-  for (int i = 0; i < atom->nlocal; i++) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+  for (int i = 0; i < atom->nlocal; i++)
+    std::copy(atom->x[i], atom->x[i] + 3, positions.begin() + 3L * i);
 }
 
 /* Undoes rounding, never an intended move. */

@@ -56,6 +56,10 @@ class FixContactStore : public Fix {
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
   Talus::HistoryStore &histories() { return store; }
+  /// Of the integrator, by whose laws they are; 0: there are none, or it is not known. Kept in restart
+  /// files.
+  int order_of_histories() const { return order; }
+  void set_order_of_histories(int of) { order = of; }
   /// Changes of velocities, of owned particles and ghosts; nullptr if none are kept.
   Talus::ChangeRecord *all_changes() { return with_changes ? changes.data() : nullptr; }
 
@@ -130,6 +134,7 @@ class FixContactStore : public Fix {
 
   Talus::GranularSystem *system = nullptr;
   bool current = false;
+  int order = 0;
   double inverse_cell;
   std::vector<std::uint64_t> keys;
   bool with_changes = false, with_last = false;    // on all ranks alike, also without particles

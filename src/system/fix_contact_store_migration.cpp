@@ -151,8 +151,9 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 
 namespace {
 
-constexpr double restart_version = 2.0;
-enum State { VERSION, INVERSE_CELL, PARTICLES, STATE_SIZE };
+// 2: without the order
+constexpr double restart_version = 3.0, oldest_version = 2.0;
+enum State { VERSION, INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
 constexpr int restart_header = 4;
 
 }    // namespace
@@ -165,6 +166,7 @@ void FixContactStore::write_restart(FILE *fp)
   state[VERSION] = -restart_version;
   state[INVERSE_CELL] = inverse_cell;
   state[PARTICLES] = static_cast<double>(atom->natoms);
+  state[ORDER] = order;
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
   fwrite(state, size, 1, fp);
@@ -172,9 +174,11 @@ void FixContactStore::write_restart(FILE *fp)
 
 void FixContactStore::restart(char *buf)
 {
-  double state[STATE_SIZE];
-  std::memcpy(state, buf, sizeof state);
-  if (state[VERSION] != -restart_version)
+  double state[STATE_SIZE] = {};
+  std::memcpy(state, buf, ORDER * sizeof(double));
+  if (state[VERSION] == -restart_version) std::memcpy(state, buf, sizeof state);
+  order = static_cast<int>(state[ORDER]);
+  if (state[VERSION] != -restart_version && state[VERSION] != -oldest_version)
     error->all(FLERR,
                "Pair style {}: the restart file holds contact history in the format {}, and this "
                "version of Talus reads format {}: continue with the version that wrote it",

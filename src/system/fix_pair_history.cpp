@@ -98,6 +98,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
   Talus::HistoryStore &store = system->histories();
   store.set_name(i, atom->tag[i]);
   store.unpack_list(i, list.data());
+  system->set_order_of_histories(1);
   read_before[atom->tag[i]] = i;
 }
 

@@ -214,6 +214,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void release_pairs() { pipeline->release(); }
   /// New neighbor lists are due: finds the pairs, and their histories.
   void renumber_pairs();
+  /// Of the integrator, by whose laws the histories of this run began or, before its set-up, those of
+  /// the last run or of a restart file are; 0: not known.
+  int order_of_histories() const;
+  /// Of those of a restart file of LAMMPS' own styles; not on ranks that have read none.
+  void set_order_of_histories(int order);
 
   // ---- energies
 
@@ -255,8 +260,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const LawTable &law_table();
   /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
   double mass_in_contacts(int i) const { return masses.mass(i); }
-  /// The same with a wall of LAMMPS: of the rigid body, or its own; where unit of force is 1.
+  /// Of an owned particle with a wall of LAMMPS: of the rigid body, or its own, in units of mass.
   double mass_with_walls(int i) const { return masses.of_body(i); }
+  /// That is known, see EffectiveMasses::knows().
+  bool knows_mass(int i) const { return masses.knows(i); }
   double *mass_override() { return masses.override_or_null(); }
   /// The direct exchange, or nullptr while the host's is in force.
   ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }
@@ -289,6 +296,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ParticleView view() const;
   void update_gravity();
   void find_weightless();
+  void change_order_of_histories();
   NeighborView without_shapes(const NeighborView &all);
   int mover_of(int i) const;
   std::string reason_of_integrators() const;

@@ -83,6 +83,7 @@ void LargeBody::init()
   find_frozen();
   set_laws();
   if (system.order() == 1) contacts.history.forget_normals();
+  if (order_of_history == 0) order_of_history = system.order_of_histories();    // of a restart file
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its
@@ -114,6 +115,10 @@ void LargeBody::list_particles()
   if (its_shape->wants_focus()) its_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+  if (order_of_history != 0 && order_of_history != system.order())
+    contacts.change_order(system.order(), atom->type,
+                          [this](int type) -> const ContactLaw & { return specs[type].law; });
+  order_of_history = system.order();
 }
 
 /* Particles with a shape may be asked for anywhere: which are near is found in every step. */

@@ -126,8 +126,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   double memory_usage() const { return contacts.memory_usage(); }
 
   /// sqrt(m/k) (time) of a particle of this type, mass and radius against the body, with the
-  /// stiffness at an overlap of 1 % of the radius; 0 without stiffness.
-  double contact_period(int type, double mass, double radius);
+  /// stiffness at this overlap; 0 without stiffness.
+  double contact_period(int type, double mass, double radius, double overlap);
   /// Law and coefficients of contacts of particles of this type with the body.
   ContactLaw law_of(int type) const { return specs[type].law; }
   ContactCoefficients coefficients_of(int type);
@@ -153,6 +153,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::vector<ContactSpec> specs;    ///< by type
   std::vector<bool> spec_is_set;
   bool with_history = false;
+  int order_of_history = 0;    ///< of the integrator, by whose laws it is; 0: not known
   BodyContacts contacts;
   std::vector<int> spheres;     ///< see mask_of_spheres()
   BodyFindings seen_between;    ///< before particles were listed anew within a step

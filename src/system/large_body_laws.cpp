@@ -87,10 +87,9 @@ ContactCoefficients LargeBody::coefficients_of(int type)
   return contact_coefficients(body, particle, system.laws().mix);
 }
 
-double LargeBody::contact_period(int type, double mass, double radius)
+double LargeBody::contact_period(int type, double mass, double radius, double overlap)
 {
-  const double k =
-      tangent_stiffness(specs[type].law, coefficients_of(type), 0.01 * radius, mass, radius);
+  const double k = tangent_stiffness(specs[type].law, coefficients_of(type), overlap, mass, radius);
   return k > 0.0 ? std::sqrt(mass / k) : 0.0;
 }
 

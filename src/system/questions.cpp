@@ -170,7 +170,7 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
     return;
   }
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
-    pipeline->for_each_contact(update->dt, ask, visit);
+    pipeline->for_each_contact(update->dt, lag(), ask, visit);
   if (shaped) shaped->for_each_contact(ask, visit);
   int number = 0;
   for (const auto &body : large_bodies) {

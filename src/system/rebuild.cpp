@@ -64,6 +64,7 @@ void GranularSystem::renumber_pairs()
     pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, found);
     neighbors.release();
     pipeline->start_pairs(store->histories());
+    change_order_of_histories();
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style {}: {}: use more ranks", style.name, problem.what());
   } catch (const std::bad_alloc &) {
@@ -78,6 +79,27 @@ void GranularSystem::renumber_pairs()
   pipeline->set_own_masses(masses.bodies_are_rigid() ? atom->rmass : nullptr);
   masses.update();
   if (masses.needed()) comm->forward_comm(pair);
+}
+
+int GranularSystem::order_of_histories() const
+{
+  return store ? store->order_of_histories() : 0;
+}
+
+void GranularSystem::set_order_of_histories(int order)
+{
+  store->set_order_of_histories(order);
+}
+
+/* Where a run goes on with the other order. */
+
+void GranularSystem::change_order_of_histories()
+{
+  const int before = store->order_of_histories(), now = order();
+  store->set_order_of_histories(now);
+  if (before == 0 || before == now) return;
+  pipeline->change_order(now,
+                         [this](int i, int j) -> const ContactLaw & { return book.law(i, j); });
 }
 
 /* What the host has found cannot be changed; shapes refuse it in init(). */

@@ -252,28 +252,28 @@ class BuildDirectories(ScriptCase):
 class Apt(ScriptCase):
     """apt is replaced by stubs: nothing is downloaded."""
 
-    MIRROR = 'if [ "$1" = indextargets ]; then echo "http://packages.example/debian stable main"; fi\n'
+    SOURCE = 'if [ "$1" = indextargets ]; then echo "http://sources.example/debian stable main"; fi\n'
 
     def test_no_apt(self):
         self.hide("apt-get")
         self.assert_message(self.build(), "no apt-get", "LAMMPS_SOURCE_DIR")
 
     def test_no_debian_mirror(self):
-        self.command("apt-get", 'echo "http://packages.example/debian stable contrib"\n')
+        self.command("apt-get", 'echo "http://sources.example/debian stable contrib"\n')
         self.assert_message(self.build(), "no Debian mirror", "LAMMPS_SOURCE_DIR")
 
     def test_no_network(self):
-        self.command("apt-get", self.MIRROR + "[ $1 != update ]\n")
+        self.command("apt-get", self.SOURCE + "[ $1 != update ]\n")
         self.assert_message(self.build(), "network", "LAMMPS_SOURCE_DIR")
 
     def test_version_is_gone(self):
-        self.command("apt-get", self.MIRROR)
+        self.command("apt-get", self.SOURCE)
         self.command("apt-cache", "echo 'Version: 20990101+dfsg-1'\n")
         self.assert_message(self.build(), "no longer has lammps 20250204+dfsg.1",
                             "LAMMPS_SOURCE_DIR")
 
     def test_download_breaks_off(self):
-        self.command("apt-get", self.MIRROR + "[ $1 != source ]\n")
+        self.command("apt-get", self.SOURCE + "[ $1 != source ]\n")
         self.command("apt-cache", "echo 'Version: 20250204+dfsg.1-9'\n")
         self.assert_message(self.build(), "could not be downloaded", "LAMMPS_SOURCE_DIR")
 
@@ -303,7 +303,7 @@ class InterruptedHostBuild(ScriptCase):
             write(os.path.join(tree, name), "")
         self.tarball = self.path("lammps_20250204+dfsg.1.orig.tar.gz")
         subprocess.run(["tar", "-C", self.dir, "-czf", self.tarball, "lammps-stub"], check=True)
-        self.command("apt-get", Apt.MIRROR + f"echo $1 >> '{self.path('calls')}'\n"
+        self.command("apt-get", Apt.SOURCE + f"echo $1 >> '{self.path('calls')}'\n"
                      f"[ $1 != source ] || cp '{self.tarball}' .\n")
         self.command("apt-cache", "echo 'Version: 20250204+dfsg.1-9'\n")
         self.command("cmake", f"echo cmake >> '{self.path('calls')}'\n")

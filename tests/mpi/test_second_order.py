@@ -13,7 +13,9 @@ from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 SIDE = 6
 LAW = "hertz 2.0e4 50.0 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
-RESISTING = {"holding": LAW.replace("limit", "rolling 0.1 spinning 0.1 limit")}
+RESISTING = {"holding": LAW.replace("limit", "rolling 0.1 spinning 0.1 limit"),
+             "springs": LAW.replace("limit", "rolling sds 2e3 5 0.1 limit"),
+             "forces": "hertz 2.0e4 0 tangential mindlin/force 2e4 0 0.5"}
 START = """
 units lj
 boundary {boundary}
@@ -131,6 +133,14 @@ class SecondOrder(SceneCase):
         one = self.end("one", law=law, boundary="f f f")
         self.assert_same(self.end("other", "run 153\nrun 247\n", law=law, np=4, boundary="f f f"), one)
 
+    def test_contacts_that_tear(self):
+        law = "jkr 2.0e4 50.0 0.3 0.05 tangential mindlin NULL 0.0 0.5"
+        f = {"law": law, "bodies": BODIES.replace(LAW, law), "boundary": "f f f"}
+        one = self.end("one", **f)
+        self.assert_same(self.end("other", "run 153\nrun 1\nrun 246\n", np=4, **f), one)
+        self.end("first", "run 171\nwrite_restart half\n", **f)
+        self.assert_same(self.end("second", "run 229\n", head=CONTINUE, np=3, **f), one)
+
     def test_impact_speeds_that_are_kept(self):
         f = {"law": "hooke/material 1.5e4 0.6 0.3 0.001 tangential multistep NULL NULL 0.5 slider midpoint limit_damping",
              "boundary": "f f f"}
@@ -143,7 +153,7 @@ class SecondOrder(SceneCase):
         for name, pair, own in (
                 ("granular", "granular/talus", "hertz 2.0e4 50.0 tangential mindlin 1.0e4 0.0 0.5 damping viscoelastic "
                                                "limit_damping"),
-                ("dmt", "granular/talus", "dmt 2.0e4 0.0 0.3 0.02 tangential mindlin NULL 0.0 0.5"),
+                ("dmt", "granular/talus", "dmt 2.0e4 50.0 0.3 0.02 tangential mindlin NULL 0.0 0.5"),
                 ("history", "gran/hertz/history/talus 2.0e4 NULL 50.0 0.0 0.5 1 limit_damping", "")):
             with self.subTest(name):
                 f = {"pair": pair, "own": own, "boundary": "f f f"}

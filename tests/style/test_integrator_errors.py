@@ -8,7 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase
+from talus_testing import SceneCase, marked_word
 
 FIX = "fix step all nve/sphere/symplectic"
 GRAVITY = FIX + " gravity 9.81 vector 0 0 -1"
@@ -104,11 +104,19 @@ REFUSED += [
     (f"change_box all boundary f f f\npair_style granular/talus\npair_coeff * * hooke 1e4 10 tangential linear_history 1e3 1 0.5 "
      f"limit_damping\n{SECOND}\nrun 0",
      O + "the contact of types 1 and 1 has the tangential law linear_history, which .*: use xt = 0"),
+    (f"change_box all boundary f f f\npair_style granular/talus\npair_coeff * * hertz/material 1e4 0.5 0.3 tangential mindlin_rescale NULL 1 0.5 "
+     f"limit_damping\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law mindlin_rescale, which .*: use xt = 0; or use order 1"),
+    (f"change_box all boundary f f f\npair_style gran/hooke/history/talus 1e4 NULL 10 NULL 0.5 1 limit_damping\npair_coeff * *\n"
+     f"{SECOND}\nrun 0",
+     O + r"the contact of types 1 and 1 has the tangential law multistep, which .* or gt = 0 \(in gran/hooke/history: dampflag 0\)"),
     (f"pair_style gran/hooke/history 1e4 NULL 0 NULL 0.5 1\npair_coeff * *\n{SECOND}\nrun 0",
      O + "contacts of particles are not those of a pair style of Talus"),
     (f"{PAIR}hertz 1e4 0 rolling 0.1 delayed\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance.*'delayed'"),
-    (f"{PAIR}jkr 1e5 0 0.3 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has the normal law jkr"),
-    (f"{PAIR}dmt 1e5 1 0.3 1\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has damping that may attract.*adhesion perko S"),
+    (f"{PAIR}hooke/material 1e5 1 0.3 1 tangential mindlin 1e3 0 0.5 rolling 0.1 limit_damping\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 remembers more than there is room for.*leave 'rolling' and 'spinning' out"),
+    (f"{PAIR}jkr 1e5 1 0.3 1 tangential mindlin/force NULL 1 0.5\n{SECOND}\nrun 0",
+     O + "the contact of types 1 and 1 has the tangential law mindlin/force, which .*: use xt = 0"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
      O + r"fix other \(nve/sphere\) moves particles as well"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix w all wall/gran/region hertz/history 1e4 NULL 0 NULL 0.5 1 region box\nrun 0",
@@ -116,6 +124,17 @@ REFUSED += [
     (f"{PAIR}hertz 1e4 0\nfix b all large/body plane 0 0 0 0 0 1 contact hertz 1e4 0\n{SECOND}\nrun 0",
      O + "fix large/body b was defined before the integrator and keeps no history .*: define it after"),
 ]
+# of bodies with laws that have none of second order, in both orders of definition
+for law, message in (
+        ("hertz 1e4 0 rolling 0.1 delayed", "has resistance.*'delayed'"),
+        ("hertz 1e4 0 tangential onestep 1e3 0 0.5", "has the tangential law onestep: use .*slider midpoint"),
+        ("hertz 1e4 10 tangential mindlin/force 1e3 1 0.5 limit_damping", "has the tangential law mindlin/force, which .*use xt = 0"),
+        ("hooke/material 1e5 1 0.3 1 limit_damping tangential mindlin 1e3 0 0.5 rolling 0.1",
+         "remembers more than there is room for.*leave 'rolling' and 'spinning' out")):
+    pair = PAIR + ("hertz 1e4 0" if law.startswith("hertz") else "hooke/material 1e5 1 0.3 1 limit_damping")
+    floor = f"fix b all large/body plane 0 0 0 0 0 1 contact {law}"
+    for lines in f"{SECOND}\n{floor}", f"{floor}\n{SECOND}":
+        REFUSED.append((f"{pair}\n{lines}\nrun 0", O + f"fix large/body b {message}"))
 
 # what looks similar and is allowed
 ACCEPTED = [
@@ -134,15 +153,6 @@ ACCEPTED = [
 
 def box(dimension=3, style="sphere", sizes=SPHERES):
     return BOX.format(dimension=dimension, style=style, sizes=sizes)
-
-
-def marked_word(log):
-    """The word of the last input line above the ^^^^ of an error message."""
-    lines = log.splitlines()
-    for above, below in zip(lines, lines[1:]):
-        if re.fullmatch(r" *\^+", below):
-            return above[below.index("^"):][:below.count("^")]
-    return None
 
 
 class Errors(SceneCase):

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, ranks_of_refusal
+from talus_testing import SceneCase, marked_word, ranks_of_refusal
 
 BOX = """
 units si
@@ -240,15 +240,6 @@ ACCEPTED = [
     "limit_damping".join(["hooke 1e3 2.0 ", " spinning 0.1 tangential none"]),
     "hertz 1e3 2.0 tangential none rolling 0.0 spinning 0.0",
 ]
-
-
-def marked_word(log):
-    """The word of the last input line above the ^^^^ of an error message."""
-    lines = log.splitlines()
-    for above, below in zip(lines, lines[1:]):
-        if re.fullmatch(r" *\^+", below):
-            return above[below.index("^"):][:below.count("^")]
-    return None
 
 
 class LawErrors(SceneCase):

@@ -91,6 +91,32 @@ class Case(SceneCase):
         self.assertRegex(log, r"pair granular +accelerated")
 
 
+NO_PARTICLES = """
+units lj
+boundary f f f
+newton off
+atom_style sphere
+comm_modify vel yes
+region box block 0 8 0 8 0 8
+create_box 4 box
+create_atoms 2 single 4 4 4
+set group all diameter 1.5 density 1.0
+pair_style granular
+pair_coeff * * hertz/material 1e6 0.5 0.3 tangential mindlin NULL 1.0 0.5
+neighbor 0.25 bin
+fix move all nve/sphere
+run 0
+"""
+
+
+class TestTypes(Case):
+    def test_types_without_particles_have_the_largest_radius(self):
+        """New memory is not zero here (MALLOC_PERTURB_): the cutoff would be 1e306."""
+        for suffix in False, True:
+            log = self.run_suffix(suffix, f"suffix_{suffix}", NO_PARTICLES, env={"MALLOC_PERTURB_": 128}).log
+            self.assertRegex(log, r"master list distance cutoff = 1\.75\n")
+
+
 class TestModels(Case):
     """Contacts one by one: forces and torques after one step, and after 1000 with their histories."""
 

@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 #include <vector>
 
 using namespace Talus;
@@ -138,6 +141,25 @@ TEST_P(BodyHistoryTest, NegativeZerosTravel)
   follow({9});
   EXPECT_TRUE(std::signbit(packed(9)[4]));
   EXPECT_TRUE(std::signbit(history.of_particle(9).c[1]));
+}
+
+// The GNU C library fills memory that it hands out if it is asked to.
+TEST_P(BodyHistoryTest, ImpactsThatAreKeptLaterAreZero)
+{
+  if (impacts()) return;
+  const std::size_t slots = several() ? 8 : 4;
+#if defined(M_PERTURB)
+  mallopt(M_PERTURB, 0x55);
+#endif
+  history.keep_impacts();
+#if defined(M_PERTURB)
+  mallopt(M_PERTURB, 0);
+#endif
+  for (std::size_t s = 0; s < slots; s++)
+    for (const double value : history.impact(s).c) EXPECT_EQ(value, 0.0) << s;
+  EXPECT_EQ(packed(3), expected(10.0));
+  history.keep_impacts();    // of every set-up
+  EXPECT_EQ(packed(17), expected(20.0));
 }
 
 TEST_P(BodyHistoryTest, MemoryIsThatOfTheCandidates)

@@ -13,6 +13,7 @@
 namespace {
 
 enum class Rule { STOCK, SLIDER, ONESTEP, TANH };
+enum class Side { OF_ROTATION, OF_TORQUE };
 
 struct Impact {
   Rule rule;
@@ -28,6 +29,46 @@ double sliding_spring(Rule rule, double before, double f, double velocity, doubl
   if (rule == Rule::STOCK) return -(f + gt * velocity) / kt;
   const double tau = gt / kt;    // (gt/kt) d' + d = -f/kt, implicit Euler
   return (tau * before - dt * f / kt) / (tau + dt);
+}
+
+/// Twisting spring and dashpot of `sds`, or `marshall`, of a body that spins while its normal force
+/// goes up and down between 0.4 and 1.6: what it has turned in the end. At its limit the torque has
+/// the side of the rotation, that is the rule, or its own.
+double turned_by_then(double first_spin, int steps, Side side, bool marshall)
+{
+  const double inertia = 0.1, dt = 3.0 / steps;
+  double w = first_spin, spring = 0.0, angle = 0.0;
+  for (int n = 1; n <= steps; n++) {
+    const double normal_force = 1.0 + 0.6 * std::sin(8.0 * n * dt);
+    const double radius = marshall ? std::cbrt(normal_force) : 1.0;
+    const double k = 200.0 * radius * radius, damping = 0.0025 * k;
+    const double limit = 0.2 * radius * normal_force;
+    angle += w * dt;
+    spring += w * dt;
+    double torque = k * spring + damping * w;
+    if (std::fabs(torque) > limit) {
+      torque = std::copysign(limit, side == Side::OF_ROTATION ? w : torque);
+      spring = (torque - damping * w) / k;
+    }
+    w -= dt * torque / inertia;
+  }
+  return angle;
+}
+
+/// Largest difference between runs with numbers of steps that are nearly the same, of some spins.
+double spread_of_turns(int steps, Side side, bool marshall)
+{
+  double largest = 0.0;
+  for (const double first_spin : {2.0, 2.5, 3.0, 3.5, 4.0}) {
+    double least = 1e9, most = -1e9;
+    for (int more = 0; more < 120; more += 17) {
+      const double angle = turned_by_then(first_spin, steps + more, side, marshall);
+      least = std::min(least, angle);
+      most = std::max(most, angle);
+    }
+    largest = std::max(largest, most - least);
+  }
+  return largest;
 }
 
 /// Angular velocity after the impact.
@@ -96,6 +137,30 @@ TEST(LawsWithoutLimit, OnestepHasNoFrictionInTheLimit)
   const double some = spin_after(onestep, 1.0e3), less = spin_after(onestep, 1.0e4);
   EXPECT_LT(some, -1.0e-3);
   EXPECT_NEAR(10.0 * less / some, 1.0, 0.05);
+}
+
+/* A twist that slides is brought to rest while the normal force, and so the limit, falls: the spring
+   turns it back, which is beyond the limit again, and by the rule the torque now jumps to the other
+   side. So it goes back and forth in every step until the limit rises: on which side the spring
+   then is held depends on the number of steps, how small they may be. */
+TEST(LawsWithoutLimit, TwistingSpringsEndOnASideThatTheTimeStepDecides)
+{
+  for (const bool marshall : {false, true}) {
+    const double coarse = spread_of_turns(1 << 15, Side::OF_ROTATION, marshall);
+    const double fine = spread_of_turns(1 << 18, Side::OF_ROTATION, marshall);
+    EXPECT_GT(coarse, 5.0e-4) << marshall;
+    EXPECT_GT(fine, 0.9 * coarse) << marshall;
+  }
+}
+
+TEST(LawsWithoutLimit, TwistingSpringsConvergeWithTheSideOfTheirTorque)
+{
+  for (const bool marshall : {false, true}) {
+    const double coarse = spread_of_turns(1 << 12, Side::OF_TORQUE, marshall);
+    const double fine = spread_of_turns(1 << 16, Side::OF_TORQUE, marshall);
+    EXPECT_LT(coarse, 1.0e-4) << marshall;
+    EXPECT_LT(fine, coarse / 100.0) << marshall;
+  }
 }
 
 /* Friction of plaincoulomb depends on the velocity alone, and smoothly: it has a limit, which a

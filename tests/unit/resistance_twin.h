@@ -6,7 +6,9 @@
 //   holding   Coulomb's law of rotation: M = most w/|w| while w = r_1 omega_1 + r_2 omega_2, across
 //             the normal, is not 0; else what keeps it at 0
 //   delayed   M = most w/|w| at the time of the positions, once the contact has lasted some time
-//   spring    k x + g x', not above its limit, in series with a slider
+//   spring    f = k x + g v, not above its limit, where x is set back to (f - g v)/k; f returns along
+//             the mean of the old and the new one. Where a contact begins f jumps to g v, or to
+//             the limit if that jumps as well
 //
 // Holding needs the torque of all other contacts, which is known of the last step:
 //   * if it was steady, the flow w' = T - most w/|w| is followed through the step, exactly where w
@@ -27,11 +29,10 @@ struct Resistance {
   double mu_r = 0.0, mu_s = 0.0;    // holding, or delayed
   bool delayed = false;
   double delay = 0.0;
-  double k_roll = 0.0, gamma_roll = 0.0, mu_roll = 0.0;       // springs
-  double k_twist = 0.0, gamma_twist = 0.0, mu_twist = 0.0;    // mu_twist a length
-  double share = 0.15, steady = 0.2;                          // of holding
+  double k_roll = 0.0, gamma_roll = 0.0, mu_roll = 0.0;    // spring
+  double share = 0.15, steady = 0.2;                       // of holding
 
-  bool any() const { return mu_r > 0.0 || mu_s > 0.0 || mu_roll > 0.0 || mu_twist > 0.0; }
+  bool any() const { return mu_r > 0.0 || mu_s > 0.0 || mu_roll > 0.0; }
 };
 
 /// Of the last step.
@@ -44,7 +45,7 @@ struct Held {
 struct RememberedResistance {
   Held roll, twist;
   Vec x;
-  double angle = 0.0, age = 0.0;
+  double age = 0.0;
 };
 
 struct ResistanceInput {
@@ -52,8 +53,8 @@ struct ResistanceInput {
   Vec rotation, omega;                  // r_1 omega_1 + r_2 omega_2, omega_1 - omega_2
   Vec rotation_change, omega_change;    // from the time of the velocities to that of the positions
   Vec moment;                           // of friction
-  double pure, old_pure, force;         // normal force, a step ago, with its correction
-  double share;                         // of a dashpot of exponent 0 in the first step
+  double pure, force, jump;    // normal force, with its correction, where the contact began
+  double share;                // of a dashpot of exponent 0 in the first step
   double dt, lasted, lag, inverse_mass, inverse_inertia, radius, circle;
   bool touches;    // did so a step ago
 };
@@ -107,30 +108,34 @@ inline Vec holding(const Resistance &law, Vec w, Vec change, Vec own, Vec given,
   return kept.moves ? most * unit(before + law.share * (w + change)) : held;
 }
 
-/// Spring and dashpot in parallel, both in series with a slider; the force is the opposite.
-inline Vec spring(double k, double g, const ResistanceInput &in, double mu, Vec before, Vec slip,
-                  Vec v, Vec old_v, bool second, Vec &x)
+/// Force of spring, dashpot and slider, which is against the rotation. v: velocity now, change: to
+/// there from v(n-1/2); old_v: a step ago.
+inline Vec spring(const Resistance &law, const ResistanceInput &in, Vec before, Vec slip, Vec v,
+                  Vec change, Vec old_v, bool second, Vec &x)
 {
-  const double most = mu * in.pure, now = mu * in.force, tau = k > 0.0 ? g / k : 0.0;
+  const double k = law.k_roll, g = law.gamma_roll, most = law.mu_roll * in.pure;
+  const double now = law.mu_roll * in.force;
   x = before + slip;
-  const Vec f = k * x + g * v;
-  if (length(f) <= most) return no_longer(f + (in.share - 1.0) * g * v, now);
-  if (k > 0.0) {
-    const Vec end = most * unit(f);
-    const double dt = in.dt;
-    if (second && in.touches) {
-      const Vec old = (1.0 / k) * no_longer(k * before + g * old_v, mu * in.old_pure);
-      const Vec along = unit(k * (before + 0.5 * slip) + (g / dt) * slip);
-      const double b = dot(along, old), limit = most / k;
-      const double root = b * b + limit * limit - dot(old, old);
-      Vec last = (1.0 / k) * end;
-      if (root >= 0.0 && b + std::sqrt(root) > 0.0) last = (b + std::sqrt(root)) * along - old;
-      x = (1.0 / (tau * tau + tau * dt + 0.5 * dt * dt)) *
-          (tau * tau * before + (0.5 * tau * dt) * old + (0.5 * dt * (tau + dt)) * last);
-    } else if (in.lag > 0.0)
-      x = (1.0 / (tau + in.lasted)) * (tau * before + (in.lasted / k) * end);
+  if (second && !in.touches && in.lag > 0.0) {
+    const Vec v_0 = v - (2.0 * in.lasted / in.dt) * change;
+    const double jump = law.mu_roll * in.jump;
+    if (k > 0.0) x = slip + (1.0 / k) * (no_longer(g * v_0, jump) - g * v_0);
+    const Vec f = k * x + g * v;
+    if (length(f) > most) return now * unit(f);
+    return no_longer(f + (in.share - 1.0) * no_longer(g * v, jump), now);
   }
-  return now * unit(k * x + g * v);
+  const Vec f = k * x + g * v;
+  if (length(f) <= most) return no_longer(f, now);
+  Vec end = most * unit(f);
+  if (second) {
+    const Vec old = k * before + g * old_v;
+    const double c = dot(f, f) - most * most, b = dot(f, old) + most * most;
+    const double root = b * b - (dot(old, old) - most * most) * c;
+    if (root >= 0.0 && b + std::sqrt(root) > 0.0)
+      end = most * unit(f - (c / (b + std::sqrt(root))) * old);
+  }
+  if (k > 0.0) x = (1.0 / k) * (end - g * v);
+  return now * unit(end);
 }
 
 /// About the normal: most w_n/|w|, |w| with what is across the normal. Held like rolling unless that
@@ -183,21 +188,11 @@ inline Resisting resist(const Resistance &law, const ResistanceInput &in,
   if (law.mu_roll > 0.0) {
     const auto velocity = [&in](Vec omega, Vec n) { return in.radius * cross(omega, n); };
     const Vec slip = time * turned(velocity(in.omega, in.half_n), in.n);
-    const Vec v = velocity(in.omega + ahead * in.omega_change, in.n);
+    const Vec v_change = ahead * velocity(in.omega_change, in.n);
+    const Vec v = velocity(in.omega, in.n) + v_change;
     const Vec old_v = turned(velocity(in.omega - in.omega_change, in.old_n), in.n);
-    const Vec f = spring(law.k_roll, law.gamma_roll, in, law.mu_roll, turned(kept.x, in.n), slip, v,
-                         old_v, second, kept.x);
+    const Vec f = spring(law, in, turned(kept.x, in.n), slip, v, v_change, old_v, second, kept.x);
     result.torque = -in.radius * cross(in.n, f);
-  }
-  if (law.mu_twist > 0.0) {
-    const Vec along{dot(in.omega, in.n), 0.0, 0.0},
-        its_change{dot(in.omega_change, in.n), 0.0, 0.0};
-    Vec angle;
-    result.twist +=
-        spring(law.k_twist, law.gamma_twist, in, law.mu_twist, {kept.angle, 0.0, 0.0}, time * along,
-               along + ahead * its_change, along - its_change, second, angle)
-            .x;
-    kept.angle = angle.x;
   }
   kept.age += in.dt;
   return result;

@@ -16,9 +16,13 @@
 #include "material/contact_spec.h"
 #include "material/law_table.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Engine {
@@ -70,12 +74,22 @@ struct Kernels {
 class Motion {
  public:
   /// From the state of `start` on for `time` in `steps` steps; its law counts for nothing.
-  Motion(const Kernels &its, const Twin::System &start, double time, int steps) :
-      kernels(its), gravity(start.gravity), particles(start.particles), planes(start.planes),
-      dt(time / steps)
+  /// `repeats`: after each step the forces are found once more as in a set-up, see sets_up_alike().
+  Motion(const Kernels &its, const Twin::System &start, double time, int steps,
+         bool repeats = false) :
+      kernels(its),
+      gravity(start.gravity), particles(start.particles), planes(start.planes), dt(time / steps)
   {
     contacts.resize(particles.size() * (particles.size() + planes.size()));
     batch.clear();
+    for (auto *vectors :
+         {batch.normal, batch.velocity, batch.surface_rotation, batch.relative_omega,
+          batch.velocity_change, batch.rotation_change, batch.omega_change})
+      for (int d = 0; d < 3; d++) filled.push_back(vectors[d]);
+    for (double *value : {batch.arm_loss, batch.arm_difference, batch.circle, batch.overlap,
+                          batch.inverse_mass, batch.inverse_radius, batch.inverse_distance})
+      filled.push_back(value);
+    for (auto &value : batch.history) filled.push_back(value);
     compute(false);
     for (int n = 0; n < steps; n++) {
       const double kick = lag + 0.5 * dt;
@@ -85,7 +99,9 @@ class Motion {
         p.w = p.w + kick * p.alpha;
         p.x = p.x + dt * p.v;
       }
+      if (repeats) before = particles;
       compute(true);
+      if (repeats) set_up_again();
     }
     for (Twin::Particle &p : particles) {
       p.v = p.v + lag * p.a;
@@ -94,6 +110,8 @@ class Motion {
   }
 
   const std::vector<Twin::Particle> &result() const { return particles; }
+  /// A set-up at any step has found the same forces, bit for bit, and left the histories alone.
+  bool sets_up_alike() const { return alike; }
 
  private:
   struct Contact {
@@ -103,6 +121,7 @@ class Motion {
   struct Lane {
     Contact *contact;
     Twin::Particle *i, *j;    // j: nullptr for a plane
+    Twin::Vec r;              // from j or the plane to i
   };
 
   static void set(double (&to)[3][ContactBatch::width], std::size_t lane, Twin::Vec v)
@@ -128,11 +147,20 @@ class Motion {
         meet(contacts[place++], particles[i], nullptr,
              dot(particles[i].x - p.point, p.normal) * p.normal, advance);
     }
-    flush(advance);
+    if (!used.empty()) flush(advance);
     for (Twin::Particle &p : particles) {
       p.a = gravity + (1.0 / p.mass) * p.force;
       p.alpha = (1.0 / p.inertia()) * p.torque;
     }
+  }
+
+  static double square(double a) { return a * a; }
+
+  /// How far a contact lasts beyond zero overlap.
+  double beyond(const Twin::Particle &i, const Twin::Particle *j) const
+  {
+    const double radius = j ? i.radius * j->radius / (i.radius + j->radius) : i.radius;
+    return Talus::reach_of(kernels.law, kernels.row, radius);
   }
 
   void meet(Contact &contact, Twin::Particle &i, Twin::Particle *j, Twin::Vec r, bool advance)
@@ -140,43 +168,52 @@ class Motion {
     const double rj = j ? j->radius : 0.0, reach = i.radius + rj;
     const double squared = dot(r, r);
     if (squared >= reach * reach) {
-      const bool lasts = kernels.second_order && contact.touches &&
-                         Talus::has_just_ended(contact.history[3], advance);
-      if (!lasts) {
+      const bool lasts = kernels.second_order ? Talus::has_just_ended(contact.history[3], advance)
+                                              : squared < square(reach + beyond(i, j));
+      if (!contact.touches || !lasts) {
         contact = Contact{};
         return;
       }
     }
-    const std::size_t k = used.size();
-    const Twin::Particle none{}, &other = j ? *j : none;
-    const double distance = std::sqrt(squared), mass_j = j ? 1.0 / j->mass : 0.0;
-    set(batch.normal, k, (1.0 / distance) * r);
+    contact.touches = true;
+    used.push_back({&contact, &i, j, r});
+    if (used.size() == ContactBatch::width) flush(advance);
+  }
+
+  void fill(std::size_t k, const Lane &its)
+  {
+    const Twin::Particle none{}, &i = *its.i, &other = its.j ? *its.j : none;
+    const double rj = its.j ? other.radius : 0.0, mass_j = its.j ? 1.0 / other.mass : 0.0;
+    const double reach = i.radius + rj, distance = length(its.r), d = reach - distance;
+    set(batch.normal, k, (1.0 / distance) * its.r);
     set(batch.velocity, k, i.v - other.v);
     set(batch.surface_rotation, k, i.radius * i.w + rj * other.w);
     set(batch.relative_omega, k, i.w - other.w);
     set(batch.velocity_change, k, lag * (i.a - other.a));
     set(batch.rotation_change, k, lag * (i.radius * i.alpha + rj * other.alpha));
     set(batch.omega_change, k, lag * (i.alpha - other.alpha));
-    batch.arm_loss[k] = j ? (reach - distance) / reach : 0.0;
-    batch.arm_difference[k] = j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
-    const double d = reach - distance, in_plane = 2.0 * i.radius * d - d * d;
+    batch.arm_loss[k] = its.j ? d / reach : 0.0;
+    batch.arm_difference[k] = its.j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
+    const double in_plane = 2.0 * i.radius * d - d * d;
     batch.circle[k] =
-        j ? Talus::circle_of_intersection(i.radius, rj, d) : std::sqrt(std::max(in_plane, 0.0));
+        its.j ? Talus::circle_of_intersection(i.radius, rj, d) : std::sqrt(std::max(in_plane, 0.0));
     batch.lag = lag;
-    batch.overlap[k] = reach - distance;
+    batch.overlap[k] = d;
     batch.inverse_mass[k] = 1.0 / i.mass + mass_j;
-    batch.inverse_radius[k] = 1.0 / i.radius + (j ? 1.0 / rj : 0.0);
-    batch.inverse_distance[k] = j ? 1.0 / distance : 0.0;
-    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][k] = contact.history[n];
-    contact.touches = true;
-    used.push_back({&contact, &i, j});
-    if (used.size() == ContactBatch::width) flush(advance);
+    batch.inverse_radius[k] = 1.0 / i.radius + (its.j ? 1.0 / rj : 0.0);
+    batch.inverse_distance[k] = its.j ? 1.0 / distance : 0.0;
+    for (int n = 0; n < ContactBatch::history_size; n++)
+      batch.history[n][k] = its.contact->history[n];
   }
 
   void flush(bool advance)
   {
     const int end =
         (static_cast<int>(used.size()) + Talus::lanes - 1) / Talus::lanes * Talus::lanes;
+    // lanes without a contact have a copy of the last one, as in a ContactChunk
+    for (std::size_t k = 0; k < used.size(); k++) fill(k, used[k]);
+    for (double *value : filled)
+      std::fill(value + used.size(), value + end, value[used.size() - 1]);
     (advance ? kernels.advancing : kernels.reading)(batch, 0, end, &kernels.row, dt);
     for (std::size_t k = 0; k < used.size(); k++) {
       const Lane &its = used[k];
@@ -194,14 +231,30 @@ class Motion {
     used.clear();
   }
 
+  void set_up_again()
+  {
+    const std::vector<Twin::Particle> after = std::exchange(particles, before);
+    const std::vector<Contact> known = contacts;
+    compute(false);
+    for (std::size_t n = 0; n < after.size(); n++)
+      alike = alike && same(particles[n].a, after[n].a) && same(particles[n].alpha, after[n].alpha);
+    for (std::size_t n = 0; n < known.size(); n++)
+      alike = alike && std::equal(std::begin(known[n].history), std::end(known[n].history),
+                                  contacts[n].history);
+    particles = after;
+  }
+  static bool same(Twin::Vec a, Twin::Vec b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
   const Kernels &kernels;
   Twin::Vec gravity;
-  std::vector<Twin::Particle> particles;
+  std::vector<Twin::Particle> particles, before;
   std::vector<Twin::Plane> planes;
   std::vector<Contact> contacts;
   ContactBatch batch;
   std::vector<Lane> used;
+  std::vector<double *> filled;    // what fill() fills, by lane
   double dt, lag = 0.0;
+  bool alike = true;
 };
 
 }    // namespace Engine

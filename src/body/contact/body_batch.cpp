@@ -285,8 +285,9 @@ void BodyBatch::flush()
 void BodyBatch::account()
 {
   for (int lane = 0; lane < filled; lane++) {
-    work += EnergyByCause{batch.work[0][lane], batch.work[1][lane], batch.work[2][lane]};
-    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), batch, lane, 1.0);
+    const EnergyByCause its = work_of_lane(batch, lane);
+    work += its;
+    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), its, 1.0);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "body/contact/body_contacts.h"
 
 #include "base/in_parallel.h"
+#include "laws/change_of_order.h"
 
 #include <algorithm>
 
@@ -21,6 +22,24 @@ void BodyContacts::set_laws(const LawTable &table)
   with_history = laws.has_history();
   with_impact = laws.has_impact();
   batches.clear();    // their lanes hold rows of the old table
+}
+
+void BodyContacts::change_order(int order, const int *type,
+                                const std::function<const ContactLaw &(int)> &law)
+{
+  if (!with_history) return;
+  for (std::size_t c = 0; c < candidates.atoms().size(); c++) {
+    const int i = candidates.atoms()[c];
+    for (int k = 0; k < history.count(i); k++) {
+      const std::size_t slot = history.first_slot(c) + k;
+      double values[ContactBatch::history_size] = {},
+             *end = std::copy_n(history.record(slot).c, 4, values);
+      if (history.keeps_impacts()) std::copy_n(history.impact(slot).c, 4, end);
+      Talus::change_order(law(type[i]), order, values);
+      std::copy_n(values, 4, history.record(slot).c);
+      if (history.keeps_impacts()) std::copy_n(end, 4, history.impact(slot).c);
+    }
+  }
 }
 
 void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,

@@ -13,6 +13,7 @@
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -51,6 +52,9 @@ class BodyContacts {
  public:
   /// Law of each particle type t against the body: row (t, t) of the table.
   void set_laws(const LawTable &table);
+  /// After find_candidates(), where the histories are those of laws for the other order of the
+  /// integrator: by those of order 1 of a type, see change_of_order.h.
+  void change_order(int order, const int *type, const std::function<const ContactLaw &(int)> &law);
   const LawTable &law_table() const { return laws; }
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further

@@ -41,11 +41,12 @@ class BodyHistory {
     with_normals = several || normals;
   }
 
-  /// Later: laws of second order remember more than those that a body was defined with.
+  /// Later: laws of second order remember more than those that a body was defined with. Impacts of
+  /// contacts that are stored already are zero.
   void keep_impacts()
   {
     with_impact = true;
-    impacts.resize(records.size());
+    impacts.resize(records.size(), Record{});
   }
 
   void grow(int num_particles) { entry_of.resize(num_particles, nowhere); }
@@ -66,6 +67,7 @@ class BodyHistory {
   void follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room);
 
   bool several() const { return with_several; }
+  bool keeps_impacts() const { return with_impact; }
   /// First slot of a candidate.
   std::uint32_t first_slot(std::size_t candidate) const
   {

@@ -12,8 +12,8 @@
 //   * What is at rest is held by M = own + share (w + 2 change): by that much more as a share of it
 //     would stop the rotation within the step. The share because a body may have many contacts of
 //     which each is held so. With g of them on one rotation the errors of successive steps obey
-//     e'' = (2 - 2 g) e' - (1 - g) e, stable for g < 4/3: g is 8 shares in a crystal of spheres with
-//     12 neighbors, each of which turns as well and of which each sees 2/3 of a rotation.
+//     e'' = (2 - 2 g) e' - (1 - g) e, stable for g < 4/3: g is 8 shares in a crystal of spheres
+//     with 12 neighbors, each of which turns as well and of which each sees 2/3 of a rotation.
 //   * If the moment of the others has jumped, their other contacts come to rest or react to this
 //     one: then the share also brings a contact to rest, so that they do not push each other on.
 //
@@ -25,6 +25,7 @@
 
 #include "base/number_pair.h"
 #include "base/vector3.h"
+#include "laws/tangential/set_back.h"
 
 namespace Talus {
 
@@ -42,12 +43,12 @@ template <class Real> TALUS_INLINE HeldRotation<Real> held_rotation(const Real *
 {
   constexpr double widest = 16.0;
   const Real zero = splat<Real>(0.0), half = splat<Real>(0.5);
-  const Real x = second_of_pair(stored[0]);
+  const Real x = EvenPair::second(stored[0]);
   const auto rests = x < zero;
   const auto known = magnitude(stored[0]) > zero;
   const Real in_x = select(known, 4.0 * widest * (x - select(rests, -half, half)), zero);
-  return {{first_of_pair(stored[0]), first_of_pair(stored[1]), first_of_pair(stored[2])},
-          {in_x, widest * second_of_pair(stored[1]), widest * second_of_pair(stored[2])},
+  return {{EvenPair::first(stored[0]), EvenPair::first(stored[1]), EvenPair::first(stored[2])},
+          {in_x, widest * EvenPair::second(stored[1]), widest * EvenPair::second(stored[2])},
           x >= zero};
 }
 
@@ -55,7 +56,7 @@ template <class Real> TALUS_INLINE HeldRotation<Real> held_rotation(const Real *
 template <class Real> TALUS_INLINE Vector3<Real> as_remembered(const Vector3<Real> &moment)
 {
   const Real zero = splat<Real>(0.0), least = splat<Real>(1.0e-200);
-  const auto one = [&](Real a) { return first_of_pair(select(magnitude(a) > zero, a, least)); };
+  const auto one = [&](Real a) { return EvenPair::first(select(magnitude(a) > zero, a, least)); };
   return {one(moment.x), one(moment.y), one(moment.z)};
 }
 
@@ -65,9 +66,9 @@ template <class Real> TALUS_INLINE void store_held(const HeldRotation<Real> &its
   constexpr double widest = 16.0;
   const Real half = splat<Real>(0.5);
   const Real in_x = 1.0 / (4.0 * widest) * its.others.x;
-  stored[0] = number_pair(its.own.x, in_x + select(its.moved, half, -half));
-  stored[1] = number_pair(its.own.y, 1.0 / widest * its.others.y);
-  stored[2] = number_pair(its.own.z, 1.0 / widest * its.others.z);
+  stored[0] = EvenPair::pair(its.own.x, in_x + select(its.moved, half, -half));
+  stored[1] = EvenPair::pair(its.own.y, 1.0 / widest * its.others.y);
+  stored[2] = EvenPair::pair(its.own.z, 1.0 / widest * its.others.z);
 }
 
 /// Mean moment in the step.
@@ -81,10 +82,7 @@ TALUS_INLINE RotationFlow<Real> rotation_flow(const Vector3<Real> &w, const Vect
                                               Real most)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const auto unit = [&](const Vector3<Real> &v) {
-    const Real size = square_root(dot(v, v));
-    return select(size > zero, one / size, zero) * v;
-  };
+  const auto unit = [&](const Vector3<Real> &v) { return with_length(one, v); };
   const Vector3<Real> u = unit(w), rate = others - most * u;
   const Real square = dot(rate, rate);
   const Real until = select(square > zero, -dot(w, rate) / square, zero);    // nearest to rest
@@ -107,11 +105,6 @@ TALUS_INLINE Vector3<Real> hold_rotation(const Vector3<Real> &w, const Vector3<R
                                          HeldRotation<Real> &kept)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), widest = splat<Real>(16.0);
-  const auto shortened = [&](const Vector3<Real> &v, const Vector3<Real> &direction) {
-    const Real size = square_root(dot(direction, direction));
-    const auto exceeds = dot(v, v) > most * most;
-    return select(exceeds, select(size > zero, most / size, zero) * direction, v);
-  };
   const auto over_most = [&](Real a) {
     const Real ratio = a / select(most > zero, most, one);
     const Real not_above = select(ratio < widest, ratio, widest);
@@ -130,7 +123,7 @@ TALUS_INLINE Vector3<Real> hold_rotation(const Vector3<Real> &w, const Vector3<R
   kept.moved = select(by_flow, select(flow.stops, zero, one),
                       select(dot(held, held) > most * most, one, zero)) > zero;
   kept.others = now;
-  return select(by_flow, shortened(flow.moment, flow.moment), shortened(held, turns));
+  return select(by_flow, limited(flow.moment, most), limited(held, most, turns));
 }
 
 }    // namespace Talus

@@ -28,9 +28,8 @@
 #ifndef TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
 #define TALUS_LAWS_TANGENTIAL_END_OF_CONTACT_H
 
-#include "base/flagged_number.h"
 #include "base/simd.h"
-#include "laws/contact_lanes.h"
+#include "laws/approach.h"
 
 namespace Talus {
 
@@ -41,21 +40,16 @@ inline bool has_just_ended(double stored, bool advance)
   return advance ? stored < 0.0 : stored != 0.0;
 }
 
-/// v_t^2 over the distance of the centers.
-template <class Real> TALUS_INLINE Real centrifugal(const ContactState<Real> &s, Real v_n)
-{
-  return s.inverse_distance * (dot(s.velocity, s.velocity) - v_n * v_n);
-}
-
-/// Sets `parted`, and in the place of the overlap that of the last step where the bodies are apart.
+/// Sets `parted`, and in the place of the overlap that of the last step where the bodies are apart,
+/// by more than `reach`.
 template <class Real> TALUS_INLINE void last_overlap(ContactState<Real> &s, double dt)
 {
-  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const auto touches = s.overlap > zero;
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), least = -s.reach;
+  const auto touches = s.overlap > least;
   const Real v = dot(s.velocity, s.normal);
   const Real before = s.overlap + dt * (v - 0.5 * dt * centrifugal(s, v));
   s.parted = select(touches, zero, one);
-  s.overlap = select(touches, s.overlap, select(before > zero, before, zero));
+  s.overlap = select(touches, s.overlap, select(before > least, before, least));
 }
 
 enum class Of : bool { BEGIN, END };
@@ -87,6 +81,25 @@ Edge<Real> edge_of(const ContactState<Real> &s, Real overlap, Real v_n, Real oth
   return edge;
 }
 
+/// What stands for a normal force of zero, which is remembered with flags; not above `no_force`.
+inline constexpr double remembered_zero = 1.0e-200, no_force = 2.0e-200;
+/// And for one that is not known, of contacts that come from laws of first order; a number without
+/// flags, below all others that are remembered.
+inline constexpr double unknown_force = 0x1p-950;
+
+/// Where damping ~ overlap^p has held the normal force at 0 which is `force` now, the part of the
+/// step since it began to grow: before, springs were at rest.
+template <class Real>
+TALUS_INLINE Real share_since_return(const ContactLanes<Real> &s, Real p, Real force, double dt)
+{
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
+  const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
+  const auto touches = s.overlap > zero;
+  const Real of_gn = p * s.gn * v / select(touches, s.overlap, one);
+  const Real growth = dt * v * (of_gn - s.tangent_n) - s.gn * change;
+  return select(growth > force, force / select(growth > zero, growth, one), one);
+}
+
 /// For p = 1 and 3/2, 0 < theta <= 1; a decelerating force at the begin of a contact, an
 /// accelerating one at its end.
 template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta)
@@ -106,8 +119,8 @@ template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta
 }
 
 /// What the sum over the steps lacks of the friction f of a contact that sticks in its last step
-/// and ends theta steps later, where its limit is 0: on the way there it changes by `rate` in a step
-/// until it meets the limit, and follows it.
+/// and ends theta steps later, where its limit is 0: on the way there it changes by `rate` in a
+/// step until it meets the limit, and follows it.
 template <class Real>
 TALUS_INLINE Vector3<Real> end_of_sticking(const Vector3<Real> &f, const Vector3<Real> &rate,
                                            Real limit, Real theta)
@@ -125,7 +138,7 @@ TALUS_INLINE Vector3<Real> end_of_sticking(const Vector3<Real> &f, const Vector3
 /// Forces of contacts that have parted, and what these remember from now on.
 template <class Real> struct EndOfContact {
   bool_of<Real> parted;
-  Real normal_force, adhesive_share;
+  Real normal_force, elastic, adhesive_share;
   Vector3<Real> tangential;
   Real history[4];
 
@@ -134,7 +147,7 @@ template <class Real> struct EndOfContact {
   {
     const Real zero = splat<Real>(0.0);
     s.overlap = select(parted, zero, s.overlap);
-    s.elastic = select(parted, normal_force, s.elastic);
+    s.elastic = select(parted, elastic, s.elastic);
     s.kt = select(parted, zero, s.kt);
     s.normal_force = select(parted, normal_force, s.normal_force);
     s.critical_force = select(parted, magnitude(normal_force), s.critical_force);

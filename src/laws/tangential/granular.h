@@ -38,6 +38,7 @@ void read_granular_friction(LawReader &r, bool with_kt, bool null_allowed);
 
 struct GranularFriction : TangentialLaw {
   static constexpr bool lever_arms = true;
+  static constexpr bool of_force = false, rescales = false;
   template <class Real> using Row = GranularRow<Real>;
   static constexpr CoefficientName coefficients[] = {{"kt"}, {"xt"}, {"mu"}};
 
@@ -73,6 +74,17 @@ TALUS_INLINE Real granular_stiffness(const GranularRow<Real> &c, const ContactLa
   return scaled == Scaled::YES ? c.kt * s.contact_radius : c.kt;
 }
 
+/// kt = NULL of a law that scales is that of the materials.
+template <Scaled scaled> GranularRow<double> mix_of_spring(const Mixing &m)
+{
+  GranularRow<double> row = GranularFriction::mix(m);
+  if (scaled == Scaled::YES && !m.both_have("kt")) {
+    const GivenNumbers &a = m.a.given, &b = m.b.given;
+    row.kt = 8.0 * effective_shear(a.value("E"), a.value("nu"), b.value("E"), b.value("nu"));
+  }
+  return row;
+}
+
 /// The history is at its limit if the force of spring and dashpot is so but for rounding: nothing
 /// else has to be kept to find that out.
 template <class Real> TALUS_INLINE TangentialHistory<Real> granular_history(const Vector3<Real> &d)
@@ -95,17 +107,9 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
   static constexpr bool has_spring = rescaled == Rescaled::NO;
   static constexpr bool stiffens = scaled == Scaled::YES && has_spring;
   static constexpr int odd_history = 3, even_history = rescaled == Rescaled::YES ? 1 : 0;
-  static constexpr bool of_force = kept == Kept::FORCE;
+  static constexpr bool of_force = kept == Kept::FORCE, rescales = rescaled == Rescaled::YES;
 
-  static GranularRow<double> mix(const Mixing &m)
-  {
-    GranularRow<double> row = GranularFriction::mix(m);
-    if (scaled == Scaled::YES && !m.both_have("kt")) {
-      const GivenNumbers &a = m.a.given, &b = m.b.given;
-      row.kt = 8.0 * effective_shear(a.value("E"), a.value("nu"), b.value("E"), b.value("nu"));
-    }
-    return row;
-  }
+  static GranularRow<double> mix(const Mixing &m) { return mix_of_spring<scaled>(m); }
 
   template <class Real>
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
@@ -194,6 +198,8 @@ struct GranularClassic : GranularFriction {
   static constexpr bool needs_radius = scaled == Scaled::YES, has_spring = true;
   static constexpr bool stiffens = scaled == Scaled::YES;
   static constexpr int odd_history = 3;
+
+  static GranularRow<double> mix(const Mixing &m) { return mix_of_spring<scaled>(m); }
 
   template <class Real>
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)

@@ -4,9 +4,9 @@
 // second_order.h. All of it is of second order in the step and takes roots and quotients only where
 // a contact slides:
 //
-//   turning   the normal turns by 2 q, across it, in the step. What is in the old tangent plane gets
-//             into the new one by the rotation that takes one normal to the other: with the one half
-//             way, n - q, x -> x - (x.n)(n - q).
+//   turning   the normal turns by 2 q, across it, in the step. What is in the old tangent plane
+//             gets into the new one by the rotation that takes one normal to the other: with the
+//             one half way, n - q, x -> x - (x.n)(n - q).
 //   slip      of the surfaces half way through the step, turned by q; v and w, the sum of r omega,
 //             are those half way: v_t + v_n q - (w + w_n q) x n.
 //   return    a sliding contact moves along the mean of its old and its new force (generalized

@@ -20,14 +20,6 @@
 
 namespace Talus {
 
-/// How long a contact has lasted of the step that led here: one that began on the way
-/// overlap/(-v_n).
-template <class Real> inline Real lasted(const ContactLanes<Real> &s, double dt)
-{
-  const Real approach = -s.normal_velocity * dt;
-  return dt * select(approach > s.overlap, s.overlap / approach, splat<Real>(1.0));
-}
-
 /// Displacement of the surfaces during the step that led here.
 template <class Real>
 inline Vector3<Real> step_displacement(const ContactLanes<Real> &s, double dt, Real time)
@@ -70,7 +62,7 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
                           splat<Real>(dt)};
     Vector3<Real> d = history.displacement;
     if constexpr (advance && midpoint) {
-      in.dt = lasted(s, dt);
+      in.dt = dt * share_of_step(s, dt);
       d = turned(d, s.normal) + turned(step_displacement(s, dt, in.dt), s.normal);
     } else if constexpr (advance)
       d = d + in.dt * in.velocity;

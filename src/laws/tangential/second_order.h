@@ -1,10 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contacts that dissipate, to second order in the time step: what the words `tangential multistep
-// ... slider midpoint` and `tangential none`, and plaincoulomb, mean with `order 2` of the integrator. Positions
-// belong to the time t, velocities to t - lag, lag = dt/2; velocity_change is lag times the
-// acceleration of the last step, so that velocity + velocity_change is second order at t. The laws
-// come after the damping and find the normal force anew. What makes the order two:
+// ... slider midpoint` and `tangential none`, and plaincoulomb, mean with `order 2` of the
+// integrator. Positions belong to the time t, velocities to t - lag, lag = dt/2; velocity_change is
+// lag times the acceleration of the last step, so that velocity + velocity_change is second order
+// at t. The laws come after the damping and find the normal force anew. What makes the order two:
 //
 //   * damping at the time of the positions, implicit in the contact itself: with F_0, its normal
 //     force of the last step, and v_p = v_n + dv_n - lag F_0/m, what others contribute,
@@ -14,100 +14,103 @@
 //     for a sum that does not begin on a grid point): it is subtracted. p: exponents of elastic
 //     force and damping. Only if the overlap is at most what one step brings;
 //   * where it ends the same, see end_of_contact.h;
-//   * adhesion that the normal law has itself, the constant pull_off of dmt, is taken out of the
-//     elastic force before and added again behind, with the share of p = 0. It raises the limit of
-//     friction to mu (F + pull_off), so that friction may end while the contact still sticks;
+//   * contacts whose normal law has adhesion of its own: see adhesive_contact.h;
 //   * the displacement, and the return of a sliding contact to its limit: see midpoint.h.
 //
 // The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
 // flags: it began in that step, it slid. So a force can be computed again without advancing. Of a
-// contact that ended in that step it is above zero.
+// contact that ended in that step it is above zero. See change_of_order.h on contacts that come from
+// a run with order 1.
 
 #ifndef TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 #define TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 
-#include "base/flagged_number.h"
+#include "base/number_pair.h"
+#include "laws/tangential/adhesive_contact.h"
 #include "laws/tangential/common.h"
+#include "laws/tangential/edge_errors.h"
 #include "laws/tangential/end_of_contact.h"
 #include "laws/tangential/granular.h"
-#include "laws/tangential/hurwitz_zeta.h"
 #include "laws/tangential/midpoint.h"
+#include "laws/tangential/scaled_spring.h"
+#include "laws/tangential/set_back.h"
 #include "laws/tangential/tanh.h"
 
 #include <type_traits>
 
 namespace Talus {
 
-/// v shortened or stretched to a length; zero stays zero.
-template <class Real> TALUS_INLINE Vector3<Real> with_length(Real length, const Vector3<Real> &v)
-{
-  const Real zero = splat<Real>(0.0), size = square_root(dot(v, v));
-  return select(size > zero, length / size, zero) * v;
-}
-
-/// Not above the limit.
-template <class Real> TALUS_INLINE Vector3<Real> limited(const Vector3<Real> &v, Real limit)
-{
-  return select(dot(v, v) > limit * limit, with_length(limit, v), v);
-}
-
 /// What a contact remembers of its last step.
 template <class Real> struct LastStep {
-  bool_of<Real> known;    ///< it was there
-  Real force;             ///< normal one, 0 if not
+  bool_of<Real> known;       ///< it was there
+  bool_of<Real> is_given;    ///< with a force that is known
+  Real force;                ///< normal one, 0 if not
   bool_of<Real> began, slid;
 };
 
-template <class Real> TALUS_INLINE LastStep<Real> last_step(Real stored)
+/// `adhesive`: the force has either sign, see positive_number().
+template <bool adhesive, class Real> TALUS_INLINE LastStep<Real> last_step(Real stored)
 {
   const Real zero = splat<Real>(0.0), flags = flags_of(stored);
   const bool_of<Real> known = stored < zero;
   const bool_of<Real> slid = known & (flags > splat<Real>(1.5));
   const bool_of<Real> began =
       known & (select(slid, flags - splat<Real>(2.0), flags) > splat<Real>(0.5));
-  return {known, select(known, -without_flags(stored), zero), began, slid};
+  Real force = -without_flags(stored);
+  if constexpr (adhesive) force = force_of_number(force);
+  const bool_of<Real> is_given = stored < splat<Real>(-2.0 * unknown_force);
+  return {known, is_given, select(is_given, force, zero), began, slid};
 }
-
-/// Errors of the sum over time steps in the step in which a contact begins, as factors of forces of
-/// that step. Elsewhere 0, and the ratio below 1.
-template <class Real> struct Beginning {
-  Real ratio;                                ///< what one step brings of overlap, over overlap
-  Real elastic, damping, spring, dashpot;    ///< the last two tangential
-};
-
-/// Exponents of the overlap; slip_min of tanh; kt, xt of LAMMPS' laws.
-template <class Real> struct SecondOrderRow {
-  Real mu, elastic, damping, spring, dashpot, slip_min, kt, xt;
-};
 
 /// DASHPOT: a spring without stiffness. TANH: that of tanh.h, with the velocity at the time of the
 /// positions.
 enum class Friction { NONE, SPRING, DASHPOT, TANH };
 
+/// Whether the normal law has adhesion of its own, see adhesive_contact.h.
+enum class Pull : bool { NO, YES };
+
+/// What a spring does when its stiffness changes: nothing if it has none of its own.
+template <class Granular> struct SpringOf {
+  static constexpr bool scaled = Granular::needs_radius, of_force = Granular::of_force,
+                        rescales = Granular::rescales;
+};
+template <> struct SpringOf<void> {
+  static constexpr bool scaled = false, of_force = false, rescales = false;
+};
+
 /// `Granular`: the law of LAMMPS' pair granular that it is, with its kt, xt and lever arms.
-template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw {
+template <Friction kind, class Granular = void, Pull its_pull = Pull::NO>
+struct SecondOrder : FrictionLaw {
   static constexpr bool friction = kind == Friction::SPRING || kind == Friction::DASHPOT;
   static constexpr bool granular = !std::is_void_v<Granular>;
-  static constexpr bool mindlin = std::is_same_v<Granular, Mindlin>;
-  static constexpr const char *name =
-      mindlin ? "mindlin order 2"
-      : granular && friction
-          ? kind == Friction::SPRING ? "linear_history order 2" : "linear_nohistory order 2"
-      : kind == Friction::SPRING  ? "multistep order 2"
-      : kind == Friction::DASHPOT ? "dashpot order 2"
-      : kind == Friction::TANH    ? "tanh order 2"
-                                  : "none order 2";
-  static constexpr const char *label =
-      mindlin                     ? "mindlin"
-      : granular                  ? kind == Friction::SPRING ? "linear_history" : "linear_nohistory"
-      : kind == Friction::SPRING  ? "multistep slider midpoint"
-      : kind == Friction::DASHPOT ? "dashpot"
-      : kind == Friction::TANH    ? Tanh::label
-                                  : nullptr;
+  static constexpr bool scaled = SpringOf<Granular>::scaled;
+  static constexpr bool of_force = SpringOf<Granular>::of_force;
+  static constexpr bool rescales = SpringOf<Granular>::rescales;
+  static constexpr bool follows_radius = of_force || rescales;
+  static constexpr bool adhesive = its_pull == Pull::YES;
+  static constexpr const char *names[][2] = {
+      {"none order 2", "none order 2 adhesive"},
+      {"multistep order 2", "multistep order 2 adhesive"},
+      {"dashpot order 2", "dashpot order 2 adhesive"},
+      {"tanh order 2", nullptr},
+      {"linear_history order 2", "linear_history order 2 adhesive"},
+      {"linear_nohistory order 2", "linear_nohistory order 2 adhesive"},
+      {"mindlin order 2", "mindlin order 2 adhesive"},
+      {"mindlin/force order 2", "mindlin/force order 2 adhesive"},
+      {"mindlin_rescale order 2", "mindlin_rescale order 2 adhesive"},
+      {"mindlin_rescale/force order 2", "mindlin_rescale/force order 2 adhesive"}};
+  static constexpr int of_spring = 5 + (of_force ? 1 : 0) + (rescales ? 2 : 0);
+  static constexpr int which = static_cast<int>(kind) + (scaled ? of_spring : granular ? 3 : 0);
+  static constexpr const char *name = names[which][adhesive ? 1 : 0];
+  static constexpr const char *label = [] {
+    if constexpr (granular) return Granular::label;
+    constexpr const char *labels[] = {nullptr, "multistep slider midpoint", "dashpot", Tanh::label};
+    return labels[static_cast<int>(kind)];
+  }();
   static constexpr int odd_history = 3, even_history = 1;
-  static constexpr bool second_order = true, lever_arms = granular, needs_radius = mindlin;
+  static constexpr bool second_order = true, lever_arms = granular, needs_radius = scaled;
   static constexpr bool has_spring = kind == Friction::SPRING, is_midpoint = true;
-  static constexpr bool stiffens = mindlin, reads_stiffness = friction && !granular;
+  static constexpr bool stiffens = scaled && !rescales, reads_stiffness = friction && !granular;
   template <class Real> using Row = SecondOrderRow<Real>;
   static constexpr Shown of_granular = granular ? Shown::ALWAYS : Shown::NEVER;
   static constexpr CoefficientName coefficients[] = {{"mu"},
@@ -121,16 +124,17 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
 
   static Row<double> mix(const Mixing &m)
   {
-    const Law &damping = m.a.law.damping();
-    const double elastic = m.a.law.normal().exponent;
+    const Law &normal = m.a.law.normal(), &damping = m.a.law.damping();
+    const double elastic = normal.exponent;
     const double of_gn = damping.damping_exponent(elastic);
     const double its_own = granular ? -1.0 : damping.dashpot_exponent(elastic);
     GranularRow<double> own{};
     if constexpr (granular) own = Granular::mix(m);
+    const bool jumps = normal.lasts_beyond_contact && m.geometric("gamma") > 0.0;
     return {kind == Friction::NONE ? 0.0 : m.friction("mu"),
-            elastic,
+            jumps ? 1.0 : elastic,
             of_gn,
-            mindlin    ? 0.5
+            scaled     ? 0.5
             : granular ? 0.0
                        : elastic - 1.0,
             its_own < 0.0 ? of_gn : its_own,
@@ -141,9 +145,10 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
 
   static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
   {
-    const Vector3<double> d{h[0], h[1], h[2]};
-    const bool stores = kind == Friction::SPRING && s.overlap > 0.0;
-    return stores ? 0.5 * stiffness(c, s) * dot(d, d) : 0.0;
+    if (!has_spring) return 0.0;
+    const double k = stiffness(c, s);
+    const Vector3<double> d = displacement_of(k, h);
+    return 0.5 * k * dot(d, d);
   }
 
   /// Contacts that begin or end in this step; few do. Elsewhere compute<true, false>() is enough,
@@ -159,18 +164,19 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     s.adhesive_share = one;
-    s.elastic = s.elastic + s.pull_off;
+    if constexpr (adhesive) s.elastic = s.elastic + s.pull_off;
     s.kt = stiffness(c, s);
     if constexpr (granular) s.gt = c.xt * s.gn;
     EndOfContact<Real> end;
     if constexpr (ends) end = end_of<advance>(c, s, h, dt);
-    const LastStep<Real> last = last_step(h[3]);
+    const LastStep<Real> last = last_step<adhesive>(h[3]);
     Real pure = find_normal_force(s, last);
-    if constexpr (!advance) pure = select(last.known, last.force, pure);
+    if constexpr (!advance) pure = select(last.is_given, last.force, pure);
 
-    auto begins = last.began;
+    bool_of<Real> begins = advance ? zero > zero : last.began;
     Beginning<Real> start{one, zero, zero, zero, zero};
-    Real force = pure, theta = one;
+    const Real rubs = s.elastic;
+    Real force = pure, theta = one, undamped = rubs;
     if constexpr (ends) {
       const Real approach = -dt * s.normal_velocity;
       if constexpr (advance)
@@ -179,17 +185,20 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
       const Edge<Real> edge =
           edge_of<Of::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
       begins = edge.is;
-      start = errors_of<Of::BEGIN>(c, s.overlap, edge);
+      start = errors_of<Of::BEGIN, granular, adhesive>(c, s.overlap, edge,
+                                                       share_of_jump<adhesive>(c, s));
       theta = edge.theta;
-      s.adhesive_share = select(begins, splat<Real>(0.5) + theta, one);    // p = 0
-      const Real early =
-          start.elastic * s.elastic - second_force<Of::BEGIN>(c, s, start, s.elastic, edge, dt);
+      s.adhesive_share = select(begins, share_at_begin(theta), one);    // p = 0
+      const Real early = start.elastic * s.elastic -
+                         second_force<Of::BEGIN, adhesive>(c, s, start, s.elastic, edge, dt);
       force = pure - (early - start.damping * s.gn * s.normal_velocity);
       if constexpr (advance) s.elastic = s.elastic - early;    // what does not store is work
+      if constexpr (adhesive) undamped = undamped - early;
     }
     s.normal_force = force;
-    s.critical_force = magnitude(force);
+    s.critical_force = adhesive ? undamped : magnitude(force);
     s.force = force * s.normal;
+    if constexpr (ends) s.uncorrected_force = (adhesive ? rubs : pure) + s.pull_off;
 
     auto slides = last.slid;
     Vector3<Real> t{zero, zero, zero};
@@ -197,15 +206,19 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
       t = Tanh::force({c.mu, c.slip_min}, s.normal_force, present_velocity(s));
     if constexpr (friction) {
       const Vector3<Real> u = present_velocity(s);
-      Vector3<Real> d{h[0], h[1], h[2]};
-      const Real limit = c.mu * (pure + s.pull_off);
-      Real old_limit = c.mu * (last.force + s.pull_off);
+      Vector3<Real> d = displacement_of(s.kt, h);
+      AdhesiveStep<Real> before_it{};
+      if constexpr (adhesive && advance) before_it = adhesive_step(s, rubs, tears<adhesive>(c), dt);
+      const Real limit = c.mu * (adhesive ? rubs + s.pull_off : pure);
+      Real old_limit = c.mu * last.force;
+      if constexpr (adhesive && advance) old_limit = c.mu * (before_it.old_elastic + s.pull_off);
       if constexpr (ends && advance)
         old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
-      if constexpr (advance) {
+      if constexpr (advance && !adhesive) {
         const Real none = splat<Real>(no_force);
-        const auto returns = last.known & (last.force < none) & (pure > none);
-        if (any(returns)) theta = select(returns, share_since_return(c, s, pure, dt), theta);
+        const auto returns = last.is_given & (last.force < none) & (pure > none);
+        if (any(returns))
+          theta = select(returns, share_since_return(s, c.damping, pure, dt), theta);
       }
       const Real time = dt * theta;
       Vector3<Real> before = d, half_way = u;
@@ -213,41 +226,67 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
         const Vector3<Real> q = half_turn(s, dt);
         before = turned_by(q, d, s.normal);
         half_way = velocity_half_way(s, q);
-        d = before + time * half_way;
+        Real mean = one;
+        if constexpr (follows_radius) {
+          const SpringStep<Real> step = spring_step<of_force, rescales>(radius_ratio(c, s, dt));
+          before = step.share * before;
+          mean = select(begins, mean_at_begin(c), step.mean);
+        }
+        d = before + (mean * time) * half_way;
       }
-      Vector3<Real> f = s.kt * d + s.gt * u;
+      Vector3<Real> f = (advance ? s.kt * d : elastic_force_of(s.kt, h)) + s.gt * u;
       const auto exceeds = dot(f, f) > limit * limit;
       slides = advance ? exceeds : slides | exceeds;
       t = -f;
       if (any(slides)) {
         if constexpr (advance) {
-          const Slide<Real> way{s.kt,     s.gt,      s.overlap, s.overlap + dt * s.normal_velocity,
-                                c.spring, c.dashpot, limit,     old_limit,
-                                before,   half_way,  u,         f,
-                                time,     dt};
-          Vector3<Real> slid = slide(way);
-          if constexpr (ends) slid = select(begins, first_slide(way), slid);
-          d = select(slides, slid, d);
+          Slide<Real> way{s.kt,     s.gt,      s.overlap, s.overlap + dt * s.normal_velocity,
+                          c.spring, c.dashpot, limit,     old_limit,
+                          before,   half_way,  u,         f,
+                          time,     dt};
+          if constexpr (adhesive) {
+            way.overlap = before_it.overlap;
+            way.old_overlap = before_it.old_overlap;
+          }
+          if constexpr (follows_radius) {    // which has no dashpot
+            const Real longest = limit / select(s.kt > zero, s.kt, one);
+            d = select(slides, midpoint_return(d, before, longest), d);
+          } else {
+            Vector3<Real> slid = slide(way);
+            if constexpr (ends && adhesive) {    // of jkr they are above 0 there
+              way.kt_exponent = select(tears<adhesive>(c), zero, c.spring);
+              way.gt_exponent = select(tears<adhesive>(c), zero, c.dashpot);
+            }
+            if constexpr (ends) slid = select(begins, first_slide(way), slid);
+            d = select(slides, slid, d);
+          }
           f = s.kt * d + s.gt * u;
         }
         t = select(slides, with_length(limit, -f), t);
       }
       if constexpr (ends) {
-        const Real most = c.mu * (s.critical_force + s.adhesive_share * s.pull_off);
-        const Vector3<Real> early = start.spring / start.ratio * dt * s.kt * u;
+        Real most = c.mu * s.critical_force;
+        if constexpr (adhesive) {
+          const Real p = select(tears<adhesive>(c), one, c.spring + one);
+          const Vector3<Real> trial = (mean_at_begin(c) * time * s.kt + s.gt) * u;
+          most = most + c.mu * s.adhesive_share * s.pull_off -
+                 grows_to_limit(c, s, p, limit_at_begin(c, s), trial, theta);
+        }
+        const Vector3<Real> early = start.spring / start.ratio * dt * (mean_at_begin(c) * s.kt) * u;
         const Vector3<Real> sticks = limited(t + early + start.dashpot * s.gt * u, most);
         t = select(begins, select(slides, with_length(most, t), sticks), t);
       }
       if constexpr (advance) {
-        h[0] = d.x;
-        h[1] = d.y;
-        h[2] = d.z;
+        const Vector3<Real> kept = of_force ? -(s.kt * d) : d;
+        h[0] = kept.x;
+        h[1] = kept.y;
+        h[2] = kept.z;
       }
     }
     if constexpr (advance)
-      h[3] = -with_flags(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
+      h[3] = -remembered(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
     if constexpr (ends) end.replace(s, t, h);
-    add_pull(s);
+    if constexpr (adhesive) add_pull(s);
     if constexpr (lever_arms)
       add_tangential_in_overlap(s, t);
     else
@@ -259,8 +298,55 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
   TALUS_INLINE static Real stiffness(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     if constexpr (kind == Friction::DASHPOT) return splat<Real>(0.0);
-    if constexpr (mindlin) return c.kt * s.contact_radius;
+    if constexpr (scaled) return c.kt * s.contact_radius;
     return granular ? c.kt : s.kt;
+  }
+
+  /// Of p = 0. Not 1: other stages tell contacts that begin by it.
+  template <class Real> TALUS_INLINE static Real share_at_begin(Real theta)
+  {
+    const Real one = splat<Real>(1.0), share = splat<Real>(0.5) + theta;
+    return select(magnitude(share - one) > splat<Real>(0.0), share, splat<Real>(1.0 + 1.0e-15));
+  }
+
+  /// A spring remembers its displacement or, with the sign of the laws of order 1, its force.
+  template <class Real> TALUS_INLINE static Vector3<Real> displacement_of(Real kt, const Real *h)
+  {
+    const Vector3<Real> kept{h[0], h[1], h[2]};
+    if constexpr (!of_force) return kept;
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    return select(kt > zero, splat<Real>(-1.0) / select(kt > zero, kt, one), zero) * kept;
+  }
+  template <class Real> TALUS_INLINE static Vector3<Real> elastic_force_of(Real kt, const Real *h)
+  {
+    const Vector3<Real> kept{h[0], h[1], h[2]};
+    return of_force ? -kept : kt * kept;
+  }
+
+  /// SpringStep::mean of the step in which a contact begins, its contact radius at 0 or, of jkr,
+  /// above it.
+  template <class Real> TALUS_INLINE static Real mean_at_begin(const Row<Real> &c)
+  {
+    const Real one = splat<Real>(1.0);
+    if constexpr (!of_force) return one;
+    return select(tears<adhesive>(c), one, splat<Real>(2.0 / 3.0));
+  }
+
+  /// Contact radius a step ago over that of now.
+  template <class Real>
+  TALUS_INLINE static Real radius_ratio(const Row<Real> &c, const ContactLanes<Real> &s, double dt)
+  {
+    const Real zero = splat<Real>(0.0), v = s.normal_velocity;
+    const Real way = -dt * (v - 0.5 * dt * centrifugal(s, v)), old = s.overlap - way;
+    const Real ratio = square_root(quotient(select(old > zero, old, zero), s.overlap));
+    if constexpr (!adhesive) return ratio;
+    const auto at_once = tears<adhesive>(c);
+    return any(at_once) ? select(at_once, jkr_radius_ratio(s, way), ratio) : ratio;
+  }
+
+  template <class Real> TALUS_INLINE static Real remembered(Real force, Real flags)
+  {
+    return with_flags(adhesive ? positive_number(force) : force, flags);
   }
 
   template <class Real> TALUS_INLINE static void add_pull(ContactLanes<Real> &s)
@@ -280,32 +366,20 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
                                s.surface_rotation + s.rotation_change, s.normal);
   }
 
-  static constexpr double least_force = 1.0e-200, no_force = 2.0e-200;
-
   /// Rounded to what is remembered of it, and above zero.
   template <class Real>
   TALUS_INLINE static Real find_normal_force(const ContactLanes<Real> &s,
                                              const LastStep<Real> &last)
   {
-    const Real one = splat<Real>(1.0), least = splat<Real>(least_force);
+    const Real one = splat<Real>(1.0), least = splat<Real>(remembered_zero);
     const Real by_others = dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force;
     const Real v = s.normal_velocity + by_others;
     const Real force = (s.elastic - s.gn * v) / (one + s.gn * s.lag * s.inverse_mass);
+    if constexpr (adhesive) {
+      const Real some = splat<Real>(1.0e-100);
+      return without_flags(select(magnitude(force) > some, force, some));
+    }
     return without_flags(select(force > least, force, least));
-  }
-
-  /// Where damping has held a force at 0 which is F now, the part of the step since it began to
-  /// grow: before, the spring was at rest.
-  template <class Real>
-  TALUS_INLINE static Real share_since_return(const Row<Real> &c, const ContactLanes<Real> &s,
-                                              Real force, double dt)
-  {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), v = s.normal_velocity;
-    const Real change = 2.0 * dot(s.velocity_change, s.normal) + dt * centrifugal(s, v);
-    const auto touches = s.overlap > zero;
-    const Real of_gn = c.damping * s.gn * v / select(touches, s.overlap, one);
-    const Real growth = dt * v * (of_gn - s.tangent_n) - s.gn * change;
-    return select(growth > force, force / select(growth > zero, growth, one), one);
   }
 
   /// Of friction where the overlap is 0 and the normal force is that of damping, with gn over gt of
@@ -314,40 +388,23 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
   TALUS_INLINE static Real limit_at_begin(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
-    return select((limit > zero) & (c.damping <= c.dashpot), limit, zero) + c.mu * s.pull_off;
+    if constexpr (adhesive)
+      return c.mu * (s.pull_off + select(tears<adhesive>(c), jkr_begin * s.pull_off, zero));
+    return select((limit > zero) & (c.damping <= c.dashpot), limit, zero);
   }
 
-  template <Of which, class Real>
-  static Beginning<Real> errors_of(const Row<Real> &c, Real overlap, const Edge<Real> &edge)
+  /// What friction at a limit that is above 0 at the ends of a contact lacks, because it grows to it
+  /// there: as a spring, `of_spring`, or as a dashpot.
+  template <class Real>
+  static Real grows_to_limit(const Row<Real> &c, const ContactLanes<Real> &s, Real of_spring,
+                             Real limit, const Vector3<Real> &trial, Real theta)
   {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic;
-    const Real ratio = select(edge.is, edge.reach / select(edge.is, overlap, one), one);
-    const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
-    const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
-    const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
-    const auto of = [&](Real q) {
-      return select(edge.is, power(ratio, q) * hurwitz_zeta(q, edge.theta), zero);
-    };
-    Beginning<Real> all{ratio, select(edge.is, power(ratio, p) * elastic, zero), of(c.damping),
-                        zero, zero};
-    all.spring = all.elastic;
-    all.dashpot = all.damping;
-    if constexpr (granular) all.spring = of(c.spring + one);
-    if (any(c.dashpot < c.damping)) all.dashpot = of(c.dashpot);
-    return all;
-  }
-
-  /// push A dt^p times the second term, where `elastic` is the force now.
-  template <Of which, class Real>
-  static Real second_force(const Row<Real> &c, const ContactLanes<Real> &s,
-                           const Beginning<Real> &start, Real elastic, const Edge<Real> &edge,
-                           double dt)
-  {
-    const Real zero = splat<Real>(0.0);
-    const Real most = power(start.ratio, c.elastic) * elastic;
-    const Real push = dt * dt * s.inverse_mass * most / edge.reach;
-    const Real force = push * most * second_term<which>(c.elastic, edge.theta);
-    return select(edge.is, which == Of::BEGIN ? -force : force, zero);
+    const Real zero = splat<Real>(0.0), size = square_root(dot(trial, trial));
+    const auto exceeds = size > limit;
+    const Real of_dashpot = select(tears<adhesive>(c), zero, c.dashpot);
+    const Real p = select(s.kt > zero, of_spring, of_dashpot);
+    const Real share = missing_share(limit, select(exceeds, size, splat<Real>(1.0)), p);
+    return select(exceeds, theta * limit * share, zero);
   }
 
   /// Of contacts that have parted. Those that touch again begin anew.
@@ -359,48 +416,62 @@ template <Friction kind, class Granular = void> struct SecondOrder : FrictionLaw
     const Real v = s.normal_velocity;
     EndOfContact<Real> end;
     end.parted = s.parted > zero;
-    const LastStep<Real> last = last_step(-magnitude(h[3]));
-    auto ends = end.parted & (s.overlap > zero) & (h[3] > zero);
-    if constexpr (advance) ends = end.parted & (s.overlap > zero) & (h[3] < zero);
+    const LastStep<Real> last = last_step<adhesive>(-magnitude(h[3]));
+    const Real left_over = s.overlap + s.reach;    // until it ends
+    auto ends = end.parted & (left_over > zero) & (h[3] > zero);
+    if constexpr (advance) ends = end.parted & (left_over > zero) & (h[3] < zero);
 
-    // limited damping: the force ends before the overlap
-    const auto damped = (s.gn * v > zero) & (c.damping < c.elastic);
-    const Real overlap = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
-    const auto pressed = ends & (last.force > splat<Real>(no_force));
-    const Real left = s.elastic - s.gn * v;
+    Real until = left_over, left = s.elastic;
+    auto pressed = ends;
+    if constexpr (!adhesive) {    // limited damping: the force ends before the overlap
+      const auto damped = (s.gn * v > zero) & (c.damping < c.elastic);
+      until = s.overlap - select(damped, s.gn * v / select(damped, s.kn, one), zero);
+      pressed = ends & (last.force > splat<Real>(no_force));
+      left = s.elastic - s.gn * v;
+    }
     const Real others =
         2.0 * (dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force);
-    const Edge<Real> edge = edge_of<Of::END>(s, overlap, v, others, pressed, dt);
-    const Beginning<Real> error = errors_of<Of::END>(c, overlap, edge);
-    const Real sum = error.elastic * left - second_force<Of::END>(c, s, error, left, edge, dt);
-    end.normal_force = select(edge.is, -sum, zero);
-
+    const Edge<Real> edge = edge_of<Of::END>(s, until, v, others, pressed, dt);
+    const Beginning<Real> error = errors_of<Of::END, granular, adhesive>(c, until, edge, zero);
+    const Real sum =
+        error.elastic * left - second_force<Of::END, adhesive>(c, s, error, left, edge, dt);
+    end.normal_force = end.elastic = select(edge.is, -sum, zero);
+    if constexpr (adhesive) {
+      end.elastic = select(tears<adhesive>(c), zero, end.elastic);
+      end.normal_force = end.elastic + error.damping * s.gn * v;
+    }
     const Real way = select(ends, dt * (v - 0.5 * dt * centrifugal(s, v)), one);
-    end.adhesive_share = select(ends, s.overlap / way - splat<Real>(0.5), zero);
+    end.adhesive_share = select(ends, left_over / way - splat<Real>(0.5), zero);
 
-    const Vector3<Real> d{h[0], h[1], h[2]};
+    const Vector3<Real> d = displacement_of(s.kt, h);
     end.tangential = {zero, zero, zero};
     if constexpr (kind == Friction::TANH)
       end.tangential = Tanh::force({c.mu, c.slip_min}, end.normal_force, surface_velocity(s));
     if constexpr (friction) {
       const Vector3<Real> now = turned_by(half_turn(s, dt), d, s.normal), u = surface_velocity(s);
       const Vector3<Real> within = -(s.kt * now + s.gt * u);
-      Vector3<Real> stuck = end_of_sticking(within, -dt * s.kt * u, c.mu * last.force, edge.theta);
+      Real limit = c.mu * end.normal_force;
       auto slid = last.slid;
-      const auto adheres = s.pull_off > zero;
-      if (any(adheres)) {    // the limit does not end at 0, what vanishes with the overlap sticks
-        slid = slid & ((s.pull_off <= zero) |
-                       ((kind == Friction::DASHPOT ? c.dashpot : c.spring) <= zero));
-        const Real of_spring = power(error.ratio, c.spring) * hurwitz_zeta(c.spring, edge.theta);
-        stuck = select(adheres, of_spring * s.kt * now + error.dashpot * s.gt * u, stuck);
+      if constexpr (adhesive) {    // the limit does not end at 0, what vanishes before it sticks
+        limit = c.mu * (end.elastic + end.adhesive_share * s.pull_off);
+        const auto at_once = tears<adhesive>(c);
+        const Real p = select(at_once, zero, end_exponent<of_force, rescales>(c.spring));
+        const auto by_dashpot = s.kt <= zero;
+        limit = limit - grows_to_limit(c, s, p, c.mu * s.pull_off, within, edge.theta);
+        slid = slid & (by_dashpot | (p <= zero));
+        const Real of_spring = power(error.ratio, p) * hurwitz_zeta(p, edge.theta);
+        const Vector3<Real> stuck = of_spring * s.kt * now + error.dashpot * s.gt * u;
+        end.tangential = select(edge.is, stuck, end.tangential);
+      } else {
+        const Vector3<Real> rate = -dt * s.kt * u;
+        end.tangential = select(
+            edge.is, end_of_sticking(within, rate, c.mu * last.force, edge.theta), end.tangential);
       }
-      const Real limit = end.normal_force + end.adhesive_share * s.pull_off;
-      end.tangential =
-          select(slid, with_length(c.mu * limit, within), select(edge.is, stuck, end.tangential));
+      end.tangential = select(slid, with_length(limit, within), end.tangential);
     }
     for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
     const Real flags = select(last.slid, splat<Real>(2.0), zero);
-    end.history[3] = select(ends, with_flags(last.force, flags), zero);
+    end.history[3] = select(ends, remembered(last.force, flags), zero);
     const auto again = (h[3] > zero) & (s.parted <= zero);
     for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
     return end;

@@ -74,7 +74,7 @@ struct StoppingOrder2 : TwistingLaw {
       store_held(kept, next);
       h[0] = select(s.parted > zero, zero, next[0]);
     } else
-      moment.x = select(magnitude(h[0]) > zero, first_of_pair(h[0]), moment.x);
+      moment.x = select(magnitude(h[0]) > zero, EvenPair::first(h[0]), moment.x);
     s.twisting_torque = s.twisting_torque - select(acts, moment.x, zero) * s.normal;
   }
 };
