@@ -180,10 +180,10 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 
 void CriticalTimeStep::consider_damping(const std::string &who, const ContactLaw &law,
                                         const ContactCoefficients &c, double overlap,
-                                        double mass_eff, double radius_eff, bool at_one_point)
+                                        double mass_eff, double radius_eff)
 {
   undamped.consider(who, law, c, overlap, mass_eff, radius_eff);
-  elastic.consider(who, law, c, overlap, mass_eff, radius_eff, order == 2 && at_one_point);
+  if (order == 1) elastic.consider(who, law, c, overlap, mass_eff, radius_eff);
 }
 
 void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCoefficients &c,
@@ -224,8 +224,7 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
                            {mass[type], own_mass[type]}, radius[type], in_a_corner);
       if (looks_at_damping)
         consider_damping(fmt::format("type {} with {}", type, body->name()), body->law_of(type),
-                         body->coefficients_of(type), overlap[type], mass[type], radius[type],
-                         body->shape().most_contacts() == 1);
+                         body->coefficients_of(type), overlap[type], mass[type], radius[type]);
     }
   }
   return smallest;

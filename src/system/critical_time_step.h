@@ -83,7 +83,7 @@ class CriticalTimeStep : protected Pointers {
   void consider_pair(const Talus::LawBook &laws, int i, int j, double speed);
   void consider_damping(const std::string &who, const Talus::ContactLaw &law,
                         const Talus::ContactCoefficients &c, double overlap, double mass_eff,
-                        double radius_eff, bool at_one_point = true);
+                        double radius_eff);
   double smallest_body_period(int types, int group);
   void consider_stability(const Talus::ContactLaw &law, const Talus::ContactCoefficients &c,
                           double overlap, const Masses &mass_eff, double radius_eff, int contacts);

@@ -27,7 +27,7 @@ void ElasticImpacts::clear()
 
 void ElasticImpacts::consider(const std::string &who, const ContactLaw &law,
                               const ContactCoefficients &c, double overlap, double mass_eff,
-                              double radius_eff, bool made_up_for)
+                              double radius_eff)
 {
   // without a spring, friction of pair granular's laws is a share of the normal damping
   const bool granular = law.tangential().lever_arms;
@@ -39,7 +39,6 @@ void ElasticImpacts::consider(const std::string &who, const ContactLaw &law,
     loses_energy = true;
     return;
   }
-  if (made_up_for) return;
   const double limit = law.normal().exponent == 1.0 ? advised_linear : advised_hertzian;
   if (advised > 0.0 && advised <= limit) return;
   strictest = who;

@@ -10,9 +10,8 @@
 // random, with the root of the number of impacts. Limits are those of `scripts/bench stability`,
 // section "Elastic impacts without friction", where 1e-3 counts. They are fractions of the critical
 // time step, that of Hertzian contacts at an overlap of 1 %; deeper ones, up to 10 %, are allowed
-// for. Integrators of second order make up for the kinks (laws/tangential/end_of_contact.h), but
-// not for the end of a contact with a body that a particle may touch at several points: nothing is
-// said of others.
+// for. Integrators of second order make up for the kinks (laws/tangential/end_of_contact.h): then
+// nothing is said.
 
 #ifndef TALUS_SYSTEM_ELASTIC_IMPACTS_H
 #define TALUS_SYSTEM_ELASTIC_IMPACTS_H
@@ -35,11 +34,10 @@ class ElasticImpacts : protected Pointers {
   void clear();
 
   /// A kind of contact of the scene. `who` names it in the warning; the damping is taken at
-  /// `overlap` (length) with the effective mass and radius. `made_up_for`: its kinks are, so that
-  /// only its losses count.
+  /// `overlap` (length) with the effective mass and radius.
   void consider(const std::string &who, const Talus::ContactLaw &law,
                 const Talus::ContactCoefficients &coefficients, double overlap, double mass_eff,
-                double radius_eff, bool made_up_for);
+                double radius_eff);
 
   /// Prints what there is to say about a time step that is `fraction` of the critical one. Not
   /// collective: on one rank.

@@ -147,6 +147,16 @@ class ContactsThatTear(OrderCase):
         self.write(0.5, -1.3)
         self.assert_second_order("fix b all large/body cylinder 0 0 0 0 1 0 2 INF inside contact LAW", 0.3)
 
+    def test_bodies_with_several_contacts(self):
+        self.write(0.3, 0.52)
+        body_meshes.write_stl(self.path("m.stl"), folded((-3, 0), (0.35, 0), (3, 0)))
+        self.assert_second_order("fix b all large/body mesh m.stl contact LAW", 0.4)
+        body_meshes.write_stl(self.path("m.stl"), folded((-3, 3), (0, 0), (3, 3)))
+        self.write(0.0, 0.73, (0.3, 0.5, -0.5))
+        self.assert_second_order("fix b all large/body mesh m.stl contact LAW", 0.4)
+        self.write(1.45, 0.54, (0.2, 0.5, -0.5))
+        self.assert_second_order("fix b all large/body box 0 0 4 4 40 8 inside contact LAW", 0.4)
+
     def test_prescribed_motion(self):
         self.write(0.3, 0.56)
         self.assert_second_order("fix b all large/body plane 0 0 0 0 0 1 contact LAW move wiggle 0.05 0.02 0.03 0.3", 0.4)

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 ELASTIC = r"WARNING: Pair style gran/penalty: no contact has damping or friction: at this time step, (\S+) of the critical one, " \
@@ -95,13 +96,29 @@ class ElasticImpacts(SceneCase):
                 self.assertLess(error, limit)
 
     def test_order_2_at_bodies_that_are_touched_at_several_points(self):
-        """The ends of contacts with a mesh are not made up for."""
-        floor = "fix floor all large/body {} contact hooke 1e3 0.0"
-        self.impacts(law("linear"), 0.199, more=floor.format("plane -4 0 0 1 0 0"), steps=1, start="half order 2")
-        self.assertIsNone(self.said())
-        inside = floor.format("box 0 100 0 9 300 9 inside")
-        self.impacts(law("linear"), 0.199, more=inside, steps=1, start="half order 2")
-        self.assertEqual(self.said()[1:], ("type 1 with fix large/body floor", "0.03"))
+        """As at a plane."""
+        body_meshes.write_stl(self.path("wall.stl"), body_meshes.grid(lambda i, j: (-4.0, 7.0 * i - 3.1, 7.0 * j - 10.5), 9, 3))
+        for name in LAWS:
+            plane, order_1 = (self.bounces(name, "plane -4 0 0 1 0 0", start) for start in ("half order 2", "half"))
+            for wall in "mesh wall.stl two-sided", "box 0 28 0 8 60 8 inside":
+                error = self.bounces(name, wall, "half order 2")
+                print(f"{name}, {wall}: up to {error:.1e}, order 1: {order_1:.1e}")
+                self.assertIsNone(self.said())
+                self.assertLess(error, 2e-5)
+                self.assertAlmostEqual(error, plane, delta=1e-10)
+            self.assertGreater(order_1, 1e-3)
+
+    def bounces(self, name, wall, start, fraction=0.199, speed=DEEP / 2, count=40):
+        """As impacts(), of single spheres with a wall at x = -4."""
+        dt = fraction * CRITICAL
+        spheres = [Sphere((-4.0 + R + speed * dt * (1 + (n + 0.5) / count), 1.5 * n, 0.1), (-speed, 0, 0), density=1000.0)
+                   for n in range(count)]
+        write_sphere_data(self.path("data"), ((-5, 5), (-3, 1.5 * count + 3), (-3, 3)), spheres)
+        script = SCRIPT.format(pairs=f"pair_coeff * * {law(name)}", dt=dt, steps=math.ceil(9 / fraction), start=start,
+                               more=f"fix wall all large/body {wall} contact {law(name)}")
+        self.log = self.run_lammps(script).log
+        frame, = read_dump(self.path("end"))
+        return max(abs((row[1] / speed)**2 - 1) for row in frame.atoms.values())
 
     def test_what_loses_energy(self):
         friction = "tangential multistep NULL NULL 0.1"

@@ -189,6 +189,35 @@ void BodyBatch::take(std::size_t first, unsigned bits)
   if (filled > ContactBatch::width - width) flush();    // no room for eight more
 }
 
+namespace {
+
+/// Of a sphere, by candidate, place in the frame of the body and radius.
+class EndsOfContacts : public BodyHistory::Ends {
+ public:
+  EndsOfContacts(const BodyTask &task, std::size_t c, const Vector3<double> &x, double r) :
+      task(task), c(c), x(x), r(r)
+  {
+  }
+  bool lasts(const Record &its) const override { return has_just_ended(its.c[3], task.advance); }
+  int look_further(SurfaceContact *found) const override
+  {
+    constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
+    bool may_touch;
+    const NearParts near = task.candidates.parts_near(c, x, (1.0 + further) * r, may_touch);
+    const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
+    for (int k = 0; k < count; k++) found[k].overlap -= further * r;
+    return count;
+  }
+
+ private:
+  const BodyTask &task;
+  std::size_t c;
+  const Vector3<double> &x;
+  double r;
+};
+
+}    // namespace
+
 void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
 {
   prefetch_parts(c, last);
@@ -207,7 +236,9 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
   Vector3<double> before[LargeBodyShape::max_contacts];
   if (task->with_history) {
     slot = task->history.first_slot(c);
-    count = task->history.continue_contacts(c, found, count, before);
+    const EndsOfContacts ends(*task, c, x, r);
+    count = task->history.continue_contacts(c, found, count, before,
+                                            law.tangential().second_order ? &ends : nullptr);
   }
   if (count) view.prefetch_for_contact(i);
   for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k], before[k]);

@@ -127,35 +127,65 @@ void BodyHistory::clear(std::size_t block, unsigned separated)
   }
 }
 
-int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
-                                   Vector3<double> *before)
-{
-  constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
-  Contact old[LargeBodyShape::max_contacts];
-  const int known = counts[candidate];
-  const std::size_t slot = first[candidate];
-  for (int k = 0; k < known; k++) old[k] = contact_at(slot + k);
-  unsigned taken = 0;
-  int left = 0;
-  for (int n = 0; n < count; n++) {
-    Contact now{found[n].normal, Record{}, Record{}};
+/// Contacts of a candidate a step ago.
+struct BodyHistory::Known {
+  Contact contact[LargeBodyShape::max_contacts];
+  int count = 0;
+  unsigned continued = 0;
+
+  /// Of those that do not go on yet, among those of `may`: the one with the nearest normal, or -1.
+  int nearest(const Vector3<double> &normal, unsigned may = ~0U) const
+  {
+    constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
     int best = -1;
     double largest = least_cosine;
-    for (int k = 0; k < known; k++) {
-      const double cosine = dot(old[k].normal, now.normal);
-      if ((taken >> k & 1U) || cosine <= largest) continue;
+    for (int k = 0; k < count; k++) {
+      const double cosine = dot(contact[k].normal, normal);
+      if (!(may & ~continued & 1U << k) || cosine <= largest) continue;
       largest = cosine;
       best = k;
     }
-    if (best >= 0) {
-      taken |= 1U << best;
-      now.history = old[best].history;
-      now.impact = old[best].impact;
+    return best;
+  }
+};
+
+int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
+                                   Vector3<double> *before, const Ends *ends)
+{
+  Known known;
+  known.count = counts[candidate];
+  const std::size_t slot = first[candidate];
+  unsigned last = ~0U;    // those that may be without overlap
+  for (int k = 0; k < known.count; k++) {
+    known.contact[k] = contact_at(slot + k);
+    if (ends && !ends->lasts(known.contact[k].history)) last &= ~(1U << k);
+  }
+  int left = 0;
+  const auto go_on = [&](const SurfaceContact &its, int with) {
+    found[left] = its;
+    if (before) before[left] = with >= 0 ? known.contact[with].normal : Vector3<double>{};
+    Contact now{its.normal, Record{}, Record{}};
+    if (with >= 0) {
+      known.continued |= 1U << with;
+      now.history = known.contact[with].history;
+      now.impact = known.contact[with].impact;
     }
-    if (best < 0 && !(found[n].overlap > 0.0)) continue;
-    found[left] = found[n];
-    if (before) before[left] = best >= 0 ? old[best].normal : Vector3<double>{0.0, 0.0, 0.0};
     put(slot + left++, now);
+  };
+  for (int n = 0; n < count; n++) {
+    const bool touches = found[n].overlap > 0.0;
+    const int best = known.nearest(found[n].normal, touches ? ~0U : last);
+    if (touches || best >= 0) go_on(found[n], best);
+  }
+  const std::size_t end = candidate + 1 < first.size() ? first[candidate + 1] : records.size();
+  const int room = static_cast<int>(end - slot);
+  if (ends && (last & ~known.continued & ((1U << known.count) - 1U))) {
+    SurfaceContact far[LargeBodyShape::max_contacts];
+    const int num_far = ends->look_further(far);
+    for (int n = 0; n < num_far && left < room; n++) {
+      const int best = far[n].overlap > 0.0 ? -1 : known.nearest(far[n].normal, last);
+      if (best >= 0) go_on(far[n], best);
+    }
   }
   counts[candidate] = static_cast<std::uint8_t>(left);
   return left;

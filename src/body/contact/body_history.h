@@ -96,10 +96,22 @@ class BodyHistory {
   /// With several(): the contacts that a candidate has now; slot k of it is that of found[k]. A
   /// contact continues that with the nearest normal, in the frame of the body: from one step to the
   /// next it turns by far less than the angle between two contacts. Contacts without overlap that
-  /// continue none are taken out of `found`; returns how many are left. `before`: nullptr, or
-  /// receives the normals that they had, zero of new ones.
+  /// continue none are taken out of `found`; returns how many are left, and leaves room for
+  /// LargeBodyShape::max_contacts. `before`: nullptr, or receives the normals that they had, zero of
+  /// new ones. `ends`: of laws of second order, whose contacts last for the step in which they end.
+  class Ends {
+   public:
+    /// Whether a contact with this history goes on without overlap.
+    virtual bool lasts(const Record &history) const = 0;
+    /// As LargeBodyShape::find_contacts(), also of what is a little further away, with overlaps below
+    /// zero. Called only where a contact has ended.
+    virtual int look_further(SurfaceContact *found) const = 0;
+
+   protected:
+    ~Ends() = default;
+  };
   int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
-                        Vector3<double> *before = nullptr);
+                        Vector3<double> *before = nullptr, const Ends *ends = nullptr);
 
   /// Without several(), and if asked for: stores the normal of a contact, in the frame of the body,
   /// and returns the one before it, zero of a new one.
@@ -128,6 +140,7 @@ class BodyHistory {
   };
   int count_of_entry(std::size_t entry) const;
   Contact contact_at(std::size_t slot) const;
+  struct Known;
   void put(std::size_t slot, const Contact &contact);
   void resize_slots(std::size_t n);
   void clear(std::size_t block, unsigned separated);
