@@ -40,15 +40,12 @@ void ContactChunk::start_pairs(const ContactScene &scene, const HistoryStore &hi
 void ContactChunk::change_order(int order, const std::function<const ContactLaw &(int, int)> &law)
 {
   const std::int64_t count = history.is_kept() ? pairs.num_pairs() : 0;
-  for (std::int64_t n = 0; n < count; n++) {
-    if (!history.touches(n)) continue;
-    double values[ContactBatch::history_size] = {},
-           *end = std::copy_n(history.record(n).c, 4, values);
-    if (history.with_impacts()) std::copy_n(history.impact(n).c, 4, end);
-    Talus::change_order(law(pairs.first[n], pairs.second[n]), order, values);
-    std::copy_n(values, 4, history.record(n).c);
-    if (history.with_impacts()) std::copy_n(end, 4, history.impact(n).c);
-  }
+  for (std::int64_t n = 0; n < count; n++)
+    if (history.touches(n))
+      change_history(history.record(n), history.with_impacts() ? &history.impact(n) : nullptr,
+                     [&](auto &values) {
+                       Talus::change_order(law(pairs.first[n], pairs.second[n]), order, values);
+                     });
 }
 
 void ContactChunk::forget_contacts()

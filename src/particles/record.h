@@ -20,6 +20,8 @@
 
 #include "base/simd.h"
 
+#include <algorithm>
+
 namespace Talus {
 
 struct alignas(32) Record {
@@ -43,6 +45,18 @@ TALUS_INLINE void stream(Record &record, Vec4 value)
 inline Record mirrored(const Record &history)
 {
   return {{-history.c[0], -history.c[1], -history.c[2], history.c[3]}};
+}
+
+/// change(double (&)[8]): the values of a contact by place, those of the impact record behind those of
+/// the history, or zeros if there is none.
+template <class Change> void change_history(Record &history, Record *impact, const Change &change)
+{
+  double values[8] = {};
+  std::copy_n(history.c, 4, values);
+  if (impact) std::copy_n(impact->c, 4, values + 4);
+  change(values);
+  std::copy_n(values, 4, history.c);
+  if (impact) std::copy_n(values + 4, 4, impact->c);
 }
 
 }    // namespace Talus

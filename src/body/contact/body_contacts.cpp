@@ -32,12 +32,9 @@ void BodyContacts::change_order(int order, const int *type,
     const int i = candidates.atoms()[c];
     for (int k = 0; k < history.count(i); k++) {
       const std::size_t slot = history.first_slot(c) + k;
-      double values[ContactBatch::history_size] = {},
-             *end = std::copy_n(history.record(slot).c, 4, values);
-      if (history.keeps_impacts()) std::copy_n(history.impact(slot).c, 4, end);
-      Talus::change_order(law(type[i]), order, values);
-      std::copy_n(values, 4, history.record(slot).c);
-      if (history.keeps_impacts()) std::copy_n(end, 4, history.impact(slot).c);
+      change_history(history.record(slot),
+                     history.keeps_impacts() ? &history.impact(slot) : nullptr,
+                     [&](auto &values) { Talus::change_order(law(type[i]), order, values); });
     }
   }
 }
