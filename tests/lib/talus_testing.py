@@ -155,15 +155,6 @@ def ranks_of_refusal(n):
     return (1, 2) if n % 3 == 0 or os.environ.get("TALUS_LARGE_TESTS") else (1,)
 
 
-def marked_word(log):
-    """The word of the last input line above the ^^^^ of an error message."""
-    lines = log.splitlines()
-    for above, below in zip(lines, lines[1:]):
-        if re.fullmatch(r" *\^+", below):
-            return above[below.index("^"):][:below.count("^")]
-    return None
-
-
 def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TIMEOUT):
     """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
