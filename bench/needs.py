@@ -17,6 +17,7 @@ TITLE = "What each feature costs"
 QUESTION = """What does a scene save that leaves a feature out, in time, memory and message size, and how wrong is it where the
 feature matters?"""
 
+SHAPE = f"fix shapes all shape/gran type 2 box 1e-3 1e-3 1e-3 density {beds.DENSITY}\n"
 STICKS = f"hertz {beds.KN} {beds.GN} tangential multistep NULL NULL {beds.MU}"
 
 
@@ -41,6 +42,8 @@ def variants(bench):
                                                                                         f"{beds.NU} 1.0 tang"),
                                             True, "sphere", "", "f f f"),
         "multistep, one body instead of five": (STICKS, False, "sphere", "", "f f f"),
+        "multistep, order 2": (STICKS + " slider midpoint limit_damping", True, "sphere", " order 2", "f f f"),
+        "multistep, a shape that no particle has": (STICKS, True, "shape", "", "f f f"),
         "multistep, orientation": (STICKS, True, "hybrid sphere dipole", " orientation yes", "f f f"),
     }
     return {name: v for name, v in found.items() if bench.wants(name)}
@@ -49,10 +52,17 @@ def variants(bench):
 def script(bench, variant, count, steps):
     law, walls, style, words, boundary = variant
     data, _ = beds.bed(bench, count)
-    physics = beds.talus(law, walls=walls).replace("symplectic start", f"symplectic{words} start")
+    physics = physics_of(law, walls, words)
+    if style == "shape":
+        return beds.script(f"{data} extra/atom/types 1", physics + SHAPE, 100, steps, boundary=boundary)
     if style != "sphere":
         return hybrid(data, physics, style, steps)
     return beds.script(data, physics, 100, steps, boundary=boundary)
+
+
+def physics_of(law, walls, words):
+    start = "half" if "order 2" in words else "plain"
+    return beds.talus(law, walls=walls, start=start).replace("symplectic start", f"symplectic{words} start")
 
 
 def hybrid(data, physics, style, steps, boundary="f f f", warm=100):
@@ -96,9 +106,10 @@ def message(bench, variant):
         return 72, "-"
     law, _, style, words, _ = variant
     data = beds.tile_data(bench)[0]
-    physics = beds.talus(law, walls=False).replace("symplectic start", f"symplectic{words} start")
-    physics += "comm_proxy yes\n"
-    if style != "sphere":
+    physics = physics_of(law, False, words) + "comm_proxy yes\n"
+    if style == "shape":
+        text = beds.script(f"{data} extra/atom/types 1", physics + SHAPE, 0, 20, boundary="p p f")
+    elif style != "sphere":
         text = hybrid(data, physics, style, 20, boundary="p p f", warm=0)
     else:
         text = beds.script(data, physics, 0, 20, boundary="p p f")

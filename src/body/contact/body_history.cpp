@@ -178,7 +178,7 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
     if (touches || best >= 0) go_on(found[n], best);
   }
   const std::size_t end = candidate + 1 < first.size() ? first[candidate + 1] : records.size();
-  const int room = static_cast<int>(end - slot);
+  const int room = std::min(static_cast<int>(end - slot), LargeBodyShape::max_contacts);
   if (ends && (last & ~known.continued & ((1U << known.count) - 1U))) {
     SurfaceContact far[LargeBodyShape::max_contacts];
     const int num_far = ends->look_further(far);
