@@ -121,7 +121,7 @@ CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int grou
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
   const auto masses = all.begin() + types + 1, own = masses + types + 1;
   std::for_each(masses, all.end(), [this](double &mass) { mass /= force->ftm2v; });
-  std::transform(masses, own, own, masses,    // nobody knows that of a body yet
+  std::transform(masses, own, own, masses,    // where that of a body is not known yet
                  [](double mass, double its) { return std::isinf(mass) ? its : mass; });
   Sizes its{{all.begin(), masses}, {masses, own}, {own, all.end()}, {}};
   for (std::size_t type = 0; type < its.radius.size(); type++) {
