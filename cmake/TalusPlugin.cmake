@@ -1,84 +1,7 @@
-# The plugin: libraries of what needs no LAMMPS, which tests use as well, and the files that LAMMPS opens.
-# Sets talus_variants, the files that only a portable build has.
+# The plugin: the files that LAMMPS opens. Sets talus_variants, those that only a portable build has.
 
-# Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI and packs the records of
-# particles/; then those of LAMMPS.
-set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
-set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-  body/contact vtk packing shape shaped)
-set(talus_style_folders system pair fix compute dump fill comm run)
-
-function(talus_glob result)
-  set(patterns ${ARGN})
-  list(TRANSFORM patterns PREPEND "${PROJECT_SOURCE_DIR}/src/")
-  list(TRANSFORM patterns APPEND "/*.cpp")
-  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
-  set(${result} "${sources}" PARENT_SCOPE)
-endfunction()
-talus_glob(talus_core_sources ${talus_core_folders})
-talus_glob(talus_exchange_sources exchange)
-talus_glob(talus_style_sources ${talus_style_folders})
-# What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
-# talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
-if(NOT TALUS_HOST_HAS_GRANULAR)
-  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_batch)")
-  foreach(source IN LISTS talus_style_sources)
-    string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
-    set(found "")
-    foreach(file "${source}" "${header}")
-      if(EXISTS "${file}")
-        file(STRINGS "${file}" lines REGEX "${talus_granular}")
-        list(APPEND found ${lines})
-      endif()
-    endforeach()
-    if(found)
-      list(REMOVE_ITEM talus_style_sources "${source}")
-    endif()
-  endforeach()
-endif()
-
-# The same of package RIGID.
-if(NOT TALUS_HOST_HAS_RIGID)
-  list(FILTER talus_style_sources EXCLUDE REGEX "/fix_rigid_small")
-endif()
-
-# GCC (12 at least) makes fused multiply-adds of sums beside differences of products, whatever -ffp-contract says, where
-# it packs statements of a source into vectors. tests/cli/test_fused_arithmetic.py finds such sources.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set_source_files_properties(
-    "${PROJECT_SOURCE_DIR}/src/fix/fix_rigid_small_talus.cpp"
-    "${PROJECT_SOURCE_DIR}/src/shape/face_stiffness.cpp"
-    "${PROJECT_SOURCE_DIR}/src/shape/mass_properties.cpp"
-    "${PROJECT_SOURCE_DIR}/src/shape/mean_overlap.cpp"
-    PROPERTIES COMPILE_OPTIONS -fno-tree-slp-vectorize)
-endif()
-
-# Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
-set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
-
-# talus_add_code(suffix): libraries talus_core and talus_exchange with the flags talus_flags, each name with the suffix.
-function(talus_add_code suffix)
-  # Contact laws, batch kernel and geometry: no LAMMPS include, so that tests need no host.
-  set(core talus_core${suffix})
-  add_library(${core} STATIC ${talus_core_sources})
-  target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen
-    PRIVATE ccd)
-  target_compile_options(${core} PRIVATE ${talus_index_flags})
-
-  # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.
-  set(exchange talus_exchange${suffix})
-  add_library(${exchange} STATIC ${talus_exchange_sources})
-  target_include_directories(${exchange} SYSTEM PUBLIC ${MPI_CXX_INCLUDE_DIRS})
-  target_compile_definitions(${exchange} PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_link_libraries(${exchange} PUBLIC talus_flags${suffix} ${core})
-  target_compile_options(${exchange} PRIVATE ${talus_index_flags})
-
-  foreach(library ${core} ${exchange})
-    set_target_properties(${library} PROPERTIES
-      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    target_include_directories(${library} PUBLIC src)
-  endforeach()
-endfunction()
+include(TalusCore)
+include(TalusStyles)
 
 function(talus_add_module name exported)
   add_library(${name} MODULE ${ARGN})
@@ -109,11 +32,7 @@ endfunction()
 
 # talus_add_styles(module suffix): the styles, on top of the code with that suffix.
 function(talus_add_styles module suffix)
-  add_library(talus_styles${suffix} OBJECT ${talus_style_sources})
-  set_target_properties(talus_styles${suffix} PROPERTIES
-    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_include_directories(talus_styles${suffix} PRIVATE src)
-  target_link_libraries(talus_styles${suffix} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+  talus_add_style_objects("${suffix}")
   talus_add_styles_module(${module} "${suffix}")
 endfunction()
 

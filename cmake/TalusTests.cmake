@@ -3,7 +3,9 @@
 #   # ctest: timeout=600 label=slow,smoke serial procs=4
 # Label hostless: no LAMMPS is run, so that one configuration is enough.
 
-find_package(GTest REQUIRED)
+if(NOT TARGET GTest::gtest)
+  find_package(GTest REQUIRED)
+endif()
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 set(TALUS_TEST_ENVIRONMENT

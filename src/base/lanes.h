@@ -38,52 +38,20 @@ struct EightRows {
 template <class Which> TALUS_INLINE EightRows to_lanes(Which row)
 {
   EightRows to;
-#if defined(__AVX512F__)
   for (int k = 0; k < 4; k++) to.number[k] = join(load4(row(k)), load4(row(k + 4)));
   transpose(to.number[0], to.number[1], to.number[2], to.number[3]);
-#else
-  for (int k = 0; k < lanes; k += 4) {
-    Vec4 rows[4];
-    for (int q = 0; q < 4; q++) rows[q] = load4(row(k + q));
-    transpose(rows[0], rows[1], rows[2], rows[3]);
-    for (int q = 0; q < 4; q++) store(reinterpret_cast<double *>(&to.number[q]) + k, rows[q]);
-  }
-#endif
   return to;
 }
 
 /// The reverse: lane k becomes rows[k].
 template <class Row> TALUS_INLINE void to_rows(EightRows from, Row *rows)
 {
-#if defined(__AVX512F__)
   Vec8 *const v = from.number;
   transpose(v[0], v[1], v[2], v[3]);
   for (int k = 0; k < 4; k++) {
-    store(rows[k], __builtin_shufflevector(v[k], v[k], 0, 1, 2, 3));
-    store(rows[k + 4], __builtin_shufflevector(v[k], v[k], 4, 5, 6, 7));
+    store(rows[k], low_half(v[k]));
+    store(rows[k + 4], high_half(v[k]));
   }
-#else
-  for (int k = 0; k < lanes; k += 4) {
-    Vec4 four[4];
-    for (int q = 0; q < 4; q++)
-      four[q] = load4(reinterpret_cast<const double *>(&from.number[q]) + k);
-    transpose(four[0], four[1], four[2], four[3]);
-    for (int q = 0; q < 4; q++) store(rows[k + q], four[q]);
-  }
-#endif
-}
-
-/// One bit for each lane: set where a < b.
-TALUS_INLINE unsigned bits_of_less(Vec8 a, Vec8 b)
-{
-#if defined(__AVX512F__)
-  return less_bits(a, b);
-#else
-  alignas(64) double of_a[lanes], of_b[lanes];
-  store(of_a, a);
-  store(of_b, b);
-  return less_bits(load4(of_a), load4(of_b)) | less_bits(load4(of_a + 4), load4(of_b + 4)) << 4;
-#endif
 }
 
 /// The lanes of `from` whose bits are set, in a row that begins at `to`; eight places are written

@@ -13,7 +13,7 @@
 namespace Talus {
 namespace {
 
-constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0}, ones{1.0, 1.0, 1.0, 1.0};
+const Vec4 difference_and_sum = four(-1.0, -1.0, -1.0, 1.0), ones = four(1.0, 1.0, 1.0, 1.0);
 using Lane = double[ContactBatch::width];
 
 /// Histories that are called into the cache while others are gathered. They stand nearly in the
@@ -29,7 +29,7 @@ TALUS_INLINE void prefetch_two_lines(const Record *records)
 /// r w and 1/r of a omega record, with the position record of the particle.
 inline Vec4 surface_velocity(Vec4 position, Vec4 omega)
 {
-  return __builtin_shufflevector(position, ones, 3, 3, 3, 4) * omega;
+  return shuffle<3, 3, 3, 4>(position, ones) * omega;
 }
 
 }    // namespace

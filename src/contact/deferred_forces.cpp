@@ -105,7 +105,7 @@ template <bool rotation>
 void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *end,
                              ParticleRecords &particles) const
 {
-  constexpr Vec4 sign_of[2] = {{1.0, 1.0, 1.0, 0.0}, {-1.0, -1.0, -1.0, 0.0}};
+  const Vec4 sign_of[2] = {four(1.0, 1.0, 1.0, 0.0), four(-1.0, -1.0, -1.0, 0.0)};
   constexpr std::size_t its_stride = rotation ? 2 : 1;
   const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
   Record *sums = &particles.load[its_stride * row.slot];
@@ -119,7 +119,8 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
   store(sums[0], force);
   if constexpr (rotation) store(sums[1], moment);
   if (twisting_torque.empty()) return;
-  constexpr Vec4 all_opposite[2] = {{1.0, 1.0, 1.0, 1.0}, {-1.0, -1.0, -1.0, -1.0}};    // with heat
+  const Vec4 all_opposite[2] = {four(1.0, 1.0, 1.0, 1.0),
+                                four(-1.0, -1.0, -1.0, -1.0)};    // with heat
   Vec4 sum = kept_if(!row.has_all, load4(particles.twisting_torque[row.slot]));
   for (const Entry *e = begin; e < end; e++)
     sum = sum + all_opposite[e->of_second] * kept_if(touches(*e), load4(twisting_torque[e->place]));

@@ -6,10 +6,10 @@ namespace Talus {
 namespace {
 
 /// One bit for each of eight pairs, set if the pair touches.
-#if defined(__AVX512F__)
 inline unsigned touching8(const Record *position, const int *first, const int *second)
 {
-  constexpr Vec8 difference_and_sum{-1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
+  const Vec4 one = four(-1.0, -1.0, -1.0, 1.0);
+  const Vec8 difference_and_sum = join(one, one);
   const auto two = [position](const int *slots, int k) {
     return join(load4(position[slots[k]]), load4(position[slots[k + 4]]));
   };
@@ -18,21 +18,6 @@ inline unsigned touching8(const Record *position, const int *first, const int *s
   transpose(s[0], s[1], s[2], s[3]);
   return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
 }
-#else
-inline unsigned touching4(const Record *position, const int *first, const int *second)
-{
-  constexpr Vec4 difference_and_sum{-1.0, -1.0, -1.0, 1.0};
-  Vec4 s[4];
-  for (int k = 0; k < 4; k++)
-    s[k] = load4(position[first[k]]) + difference_and_sum * load4(position[second[k]]);
-  transpose(s[0], s[1], s[2], s[3]);
-  return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
-}
-inline unsigned touching8(const Record *position, const int *first, const int *second)
-{
-  return touching4(position, first, second) | touching4(position, first + 4, second + 4) << 4;
-}
-#endif
 
 unsigned touching_tail(const Record *position, const int *first, const int *second, int count)
 {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 using namespace Talus;
 
@@ -19,24 +18,22 @@ constexpr int ahead = 24;
 /// Four numbers at any address of a message.
 inline Vec4 load_anywhere(const double *address)
 {
-  Vec4 value;
-  std::memcpy(&value, address, sizeof value);
-  return value;
+  return Memory<Vec4>::load_anywhere(address);
 }
 inline void store_anywhere(double *address, Vec4 value)
 {
-  std::memcpy(address, &value, sizeof value);
+  Memory<Vec4>::store_anywhere(address, value);
 }
 
 /// The first three numbers of one vector, the fourth of another.
 inline Vec4 with_fourth_of(Vec4 row, Vec4 other)
 {
-  return __builtin_shufflevector(row, other, 0, 1, 2, 7);
+  return shuffle<0, 1, 2, 7>(row, other);
 }
 /// The last three numbers of one vector, then the fourth of another.
 inline Vec4 last_three_with_fourth_of(Vec4 row, Vec4 other)
 {
-  return __builtin_shufflevector(row, other, 1, 2, 3, 7);
+  return shuffle<1, 2, 3, 7>(row, other);
 }
 
 }    // namespace

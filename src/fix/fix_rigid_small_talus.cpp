@@ -242,7 +242,7 @@ void FixRigidSmallTalus::keep_change(Talus::ChangeRecord &change, const ClumpSph
   const Vector dv = extrapolation * (now.v - old.v),
                dw = atom->radius[s.atom] * (extrapolation * (now.omega - old.omega));
   store(change,
-        Talus::change_of(Talus::Vec4{dv.x, dv.y, dv.z, 0.0}, Talus::Vec4{dw.x, dw.y, dw.z, 0.0}));
+        Talus::change_of(Talus::four(dv.x, dv.y, dv.z, 0.0), Talus::four(dw.x, dw.y, dw.z, 0.0)));
 }
 
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond

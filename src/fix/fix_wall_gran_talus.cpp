@@ -95,7 +95,7 @@ FixWallGranTalus::Gap FixWallGranTalus::gap(const double *x, double radius) cons
 
 double FixWallGranTalus::distance(const double *x) const
 {
-  if (is_cylinder()) return std::abs(radius_of_cylinder() - std::hypot(x[0], x[1]));
+  if (is_cylinder()) return std::abs(radius_of_cylinder() - std::sqrt(x[0] * x[0] + x[1] * x[1]));
   return std::min(std::abs(x[wallstyle] - now[0]), std::abs(now[1] - x[wallstyle]));
 }
 

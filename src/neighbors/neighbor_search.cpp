@@ -20,39 +20,8 @@ constexpr int width = 16;
 /// short cells there leave out more, and thick ones across make few pieces that fill vectors.
 constexpr double cells_per_place[3] = {2.0, 0.5, 0.5};
 constexpr std::size_t usual = 16;    // neighbors in the row of a sphere, or less
-typedef float Floats __attribute__((vector_size(64)));
-typedef float FloatsOverlay __attribute__((vector_size(64), aligned(4), may_alias));
-typedef std::int32_t Ints __attribute__((vector_size(64)));
-typedef std::int32_t IntsOverlay __attribute__((vector_size(64), aligned(4), may_alias));
-
-inline Floats load(const float *address)
-{
-  return *reinterpret_cast<const FloatsOverlay *>(address);
-}
-
-inline Ints load(const std::int32_t *address)
-{
-  return *reinterpret_cast<const IntsOverlay *>(address);
-}
-
-/// Appends the values where the mask is set; writes up to `width` places, returns how many count.
-/// No branch, which processors could not predict.
-inline int append(Ints mask, Ints values, std::int32_t *to)
-{
-#if defined(__AVX512F__)
-  const __mmask16 bits = _mm512_cmplt_epi32_mask((__m512i) mask, _mm512_setzero_si512());
-  // compressed in a register: to compress into memory takes some processors a hundred cycles
-  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(bits, (__m512i) values));
-  return __builtin_popcount(bits);
-#else
-  int count = 0;
-  for (int k = 0; k < width; k++) {
-    to[count] = values[k];
-    count -= mask[k];
-  }
-  return count;
-#endif
-}
+using Floats = VectorOf<float, width>;
+using Ints = VectorOf<std::int32_t, width>;
 
 }    // namespace
 
@@ -288,20 +257,22 @@ void NeighborSearch::find_row(const Spheres &s, int a, Chunk &found) const
 TALUS_INLINE void NeighborSearch::compare(const float *own, int a, int below, std::int64_t begin,
                                           std::int64_t end, Chunk &found) const
 {
-  constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const auto floats = [](const float *at) { return Memory<Floats>::load_anywhere(at); };
+  const Ints lane = counting<Ints>();
   const float wide = own[3] + skin + slack;
   const Ints by_index = Ints{} - static_cast<std::int32_t>(grid.alike > 0.0F);
   for (std::int64_t k = begin; k < end; k += width) {
-    const Floats dx = load(&x[k]) - own[0], dy = load(&y[k]) - own[1], dz = load(&z[k]) - own[2];
-    const Floats its = load(&radius[k]), reach = its + wide;
-    const Ints other = load(&index[k]);
+    const Floats dx = floats(&x[k]) - own[0], dy = floats(&y[k]) - own[1],
+                 dz = floats(&z[k]) - own[2];
+    const Floats its = floats(&radius[k]), reach = its + wide;
+    const Ints other = Memory<Ints>::load_anywhere(&index[k]);
     const Ints chosen = (~by_index & (its < own[3])) | ((by_index | (its == own[3])) & (other < a));
     const Ints near = dx * dx + dy * dy + dz * dz < reach * reach;
     const Ints inside = lane < static_cast<std::int32_t>(std::min<std::int64_t>(end - k, width));
     if (found.entries.size() < found.count + width)
       found.entries.resize(2 * found.entries.size() + 1024);
-    found.count +=
-        append(near & chosen & inside & (other < below), other, found.entries.data() + found.count);
+    const unsigned bits = bits_of(near & chosen & inside & (other < below));
+    found.count += store_chosen(found.entries.data() + found.count, bits, other);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "neighbors/pair_rows.h"
 
 #include "base/in_parallel.h"
+#include "base/simd.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +15,7 @@ namespace {
 
 /// Most rows are not longer.
 constexpr int usual = 16;
-typedef std::int32_t Ints __attribute__((vector_size(4 * usual)));
+using Ints = VectorOf<std::int32_t, usual>;
 
 /* Every number goes where it belongs: as far as there are smaller ones, or equal ones before it.
    No branch, since it would be mispredicted. */
@@ -22,11 +23,11 @@ typedef std::int32_t Ints __attribute__((vector_size(4 * usual)));
 inline void sort_usual(const std::int32_t *numbers, int count, int *sorted)
 {
   alignas(64) std::int32_t rank[usual];
-  const Ints all = *reinterpret_cast<const Ints *>(numbers);
-  constexpr Ints lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const Ints all = Memory<Ints>::load(numbers), lane = counting<Ints>();
   Ints before{};
-  for (int k = 0; k < count; k++) before -= (all > numbers[k]) | ((all == numbers[k]) & (lane > k));
-  *reinterpret_cast<Ints *>(rank) = before;
+  for (int k = 0; k < count; k++)
+    before = before - ((all > numbers[k]) | ((all == numbers[k]) & (lane > k)));
+  store(rank, before);
   for (int k = 0; k < count; k++) sorted[rank[k]] = numbers[k];
 }
 

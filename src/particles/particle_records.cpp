@@ -11,7 +11,7 @@ namespace {
 /// Three doubles of a row and a fourth number.
 inline Vec4 record_of(const double *row, double fourth)
 {
-  return Vec4{row[0], row[1], row[2], fourth};
+  return four(row[0], row[1], row[2], fourth);
 }
 
 inline void add_to_row(double *row, Vec4 value)

@@ -154,7 +154,7 @@ class ParticleRecords {
   /// in a step: also of proxies, to which it happens what has happened to their owners.
   TALUS_INLINE void keep_change(std::size_t slot, Vec4 v_old, Vec4 v, Vec4 w_old, Vec4 w)
   {
-    const Vec4 x = load4(position[slot]), radius = __builtin_shufflevector(x, x, 3, 3, 3, 3);
+    const Vec4 x = load4(position[slot]), radius = shuffle<3, 3, 3, 3>(x, x);
     store(change[slot],
           change_of(extrapolation * (v - v_old), radius * (extrapolation * (w - w_old))));
   }

@@ -16,12 +16,12 @@ namespace {
 /// The number in the fourth place of a record, four times.
 inline Vec4 fourth_of(Vec4 record)
 {
-  return __builtin_shufflevector(record, record, 3, 3, 3, 3);
+  return shuffle<3, 3, 3, 3>(record, record);
 }
 
 inline Vec4 clear_fourth(Vec4 record)
 {
-  return __builtin_shufflevector(record, Vec4{}, 0, 1, 2, 4);
+  return shuffle<0, 1, 2, 4>(record, Vec4{});
 }
 
 /// The squared length of a row of three, in all places. The fourth must be 0. The sum is that of
@@ -29,13 +29,8 @@ inline Vec4 clear_fourth(Vec4 record)
 inline Vec4 square(Vec4 row)
 {
   const Vec4 squares = row * row;
-  const Vec4 halves = squares + __builtin_shufflevector(squares, squares, 1, 0, 3, 2);
-  return halves + __builtin_shufflevector(halves, halves, 2, 3, 0, 1);
-}
-
-inline Vec4 larger(Vec4 a, Vec4 b)
-{
-  return a > b ? a : b;
+  const Vec4 halves = squares + shuffle<1, 0, 3, 2>(squares, squares);
+  return halves + shuffle<2, 3, 0, 1>(halves, halves);
 }
 
 }    // namespace
@@ -63,8 +58,8 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
 
 struct ParticleRecords::Kick {
   explicit Kick(const RecordStep &step) :
-      kick{step.kick, step.kick, step.kick, 0.0}, dt{step.dt, step.dt, step.dt, 0.0},
-      fall{step.fall[0], step.fall[1], step.fall[2], 0.0}, inverse_c(1.0 / step.inertia),
+      kick(four(step.kick, step.kick, step.kick, 0.0)), dt(four(step.dt, step.dt, step.dt, 0.0)),
+      fall(four(step.fall[0], step.fall[1], step.fall[2], 0.0)), inverse_c(1.0 / step.inertia),
       twice(step.two_kicks)
   {
   }

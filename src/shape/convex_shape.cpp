@@ -111,7 +111,7 @@ ConvexShape::ConvexShape(const ConvexCore &given, double radius) :
   const MassProperties body = mass_properties(polyhedron_, radius);
   volume_ = body.volume;
   moments = body.inertia().diagonal();
-  sphere_radius = std::cbrt(0.75 * volume_ / 3.14159265358979323846);
+  sphere_radius = cube_root(0.75 * volume_ / 3.14159265358979323846);
 }
 
 ConvexShape ConvexShape::box(const Vector3<double> &edges, double radius)

@@ -43,8 +43,9 @@ class RandomBodies : public RandomSource {
   Eigen::Quaterniond orientation()
   {
     for (;;) {
-      const Eigen::Quaterniond q(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0),
-                                 uniform(-1.0, 1.0));
+      double part[4];    // one after the other: the order of arguments is the compiler's
+      for (int k = 3; k >= 0; k--) part[k] = uniform(-1.0, 1.0);
+      const Eigen::Quaterniond q(part[0], part[1], part[2], part[3]);
       if (q.norm() > 0.1 && q.norm() < 1.0) return q.normalized();
     }
   }

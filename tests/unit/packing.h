@@ -7,6 +7,7 @@
 #ifndef TALUS_TEST_PACKING_H
 #define TALUS_TEST_PACKING_H
 
+#include "base/cube_root.h"
 #include "material/law_table.h"
 #include "particles/canonical_key.h"
 #include "random_contact.h"
@@ -47,7 +48,7 @@ struct Packing {
 inline Packing random_packing(int n, RandomSource &random)
 {
   Packing p;
-  const double half = 0.5 * std::cbrt(2.9 * n);
+  const double half = 0.5 * Talus::cube_root(2.9 * n);
   for (int i = 0; i < n; i++) {
     p.x.push_back(random.in_cube(half));
     p.v.push_back(random.in_cube(1.0));

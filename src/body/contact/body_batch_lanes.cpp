@@ -37,7 +37,7 @@ inline Vector3<Vec8> vector_of(const EightRows &rows)
 /// A force record whose particle has a settled torque, see ParticleRecords::settle_torque().
 inline Vec4 settled(Vec4 force)
 {
-  return __builtin_shufflevector(force, Vec4{1.0, 1.0, 1.0, 1.0}, 0, 1, 2, 4);
+  return shuffle<0, 1, 2, 4>(force, four(1.0, 1.0, 1.0, 1.0));
 }
 
 inline double sum_of(Vec8 lane)

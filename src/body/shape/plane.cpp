@@ -60,7 +60,7 @@ unsigned Plane::touches_eight(const EightSpheres &spheres, int count, EightConta
   store(contacts.normal[1], outward.y);
   store(contacts.normal[2], outward.z);
   store(contacts.overlap, radius - select(flip, -height, height));
-  return bits_of_less(away, radius) & ((1U << count) - 1U);
+  return less_bits(away, radius) & ((1U << count) - 1U);
 }
 
 double Plane::distance_bound(const Vector3<double> &center) const

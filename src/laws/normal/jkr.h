@@ -26,7 +26,7 @@ struct Jkr : AdhesiveLaw {
   static double reach(const Row<double> &c, double effective_radius)
   {
     const double ratio = c.gamma / c.young;
-    return std::cbrt(3.0 * pi * pi / 16.0 * effective_radius * ratio * ratio);
+    return cube_root(3.0 * pi * pi / 16.0 * effective_radius * ratio * ratio);
   }
 
   /// The work of F_e from overlap zero on, where a^3 = 4 pi gamma R^2/E. What is left of it when
@@ -34,7 +34,7 @@ struct Jkr : AdhesiveLaw {
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)
   {
-    const double begin = std::cbrt(4.0 * pi * c.gamma * s.radius * s.radius / c.young);
+    const double begin = cube_root(4.0 * pi * c.gamma * s.radius * s.radius / c.young);
     return work_from_zero(c, s.contact_radius, s.radius) - work_from_zero(c, begin, s.radius);
   }
 

@@ -78,6 +78,20 @@ template <> struct SpringOf<void> {
   static constexpr bool scaled = false, of_force = false, rescales = false;
 };
 
+/// What the law is called, without and with a force of adhesion. At namespace scope: inside of its
+/// class a constant cannot be used for another one with every compiler.
+inline constexpr const char *second_order_names[][2] = {
+    {"none order 2", "none order 2 adhesive"},
+    {"multistep order 2", "multistep order 2 adhesive"},
+    {"dashpot order 2", "dashpot order 2 adhesive"},
+    {"tanh order 2", nullptr},
+    {"linear_history order 2", "linear_history order 2 adhesive"},
+    {"linear_nohistory order 2", "linear_nohistory order 2 adhesive"},
+    {"mindlin order 2", "mindlin order 2 adhesive"},
+    {"mindlin/force order 2", "mindlin/force order 2 adhesive"},
+    {"mindlin_rescale order 2", "mindlin_rescale order 2 adhesive"},
+    {"mindlin_rescale/force order 2", "mindlin_rescale/force order 2 adhesive"}};
+
 /// `Granular`: the law of LAMMPS' pair granular that it is, with its kt, xt and lever arms.
 template <Friction kind, class Granular = void, Pull its_pull = Pull::NO>
 struct SecondOrder : FrictionLaw {
@@ -88,20 +102,9 @@ struct SecondOrder : FrictionLaw {
   static constexpr bool rescales = SpringOf<Granular>::rescales;
   static constexpr bool follows_radius = of_force || rescales;
   static constexpr bool adhesive = its_pull == Pull::YES;
-  static constexpr const char *names[][2] = {
-      {"none order 2", "none order 2 adhesive"},
-      {"multistep order 2", "multistep order 2 adhesive"},
-      {"dashpot order 2", "dashpot order 2 adhesive"},
-      {"tanh order 2", nullptr},
-      {"linear_history order 2", "linear_history order 2 adhesive"},
-      {"linear_nohistory order 2", "linear_nohistory order 2 adhesive"},
-      {"mindlin order 2", "mindlin order 2 adhesive"},
-      {"mindlin/force order 2", "mindlin/force order 2 adhesive"},
-      {"mindlin_rescale order 2", "mindlin_rescale order 2 adhesive"},
-      {"mindlin_rescale/force order 2", "mindlin_rescale/force order 2 adhesive"}};
   static constexpr int of_spring = 5 + (of_force ? 1 : 0) + (rescales ? 2 : 0);
   static constexpr int which = static_cast<int>(kind) + (scaled ? of_spring : granular ? 3 : 0);
-  static constexpr const char *name = names[which][adhesive ? 1 : 0];
+  static constexpr const char *name = second_order_names[which][adhesive ? 1 : 0];
   static constexpr const char *label = [] {
     if constexpr (granular) return Granular::label;
     constexpr const char *labels[] = {nullptr, "multistep slider midpoint", "dashpot", Tanh::label};

@@ -1,0 +1,36 @@
+# The styles: what needs LAMMPS.
+
+talus_glob(talus_style_sources system pair fix compute dump fill comm run)
+
+# What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
+# talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
+if(NOT TALUS_HOST_HAS_GRANULAR)
+  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_batch)")
+  foreach(source IN LISTS talus_style_sources)
+    string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
+    set(found "")
+    foreach(file "${source}" "${header}")
+      if(EXISTS "${file}")
+        file(STRINGS "${file}" lines REGEX "${talus_granular}")
+        list(APPEND found ${lines})
+      endif()
+    endforeach()
+    if(found)
+      list(REMOVE_ITEM talus_style_sources "${source}")
+    endif()
+  endforeach()
+endif()
+
+# The same of package RIGID.
+if(NOT TALUS_HOST_HAS_RIGID)
+  list(FILTER talus_style_sources EXCLUDE REGEX "/fix_rigid_small")
+endif()
+
+# talus_add_style_objects(suffix): the objects of the styles, talus_styles${suffix}, on top of the code with that suffix.
+function(talus_add_style_objects suffix)
+  add_library(talus_styles${suffix} OBJECT ${talus_style_sources})
+  set_target_properties(talus_styles${suffix} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_include_directories(talus_styles${suffix} PRIVATE src)
+  target_link_libraries(talus_styles${suffix} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
+endfunction()
