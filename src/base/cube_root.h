@@ -21,7 +21,7 @@ struct ExactProduct {
     low = ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2;
   }
 
-private:
+ private:
   /// The upper 26 bits.
   static double upper_half(double a)
   {
@@ -36,8 +36,8 @@ inline double cube_root(double a)
 {
   if (a == 0.0 || !std::isfinite(a)) return a;
   int exponent;
-  const double fraction = std::frexp(std::abs(a), &exponent);    // 0.5 to 1
-  const int third = (exponent + 3 * 400) / 3 - 400;              // rounded down
+  const double fraction = std::frexp(std::abs(a), &exponent);          // 0.5 to 1
+  const int third = (exponent + 3 * 400) / 3 - 400;                    // rounded down
   const double scaled = std::ldexp(fraction, exponent - 3 * third);    // 0.5 to 4
   double root = 0.71 + 0.23 * scaled;
   for (int k = 0; k < 3; k++) {

@@ -194,8 +194,8 @@ TALUS_INLINE int store_chosen(number_of<Vector> *to, unsigned bits, Vector value
   if constexpr (sizeof(Vector) == 32) {
     typedef VectorOf<number_of<Vector>, 4> Half;
     const int low = store_chosen(to, bits, (Half) _mm256_castsi256_si128((__m256i) values));
-    return low + store_chosen(to + low, bits >> 4,
-                              (Half) _mm256_extracti128_si256((__m256i) values, 1));
+    return low +
+           store_chosen(to + low, bits >> 4, (Half) _mm256_extracti128_si256((__m256i) values, 1));
   }
 #endif
 #if defined(__SSSE3__)

@@ -52,13 +52,12 @@ template <class Number, int width, bool fits> struct VectorType {
   typedef Number type __attribute__((vector_size(width * sizeof(Number))));
 };
 template <class Number, int width> struct VectorType<Number, width, false> {
-  using type = Twice<typename VectorType<Number, width / 2,
-                                         width / 2 * sizeof(Number) <= register_size>::type>;
+  using type = Twice<
+      typename VectorType<Number, width / 2, width / 2 * sizeof(Number) <= register_size>::type>;
 };
 /// `width` numbers; width is a power of 2 and the vector has 16 bytes at least.
 template <class Number, int width>
-using VectorOf =
-    typename VectorType<Number, width, width * sizeof(Number) <= register_size>::type;
+using VectorOf = typename VectorType<Number, width, width * sizeof(Number) <= register_size>::type;
 
 using Vec2 = VectorOf<double, 2>;
 using Vec4 = VectorOf<double, 4>;
