@@ -65,3 +65,8 @@ if("thread" IN_LIST TALUS_SANITIZE)
     work_partition_test)
 endif()
 add_subdirectory(tests/unit)
+if(NOT TALUS_SANITIZE)
+  talus_add_python_test(cli/test_fused_arithmetic)
+  set_property(TEST cli/test_fused_arithmetic APPEND PROPERTY ENVIRONMENT
+    "TALUS_CODE=${PROJECT_BINARY_DIR}/**/*talus_*.dir/**/*.o" "TALUS_OBJDUMP=${CMAKE_OBJDUMP}")
+endif()

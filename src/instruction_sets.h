@@ -19,6 +19,7 @@ inline constexpr int num_instruction_sets = 3;
 /// Index of the fastest set of this processor and its operating system.
 inline int fastest_instruction_set()
 {
+#if defined(__x86_64__)
   // Processors with these have what else the compiler may use at -march=x86-64-v3 and -v4.
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
@@ -26,6 +27,9 @@ inline int fastest_instruction_set()
                       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512vl");
   return avx2 && avx512 ? 2 : avx2 ? 1 : 0;
+#else
+  return 0;
+#endif
 }
 
 /// Index of a set by its word; -1 if there is no such set.

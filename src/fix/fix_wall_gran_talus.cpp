@@ -15,7 +15,6 @@ using namespace LAMMPS_NS;
 using namespace Talus;
 
 namespace {
-constexpr double far_away = 1.0e20;    // what LAMMPS sets for a plane that is not there
 constexpr int worth_a_thread = 100;    // candidates
 }    // namespace
 
@@ -180,6 +179,7 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
 int FixWallGranTalus::image(int *&objects, double **&parameters)
 {
   if (reason_for_stock().empty()) {
+    constexpr double far_away = 1.0e20;    // what LAMMPS sets for a plane that is not there
     int row = 0;
     place();
     for (const int side : {0, 1})

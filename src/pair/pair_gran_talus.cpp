@@ -18,7 +18,7 @@ struct StockLaw {
   const char *style, *normal, *damping, *tangential;
 };
 
-template <class Stock> constexpr StockLaw law_of;
+template <class Stock> constexpr StockLaw law_of{};
 template <>
 constexpr StockLaw law_of<PairGranHooke> = {"gran/hooke", "hooke", "mass_velocity", "dashpot"};
 template <>
