@@ -11,3 +11,5 @@
 . "$TALUS_LIB/host.sh"
 # shellcheck source=plugin.sh
 . "$TALUS_LIB/plugin.sh"
+# shellcheck source=compilers.sh
+. "$TALUS_LIB/compilers.sh"
