@@ -83,8 +83,9 @@ target_compile_options(talus_common_flags INTERFACE -Wall -Wextra)
 # branch, and on loops that it does not make vectors of where OpenMP allows it to.
 talus_add_known_flags(talus_common_flags -Wno-psabi -Wno-ignored-attributes -Wno-bitwise-instead-of-logical -Wno-pass-failed)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # False alarm in the compiler's own AVX-512 headers once they are inlined (GCC bug 105593).
-  target_compile_options(talus_common_flags INTERFACE -Wno-maybe-uninitialized)
+  # False alarms: in the compiler's own AVX-512 headers once they are inlined (GCC bug 105593), and about addresses of
+  # constants that are copied out of an object before it ends.
+  talus_add_known_flags(talus_common_flags -Wno-maybe-uninitialized -Wno-dangling-pointer)
 endif()
 if(TALUS_WERROR)
   target_compile_options(talus_common_flags INTERFACE -Werror)

@@ -356,6 +356,13 @@ template <class Half> TALUS_INLINE unsigned bits_of(Twice<Half> mask)
   return bits_of(mask.low) | bits_of(mask.high) << width_of<Half>;
 }
 
+#if defined(__aarch64__)
+TALUS_INLINE unsigned bits_of(Twice<bool_of<Vec2>> mask)
+{
+  return bits_of((bool_of<Float4>) vuzp1q_u32((uint32x4_t) mask.low, (uint32x4_t) mask.high));
+}
+#endif
+
 /// One bit for each number: set where a < b.
 template <class Vector> TALUS_INLINE unsigned less_bits(Vector a, Vector b)
 {
