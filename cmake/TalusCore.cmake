@@ -27,6 +27,7 @@ function(talus_add_code suffix)
   target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen
     PRIVATE $<TARGET_NAME_IF_EXISTS:ccd>)
   target_compile_options(${core} PRIVATE ${talus_index_flags})
+  target_compile_definitions(${core} PRIVATE TALUS_HAS_CCD=$<TARGET_EXISTS:ccd>)
 
   # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.
   set(exchange talus_exchange${suffix})

@@ -6,10 +6,13 @@ TALUS_PACKAGES=(
   g++ cmake ninja-build binutils                          # compiler and build
   libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev        # what the host is built with
   libeigen3-dev libccd-dev                                # geometry of large bodies and of particles
-  libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev  # tests and benchmarks
-  python3                                                 # tests and progress display
+  python3                                                 # progress display
   dpkg-dev debian-archive-keyring xz-utils ca-certificates  # source of the host
 )
+
+# What tests need besides, and benchmarks.
+TALUS_TEST_PACKAGES=(libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev)
+TALUS_BENCHMARK_PACKAGES=(libbenchmark-dev)
 
 # What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.
 TALUS_THREAD_SANITIZER_PACKAGES=(clang libclang-rt-dev libomp-dev)
@@ -63,10 +66,12 @@ ensure_packages() {
   [[ -z ${TALUS_SKIP_PACKAGES:-} ]] || return 0
   if ! have dpkg-query; then
     have cmake && have ninja && have python3 ||
-      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, libccd, GoogleTest, libpng and Python 3 by hand"
+      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, libpng and Python 3 by hand (doc/install.md)"
     return 0
   fi
   local missing
+  if [[ -n ${TALUS_TESTS:-} ]]; then set -- "$@" "${TALUS_TEST_PACKAGES[@]}"; fi
+  if [[ -n ${TALUS_BENCHMARKS:-} ]]; then set -- "$@" "${TALUS_BENCHMARK_PACKAGES[@]}"; fi
   mapfile -t missing < <(missing_packages "${TALUS_PACKAGES[@]}" "$@")
   ((${#missing[@]})) || return 0
   have apt-get || die "missing Debian packages: ${missing[*]}; there is no apt-get here, so install them by hand"

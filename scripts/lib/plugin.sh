@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # The build of Talus itself, against the host that prepare_host has made ready.
 
-# What to build, as targets of CMake: everything, unless a script needs less.
+# What to build, as targets of CMake: the plugin, unless a script needs something else.
 read -ra TALUS_TARGETS <<<"${TALUS_TARGETS:-}"
 
 # show_build TITLE DIR LOG [TARGET...]: run Ninja with a display of its progress; the log keeps
@@ -26,13 +26,17 @@ explain_configure() {
 }
 
 configure_talus() {
-  local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF
+  local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF tests=OFF benchmarks=OFF more
+  read -ra more <<<"${TALUS_CMAKE_OPTIONS:-}"
+  if [[ -n ${TALUS_TESTS:-} ]]; then tests=ON; fi
+  if [[ -n ${TALUS_TESTS:-}${TALUS_BENCHMARKS:-} ]]; then benchmarks=ON; fi
   if [[ $kind == sanitize ]]; then sanitizers='address;undefined'; fi
   if [[ $kind == portable ]]; then portable=ON; fi
   mkdir -p "$dir"
   cmake -S "$TALUS_ROOT" -B "$dir" -G Ninja \
     -D "LAMMPS_BINARY_DIR=$HOST_BINARY" -D "LAMMPS_SOURCE_DIR=$HOST_SOURCE" \
     -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitizers" \
+    -D "TALUS_TESTS=$tests" -D "TALUS_WERROR=$tests" -D "TALUS_BENCHMARKS=$benchmarks" "${more[@]}" \
     -D "TALUS_PORTABLE=$portable" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
     -D "CMAKE_CXX_COMPILER=$(host_compiler)" >"$dir/configure.log" 2>&1 ||
     explain_configure "$dir/configure.log"

@@ -35,7 +35,7 @@ ComputeDissipationGranAtom::ComputeDissipationGranAtom(LAMMPS *lmp, int narg, ch
 ComputeDissipationGranAtom::~ComputeDissipationGranAtom()
 {
   system->drop_observer(this);
-  if (modify->nfix && modify->get_fix_by_id(store_id)) modify->delete_fix(store_id);
+  if (modify->get_fix_by_id(store_id)) modify->delete_fix(store_id);
   memory->destroy(array_atom);
 }
 

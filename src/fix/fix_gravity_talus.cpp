@@ -61,13 +61,13 @@ std::string FixGravityTalus::reason_of_variables() const
 
 std::string FixGravityTalus::reason_of_fixes_before() const
 {
-  for (int n = 0; modify->fix[n] != this; n++) {
-    const Fix *fix = modify->fix[n];
+  for (Fix *fix : modify->get_fix_list()) {
+    if (fix == this) break;
     if (utils::strmatch(fix->style, "^freeze")) {
       if (some_frozen_move(fix->groupbit))
         return std::string("fix ") + fix->id +
                " (freeze) comes before it, so that frozen particles fall: put it behind";
-    } else if ((modify->fmask[n] & FixConst::POST_FORCE) &&
+    } else if ((modify->get_fix_mask(fix) & FixConst::POST_FORCE) &&
                !dynamic_cast<const Talus::SystemFix *>(fix)) {
       return std::string("fix ") + fix->id + " (" + fix->style + ") acts on forces before it";
     }

@@ -3,7 +3,7 @@
 #include "fix_rigid_small_symplectic.h"
 
 #include "system/command_words.h"
-#include "system/private_member.h"
+#include "system/private_members.h"
 
 #include "atom.h"
 #include "error.h"
@@ -18,14 +18,6 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using ClumpState = Talus::ClumpState<double>;
 using Talus::Words;
-
-namespace Talus {
-struct DisabledGravity {
-  using Type = int FixGravity::*;
-  friend Type pointer_to(DisabledGravity);
-};
-template struct PrivateMember<DisabledGravity, &FixGravity::disable>;
-}    // namespace Talus
 
 namespace {
 constexpr const char *command = "fix rigid/small/symplectic";
@@ -122,7 +114,7 @@ void FixRigidSmallSymplectic::check_fix(const Fix *fix) const
   else if (utils::strmatch(fix->style, "^freeze"))
     problem = "freezes them, but they move: give it another group";
   else if (const auto *field = dynamic_cast<const FixGravity *>(fix))
-    if (gravity.given() && !(field->*pointer_to(Talus::DisabledGravity{})))
+    if (gravity.given() && !Talus::is_disabled(*field))
       problem = "lets them fall a second time: leave the word gravity out, or use 'disable' there";
   if (problem.empty()) return;
   const bigint n = count_common(fix);

@@ -22,12 +22,21 @@ ShapeTable ParticleShapes::parse()
     if (words.choice("keyword", {"type", "contacts"}) == 0)
       parse_type(table);
     else
-      table.set_method(words.choice("way to find contacts", {"features", "mpr"}) == 0
-                           ? NarrowPhase::FEATURES
-                           : NarrowPhase::MPR);
+      table.set_method(parse_method());
   }
   if (table.is_empty()) words.fail(1, "no shape is given: add 'type N box a b c density rho'");
   return table;
+}
+
+NarrowPhase ParticleShapes::parse_method()
+{
+  words.about("contacts");
+  if (words.choice("way to find contacts", {"features", "mpr"}) == 0) return NarrowPhase::FEATURES;
+  if (!has_mpr())
+    words.fail(1,
+               "this Talus was built without libccd, which mpr needs: use 'contacts features', or "
+               "install libccd (Debian: libccd-dev) and build Talus again");
+  return NarrowPhase::MPR;
 }
 
 void ParticleShapes::parse_type(ShapeTable &table)

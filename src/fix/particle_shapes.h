@@ -37,6 +37,7 @@ class ParticleShapes : protected Pointers {
     std::vector<Talus::Vector3<double>> vertices;
     double scale = 1.0, radius = 0.0;
   } given;
+  Talus::NarrowPhase parse_method();
   void parse_kind();
 };
 

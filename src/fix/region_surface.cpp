@@ -3,7 +3,7 @@
 #include "fix/region_surface.h"
 
 #include "system/lammps_compat.h"
-#include "system/private_member.h"
+#include "system/private_members.h"
 #include "system/time_formula.h"
 
 #include "input.h"
@@ -18,42 +18,6 @@
 using namespace LAMMPS_NS;
 
 namespace Talus {
-
-struct RegionMoveX {
-  using Type = char *Region::*;
-  friend Type pointer_to(RegionMoveX);
-};
-struct RegionMoveY {
-  using Type = char *Region::*;
-  friend Type pointer_to(RegionMoveY);
-};
-struct RegionMoveZ {
-  using Type = char *Region::*;
-  friend Type pointer_to(RegionMoveZ);
-};
-struct RegionAngle {
-  using Type = char *Region::*;
-  friend Type pointer_to(RegionAngle);
-};
-struct RegionTransform {
-  using Type = void (Region::*)(double &, double &, double &);
-  friend Type pointer_to(RegionTransform);
-};
-struct RegionPoint {
-  using Type = double (Region::*)[3];
-  friend Type pointer_to(RegionPoint);
-};
-struct RegionAxis {
-  using Type = double (Region::*)[3];
-  friend Type pointer_to(RegionAxis);
-};
-template struct PrivateMember<RegionPoint, &Region::point>;
-template struct PrivateMember<RegionAxis, &Region::runit>;
-template struct PrivateMember<RegionMoveX, &Region::xstr>;
-template struct PrivateMember<RegionMoveY, &Region::ystr>;
-template struct PrivateMember<RegionMoveZ, &Region::zstr>;
-template struct PrivateMember<RegionAngle, &Region::tstr>;
-template struct PrivateMember<RegionTransform, &Region::forward_transform>;
 
 bool is_composite(const Region &region)
 {
@@ -95,12 +59,11 @@ void AxisBox::widen(double by)
 RegionPose::RegionPose(Region &region)
 {
   if (!region.dynamic) return;
-  const auto transform = pointer_to(RegionTransform{});
-  (region.*transform)(shift[0], shift[1], shift[2]);
+  move_with_region(region, shift);
   for (int axis = 0; axis < 3; axis++) {
     double x[3] = {0.0, 0.0, 0.0};
     x[axis] = 1.0;
-    (region.*transform)(x[0], x[1], x[2]);
+    move_with_region(region, x);
     for (int d = 0; d < 3; d++) rotation[d][axis] = x[d] - shift[d];
   }
 }
@@ -150,8 +113,8 @@ RegionTurn::RegionTurn(const Region &region)
   }
   if (!region.rotateflag) return;
   angle = region.theta;
-  std::copy_n(region.*pointer_to(RegionPoint{}), 3, point);
-  std::copy_n(region.*pointer_to(RegionAxis{}), 3, axis);
+  std::copy_n(point_of_rotation(region), 3, point);
+  std::copy_n(axis_of_rotation(region), 3, axis);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -194,8 +157,7 @@ std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
     return "";
   }
   if (!region.dynamic) return "";
-  for (const char *name : {region.*pointer_to(RegionMoveX{}), region.*pointer_to(RegionMoveY{}),
-                           region.*pointer_to(RegionMoveZ{}), region.*pointer_to(RegionAngle{})})
+  for (const char *name : variables_of(region))
     if (name && !reads_only_time(lmp, name)) return name;
   return "";
 }

@@ -37,9 +37,8 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!system->proxy_updates())
     return "the exchange is the one of LAMMPS: " + system->exchange().reason_for_stock();
-  for (int n = 0; n < lmp->modify->nfix; n++) {
-    const Fix *fix = lmp->modify->fix[n];
-    if ((lmp->modify->fmask[n] & FixConst::PRE_FORCE) && may_read_proxies(fix))
+  for (Fix *fix : lmp->modify->get_fix_list()) {
+    if ((lmp->modify->get_fix_mask(fix) & FixConst::PRE_FORCE) && may_read_proxies(fix))
       return std::string("fix ") + fix->id + " (" + fix->style +
              ") may read proxies before forces are computed";
   }

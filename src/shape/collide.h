@@ -40,6 +40,9 @@ enum class NarrowPhase {
   MPR          ///< one point per pair, by Minkowski Portal Refinement
 };
 
+/// MPR is that of libccd; false if Talus was built without it. Then MPR must not be asked for.
+bool has_mpr();
+
 /// Contacts of two convex bodies; returns whether there are any. The direction is read and written.
 /// `force_exponent`: the elastic force of a contact grows as overlap^force_exponent (1: linear,
 /// 3/2: hertz), which weights depend on.

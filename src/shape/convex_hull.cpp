@@ -155,8 +155,9 @@ std::vector<int> faces_of(const Points &x, const std::vector<Corners3> &triangle
   }
   std::vector<int> order(triangles.size()), face(triangles.size(), -1), to_do;
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int s, int t) { return planes[s].area > planes[t].area; });
+  std::sort(order.begin(), order.end(), [&](int s, int t) {
+    return planes[s].area > planes[t].area || (planes[s].area == planes[t].area && s < t);
+  });
   for (const int seed : order) {
     if (face[seed] >= 0) continue;
     face[seed] = seed;

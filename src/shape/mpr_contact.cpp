@@ -3,8 +3,10 @@
 // Minkowski Portal Refinement (G. Snethen, in Game Programming Gems 7, 2008) as libccd has it. Its
 // tolerances are absolute numbers: lengths are given to it over the size of the pair.
 
+#include "shape/collide.h"
 #include "shape/pair_contacts.h"
 
+#if TALUS_HAS_CCD
 #include <ccd/ccd.h>
 
 namespace Talus {
@@ -65,4 +67,27 @@ bool find_mpr_contact(const CorePair &pair, Rounding radius, ConvexContact &cont
   return true;
 }
 
+bool has_mpr()
+{
+  return true;
+}
+
 }    // namespace Talus
+
+#else
+
+namespace Talus {
+
+bool has_mpr()
+{
+  return false;
+}
+
+bool find_mpr_contact(const CorePair &, Rounding, ConvexContact &)
+{
+  return false;    // not asked for, see has_mpr()
+}
+
+}    // namespace Talus
+
+#endif

@@ -4,7 +4,7 @@
 
 #include "laws/law_list.h"
 #include "system/lammps_compat.h"
-#include "system/private_member.h"
+#include "system/private_members.h"
 
 #include "gran_sub_mod_normal.h"
 #include "gran_sub_mod_rolling.h"
@@ -18,28 +18,6 @@
 using namespace LAMMPS_NS::Granular_NS;
 
 namespace Talus {
-
-// Stiffnesses after mixing, which no other member tells.
-struct HookeStiffness {
-  using Type = double GranSubModNormalHooke::*;
-  friend Type pointer_to(HookeStiffness);
-};
-template struct PrivateMember<HookeStiffness, &GranSubModNormalHooke::k>;
-struct HertzStiffness {
-  using Type = double GranSubModNormalHertz::*;
-  friend Type pointer_to(HertzStiffness);
-};
-template struct PrivateMember<HertzStiffness, &GranSubModNormalHertz::k>;
-struct DmtStiffness {
-  using Type = double GranSubModNormalDMT::*;
-  friend Type pointer_to(DmtStiffness);
-};
-template struct PrivateMember<DmtStiffness, &GranSubModNormalDMT::k>;
-struct JkrModulus {
-  using Type = double GranSubModNormalJKR::*;
-  friend Type pointer_to(JkrModulus);
-};
-template struct PrivateMember<JkrModulus, &GranSubModNormalJKR::Emix>;
 
 namespace {
 
@@ -90,15 +68,15 @@ void give_normal(const Model &model, GivenNumbers &given)
     given["nu"] = normal->coeffs[2];
   }
   if (const auto *hooke = dynamic_cast<GranSubModNormalHooke *>(normal))
-    given["kn"] = hooke->*pointer_to(HookeStiffness{});
+    given["kn"] = stiffness_of(*hooke);
   if (const auto *hertz = dynamic_cast<GranSubModNormalHertz *>(normal))
-    given["kn"] = hertz->*pointer_to(HertzStiffness{});
+    given["kn"] = stiffness_of(*hertz);
   if (const auto *dmt = dynamic_cast<GranSubModNormalDMT *>(normal)) {
-    given["E_eff"] = 0.75 * (dmt->*pointer_to(DmtStiffness{}));
+    given["E_eff"] = 0.75 * stiffness_of(*dmt);
     given["gamma"] = dmt->coeffs[3];
   }
   if (const auto *jkr = dynamic_cast<GranSubModNormalJKR *>(normal)) {
-    given["E_eff"] = jkr->*pointer_to(JkrModulus{});
+    given["E_eff"] = modulus_of(*jkr);
     given["gamma"] = jkr->coeffs[3];
   }
 }

@@ -3,7 +3,7 @@
 #include "system/neighbor_source.h"
 
 #include "system/granular_system.h"
-#include "system/private_member.h"
+#include "system/private_members.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -19,14 +19,6 @@
 
 using namespace LAMMPS_NS;
 using namespace Talus;
-
-namespace Talus {
-struct BinsOfNeighbor {
-  using Type = NBin **Neighbor::*;
-  friend Type pointer_to(BinsOfNeighbor);
-};
-template struct PrivateMember<BinsOfNeighbor, &Neighbor::neigh_bin>;
-}    // namespace Talus
 
 namespace {
 /// In the place of bins that no list is made from.
@@ -105,7 +97,7 @@ void NeighborSource::leave_bins_out()
   if (neighbor->nlist != 1 || neighbor->style == Neighbor::NSQ) return;
   NPair *builder = neighbor->lists[0]->np;
   if (!builder || !builder->nb) return;
-  NBin *&bins = (neighbor->*pointer_to(BinsOfNeighbor{}))[0];
+  NBin *&bins = bins_of(*neighbor)[0];
   auto *none = new NoBins(lmp);
   none->istyle = bins->istyle;
   delete bins;

@@ -5,7 +5,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
-#include "system/private_member.h"
+#include "system/private_members.h"
 #include "system/system_shapes.h"
 
 #include "atom.h"
@@ -23,17 +23,11 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-struct ProxiesOfGroup {
-  using Type = int Comm::*;
-  friend Type pointer_to(ProxiesOfGroup);
-};
-template struct PrivateMember<ProxiesOfGroup, &Comm::bordergroup>;
-
 std::string GranularSystem::unsupported_settings() const
 {
   if (force->bond && force->bond->partial_flag)
     return "bonds may break, whose particles then touch with the same neighbor lists";
-  if (comm->*pointer_to(ProxiesOfGroup{})) return "'comm_modify group' leaves out proxies";
+  if (sends_one_group(*comm)) return "'comm_modify group' leaves out proxies";
   return "";
 }
 

@@ -81,13 +81,13 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   at_end_of_step.clear();
   integrators.clear();
   steps.clear();    // an error may have left some
-  for (int n = 0; n < modify->nfix; n++) {
-    Fix *fix = modify->fix[n];
+  for (Fix *fix : modify->get_fix_list()) {
+    const int mask = modify->get_fix_mask(fix);
     const auto *ours = dynamic_cast<SystemFix *>(fix);
     if (ours && ours->integrates()) integrators.push_back(fix);
-    const std::string its = reason_of_fix(fix, modify->fmask[n]);
+    const std::string its = reason_of_fix(fix, mask);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
-    if ((modify->fmask[n] & END_OF_STEP) == 0 || fix == store) continue;
+    if ((mask & END_OF_STEP) == 0 || fix == store) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "): looks at particles at the end of every step: a larger Nevery";

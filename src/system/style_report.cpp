@@ -100,10 +100,10 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
 std::string StyleReport::lines_of_fixes(const GranularSystem &system) const
 {
   std::string lines;
-  for (int n = 0; n < modify->nfix; n++) {
-    Fix *fix = modify->fix[n];
+  for (Fix *fix : modify->get_fix_list()) {
     const auto *ours = dynamic_cast<SystemFix *>(fix);
-    if (is_internal(fix) || (!ours && !system.acts_within_steps(fix, modify->fmask[n]))) continue;
+    const bool acts = ours || system.acts_within_steps(fix, modify->get_fix_mask(fix));
+    if (is_internal(fix) || !acts) continue;
     lines += line(std::string("fix ") + fix->id + " " + fix->style,
                   how(ours ? ours->reason_for_stock() : why_stock(*modify->fix_map, fix->style)));
   }

@@ -2,7 +2,7 @@
 
 #include "system/time_formula.h"
 
-#include "system/lammps_compat.h"
+#include "system/private_members.h"
 
 #include "input.h"
 #include "lammps.h"
@@ -13,48 +13,10 @@
 #include <cstdlib>
 #include <set>
 
-#if !TALUS_HOST_TELLS_FORMULAS
-namespace LAMMPS_NS {
-namespace {
-
-// An explicit instantiation may name private members.
-template <auto styles, auto texts> struct VariableMembers {
-  friend std::string style_of(Variable &all, int n)
-  {
-    return Variable::varstyles[(all.*styles)[n]];
-  }
-  friend std::string text_of(Variable &all, int n) { return (all.*texts)[n][0]; }
-};
-std::string style_of(Variable &all, int n);
-std::string text_of(Variable &all, int n);
-template struct VariableMembers<&Variable::style, &Variable::data>;
-
-}    // namespace
-}    // namespace LAMMPS_NS
-#endif
-
 using namespace LAMMPS_NS;
 
 namespace Talus {
 namespace {
-
-#if TALUS_HOST_TELLS_FORMULAS
-std::string style_of(Variable &all, int n)
-{
-  return all.get_style(n);
-}
-
-/* Behind the formula comes the last value, which is a number once there is one. */
-
-std::string text_of(Variable &all, int n)
-{
-  std::string info = all.get_info(n);
-  if (const std::size_t none = info.find("(undefined)"); none != std::string::npos)
-    info.resize(none);
-  const std::size_t begin = info.find("def =");
-  return begin == std::string::npos ? "?" : info.substr(begin + 5);
-}
-#endif
 
 bool holds(const std::vector<std::string> &words, const std::string &word)
 {
@@ -96,7 +58,7 @@ bool reads_only_time(Variable &all, const std::string &name, std::set<std::strin
   const std::string style = style_of(all, n);
   if (holds(fixed, style)) return true;
   std::vector<std::string> inner;
-  if (style != "equal" || !formula_reads_only_time(text_of(all, n), inner)) return false;
+  if (style != "equal" || !formula_reads_only_time(formula_of(all, n), inner)) return false;
   return std::all_of(inner.begin(), inner.end(),
                      [&](const std::string &its) { return reads_only_time(all, its, met); });
 }

@@ -74,6 +74,14 @@ class ShapeErrors(SceneCase):
                 error = self.error(number, f"fix s all shape/gran {words}")
                 self.assertIn(expected, error)
 
+    def test_mpr_without_libccd(self):
+        commands = f"{FIX} contacts mpr"
+        if os.environ["TALUS_CCD"] == "1":
+            self.assertNotIn("ERROR", self.run_lammps(SCENE.format(commands=commands, pair="hooke 1e4 10")).log)
+        else:
+            self.assertIn("contacts: this Talus was built without libccd, which mpr needs: use 'contacts features', or install "
+                          "libccd (Debian: libccd-dev) and build Talus again", self.error(0, commands))
+
     def test_companions(self):
         hooke = "contact hooke 1e4 10"
         for number, (commands, expected, *pair) in enumerate((

@@ -1,0 +1,62 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What classes of the host keep to themselves and nothing else tells: read here, and nowhere else
+// in Talus. A newer LAMMPS that names a member otherwise, or tells it, changes one source file.
+
+#ifndef TALUS_SYSTEM_PRIVATE_MEMBERS_H
+#define TALUS_SYSTEM_PRIVATE_MEMBERS_H
+
+#include <array>
+#include <string>
+
+namespace LAMMPS_NS {
+class Comm;
+class FixGravity;
+class NBin;
+class Neighbor;
+class Region;
+class Variable;
+namespace Granular_NS {
+class GranSubModNormalDMT;
+class GranSubModNormalHertz;
+class GranSubModNormalHooke;
+class GranSubModNormalJKR;
+}    // namespace Granular_NS
+}    // namespace LAMMPS_NS
+
+namespace Talus {
+
+/// Whether `comm_modify group` is set, which leaves out proxies of other particles.
+bool sends_one_group(const LAMMPS_NS::Comm &comm);
+
+/// The bins by request; at least one if a list is made from bins.
+LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
+
+/// `disable` of fix gravity: it computes the field and applies nothing.
+bool is_disabled(const LAMMPS_NS::FixGravity &gravity);
+
+/// Moves a point of a region at rest to where the region is now. Reads its variables.
+void move_with_region(LAMMPS_NS::Region &region, double (&x)[3]);
+
+/// A region that rotates: a point of the axis, and its unit vector.
+const double *point_of_rotation(const LAMMPS_NS::Region &region);
+const double *axis_of_rotation(const LAMMPS_NS::Region &region);
+
+/// Names of the variables that move and rotate a region; nullptr where there is none.
+std::array<const char *, 4> variables_of(const LAMMPS_NS::Region &region);
+
+/// Of a variable by its index: "equal", "index" and so on; the formula of one of style equal.
+std::string style_of(LAMMPS_NS::Variable &all, int n);
+std::string formula_of(LAMMPS_NS::Variable &all, int n);
+
+/// Hosts with package GRANULAR. After mixing, which no public member tells: stiffness of hooke
+/// (force/length) and of hertz (force/area), 4/3 of the effective modulus for hertz/material and
+/// dmt, the effective modulus of jkr.
+double stiffness_of(const LAMMPS_NS::Granular_NS::GranSubModNormalHooke &law);
+double stiffness_of(const LAMMPS_NS::Granular_NS::GranSubModNormalHertz &law);
+double stiffness_of(const LAMMPS_NS::Granular_NS::GranSubModNormalDMT &law);
+double modulus_of(const LAMMPS_NS::Granular_NS::GranSubModNormalJKR &law);
+
+}    // namespace Talus
+
+#endif
