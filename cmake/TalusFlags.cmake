@@ -31,6 +31,9 @@ endfunction()
 target_compile_options(talus_common_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 talus_add_known_flags(talus_common_flags -fopenmp-simd -fno-tree-slp-vectorize)
 
+target_compile_definitions(talus_common_flags INTERFACE TALUS_VERSION_MAJOR=${PROJECT_VERSION_MAJOR}
+  TALUS_VERSION_MINOR=${PROJECT_VERSION_MINOR} TALUS_VERSION_PATCH=${PROJECT_VERSION_PATCH})
+
 # Eigen's own vector code fuses multiplication and addition where the processor can, whatever the compiler was told:
 # the motion of a body would depend on the instruction set. Without it types are laid out the same everywhere, too.
 target_compile_definitions(talus_common_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)

@@ -3,6 +3,7 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "base/vectors.h"
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
 #include "compute/compute_coarse_grid.h"
@@ -32,6 +33,7 @@
 #include "system/lammps_compat.h"
 #include "system/system_run_style.h"
 #include "talus_abi.h"
+#include "talus_version.h"
 
 #if TALUS_HOST_HAS_RIGID
 #include "fix/fix_rigid_small_symplectic.h"
@@ -42,6 +44,7 @@
 #include "fix/fix_wall_gran_talus.h"
 #endif
 
+#include "comm.h"
 #include "command.h"
 #include "compute.h"
 #include "fix.h"
@@ -63,9 +66,23 @@
 #include "fix/fix_freeze_talus.h"
 #endif
 
+#define TALUS_INFO "Talus " TALUS_VERSION " "
+
 using namespace LAMMPS_NS;
 
 namespace {
+
+// `plugin list` shows names of styles alone: the version is one.
+class Version : public Command {
+ public:
+  using Command::Command;
+  void command(int, char **) override
+  {
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Talus {} for LAMMPS {}, {}\n", TALUS_VERSION, LAMMPS_VERSION,
+                     Talus::instruction_set());
+  }
+};
 
 // LAMMPS takes what a creator returns for a pointer to the base class: it has to be exactly that.
 template <typename Base, typename Style> Base *create(LAMMPS *lmp)
@@ -160,52 +177,53 @@ extern "C" __attribute__((visibility("default"))) void
 TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 {
   Registry registry(lmp, handle, registerfunc);
-  registry.pair<PairGranPenalty>("gran/penalty", "Talus pair style gran/penalty");
+  registry.pair<PairGranPenalty>("gran/penalty", TALUS_INFO "pair style gran/penalty");
 #if TALUS_HOST_HAS_GRANULAR
-  registry.pair<PairGranHookeTalus>("gran/hooke/talus", "Talus pair style gran/hooke/talus");
+  registry.pair<PairGranHookeTalus>("gran/hooke/talus", TALUS_INFO "pair style gran/hooke/talus");
   registry.pair<PairGranHookeHistoryTalus>("gran/hooke/history/talus",
-                                           "Talus pair style gran/hooke/history/talus");
+                                           TALUS_INFO "pair style gran/hooke/history/talus");
   registry.pair<PairGranHertzHistoryTalus>("gran/hertz/history/talus",
-                                           "Talus pair style gran/hertz/history/talus");
-  registry.pair<PairGranularTalus>("granular/talus", "Talus pair style granular/talus");
+                                           TALUS_INFO "pair style gran/hertz/history/talus");
+  registry.pair<PairGranularTalus>("granular/talus", TALUS_INFO "pair style granular/talus");
 #endif
-  registry.command<ProxyCommand>("comm_proxy", "Talus command comm_proxy");
-  registry.command<FillRegion>("fill_region", "Talus command fill_region");
-  registry.run_style<VerletProxy>("verlet/proxy", "Talus run style verlet/proxy");
+  registry.command<Version>("talus/" TALUS_VERSION, TALUS_INFO "says its version");
+  registry.command<ProxyCommand>("comm_proxy", TALUS_INFO "command comm_proxy");
+  registry.command<FillRegion>("fill_region", TALUS_INFO "command fill_region");
+  registry.run_style<VerletProxy>("verlet/proxy", TALUS_INFO "run style verlet/proxy");
   registry.run_style<Verlet>("verlet/stock", "run style verlet of LAMMPS, under a name of Talus");
   registry.fix<FixNVESphereSymplectic>("nve/sphere/symplectic",
-                                       "Talus fix style nve/sphere/symplectic");
-  registry.fix<FixNVESphereTalus>("nve/sphere/talus", "Talus fix style nve/sphere/talus");
-  registry.fix<FixGravityTalus>("gravity/talus", "Talus fix style gravity/talus");
+                                       TALUS_INFO "fix style nve/sphere/symplectic");
+  registry.fix<FixNVESphereTalus>("nve/sphere/talus", TALUS_INFO "fix style nve/sphere/talus");
+  registry.fix<FixGravityTalus>("gravity/talus", TALUS_INFO "fix style gravity/talus");
 #if TALUS_HOST_HAS_GRANULAR
-  registry.fix<FixFreezeTalus>("freeze/talus", "Talus fix style freeze/talus");
+  registry.fix<FixFreezeTalus>("freeze/talus", TALUS_INFO "fix style freeze/talus");
 #endif
-  registry.fix<FixShapeGran>("shape/gran", "Talus fix style shape/gran");
-  registry.fix<FixPourRate>("pour/rate", "Talus fix style pour/rate");
-  registry.fix<FixLargeBody>("large/body", "Talus fix style large/body");
+  registry.fix<FixShapeGran>("shape/gran", TALUS_INFO "fix style shape/gran");
+  registry.fix<FixPourRate>("pour/rate", TALUS_INFO "fix style pour/rate");
+  registry.fix<FixLargeBody>("large/body", TALUS_INFO "fix style large/body");
 #if TALUS_HOST_HAS_GRANULAR
-  registry.fix<FixWallGranTalus>("wall/gran/talus", "Talus fix style wall/gran/talus");
+  registry.fix<FixWallGranTalus>("wall/gran/talus", TALUS_INFO "fix style wall/gran/talus");
   registry.fix<FixWallGranRegionTalus>("wall/gran/region/talus",
-                                       "Talus fix style wall/gran/region/talus");
+                                       TALUS_INFO "fix style wall/gran/region/talus");
 #endif
 #if TALUS_HOST_HAS_RIGID
   registry.fix<FixRigidSmallSymplectic>("rigid/small/symplectic",
-                                        "Talus fix style rigid/small/symplectic");
-  registry.fix<FixRigidSmallTalus>("rigid/small/talus", "Talus fix style rigid/small/talus");
+                                        TALUS_INFO "fix style rigid/small/symplectic");
+  registry.fix<FixRigidSmallTalus>("rigid/small/talus", TALUS_INFO "fix style rigid/small/talus");
 #endif
-  registry.compute<ComputePenaltyStats>("penalty/stats", "Talus compute style penalty/stats");
+  registry.compute<ComputePenaltyStats>("penalty/stats", TALUS_INFO "compute style penalty/stats");
   registry.compute<ComputeContactGranAtom>("contact/gran/atom",
-                                           "Talus compute style contact/gran/atom");
+                                           TALUS_INFO "compute style contact/gran/atom");
   registry.compute<ComputeContactGranLocal>("contact/gran/local",
-                                            "Talus compute style contact/gran/local");
+                                            TALUS_INFO "compute style contact/gran/local");
   registry.compute<ComputeDissipationGranAtom>("dissipation/gran/atom",
-                                               "Talus compute style dissipation/gran/atom");
-  registry.compute<ComputeCoarseGrid>("coarse/grid", "Talus compute style coarse/grid");
-  registry.compute<ComputeTimestepGran>("timestep/gran", "Talus compute style timestep/gran");
-  registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", "Talus contacts (internal)");
+                                               TALUS_INFO "compute style dissipation/gran/atom");
+  registry.compute<ComputeCoarseGrid>("coarse/grid", TALUS_INFO "compute style coarse/grid");
+  registry.compute<ComputeTimestepGran>("timestep/gran", TALUS_INFO "compute style timestep/gran");
+  registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", TALUS_INFO "contacts (internal)");
   registry.dump<DumpVtkGran>("vtk/gran");
-  registry.fix<FixContactStore>("CONTACT_STORE", "Talus contact history (internal)");
-  registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", "Talus contact history (internal)");
+  registry.fix<FixContactStore>("CONTACT_STORE", TALUS_INFO "contact history (internal)");
+  registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", TALUS_INFO "contact history (internal)");
 
   Talus::ExchangeSwitch::set_maker(
       [](LAMMPS *host, Comm *old) -> Comm * { return new CommProxy(host, old); });

@@ -60,14 +60,15 @@ class Reader {
 
 std::string complaint_about_law_file(std::int32_t mark, std::int32_t version)
 {
-  const std::string needed = std::to_string(law_file_version);
+  const std::string needed =
+      std::to_string(oldest_law_file) + " to " + std::to_string(law_file_version);
   if (mark != law_file_mark)
     return "the contact laws of the restart file were written before they had versions, this Talus "
-           "reads version " +
+           "reads versions " +
            needed + ": " + cure;
-  if (version != law_file_version)
+  if (version < oldest_law_file || version > law_file_version)
     return "the contact laws of the restart file are of version " + std::to_string(version) +
-           ", this Talus reads version " + needed + ": " + cure;
+           ", this Talus reads versions " + needed + ": " + cure;
   return "";
 }
 

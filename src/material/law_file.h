@@ -13,8 +13,10 @@
 
 namespace Talus {
 
-/// First number of what a pair style writes. `mark` tells it from files of before versions existed.
-inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 2;
+/// First numbers of what a pair style writes. `mark` tells it from files of before versions existed.
+/// From version 3 on the version of Talus follows, see version.h; version 2 is read as well.
+inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 3;
+inline constexpr std::int32_t oldest_law_file = 2;
 
 /// What is wrong with the first two numbers of a file and what to do about it; "" if nothing is.
 std::string complaint_about_law_file(std::int32_t mark, std::int32_t version);

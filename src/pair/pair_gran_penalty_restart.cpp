@@ -5,6 +5,7 @@
 #include "pair/pair_gran_penalty.h"
 
 #include "material/law_file.h"
+#include "talus_version.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -73,6 +74,7 @@ void PairGranPenalty::write_restart_settings(FILE *fp)
 {
   write_number(law_file_mark, fp);
   write_number(law_file_version, fp);
+  write_number(talus_version, fp);
   write_number(static_cast<std::int32_t>(system->laws().mix), fp);
 }
 
@@ -81,7 +83,10 @@ void PairGranPenalty::read_restart_settings(FILE *fp)
   const std::int32_t mark = read_number(fp);
   const std::string unmarked = complaint_about_law_file(mark, law_file_version);
   if (!unmarked.empty()) error->all(FLERR, "Pair style gran/penalty: {}", unmarked);
-  const std::string complaint = complaint_about_law_file(mark, read_number(fp));
+  const std::int32_t version = read_number(fp);
+  const std::string complaint = complaint_about_law_file(mark, version);
   if (!complaint.empty()) error->all(FLERR, "Pair style gran/penalty: {}", complaint);
+  if (version > oldest_law_file && read_number(fp) > talus_version && comm->me == 0)
+    error->warning(FLERR, "Pair style gran/penalty: the restart file was written by a newer Talus");
   system->laws().mix = static_cast<FrictionMix>(read_number(fp));
 }

@@ -6,6 +6,7 @@
 #include "system/system_fix.h"
 #include "system/system_pair.h"
 #include "system/system_run_style.h"
+#include "talus_version.h"
 
 #include "comm.h"
 #include "fix.h"
@@ -75,8 +76,8 @@ std::string StyleReport::text(const GranularSystem &system,
 {
   const auto *ours = dynamic_cast<const SystemPair *>(force->pair);
   const std::string pair = ours ? ours->plain_style() : force->pair ? force->pair_style : "none";
-  return "Talus: styles of this run\n" + line("pair " + pair, pair_is(system)) +
-         lines_of_fixes(system) +
+  return "Talus " TALUS_VERSION "\nTalus: styles of this run\n" +
+         line("pair " + pair, pair_is(system)) + lines_of_fixes(system) +
          line(std::string("run ") + update->integrate_style, run_style_is()) +
          line("steps without output", reason_for_host.empty()
                                           ? "in the records"

@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "vtk/poly_data.h"
+#include "talus_version.h"
 
 #include "vtk/text_file.h"
 
@@ -43,8 +44,9 @@ std::string begin_file(const std::string &type)
   const std::uint16_t one = 1;
   char first;
   std::memcpy(&first, &one, 1);
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
-         (first ? "LittleEndian" : "BigEndian") + "\" header_type=\"UInt64\">\n";
+  return "<?xml version=\"1.0\"?>\n<!-- written by Talus " TALUS_VERSION " -->\n<VTKFile type=\"" +
+         type + "\" version=\"1.0\" byte_order=\"" + (first ? "LittleEndian" : "BigEndian") +
+         "\" header_type=\"UInt64\">\n";
 }
 
 std::string describe(const char *tag, const char *type, const VtkPolyData::Array &array)

@@ -67,15 +67,31 @@ class Loading(PluginCase):
         for style, name in STYLES:
             self.assertIn(f"{style} style plugin {name}", result.log)
 
+    def test_version(self):
+        ours = os.environ["TALUS_VERSION"]
+        result = self.run_lammps(f"plugin list\ntalus/{ours}\n" + USE + "pair_coeff * * hooke 1.0 0.0\nrun 0\n",
+                                 env={"LAMMPS_PLUGIN_PATH": BUILD})
+        self.assertIn(f"command style plugin talus/{ours}\n", result.log)
+        self.assertRegex(result.log, f"\nTalus {re.escape(ours)} for LAMMPS [0-9]+ [A-Z][a-z]+ 20[0-9]+, [A-Z]")
+        self.assertIn(f"\nTalus {ours}\nTalus: styles of this run\n", result.log)
+
     def test_loading_twice_does_no_harm(self):
         self.run_lammps(f'plugin load "{PLUGIN}"\nplugin load "{PLUGIN}"\n' + USE)
 
     def test_clear(self):
-        """LAMMPS unloads and loads plugins at `clear`; ours must survive that in use."""
-        self.run_lammps(USE + "pair_coeff * * hooke 1.0 0.0\nclear\n" + USE,
-                        env={"LAMMPS_PLUGIN_PATH": BUILD})
-        self.run_without_path(f'plugin load "{PLUGIN}"\n' + USE + "clear\n"
-                              f'plugin load "{PLUGIN}"\n' + USE)
+        """LAMMPS unloads and loads plugins at `clear`; ours must survive that in use, and compute the same after it."""
+        fall = (USE + "pair_coeff * * hooke 100.0 1.0\ncreate_atoms 1 single 0.5 0.5 0.5 units box\n"
+                "create_atoms 1 single 0.5 0.5 0.69 units box\nset group all diameter 0.2\nset group all density 1.0\n"
+                "fix step all nve/sphere/symplectic\ntimestep 1e-3\nrun 20\n"
+                'variable v equal vz[1]\nprint "velocity $(v_v:%.17g)"\n')
+        by_path = self.run_lammps(fall + "clear\n" + fall, env={"LAMMPS_PLUGIN_PATH": BUILD}).log
+        load = f'plugin load "{PLUGIN}"\n'
+        by_command = self.run_without_path(load + fall + "clear\n" + load + fall).log
+        for log in by_path, by_command:
+            found = [float(v) for v in re.findall(r"^velocity (\S+)", log, re.MULTILINE)]
+            self.assertEqual(len(found), 2, log)
+            self.assertEqual(found[0], found[1])
+            self.assertLess(found[0], -1e-3)    # pushed away by the other one
 
     def test_launcher(self):
         with open(self.path("in.list"), "w") as file:

@@ -18,6 +18,7 @@ class Piece:
         begin = content.index(b'<AppendedData encoding="raw">')
         start = content.index(b"_", begin) + 1
         end = content.rindex(b"\n</AppendedData>")
+        assert b"<!-- written by Talus " + os.environ["TALUS_VERSION"].encode() + b" -->" in content[:200]
         root = ElementTree.fromstring(content[:begin] + b"</VTKFile>")
         assert root.attrib["type"] == "PolyData" and root.attrib["header_type"] == "UInt64"
         self._order = "<" if root.attrib["byte_order"] == "LittleEndian" else ">"

@@ -74,6 +74,25 @@ class HistoryRestart(SceneCase):
             log = self.run_lammps(START + "read_restart other\n" + commands, np=np, expect_error=True).log
             self.assertIn(message, " ".join(log.split()))
 
+    def test_version_of_talus(self):
+        """Laws of gran/penalty: files of format 2, which has none, are read; a newer Talus is worth a warning."""
+        with open(self.path("half"), "rb") as file:
+            content = file.read()
+        major, minor, patch = (int(n) for n in os.environ["TALUS_VERSION"].split("."))
+        ours = 10000 * major + 100 * minor + patch
+        head = struct.pack("<iii", 0x54414c55, 3, ours)
+        self.assertEqual(content.count(head), 1)
+        dumps = []
+        for name, other, warns in (("half", head, False), ("older", head[:4] + struct.pack("<i", 2), False),
+                                   ("newer", head[:8] + struct.pack("<i", ours + 1), True)):
+            with open(self.path(name), "wb") as file:
+                file.write(content.replace(head, other))
+            log = self.run_lammps(START + f"read_restart {name}\n" + REST + "run 10\n" + END.format(name + ".dump")).log
+            self.assertEqual("the restart file was written by a newer Talus" in log, warns)
+            dumps += read_dump(self.path(name + ".dump"))
+        for dump in dumps[1:]:
+            self.assert_same_bits(dumps[0], dump)
+
     def test_other_formats_are_refused(self):
         with open(self.path("half"), "rb") as file:
             content = file.read()

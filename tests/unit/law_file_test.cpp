@@ -92,12 +92,13 @@ TEST(LawFile, NoticesThatItEndsEarly)
 TEST(LawFile, RefusesOtherVersions)
 {
   EXPECT_EQ(complaint_about_law_file(law_file_mark, law_file_version), "");
+  EXPECT_EQ(complaint_about_law_file(law_file_mark, oldest_law_file), "");
   EXPECT_NE(complaint_about_law_file(0, 0).find(
-                "before they had versions, this Talus reads version 2: write a data file"),
+                "before they had versions, this Talus reads versions 2 to 3: write a data file"),
             std::string::npos);
-  EXPECT_NE(
-      complaint_about_law_file(law_file_mark, 7).find("of version 7, this Talus reads version 2"),
-      std::string::npos);
+  EXPECT_NE(complaint_about_law_file(law_file_mark, 7)
+                .find("of version 7, this Talus reads versions 2 to 3"),
+            std::string::npos);
 }
 
 TEST(Words, ChooseTheRuleOfSlip)
@@ -160,9 +161,11 @@ TEST(Words, TheSecondNumberIsThatOfTheDamping)
 
 TEST(Words, GranularCoefficientsMixGeometrically)
 {
-  const std::string words = " 0.3 8 tangential mindlin 9 0.25 0.5 rolling sds 1 2 3 twisting sds 1 4 9";
-  const ContactSpec a = read("dmt 5 2" + words), b = read("dmt 5 4 0.3 2 tangential mindlin 4 1.0 0.5 "
-                                                          "rolling sds 4 2 3 twisting sds 4 4 1");
+  const std::string words =
+      " 0.3 8 tangential mindlin 9 0.25 0.5 rolling sds 1 2 3 twisting sds 1 4 9";
+  const ContactSpec a = read("dmt 5 2" + words),
+                    b = read("dmt 5 4 0.3 2 tangential mindlin 4 1.0 0.5 "
+                             "rolling sds 4 2 3 twisting sds 4 4 1");
   const ContactCoefficients row = contact_coefficients(a, b, FrictionMix::MINIMUM);
   const auto found = [&](Stage stage, const char *name) {
     return a.law.coefficient(stage, name, row);
