@@ -2,7 +2,7 @@
 
 # Folders that need neither LAMMPS nor MPI, from the bottom up; then the exchange, which needs MPI and packs the records of
 # particles/.
-set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion)
+set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion laws/heat)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
   body/contact vtk packing shape shaped)
 

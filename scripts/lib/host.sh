@@ -79,7 +79,8 @@ run_host_build() {
   local source=$1 dir=$2 sizes=$3 options
   mapfile -t options < <(host_options "$sizes" "$(packages_of_tree "$source")")
   note "configuring LAMMPS $(tree_version "$source") ($sizes)"
-  cmake -S "$source/cmake" -B "$dir/build" -G Ninja "${options[@]}" >"$dir/configure.log" 2>&1 || {
+  cmake -S "$source/cmake" -B "$dir/build" -G Ninja "${options[@]}" \
+    -D "CMAKE_PROJECT_lammps_INCLUDE=$TALUS_ROOT/cmake/HostHeaders.cmake" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
     die "the host could not be configured; all of it is in $dir/configure.log"
   }

@@ -7,7 +7,7 @@
 //   [tangential NAME args] [damping NAME] [rolling [NAME] args] [spinning mu | twisting NAME args]
 //   [adhesion NAME args] [heat NAME args] [vmin slip roll spin] [limit_damping]
 //
-// Which names there are, and their args, the laws know themselves (laws/law_list.cpp).
+// Which names there are, and their args, the laws know themselves (laws/*/list.cpp).
 
 #ifndef TALUS_LAWS_CONTACT_WORDS_H
 #define TALUS_LAWS_CONTACT_WORDS_H

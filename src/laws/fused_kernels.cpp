@@ -133,7 +133,7 @@ struct Fused {
   }
 };
 
-/// Laws by their names: what is in law_list.cpp is not compiled here once more.
+/// Laws by their names: what is in their lists is not compiled here once more.
 struct Entry {
   const char *normal, *damping, *tangential, *rolling, *twisting;
   StageFunction function, accounting;

@@ -6,7 +6,7 @@
 //
 // and a pair of materials names one law for each. A law is one file in the folder of its stage: a
 // struct with its equation, its words, the mixing of two materials, and what it remembers, stores
-// and needs; see law_definition.h for what such a struct consists of. law_list.cpp names them all.
+// and needs; see law_definition.h for what such a struct consists of. list.cpp of each stage names them.
 
 #ifndef TALUS_LAWS_LAW_H
 #define TALUS_LAWS_LAW_H

@@ -15,7 +15,7 @@
 //   stored(s, c, history)   its energy, if it stores some
 //
 // and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
-// law_list.cpp makes it known to all.
+// list.cpp of the folder makes it known to all.
 
 #ifndef TALUS_LAWS_LAW_DEFINITION_H
 #define TALUS_LAWS_LAW_DEFINITION_H

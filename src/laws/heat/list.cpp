@@ -1,0 +1,22 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The laws of stage heat.
+
+#include "laws/heat/area.h"
+#include "laws/heat/none.h"
+#include "laws/heat/radius.h"
+#include "laws/law_definition.h"
+#include "laws/stage_lists.h"
+
+namespace Talus {
+
+std::vector<const Law *> heat_laws()
+{
+  return {
+      &law<HeatNone>,
+      &law<HeatRadius>,
+      &law<HeatArea>,
+  };
+}
+
+}    // namespace Talus

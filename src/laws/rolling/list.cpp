@@ -1,0 +1,24 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The laws of stage rolling.
+
+#include "laws/law_definition.h"
+#include "laws/rolling/delayed.h"
+#include "laws/rolling/holding.h"
+#include "laws/rolling/holding_order_2.h"
+#include "laws/rolling/none.h"
+#include "laws/rolling/sds.h"
+#include "laws/rolling/sds_order_2.h"
+#include "laws/stage_lists.h"
+
+namespace Talus {
+
+std::vector<const Law *> rolling_laws()
+{
+  return {
+      &law<RollingNone>, &law<HoldingRolling>, &law<HoldingOrder2>,   &law<DelayedRolling>,
+      &law<SdsRolling>,  &law<SdsOrder2>,      &law<SynchronizedSds>,
+  };
+}
+
+}    // namespace Talus
