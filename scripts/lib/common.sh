@@ -43,6 +43,8 @@ with_lock() {
   ) 9>"$file"
 }
 
+is_open_mpi() { [[ $(mpirun --version 2>&1) == *Open*MPI* || $(mpirun --version 2>&1) == *OpenRTE* ]]; }
+
 # Containers and CI run as root and often with fewer cores than ranks; Open MPI 4 and 5 both
 # refuse that unless told.
 allow_any_mpirun() {

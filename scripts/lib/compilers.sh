@@ -50,7 +50,7 @@ core_only() {
   shift 2
   note "== $title =="
   mkdir -p "$dir"
-  cmake -S "$TALUS_ROOT" -B "$dir" -G Ninja -D TALUS_CORE_ONLY=ON -D TALUS_WERROR=ON "$@" >"$dir/configure.log" 2>&1 || {
+  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" -D TALUS_CORE_ONLY=ON -D TALUS_WERROR=ON "$@" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
     note "$title: could not be configured; all of it is in $dir/configure.log"
     return 1

@@ -45,17 +45,58 @@ check_tree_age() {
 
 host_compiler() { printf '%s' "${CXX:-g++}"; }
 
+# The MPI, by its compiler: MPICXX, where a machine has several.
+mpi_compiler() { printf '%s' "${MPICXX:-mpicxx}"; }
+
+# mpi_options: for CMake, where another MPI than the first one was asked for.
+mpi_options() {
+  [[ -n ${MPICXX:-} ]] || return 0
+  printf -- '-D\n%s\n' "MPI_CXX_COMPILER=$(command -v "$MPICXX")"
+  local launcher=${MPICXX/mpicxx/mpiexec}
+  if have "$launcher"; then printf -- '-D\n%s\n' "MPIEXEC_EXECUTABLE=$(command -v "$launcher")"; fi
+}
+
+# check_compiler: before minutes go into a build that cannot be used.
+check_compiler() {
+  local compiler macros clang gnu
+  compiler=$(host_compiler)
+  have "$compiler" || die "there is no compiler '$compiler': install it (Debian: g++), or set CXX to another one (GCC 10, Clang 14 or newer)"
+  macros=$("$compiler" -x c++ -dM -E - </dev/null 2>/dev/null) || return 0
+  clang=$(awk '$2 == "__clang_major__" { print $3 }' <<<"$macros")
+  gnu=$(awk '$2 == "__GNUC__" { print $3 }' <<<"$macros")
+  if [[ -n $clang ]]; then
+    ((clang >= 14)) || die "$compiler is Clang $clang, which is too old: set CXX to Clang 14, GCC 10 or newer"
+  elif [[ -n $gnu ]]; then
+    ((gnu >= 10)) || die "$compiler is GCC $gnu, which is too old: set CXX to GCC 10, Clang 14 or newer (on a cluster: module load gcc)"
+  fi
+}
+
+# check_tools: what no package manager has brought.
+check_tools() {
+  have cmake || die "there is no cmake: install CMake 3.22 or newer (doc/install.md)"
+  have ninja || have make || die "there is neither ninja nor make: install one of them"
+  check_compiler
+  have "$(mpi_compiler)" ||
+    die "no MPI: there is no $(mpi_compiler). Install one (Debian: libopenmpi-dev openmpi-bin), load its module, or set MPICXX to its C++ compiler"
+}
+
+generator() { if have ninja; then printf Ninja; else printf 'Unix Makefiles'; fi; }
+
+has_png() { "$(host_compiler)" -x c++ -E - <<<'#include <png.h>' >/dev/null 2>&1; }
+
 # host_options SIZES [PACKAGE]: all that makes one build of the host different from another.
 host_options() {
-  local sizes=$1 arch=${TALUS_ARCH:-native} package
+  local sizes=$1 arch=${TALUS_ARCH:-native} package png=on
+  has_png || png=off
   printf -- '-D\n%s\n' CMAKE_BUILD_TYPE=Release "CMAKE_CXX_COMPILER=$(host_compiler)" \
     "CMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG -march=$arch" "LAMMPS_SIZES=$sizes" \
     BUILD_SHARED_LIBS=on BUILD_MPI=on BUILD_OMP=on BUILD_TOOLS=off \
-    WITH_PNG=on WITH_JPEG=off WITH_FFMPEG=off WITH_CURL=off \
+    "WITH_PNG=$png" WITH_JPEG=off WITH_FFMPEG=off WITH_CURL=off \
     DOWNLOAD_POTENTIALS=off FETCHCONTENT_FULLY_DISCONNECTED=on
   for package in "${TALUS_HOST_PACKAGES[@]}" ${2:+"$2"}; do
     printf -- '-D\nPKG_%s=on\n' "$package"
   done
+  mpi_options
 }
 
 # host_key SIZES PACKAGE TREE: "native" means another thing on every machine, and a home directory
@@ -79,7 +120,7 @@ run_host_build() {
   local source=$1 dir=$2 sizes=$3 options
   mapfile -t options < <(host_options "$sizes" "$(packages_of_tree "$source")")
   note "configuring LAMMPS $(tree_version "$source") ($sizes)"
-  cmake -S "$source/cmake" -B "$dir/build" -G Ninja "${options[@]}" \
+  cmake -S "$source/cmake" -B "$dir/build" -G "$(generator)" "${options[@]}" \
     -D "CMAKE_PROJECT_lammps_INCLUDE=$TALUS_ROOT/cmake/HostHeaders.cmake" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
     die "the host could not be configured; all of it is in $dir/configure.log"

@@ -64,11 +64,7 @@ install_packages() {
 # Systems without dpkg keep their own names for these things; CMake will name what it misses.
 ensure_packages() {
   [[ -z ${TALUS_SKIP_PACKAGES:-} ]] || return 0
-  if ! have dpkg-query; then
-    have cmake && have ninja && have python3 ||
-      die "no dpkg on this system: install a C++17 compiler, CMake, Ninja, Open MPI, Eigen 3, libpng and Python 3 by hand (doc/install.md)"
-    return 0
-  fi
+  have dpkg-query || return 0
   local missing
   if [[ -n ${TALUS_TESTS:-} ]]; then set -- "$@" "${TALUS_TEST_PACKAGES[@]}"; fi
   if [[ -n ${TALUS_BENCHMARKS:-} ]]; then set -- "$@" "${TALUS_BENCHMARK_PACKAGES[@]}"; fi
@@ -80,14 +76,12 @@ ensure_packages() {
   install_packages "${missing[@]}"
 }
 
-# optional_package NAME CONSEQUENCE: install it if that is possible; otherwise say what is missing.
-optional_package() {
-  local package=$1 consequence=$2
-  if have dpkg-query && dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed; then
-    return 0
-  fi
-  if [[ -z ${TALUS_SKIP_PACKAGES:-} ]] && have apt-get && (install_packages "$package"); then
-    return 0
-  fi
-  note "without the package $package, $consequence"
+# optional_packages CONSEQUENCE NAME...: install them if that is possible; otherwise say what follows.
+optional_packages() {
+  local consequence=$1 missing
+  shift
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  if [[ -z ${TALUS_SKIP_PACKAGES:-} ]] && have apt-get && (install_packages "${missing[@]}"); then return 0; fi
+  note "without the packages ${missing[*]}, $consequence"
 }

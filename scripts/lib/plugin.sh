@@ -10,8 +10,23 @@ read -ra TALUS_TARGETS <<<"${TALUS_TARGETS:-}"
 show_build() {
   local title=$1 dir=$2 log=$3
   shift 3
-  NINJA_STATUS='[%f/%t] ' ninja -C "$dir" -j "$(number_of_cores)" "$@" 2>&1 </dev/null |
-    tee "$log" | python3 "$TALUS_LIB/progress.py" build "$title"
+  NINJA_STATUS='[%f/%t] ' build_with "$dir" "$@" 2>&1 </dev/null | tee "$log" | show_progress "$title"
+}
+
+build_with() {
+  local dir=$1 tool=make
+  shift
+  if [[ -f $dir/build.ninja || ! -f $dir/Makefile ]]; then tool=ninja; fi
+  "$tool" -C "$dir" -j "$(number_of_cores)" "$@"
+}
+
+show_progress() {
+  if have python3; then
+    python3 "$TALUS_LIB/progress.py" build "$1"
+  else
+    note "$1"
+    cat >/dev/null
+  fi
 }
 
 # CMake wraps messages and adds a stack of its own files: show only ours, on one line.
@@ -28,12 +43,13 @@ explain_configure() {
 configure_talus() {
   local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF tests=OFF benchmarks=OFF more
   read -ra more <<<"${TALUS_CMAKE_OPTIONS:-}"
+  mapfile -t -O "${#more[@]}" more < <(mpi_options)
   if [[ -n ${TALUS_TESTS:-} ]]; then tests=ON; fi
   if [[ -n ${TALUS_TESTS:-}${TALUS_BENCHMARKS:-} ]]; then benchmarks=ON; fi
   if [[ $kind == sanitize ]]; then sanitizers='address;undefined'; fi
   if [[ $kind == portable ]]; then portable=ON; fi
   mkdir -p "$dir"
-  cmake -S "$TALUS_ROOT" -B "$dir" -G Ninja \
+  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" \
     -D "LAMMPS_BINARY_DIR=$HOST_BINARY" -D "LAMMPS_SOURCE_DIR=$HOST_SOURCE" \
     -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitizers" \
     -D "TALUS_TESTS=$tests" -D "TALUS_WERROR=$tests" -D "TALUS_BENCHMARKS=$benchmarks" "${more[@]}" \
@@ -83,6 +99,7 @@ choose_architecture() {
 build_talus() {
   local host=$1 sizes=$2 kind=$3
   ensure_packages
+  check_tools
   choose_architecture "$kind"
   prepare_host "$host" "$sizes"
   TALUS_BUILD=${4:-$(build_directory "$host" "$sizes" "$kind")}

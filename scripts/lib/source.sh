@@ -72,14 +72,25 @@ debian_revision() {
     awk -v wanted="$upstream-" '$1 == "Version:" && index($2, wanted) == 1 { print $2; exit }'
 }
 
-# download_source UPSTREAM SUITE DIR: put the original tarball into DIR.
+# newest_revision DIR: of any release in the suite.
+newest_revision() {
+  private_apt "$1" apt-cache showsrc --only-source lammps 2>/dev/null | awk '$1 == "Version:" { print $2 }' | sort -V | tail -n 1
+}
+
+# download_source UPSTREAM SUITE DIR: put the original tarball into DIR. A suite that has moved on has another release,
+# which is taken, and named in the file "newer" beside DIR.
 download_source() {
   local upstream=$1 suite=$2 dir=$3 version
   have apt-get || die "no apt-get here to get LAMMPS with; $TALUS_OWN_SOURCE"
   mkdir -p "$dir"
   open_suite "$dir/apt" "$suite" "$dir/log"
   version=$(debian_revision "$dir/apt" "$upstream")
-  [[ -n $version ]] || die "Debian '$suite' no longer has lammps $upstream; $TALUS_OWN_SOURCE"
+  if [[ -z $version ]]; then
+    version=$(newest_revision "$dir/apt")
+    [[ -n $version ]] || die "Debian '$suite' has no source of lammps; $TALUS_OWN_SOURCE"
+    note "Debian '$suite' has lammps $version in the place of $upstream: taking that, which Talus has not been tried with"
+    printf '%s\n' "$version" >"$(dirname "$dir")/newer"
+  fi
   note "downloading the source of lammps $version (130 to 210 MB)"
   if ! (cd "$dir" && private_apt "$dir/apt" apt-get source --tar-only --download-only "lammps=$version") >>"$dir/log" 2>&1; then
     tail -n 5 "$dir/log" >&2

@@ -5,6 +5,7 @@
 The hosts here are stubs: a few files that look like a LAMMPS source tree or build directory.
 """
 
+import glob
 import os
 import shutil
 import subprocess
@@ -249,6 +250,54 @@ class BuildDirectories(ScriptCase):
                             "not a build directory of LAMMPS", "scripts/build")
 
 
+class Tools(ScriptCase):
+    """What a machine without Debian's packages may lack: one line, before anything is built."""
+
+    def assert_said_at_once(self, *parts, **environment):
+        lines = self.assert_message(self.build(**environment), *parts)
+        self.assertEqual(len(lines), 1)
+
+    def compiler(self, *macros):
+        self.command("old compiler", "".join(f"echo '#define {macro}'\n" for macro in macros))
+        return self.path("bin", "old compiler")
+
+    def test_compilers_that_are_too_old(self):
+        self.assert_said_at_once("is GCC 9, which is too old", "set CXX to GCC 10, Clang 14 or newer",
+                                 CXX=self.compiler("__GNUC__ 9"))
+        self.assert_said_at_once("is Clang 13, which is too old", "set CXX to Clang 14",
+                                 CXX=self.compiler("__GNUC__ 4", "__clang_major__ 13"))
+
+    def test_no_such_compiler(self):
+        self.assert_said_at_once("there is no compiler 'g++-99'", "set CXX", CXX="g++-99")
+
+    def test_no_cmake(self):
+        self.hide("cmake")
+        self.assert_said_at_once("there is no cmake", "CMake 3.22")
+
+    def test_no_build_tool(self):
+        self.hide("ninja", "make")
+        self.assert_said_at_once("neither ninja nor make")
+
+    def test_no_mpi(self):
+        self.hide("mpicxx")
+        self.assert_said_at_once("no MPI: there is no mpicxx", "libopenmpi-dev", "MPICXX")
+        self.search_path = ScriptCase.search_path
+        self.assert_said_at_once("no MPI: there is no mpicxx.of-nowhere", MPICXX="mpicxx.of-nowhere")
+
+    def test_no_eigen(self):
+        """From the scripts and from plain CMake. Not found: neither its package nor its folder."""
+        without = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DCMAKE_IGNORE_PATH=/usr/include/eigen3"
+        host = self.build_directory()
+        self.assert_said_at_once("Eigen 3.3 or newer is missing", "libeigen3-dev", "EIGEN3_ROOT", LAMMPS_BINARY_DIR=host,
+                                 TALUS_CMAKE_OPTIONS=without)
+        plain = [os.environ.get("TALUS_CMAKE", "cmake"), "-S", ROOT, "-B", self.path("plain"), *without.split()]
+        result = self.run_command(plain, LAMMPS_BINARY_DIR=host)
+        self.assertIn("talus: Eigen 3.3 or newer is missing", " ".join(result.stdout.split()))
+        write(self.path("eigen", "Eigen", "Core"), "")
+        result = self.run_command(plain, LAMMPS_BINARY_DIR=host, EIGEN3_ROOT=self.path("eigen"))
+        self.assertEqual(result.returncode, 0, result.stdout)
+
+
 class Apt(ScriptCase):
     """apt is replaced by stubs: nothing is downloaded."""
 
@@ -266,11 +315,22 @@ class Apt(ScriptCase):
         self.command("apt-get", self.SOURCE + "[ $1 != update ]\n")
         self.assert_message(self.build(), "network", "LAMMPS_SOURCE_DIR")
 
-    def test_version_is_gone(self):
+    def test_a_newer_version_is_taken(self):
+        """A suite of Debian moves on: what it has now is tried, and named."""
+        self.command("apt-get", self.SOURCE + "[ $1 != source ]\n")
+        self.command("apt-cache", "printf 'Version: %s\\n' 20250722+dfsg-2 20990101+dfsg-1 20260704+dfsg-3\n")
+        result = self.build()
+        self.assertIn("talus: Debian 'trixie' has lammps 20990101+dfsg-1 in the place of 20250204+dfsg.1: taking that",
+                      result.stdout)
+        self.assert_message(result, "the source of lammps 20990101+dfsg-1 could not be downloaded")
+        newer = glob.glob(self.path("cache", "talus", "host-4Feb2025-*", "newer"))
+        with open(newer[0]) as file:
+            self.assertEqual(file.read(), "20990101+dfsg-1\n")
+
+    def test_no_version_at_all(self):
         self.command("apt-get", self.SOURCE)
-        self.command("apt-cache", "echo 'Version: 20990101+dfsg-1'\n")
-        self.assert_message(self.build(), "no longer has lammps 20250204+dfsg.1",
-                            "LAMMPS_SOURCE_DIR")
+        self.command("apt-cache", "true\n")
+        self.assert_message(self.build(), "'trixie' has no source of lammps", "LAMMPS_SOURCE_DIR")
 
     def test_download_breaks_off(self):
         self.command("apt-get", self.SOURCE + "[ $1 != source ]\n")

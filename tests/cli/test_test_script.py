@@ -23,13 +23,17 @@ class Configurations(ScriptCase):
             shutil.copytree(os.path.join(ROOT, folder), self.path("tree", folder))
         # build_talus makes the default configuration: packages, host and compilation are not what is tested here
         with open(self.path("tree", "scripts", "lib", "all.sh"), "a") as file:
-            file.write('build_talus() { TALUS_BUILD=$(build_directory "$1" "$2" "$3"); }\n')
+            file.write('build_talus() { TALUS_BUILD=$(build_directory "$1" "$2" "$3"); }\n'
+                       "prepare_host() { HOST_BINARY=none; }\nall_compilers() { echo g++-10; }\n")
         note = f"printf '%s ' {{}} \"$@\" >> '{self.path('calls')}'; echo >> '{self.path('calls')}'\n"
         write(self.path("tree", "scripts", "build"), "#!/bin/sh\n" + note.format('"build [$TALUS_TARGETS]"'), executable=True)
         self.command("ctest", note.format("ctest") + '[ "$2" != "$FAILING" ]\n')
         self.command("cmake", "exit 0\n")
         self.command("ninja", "exit 0\n")
         self.command("clang++", "exit 0\n")
+        self.command("g++-10", "echo g++ 10\n")
+        self.command("aarch64-linux-gnu-g++", "exit 0\n")
+        self.command("qemu-aarch64", "exit 0\n")
 
     def run_test(self, *arguments, **environment):
         result = self.run_command([self.path("tree", "scripts", "test"), *arguments], **environment)
@@ -49,7 +53,7 @@ class Configurations(ScriptCase):
     def test_without_the_second_host_a_line_says_what_is_left_out(self):
         result, calls = self.run_test()
         self.assertEqual(result.returncode, 0, result.stdout)
-        self.assertEqual(self.of_ctest(calls), [("build", "-LE slow")])
+        self.assertEqual(self.of_ctest(calls), [("build-g++-10", ""), ("build", "-LE slow")])
         said = [line for line in result.stdout.splitlines() if "left out" in line]
         self.assertEqual(len(said), 1, result.stdout)
         for part in "tests/styles", SECOND, "scripts/test --all":
@@ -60,7 +64,7 @@ class Configurations(ScriptCase):
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertNotIn("left out", result.stdout)
         second = f"build-{SECOND}-smallbig"
-        self.assertEqual(self.of_ctest(calls), [(second, "-L smoke"), (second, "-L dem"), ("build", "-LE slow")])
+        self.assertEqual(self.of_ctest(calls), [("build-g++-10", ""), (second, "-L smoke"), (second, "-L dem"), ("build", "-LE slow")])
         builds = [call for call in calls if call.startswith("build ")]
         self.assertEqual(builds, [f"build [smoke] --host {SECOND} --sizes smallbig"] * 2)
 
@@ -83,12 +87,13 @@ class Configurations(ScriptCase):
         found = self.of_ctest(calls)
         folders = [folder for folder, _ in found]
         self.assertEqual(folders, [f"build-{SECOND}-smallbig"] * 2 + ["build-4Feb2025-bigbig", f"build-{SECOND}-bigbig",
-                                   "build-portable", "build-sanitize", "build-tsan", "build"])
+                                   "build-portable", "build-sanitize", "build-tsan", "build-g++-10", "build-aarch64", "build"])
         for configuration in f"build-{SECOND}-smallbig", "build-4Feb2025-bigbig":
             options = dict(reversed(found))[configuration]
             self.assertRegex(options, r"^-LE \S*\bslow\|unit\|bench\|hostless\b", "what needs no host runs once")
         slow = [folder for folder, options in found if "-LE" not in options and "-L" not in options]
-        self.assertEqual(slow, ["build-tsan", "build"], "slow tests run once, with the default host")
+        self.assertEqual(slow, ["build-tsan", "build-g++-10", "build-aarch64", "build"],
+                         "slow tests run once, with the default host; builds without a host have none")
 
     def test_a_failure_is_remembered(self):
         for folder, name in ((f"build-{SECOND}-bigbig", f"second host {SECOND}, BIGBIG, smoke tests"),

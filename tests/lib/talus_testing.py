@@ -46,7 +46,7 @@ PLUGIN = _required_file("TALUS_PLUGIN")
 MPIEXEC = os.environ.get("TALUS_MPIEXEC", "mpiexec")
 
 
-def _environment(extra):
+def _environment(extra, np):
     env = dict(os.environ)
     env.setdefault("LAMMPS_PLUGIN_PATH", os.path.dirname(PLUGIN))
     env.setdefault("OMP_NUM_THREADS", "1")
@@ -62,6 +62,9 @@ def _environment(extra):
                PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe",    # Open MPI 5
                PRTE_MCA_hwloc_default_binding_policy="none")
     env.update({k: str(v) for k, v in (extra or {}).items()})
+    patient = os.path.join(os.environ.get("TALUS_BINARY_DIR", ""), "tests", "libpatient_yield.so")
+    if np > 1 and os.path.exists(patient):    # ranks that wait sleep
+        env["LD_PRELOAD"] = ":".join(filter(None, [env.get("LD_PRELOAD"), patient]))
     return env
 
 
@@ -131,7 +134,7 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
         command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
     command += [str(word) for word in arguments]
 
-    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
+    returncode, output = _launch(command, cwd, _environment(env, np), timeout * SLOWER)
     log = ""
     if os.path.exists(log_path):
         with open(log_path, errors="replace") as file:
@@ -159,7 +162,7 @@ def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TI
     """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
     command += [path] + [str(word) for word in arguments]
-    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
+    returncode, output = _launch(command, cwd, _environment(env, np), timeout * SLOWER)
     if returncode != 0:
         raise AssertionError(f"return code {returncode}: {' '.join(command)}\n{output[-3000:]}")
     return Result("", output, returncode, cwd)
