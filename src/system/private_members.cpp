@@ -24,13 +24,9 @@ using namespace LAMMPS_NS::Granular_NS;
 #endif
 
 namespace Talus {
-namespace {
-
 template <class Tag, typename Tag::Type member> struct PrivateMember {
   friend typename Tag::Type pointer_to(Tag) { return member; }
 };
-
-}    // namespace
 
 // `kind`: the type of the pointer to the member
 #define TALUS_PRIVATE_MEMBER(tag, kind, member)                                                    \

@@ -295,7 +295,7 @@ class Tools(ScriptCase):
         self.assertIn("talus: Eigen 3.3 or newer is missing", " ".join(result.stdout.split()))
         write(self.path("eigen", "Eigen", "Core"), "")
         result = self.run_command(plain, LAMMPS_BINARY_DIR=host, EIGEN3_ROOT=self.path("eigen"))
-        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertNotIn("Eigen", result.stdout)
 
 
 class Apt(ScriptCase):
