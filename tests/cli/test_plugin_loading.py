@@ -30,6 +30,20 @@ create_box 1 box
 """
 USE = BOX + "pair_style gran/penalty\n"
 
+FALL = BOX + """
+create_atoms 1 single 0.5 0.5 0.5 units box
+create_atoms 1 single 0.52 0.5 0.75 units box
+set group all diameter 0.2
+set group all density 1.0
+pair_style gran/penalty
+pair_coeff * * hooke 100.0 1.0
+fix step all nve/sphere/symplectic gravity 1.0 vector 0 0 -1
+fix floor all large/body plane 0 0 0 0 0 1 contact hooke 100.0 1.0
+timestep 0.001
+thermo_style custom step ke f_floor[3]
+run 800
+"""
+
 STYLES = [("pair", "gran/penalty"), ("fix", "nve/sphere/symplectic"), ("fix", "large/body")]
 
 
@@ -71,11 +85,14 @@ class Loading(PluginCase):
         self.run_lammps(f'plugin load "{PLUGIN}"\nplugin load "{PLUGIN}"\n' + USE)
 
     def test_clear(self):
-        """LAMMPS unloads and loads plugins at `clear`; ours must survive that in use."""
-        self.run_lammps(USE + "pair_coeff * * hooke 1.0 0.0\nclear\n" + USE,
-                        env={"LAMMPS_PLUGIN_PATH": BUILD})
-        self.run_without_path(f'plugin load "{PLUGIN}"\n' + USE + "clear\n"
-                              f'plugin load "{PLUGIN}"\n' + USE)
+        """LAMMPS unloads and loads plugins at `clear`; ours must survive that in use and then compute the same."""
+        scene = FALL + "thermo 10\nrun 300\n"    # until both have hit the floor
+        for load, path in (("", BUILD), (f'plugin load "{PLUGIN}"\n', "")):
+            with self.subTest(load or path):
+                log = self.run_lammps(load + scene + "clear\n" + load + scene, env={"LAMMPS_PLUGIN_PATH": path}).log
+                before, after = log.split("clear\n", 1)
+                self.assertTrue(any(row["f_floor[3]"] for row in thermo(before)), "no contact")
+                self.assertEqual(thermo(before), thermo(after))
 
     def test_launcher(self):
         with open(self.path("in.list"), "w") as file:
@@ -93,20 +110,6 @@ class Loading(PluginCase):
 
 class Objects(PluginCase):
     """Two LAMMPS objects in one process: LAMMPS keeps one list of plugins for both."""
-
-    FALL = BOX + """
-        create_atoms 1 single 0.5 0.5 0.5 units box
-        create_atoms 1 single 0.52 0.5 0.75 units box
-        set group all diameter 0.2
-        set group all density 1.0
-        pair_style gran/penalty
-        pair_coeff * * hooke 100.0 1.0
-        fix step all nve/sphere/symplectic gravity 1.0 vector 0 0 -1
-        fix floor all large/body plane 0 0 0 0 0 1 contact hooke 100.0 1.0
-        timestep 0.001
-        thermo_style custom step ke f_floor[3]
-        run 800
-        """
 
     DRIVER = """
 import sys
@@ -137,7 +140,7 @@ print("energies:", second.get_thermo("ke").hex(), third.get_thermo("ke").hex())
         if not os.path.isdir(os.path.join(source, "python")):
             source = os.path.dirname(source.rstrip("/"))
         with open(self.path("in.scene"), "w") as file:
-            file.write(self.FALL)
+            file.write(FALL)
         with open(self.path("driver.py"), "w") as file:
             file.write(self.DRIVER.replace("{module!r}", repr(os.path.join(source, "python")))
                        .replace("{load!r}", repr(load)))
