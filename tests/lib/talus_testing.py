@@ -10,7 +10,9 @@ a script fails at import: it never skips.
 """
 
 import collections
+import contextlib
 import dataclasses
+import fcntl
 import os
 import re
 import shlex
@@ -19,6 +21,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 __all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
@@ -91,7 +94,47 @@ def _end(process):
     process.wait()
 
 
-def _launch(command, cwd, env, timeout):
+def _lock_another_core(folder, held):
+    """Whether a core was free: add its locked file to held, {number: file}."""
+    for core in range(len(os.sched_getaffinity(0))):
+        if core not in held:
+            file = open(os.path.join(folder, str(core)), "w")
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                file.close()
+            else:
+                held[core] = file
+                return True
+    return False
+
+
+@contextlib.contextmanager
+def _cores(count):
+    """Hold that many of the machine's cores, at most all, so that tests which run side by side start no more ranks and
+    threads than there are cores: a rank spins while it waits for one that has no core."""
+    folder = os.path.join(os.path.dirname(PLUGIN), "cores")
+    os.makedirs(folder, exist_ok=True)
+    held = {}
+    try:
+        # one collects at a time: two with a part each would wait for each other
+        with open(os.path.join(folder, "gate"), "w") as gate:
+            fcntl.flock(gate, fcntl.LOCK_EX)
+            while len(held) < min(count, len(os.sched_getaffinity(0))):
+                if not _lock_another_core(folder, held):
+                    time.sleep(0.005)
+        yield
+    finally:
+        for file in held.values():
+            file.close()
+
+
+def _launch(command, np, cwd, env, timeout):
+    with _cores(np * int(env["OMP_NUM_THREADS"])):
+        return _run_to_end(command, cwd, env, timeout)
+
+
+def _run_to_end(command, cwd, env, timeout):
     # Open MPI jobs that share a directory for temporary files remove it from under each other.
     with tempfile.TemporaryDirectory(prefix="mpi-", ignore_cleanup_errors=True) as private, \
          tempfile.TemporaryFile("w+", errors="replace") as sink:
@@ -131,7 +174,7 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
         command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
     command += [str(word) for word in arguments]
 
-    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
+    returncode, output = _launch(command, np, cwd, _environment(env), timeout * SLOWER)
     log = ""
     if os.path.exists(log_path):
         with open(log_path, errors="replace") as file:
@@ -159,7 +202,7 @@ def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TI
     """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
     command += [path] + [str(word) for word in arguments]
-    returncode, output = _launch(command, cwd, _environment(env), timeout * SLOWER)
+    returncode, output = _launch(command, np, cwd, _environment(env), timeout * SLOWER)
     if returncode != 0:
         raise AssertionError(f"return code {returncode}: {' '.join(command)}\n{output[-3000:]}")
     return Result("", output, returncode, cwd)
