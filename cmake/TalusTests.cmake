@@ -58,6 +58,9 @@ function(talus_set_test_properties test)
     LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
     FAIL_REGULAR_EXPRESSION "SKIPPED;skipped=[1-9]"
     ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
+  if("slow" IN_LIST arg_LABELS AND NOT arg_COST)
+    set(arg_COST 1000)
+  endif()
   if(arg_COST)
     set_tests_properties("${test}" PROPERTIES COST ${arg_COST})
   endif()

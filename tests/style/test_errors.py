@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: cost=30
 """Every refusal of pair_style gran/penalty, its pair_coeff, fix large/body and their internal fix: text,
 word that is marked, on 1 and 2 ranks, without a hang."""
 
