@@ -1,6 +1,8 @@
 # Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli, portable) and
 # what a script asks for in comment lines such as
-#   # ctest: timeout=600 label=slow,smoke serial procs=4
+#   # ctest: timeout=600 label=slow,smoke cost=60 serial procs=2
+# cost: about how many seconds, for what takes long; such tests begin first. procs: for a script that starts several
+# ranks by other means than tests/lib/talus_testing.py, which waits for cores for each run on its own.
 # Label hostless: no LAMMPS is run, so that one configuration is enough.
 
 if(NOT TARGET GTest::gtest)
@@ -29,7 +31,13 @@ set(TALUS_TEST_ENVIRONMENT
   "PYTHONDONTWRITEBYTECODE=1"
   "OMP_NUM_THREADS=1"
   "MALLOC_PERTURB_=128"    # glibc fills new memory with 1e306: what is read before it is set shows
-  "OMPI_MCA_rmaps_base_oversubscribe=1"
+  "OMP_WAIT_POLICY=passive"
+  "OMPI_MCA_pml=ob1"
+  "OMPI_MCA_mpi_yield_when_idle=1"
+  "OMPI_MCA_rmaps_base_oversubscribe=1"    # Open MPI 4
+  "OMPI_MCA_hwloc_base_binding_policy=none"    # jobs side by side would be bound to the same cores
+  "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe"    # Open MPI 5
+  "PRTE_MCA_hwloc_default_binding_policy=none"
   "OMPI_ALLOW_RUN_AS_ROOT=1"
   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
 if(TALUS_SANITIZER_RUNTIMES)
@@ -40,7 +48,7 @@ endif()
 
 # A test that was skipped tested nothing: it must not look like one that passed.
 function(talus_set_test_properties test)
-  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS" "LABELS" ${ARGN})
+  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS;COST" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -54,6 +62,12 @@ function(talus_set_test_properties test)
     LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
     FAIL_REGULAR_EXPRESSION "SKIPPED;skipped=[1-9]"
     ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
+  if("slow" IN_LIST arg_LABELS AND NOT arg_COST)
+    set(arg_COST 1000)
+  endif()
+  if(arg_COST)
+    set_tests_properties("${test}" PROPERTIES COST ${arg_COST})
+  endif()
   if(arg_SERIAL)
     set_tests_properties("${test}" PROPERTIES RUN_SERIAL ON)
   endif()
@@ -81,12 +95,14 @@ function(talus_read_test_header file result)
         list(APPEND options TIMEOUT ${CMAKE_MATCH_1})
       elseif(word MATCHES "^procs=([0-9]+)$")
         list(APPEND options PROCESSORS ${CMAKE_MATCH_1})
+      elseif(word MATCHES "^cost=([0-9]+)$")
+        list(APPEND options COST ${CMAKE_MATCH_1})
       elseif(word MATCHES "^label=(.+)$")
         string(REPLACE "," ";" labels "${CMAKE_MATCH_1}")
         list(APPEND options LABELS ${labels})
       else()
         message(FATAL_ERROR "${file}: unknown word '${word}' in its ctest line; known are "
-          "timeout=SECONDS label=NAME,... procs=N serial")
+          "timeout=SECONDS cost=SECONDS label=NAME,... procs=N serial")
       endif()
     endforeach()
   endforeach()
@@ -94,22 +110,12 @@ function(talus_read_test_header file result)
   set(${result} "${options}" PARENT_SCOPE)
 endfunction()
 
-# talus_add_python_test(folder/name [LABELS ...] [TIMEOUT s] [PROCESSORS n] [SERIAL] [ARGS ...]):
-# a plain unittest script tests/folder/name.py. Tests of folder mpi count as two processes.
+# talus_add_python_test(folder/name [LABELS ...] [TIMEOUT s] [COST s] [PROCESSORS n] [SERIAL]): a plain unittest script
+# tests/folder/name.py.
 function(talus_add_python_test test)
-  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS" "LABELS;ARGS" ${ARGN})
-  set(file "${PROJECT_SOURCE_DIR}/tests/${test}.py")
   get_filename_component(folder "${test}" DIRECTORY)
-  if(folder STREQUAL "mpi" AND NOT arg_PROCESSORS)
-    set(arg_PROCESSORS 2)
-  endif()
-  set(serial "")
-  if(arg_SERIAL)
-    set(serial SERIAL)
-  endif()
-  add_test(NAME ${test} COMMAND Python3::Interpreter "${file}" ${arg_ARGS})
-  talus_set_test_properties(${test} LABELS ${folder} ${arg_LABELS}
-    TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS} ${serial})
+  add_test(NAME ${test} COMMAND Python3::Interpreter "${PROJECT_SOURCE_DIR}/tests/${test}.py")
+  talus_set_test_properties(${test} LABELS ${folder} ${ARGN})
 endfunction()
 
 # Only the named symbols may be visible: others could bind to another plugin's, or LAMMPS' own.

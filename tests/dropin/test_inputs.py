@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600 procs=2
+# ctest: cost=60 timeout=600
 """The input scripts for grains that LAMMPS comes with, by plain LAMMPS and with -sf talus, on 1 and 2 ranks: same
 numbers, and the log says what is accelerated. Runs are shortened, and a dump is added; nothing else is edited."""
 

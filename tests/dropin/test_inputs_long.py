@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=3600 procs=2 label=slow
+# ctest: timeout=3600 label=slow
 """As test_inputs.py, with longer runs."""
 
 import os

@@ -10,7 +10,9 @@ a script fails at import: it never skips.
 """
 
 import collections
+import contextlib
 import dataclasses
+import fcntl
 import os
 import re
 import shlex
@@ -19,10 +21,11 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 __all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
-           "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
+           "part_of", "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
            "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
@@ -46,7 +49,7 @@ PLUGIN = _required_file("TALUS_PLUGIN")
 MPIEXEC = os.environ.get("TALUS_MPIEXEC", "mpiexec")
 
 
-def _environment(extra, np):
+def _environment(extra):
     env = dict(os.environ)
     env.setdefault("LAMMPS_PLUGIN_PATH", os.path.dirname(PLUGIN))
     env.setdefault("OMP_NUM_THREADS", "1")
@@ -62,9 +65,6 @@ def _environment(extra, np):
                PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe",    # Open MPI 5
                PRTE_MCA_hwloc_default_binding_policy="none")
     env.update({k: str(v) for k, v in (extra or {}).items()})
-    patient = os.path.join(os.environ.get("TALUS_BINARY_DIR", ""), "tests", "libpatient_yield.so")
-    if np > 1 and os.path.exists(patient):    # ranks that wait sleep
-        env["LD_PRELOAD"] = ":".join(filter(None, [env.get("LD_PRELOAD"), patient]))
     return env
 
 
@@ -94,7 +94,51 @@ def _end(process):
     process.wait()
 
 
-def _launch(command, cwd, env, timeout):
+def _lock_another_core(folder, held):
+    """Whether a core was free: add its locked file to held, {number: file}."""
+    for core in range(len(os.sched_getaffinity(0))):
+        if core not in held:
+            file = open(os.path.join(folder, str(core)), "w")
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                file.close()
+            else:
+                held[core] = file
+                return True
+    return False
+
+
+@contextlib.contextmanager
+def _cores(count):
+    """Hold that many of the machine's cores, at most all, so that tests which run side by side start no more ranks and
+    threads than there are cores: a rank spins while it waits for one that has no core."""
+    folder = os.path.join(os.path.dirname(PLUGIN), "cores")
+    os.makedirs(folder, exist_ok=True)
+    held = {}
+    try:
+        # one collects at a time: two with a part each would wait for each other
+        with open(os.path.join(folder, "gate"), "w") as gate:
+            fcntl.flock(gate, fcntl.LOCK_EX)
+            while len(held) < min(count, len(os.sched_getaffinity(0))):
+                if not _lock_another_core(folder, held):
+                    time.sleep(0.005)
+        yield
+    finally:
+        for file in held.values():
+            file.close()
+
+
+def _launch(command, cwd, env, timeout, cores):
+    with _cores(cores):
+        return _run_to_end(command, cwd, env, timeout)
+
+
+def _threads(env):
+    return int(env["OMP_NUM_THREADS"])
+
+
+def _run_to_end(command, cwd, env, timeout):
     # Open MPI jobs that share a directory for temporary files remove it from under each other.
     with tempfile.TemporaryDirectory(prefix="mpi-", ignore_cleanup_errors=True) as private, \
          tempfile.TemporaryFile("w+", errors="replace") as sink:
@@ -134,7 +178,9 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
         command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
     command += [str(word) for word in arguments]
 
-    returncode, output = _launch(command, cwd, _environment(env, np), timeout * SLOWER)
+    env = _environment(env)
+    cores = 1 if expect_error else np * _threads(env)    # the start of several ranks mostly waits, and that is all there is
+    returncode, output = _launch(command, cwd, env, timeout * SLOWER, cores)
     log = ""
     if os.path.exists(log_path):
         with open(log_path, errors="replace") as file:
@@ -158,11 +204,18 @@ def ranks_of_refusal(n):
     return (1, 2) if n % 3 == 0 or os.environ.get("TALUS_LARGE_TESTS") else (1,)
 
 
+def part_of(cases, every, first=0):
+    """Every second, third or so of many cases that differ little; all of them in long test runs."""
+    cases = list(cases)
+    return cases if os.environ.get("TALUS_LARGE_TESTS") else cases[first::every]
+
+
 def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TIMEOUT):
     """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
     command += [path] + [str(word) for word in arguments]
-    returncode, output = _launch(command, cwd, _environment(env, np), timeout * SLOWER)
+    env = _environment(env)
+    returncode, output = _launch(command, cwd, env, timeout * SLOWER, np * _threads(env))
     if returncode != 0:
         raise AssertionError(f"return code {returncode}: {' '.join(command)}\n{output[-3000:]}")
     return Result("", output, returncode, cwd)

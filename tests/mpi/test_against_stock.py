@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=75 timeout=300
 """gran/penalty against the stock granular styles with the same law, particle by particle.
 
 Both run the same script with fix nve/sphere from the same data file, on 1, 2 and 4 ranks."""
@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import (SceneCase, Sphere, max_difference, read_dump, read_local, thermo,
+from talus_testing import (SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo,
                            write_sphere_data)
 
 RANKS = 1, 2, 4
@@ -260,7 +260,7 @@ class AgainstStock(SceneCase):
         write_sphere_data(self.path("grains"), ((0, 20), (0, 10), (0, 10)), grains())
         print(f"\n{'positions after 1000 steps':28}{'on 1':>9}{'on 2':>9}{'on 4 ranks':>11}"
               f"{'stock 1-2':>11}   collisions  rebuilds  crossings")
-        for law, (theirs, ours) in list(LAWS.items())[:5]:
+        for law, (theirs, ours) in part_of(list(LAWS.items())[:5], 2):
             reference = self.scene("stock " + law, stock(theirs), 1, STEPS)
             own = distance(self.scene("stock " + law, stock(theirs), 2, STEPS), reference)
             runs = [self.scene(law, talus(ours), np, STEPS, CONTACTS if np == 1 else "")

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=35 timeout=300
 """The scenes with large bodies, small: rotating drum, plate penetration, wave tank, hopper, and the wheel that a Python
 program drives."""
 

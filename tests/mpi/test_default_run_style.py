@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: cost=20 timeout=300
 """With the plugin loaded run style verlet is that of Talus, the direct exchange and overlap are chosen for each run, and
 the log says what is accelerated.  Pair styles of others run as without the plugin."""
 

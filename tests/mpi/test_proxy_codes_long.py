@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: label=slow timeout=1800 procs=2
+# ctest: label=slow timeout=1800
 """The encoded values of test_proxy_codes.py on 27 ranks and on numbers that make odd grids."""
 
 import os

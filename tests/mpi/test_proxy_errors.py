@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: timeout=300
 """Wrong words, refusals and hazards of comm_proxy and run_style verlet/proxy, and errors while an exchange is under way."""
 
 import os

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: timeout=300
 """The exchange is swapped in and out in the middle of a session, and everything that renumbers particles happens.
 
 A session under the direct exchange must print and dump what the same session prints under the stock one."""

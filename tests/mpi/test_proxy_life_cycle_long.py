@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: label=slow timeout=1800 procs=2
+# ctest: label=slow timeout=1800
 """The sessions of test_proxy_life_cycle.py, many times over: what depends on timing has its chance."""
 
 import os

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=120 procs=2
+# ctest: timeout=120
 """The network model of the benchmarks: nothing arrives too early, and all of it is right."""
 
 import os

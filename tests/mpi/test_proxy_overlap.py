@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: timeout=300
 """gran/penalty: the same bits with the stock exchange, the direct one, and the direct one overlapped.
 
 With walls, run style verlet of LAMMPS is compared as well; in periodic boxes only runs with the same rebuild

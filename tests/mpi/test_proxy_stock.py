@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: timeout=300
 """Stock styles under `comm_proxy yes`: dumps and thermo output are those of the stock exchange, bit for bit."""
 
 import os

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=65 timeout=300
 """One trajectory: the same bits on any ranks, threads, grid, balance, skin, rebuild setting, sorting, restart.
 
 The scene is a heap that collapses when a wall is taken away; the reference is one uninterrupted run
@@ -7,6 +7,7 @@ on one rank.  Compared at several steps are position, velocity, spin and stress 
 force, overlap and friction (so the history) of every contact; -0 counts as 0.  The stock style in the
 same scene is the negative control."""
 
+import itertools
 import os
 import random
 import re
@@ -16,7 +17,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import (SceneCase, Sphere, read_dump, read_local, run_lammps,
+from talus_testing import (SceneCase, Sphere, part_of, read_dump, read_local, run_lammps,
                            write_sphere_data)
 
 BOX = ((-1, 25), (-1, 11), (-1, 22))
@@ -169,9 +170,9 @@ class SameBits(HeapCase):
 
     def test_ranks_skins_and_sorting(self):
         default, often, never = "1000 0", "1 0.7", "0 0"
-        for np in 1, 2, 4:
-            for skin, sort in ((0.05, default), (0.1, often), (0.1, never), (0.3, default), (0.3, often)):
-                self.check(f"skin {skin} sort {sort}", np, neighbors=rebuilds(skin), sort=sort)
+        settings = (0.05, default), (0.1, often), (0.1, never), (0.3, default), (0.3, often)
+        for np, (skin, sort) in part_of(itertools.product((1, 2, 4), settings), 2):
+            self.check(f"skin {skin} sort {sort}", np, neighbors=rebuilds(skin), sort=sort)
 
     def test_rebuild_settings(self):
         for rebuild in "every 1 delay 0 check no", "every 7 delay 0 check no", "delay 5":

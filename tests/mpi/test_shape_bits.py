@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=25 timeout=300
 """One trajectory of convex particles mixed with spheres: the same bits on any ranks, threads and grid, in a periodic
 box, with bodies and meshes that move, particles that come in during the run, and across a restart."""
 

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=240 procs=4
+# ctest: timeout=240
 """fix wall/gran/talus and wall/gran/region/talus: the same bits on any number of ranks and threads, with or without
 overlap, and where every step goes through the arrays of LAMMPS; -sf talus chooses them."""
 

@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: cost=20
 """Contacts with large bodies are of second order in the time step with `order 2`, where their normal turns and where
 they move: errors against a solution with a small time step, over several spheres that touch at different moments within
 a step. The limit must be that of order 1, which has none of what makes the order two."""

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=3000 label=slow procs=2
+# ctest: timeout=3000 label=slow
 """test_body_vessel.py with 20 000 particles, shaken for 20 000 steps: 70 jerks upwards. Then it rests as long as the bed
 needs to settle."""
 

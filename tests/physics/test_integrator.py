@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """fix nve/sphere/symplectic: order, stability, conservation, restart, gravity, orientation."""
 
 import math

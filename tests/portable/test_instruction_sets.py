@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600 procs=2
+# ctest: timeout=600
 """A portable build: which instructions it takes, what it refuses, and that all of them give the same bits."""
 
 import itertools

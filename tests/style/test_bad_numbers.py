@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """Positions, velocities and radii that cannot be: one message that names the particle, on any number of ranks."""
 
 import os

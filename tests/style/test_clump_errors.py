@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """Every refusal of fix rigid/small/symplectic: its text, and the word it points at, on 1 and 2 ranks."""
 
 import os

@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """Warnings about deep overlaps and large moves: where they are due, once per run, and not elsewhere."""
 
 import os

@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """The warning about scenes without damping and friction: at time steps with which impacts keep less than 1e-3 of their
 energy in order, and not elsewhere."""
 

@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: cost=30
 """Every refusal of pair_style gran/penalty, its pair_coeff, fix large/body and their internal fix: text,
 word that is marked, on 1 and 2 ranks, without a hang."""
 
@@ -9,7 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word, ranks_of_refusal
+from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
 
 BOX = """
 units si
@@ -254,11 +255,17 @@ class Errors(SceneCase):
         self.assertRegex(result.log + result.output, "ERROR on proc 0: Pair style gran/penalty: not enough memory for the "
                          "pairs of 27000 particles and 0 ghosts of a rank: use more machines")
 
+    def assert_pushed_apart(self, script):
+        """The particles begin at rest and overlap."""
+        first, last = thermo(self.run_lammps(script).log)
+        self.assertEqual((first["Step"], first["Temp"], last["Step"]), (0, 0, 2))
+        self.assertGreater(last["Temp"], 0.0)
+
     def test_what_is_right_runs(self):
-        self.run_lammps(f"{box()}fix f all large/body {RECTANGLE} two-sided contact types 2 hertz 1 1 "
-                        f"limit_damping contact types *1 hooke 1 1 tangential dashpot 1 1\n{RUN}")
+        self.assert_pushed_apart(f"{box()}fix f all large/body {RECTANGLE} two-sided contact types 2 hertz 1 1 "
+                                 f"limit_damping contact types *1 hooke 1 1 tangential dashpot 1 1\n{RUN}")
         # without history the two contacts of a pair need not be told apart
-        self.run_lammps(f"{box()}{NARROW}{STYLE}pair_coeff * * hooke 1 1 tangential dashpot 1 1\n{MOVE}run 2")
+        self.assert_pushed_apart(f"{box()}{NARROW}{STYLE}pair_coeff * * hooke 1 1 tangential dashpot 1 1\n{MOVE}run 2")
 
 
 if __name__ == "__main__":

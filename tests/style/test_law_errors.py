@@ -1,9 +1,10 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=900
+# ctest: cost=85 timeout=900
 """Every refusal of the words of a contact law, in pair_coeff gran/penalty and in fix large/body, and of the computes
 that go with them: its text and the word it points at, on 1 and 2 ranks."""
 
 import concurrent.futures
+import math
 import os
 import re
 import sys
@@ -11,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word, ranks_of_refusal
+from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
 
 BOX = """
 units si
@@ -286,12 +287,19 @@ class LawErrors(SceneCase):
         self.assert_errors(OTHERS, "")
 
     def test_accepted(self):
+        """Laws that are accepted see the contact of two spheres and those with the plane, and compute finite numbers."""
         for words in ACCEPTED:
             with self.subTest(words):
-                self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
-                                "fix step all nve/sphere/symplectic\n"
-                                "compute s all penalty/stats\ncompute t all timestep/gran\n"
-                                "thermo_style custom step c_s[4] c_t[1]\ntimestep 1e-6\nrun 2\n")
+                log = self.run_lammps(f"{BOX}pair_coeff * * {words}\n{PLANE} contact {words}\n"
+                                      "set atom 2 x -1.1\ndisplace_atoms all move 0 0 -3.55 units box\n"
+                                      "fix step all nve/sphere/symplectic\n"
+                                      "compute s all penalty/stats\ncompute t all timestep/gran\n"
+                                      "thermo_style custom step c_s[2] c_s[4] c_t[1] ke\ntimestep 1e-6\nrun 2\n").log
+                rows = thermo(log)
+                self.assertEqual([row["Step"] for row in rows], [0, 2])
+                self.assertEqual(rows[0]["c_s[2]"], 3)
+                for row in rows:
+                    self.assertTrue(all(map(math.isfinite, row.values())), row)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 procs=2
+# ctest: cost=45 timeout=300
 """Every example of the documentation, then examples with words that are wrong, damaged STL files and odd sessions:
 nothing crashes, hangs, fails without a message or prints numbers that are none. New commands are covered as soon as
 their pages have examples."""

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: label=slow timeout=3600 procs=2
+# ctest: label=slow timeout=3600
 """test_mutations.py with other seeds and many times as many runs. TALUS_SEED chooses another one."""
 
 import os

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=240 procs=2
+# ctest: timeout=240
 """Neighbors that pair_style gran/penalty finds itself, against the lists of LAMMPS: the same bits.
 
 As the only part of pair_style hybrid it takes the lists of LAMMPS.  What neigh_modify excludes is excluded in both."""

@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """run_style verlet/proxy: neighbor lists are made in time whatever the distance of the checks, and a warning names what
 was in the way if not."""
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=55 timeout=300
 """Pair style granular with the suffix talus against the stock style: the same script, with and without -sf talus.
 
 Particles are driven, so that both styles see the same positions and velocities: what differs are the contacts alone.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=35 timeout=300
 """Pair styles gran/* with the suffix talus against the stock styles: the same script, with and without -sf talus."""
 
 import itertools

@@ -1,5 +1,4 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: procs=2
 """Warnings about friction without damping: where impacts gain energy, and not elsewhere."""
 
 import math
