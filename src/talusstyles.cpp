@@ -3,6 +3,7 @@
 // The list of styles that the plugin adds. Called by the gate in talusplugin.cpp, once the host is
 // known to be the one this file was compiled for; may be called again after `clear`.
 
+#include "base/talus_version.h"
 #include "base/vectors.h"
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
@@ -33,7 +34,6 @@
 #include "system/lammps_compat.h"
 #include "system/system_run_style.h"
 #include "talus_abi.h"
-#include "talus_version.h"
 
 #if TALUS_HOST_HAS_RIGID
 #include "fix/fix_rigid_small_symplectic.h"

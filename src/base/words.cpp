@@ -3,39 +3,25 @@
 #include "base/words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <locale.h>
+#include <sstream>
 #include <stdexcept>
-#include <system_error>
+#include <stdlib.h>
 #include <utility>
 
 namespace Talus {
 namespace {
 
-/* Whether a number beyond the range of doubles is too large rather than too small: by the decimal
-   place of its first digit that counts. */
-
-bool is_large(const std::string &number)
-{
-  const std::size_t exponent = std::min(number.find_first_of("eE"), number.size());
-  const std::size_t point = std::min(number.find('.'), exponent);
-  const auto place =
-      static_cast<double>(point) - static_cast<double>(number.find_first_of("123456789"));
-  const long shift =
-      exponent < number.size() ? std::strtol(number.c_str() + exponent + 1, nullptr, 10) : 0;
-  return place + static_cast<double>(shift) > 0.0;
-}
-
 /* As %g in the C locale. */
 
 std::string as_text(double number)
 {
-  char text[32];
-  const auto [stop, error] =
-      std::to_chars(text, text + sizeof text, number, std::chars_format::general, 6);
-  return error == std::errc() ? std::string(text, stop) : std::string();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << number;
+  return text.str();
 }
 
 /* "a, b or c" */
@@ -50,15 +36,16 @@ std::string list_of(const std::vector<std::string> &words)
 
 }    // namespace
 
+/* std::from_chars would do, but libraries older than that of GCC 11 have it for integers only. */
+
 double parse_number(const std::string &word)
 {
-  const char *begin = word.data(), *const end = begin + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || error == std::errc::invalid_argument) return NAN;
-  if (error == std::errc::result_out_of_range) return is_large(word) ? INFINITY : 0.0;
-  return value;
+  static const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);
+  const bool decimal = word.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  if (word.empty() || !decimal) return NAN;
+  char *stop = nullptr;
+  const double value = strtod_l(word.c_str(), &stop, c_locale);
+  return stop == word.c_str() + word.size() ? value : NAN;
 }
 
 Words::Words(std::string command_name, int n, const char *const *words, int first, Fail fail_with) :

@@ -2,10 +2,10 @@
 //
 // Pair style gran/penalty: its laws in restart files, see material/law_file.h.
 
+#include "base/talus_version.h"
 #include "pair/pair_gran_penalty.h"
 
 #include "material/law_file.h"
-#include "talus_version.h"
 
 #include "atom.h"
 #include "comm.h"

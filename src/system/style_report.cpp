@@ -2,11 +2,11 @@
 
 #include "system/style_report.h"
 
+#include "base/talus_version.h"
 #include "system/granular_system.h"
 #include "system/system_fix.h"
 #include "system/system_pair.h"
 #include "system/system_run_style.h"
-#include "talus_version.h"
 
 #include "comm.h"
 #include "fix.h"

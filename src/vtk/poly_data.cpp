@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "vtk/poly_data.h"
-#include "talus_version.h"
 
+#include "base/talus_version.h"
 #include "vtk/text_file.h"
 
 #include <cassert>

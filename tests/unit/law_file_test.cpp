@@ -69,7 +69,7 @@ TEST(LawFile, NamesTheLawThatIsMissing)
     FAIL();
   } catch (const std::runtime_error &problem) {
     EXPECT_NE(std::string(problem.what())
-                  .find("normal law 'hurts' (version 2), which this Talus does not have"),
+                  .find("normal law 'hurts' (version 3), which this Talus does not have"),
               std::string::npos);
   }
 }

@@ -2,8 +2,8 @@
 //
 // The version of Talus, which CMakeLists.txt sets: in the log, in restart files and in VTK files.
 
-#ifndef TALUS_VERSION_H
-#define TALUS_VERSION_H
+#ifndef TALUS_BASE_TALUS_VERSION_H
+#define TALUS_BASE_TALUS_VERSION_H
 
 #if !defined(TALUS_VERSION_MAJOR)
 #error "link the CMake target talus_flags: it defines the version"
