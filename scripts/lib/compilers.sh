@@ -49,8 +49,10 @@ core_only() {
   local name=$1 title=$2 dir=$TALUS_ROOT/build-$1
   shift 2
   note "== $title =="
+  local cache
+  mapfile -t cache < <(compiler_cache_options)
   mkdir -p "$dir"
-  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" -D TALUS_CORE_ONLY=ON -D TALUS_WERROR=ON "$@" >"$dir/configure.log" 2>&1 || {
+  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" -D TALUS_CORE_ONLY=ON -D TALUS_WERROR=ON "${cache[@]}" "$@" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
     note "$title: could not be configured; all of it is in $dir/configure.log"
     return 1

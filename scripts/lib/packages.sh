@@ -11,7 +11,7 @@ TALUS_PACKAGES=(
 )
 
 # What tests need besides, and benchmarks.
-TALUS_TEST_PACKAGES=(libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev)
+TALUS_TEST_PACKAGES=(libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev ccache)
 TALUS_BENCHMARK_PACKAGES=(libbenchmark-dev)
 
 # What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.

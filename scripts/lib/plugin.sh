@@ -40,20 +40,38 @@ explain_configure() {
   die "Talus could not be configured; all of it is in $log"
 }
 
+# developer_options: for CMake. Without TALUS_TESTS or TALUS_BENCHMARKS nothing is said, so that scripts/build and
+# scripts/run leave a build directory of scripts/test as it is, and compile only what has changed.
+developer_options() {
+  if [[ -n ${TALUS_TESTS:-} ]]; then
+    printf -- '-D\n%s\n' TALUS_TESTS=ON TALUS_WERROR=ON
+    compiler_cache_options
+  fi
+  if [[ -n ${TALUS_TESTS:-}${TALUS_BENCHMARKS:-} ]]; then printf -- '-D\n%s\n' TALUS_BENCHMARKS=ON; fi
+}
+
+# compiler_cache_options: what one clone has compiled, none compiles again.
+compiler_cache_options() {
+  if have ccache; then printf -- '-D\n%s\n' CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+}
+
+# use_compiler_cache: precompiled headers need the sloppiness (manual of ccache, "Precompiled headers").
+use_compiler_cache() {
+  export CCACHE_DIR=${CCACHE_DIR:-$(cache_dir)/ccache} CCACHE_BASEDIR=$TALUS_ROOT CCACHE_NOHASHDIR=1
+  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+}
+
 configure_talus() {
-  local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF tests=OFF benchmarks=OFF more
+  local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF more
   read -ra more <<<"${TALUS_CMAKE_OPTIONS:-}"
-  mapfile -t -O "${#more[@]}" more < <(mpi_options)
-  if [[ -n ${TALUS_TESTS:-} ]]; then tests=ON; fi
-  if [[ -n ${TALUS_TESTS:-}${TALUS_BENCHMARKS:-} ]]; then benchmarks=ON; fi
+  mapfile -t -O "${#more[@]}" more < <(mpi_options; developer_options)
   if [[ $kind == sanitize ]]; then sanitizers='address;undefined'; fi
   if [[ $kind == portable ]]; then portable=ON; fi
   mkdir -p "$dir"
   cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" \
     -D "LAMMPS_BINARY_DIR=$HOST_BINARY" -D "LAMMPS_SOURCE_DIR=$HOST_SOURCE" \
     -D "LAMMPS_SIZES=$sizes" -D "TALUS_SANITIZE=$sanitizers" \
-    -D "TALUS_TESTS=$tests" -D "TALUS_WERROR=$tests" -D "TALUS_BENCHMARKS=$benchmarks" "${more[@]}" \
-    -D "TALUS_PORTABLE=$portable" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
+    "${more[@]}" -D "TALUS_PORTABLE=$portable" -D "TALUS_ARCH=${TALUS_ARCH:-native}" \
     -D "CMAKE_CXX_COMPILER=$(host_compiler)" >"$dir/configure.log" 2>&1 ||
     explain_configure "$dir/configure.log"
 }
