@@ -19,10 +19,28 @@
 #ifndef TALUS_H
 #define TALUS_H
 
+#include <locale.h>
 #include <stdio.h>
+#include <string.h>
 
 #define TALUS_STATE_SIZE 13
 #define TALUS_LOAD_SIZE 6
+
+/* Writes " x" as LAMMPS reads it, also where the program prints numbers with a decimal comma. Returns the
+   number of characters, as snprintf. */
+static inline int talus_write_number(char *to, size_t size, double x)
+{
+  const char *point = localeconv()->decimal_point;
+  const size_t length = strlen(point);
+  char text[64], *at;
+  snprintf(text, sizeof text, " %.17g", x);
+  at = strstr(text, point);
+  if (at) {
+    *at = '.';
+    memmove(at + 1, at + length, strlen(at + length) + 1);
+  }
+  return snprintf(to, size, "%s", text);
+}
 
 /* The body is to have this state `after` steps from now; 0: at once, going on with its velocity. */
 static inline void talus_set_state(void *lmp, const char *id, const double *state, int after)
@@ -30,7 +48,7 @@ static inline void talus_set_state(void *lmp, const char *id, const double *stat
   char command[1024];
   int k, n = snprintf(command, sizeof command, "fix_modify %s state", id);
   for (k = 0; k < TALUS_STATE_SIZE && n < (int) sizeof command; k++)
-    n += snprintf(command + n, sizeof command - n, " %.17g", state[k]);
+    n += talus_write_number(command + n, sizeof command - n, state[k]);
   if (n < (int) sizeof command) snprintf(command + n, sizeof command - n, " after %d", after);
   lammps_command(lmp, command);
 }

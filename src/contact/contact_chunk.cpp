@@ -5,6 +5,7 @@
 #include "contact/narrow_phase.h"
 #include "laws/change_of_order.h"
 #include "laws/tangential/end_of_contact.h"
+#include "material/run_laws.h"
 
 #include <algorithm>
 #include <iterator>
@@ -228,14 +229,7 @@ void ContactChunk::run_kernels(const Step &step)
   const LawTable &laws = step.scene.laws;
   batch.lag = step.lag;
   for (const LawRange &range : ranges) {
-    const double time_at_setup = step.account ? step.account->time_at_setup : -1.0;
-    if (time_at_setup >= 0.0)
-      laws.accounting_kernel(range.law, false)(batch, range.begin, range.end, laws.coefficients(),
-                                               time_at_setup);
-    const ContactKernel &kernel = step.account && time_at_setup < 0.0
-                                      ? laws.accounting_kernel(range.law, true)
-                                      : laws.kernel(range.law, step.advance);
-    kernel(batch, range.begin, range.end, laws.coefficients(), step.dt);
+    run_laws(batch, range.law, range.begin, range.end, {laws, step.dt, step.advance, step.account});
     // not written by the kernels of laws that have none
     const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())

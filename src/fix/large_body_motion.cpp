@@ -2,6 +2,7 @@
 
 #include "fix/large_body_motion.h"
 
+#include "base/words.h"
 #include "fix/region_surface.h"
 #include "system/time_formula.h"
 
@@ -358,7 +359,7 @@ BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
                narg - 1);
   double value[size];
   for (int k = 0; k < size; k++) {
-    value[k] = utils::is_double(arg[1 + k]) ? std::strtod(arg[1 + k], nullptr) : NAN;
+    value[k] = parse_number(arg[1 + k]);    // in any locale of the program
     if (!std::isfinite(value[k]))
       error->all(FLERR, "fix_modify state: expected a finite number instead of '{}'", arg[1 + k]);
   }

@@ -3,6 +3,7 @@
 #include "shaped/point_batch.h"
 
 #include "base/lanes.h"
+#include "material/run_laws.h"
 
 namespace Talus {
 
@@ -65,13 +66,7 @@ void PointBatch::flush()
   for (int lane = filled; lane < end; lane++) {    // a row of this law, whatever it was before
     gather(*of_lane[filled - 1], lane);
   }
-  const double time_at_setup = task->account ? task->account->time_at_setup : -1.0;
-  if (time_at_setup >= 0.0)
-    laws.accounting_kernel(law_index, false)(batch, 0, end, laws.coefficients(), time_at_setup);
-  const ContactKernel &kernel = task->account && time_at_setup < 0.0
-                                    ? laws.accounting_kernel(law_index, true)
-                                    : laws.kernel(law_index, task->advance);
-  kernel(batch, 0, end, laws.coefficients(), task->dt);
+  run_laws(batch, law_index, 0, end, {laws, task->dt, task->advance, task->account});
   for (int lane = 0; lane < filled; lane++) hand_out(*of_lane[lane], lane);
   filled = 0;
 }

@@ -5,6 +5,7 @@ also over a restart; from C; refusal of bad states; the energy error of explicit
 
 import json
 import os
+import struct
 import sys
 import unittest
 
@@ -129,6 +130,7 @@ with open(sys.argv[1], "w") as file:
 """
 
 C_PROGRAM = """
+#include <locale.h>
 #include <mpi.h>
 #include "library.h"
 #include "talus.h"
@@ -141,6 +143,8 @@ int main(int argc, char **argv)
   void *lmp = lammps_open(5, words, MPI_COMM_WORLD, NULL);
   lammps_file(lmp, argv[1]);
   lammps_command(lmp, "run 0");
+  if (argc > 2 && !setlocale(LC_NUMERIC, argv[2])) return 1;    /* as programs with a graphical interface do */
+  if (argc > 2 && localeconv()->decimal_point[0] != ',') return 2;
   talus_get_state(lmp, "body", state);
   state[9] = -2.0;
   state[2] -= 0.002 * 250;
@@ -148,6 +152,7 @@ int main(int argc, char **argv)
   talus_run(lmp, 500);
   talus_get_state(lmp, "body", state);
   talus_get_load(lmp, "body", load);
+  setlocale(LC_NUMERIC, "C");
   for (k = 0; k < TALUS_STATE_SIZE; k++) printf("%.10g ", state[k]);
   for (k = 0; k < TALUS_LOAD_SIZE; k++) printf("%.10g ", load[k]);
   lammps_close(lmp);
@@ -155,6 +160,16 @@ int main(int argc, char **argv)
   return 0;
 }
 """
+
+
+def write_comma_locale(folder):
+    """A locale named comma, which writes 0,5 for 0.5, in the format that glibc reads (LOCPATH=folder): magic number of
+    the category, number of fields, where each begins; decimal point, thousands separator, grouping, the first two as wide
+    characters, codeset."""
+    os.makedirs(os.path.join(folder, "comma"))
+    with open(os.path.join(folder, "comma", "LC_NUMERIC"), "wb") as file:
+        file.write(struct.pack("=8I", 0x20031115 ^ 1, 6, 32, 34, 35, 36, 40, 44) + b",\0\0\0" +
+                   struct.pack("=2I", ord(","), 0) + b"UTF-8\0")
 
 
 def grains():
@@ -176,10 +191,11 @@ class Cosim(SceneCase):
             file.write(text)
         return text
 
-    def launch(self, command, np=1):
+    def launch(self, command, np=1, env=None):
         """What it prints."""
         libraries = HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")
-        return run_program(command[0], np, command[1:], cwd=self.dir, env={"LD_LIBRARY_PATH": libraries}).output
+        return run_program(command[0], np, command[1:], cwd=self.dir,
+                           env={"LD_LIBRARY_PATH": libraries, **(env or {})}).output
 
     def drive(self, driver, *words, np=1):
         with open(self.path("driver.py"), "w") as file:
@@ -255,6 +271,9 @@ write_dump all custom variable.state id x y z vx vy vz omegax omegay omegaz modi
             self.assertEqual(out[:3], [0.0, 0.0, 2.8])    # 250 steps to the given state, 250 more at its speed
             self.assertEqual(out[9], -2.0)
             self.assertGreater(out[15], 1.0)
+        write_comma_locale(self.path("locales"))
+        again = self.launch(["./drive", "in.external", "comma"], env={"LOCPATH": self.path("locales")})
+        self.assertEqual(list(map(float, again.split())), out)    # state[2] is not whole
 
     def test_energy_error_of_the_coupling(self):
         self.drive(OSCILLATOR, "errors")

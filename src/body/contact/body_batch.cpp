@@ -3,6 +3,7 @@
 #include "body/contact/body_batch.h"
 
 #include "laws/tangential/end_of_contact.h"
+#include "material/run_laws.h"
 
 #include <algorithm>
 
@@ -85,7 +86,7 @@ void BodyBatch::look_at_eight(std::size_t first, int low, int high)
     prefetch_contacts(first + ahead, task->history.touched((first + ahead) / width));
   load_spheres(index, low, high);
   const unsigned asked = bits_of_law(first, low, high);
-  const unsigned bits = touching_eight(first, high) & asked;
+  const unsigned bits = touching_eight(first, low, high) & asked;
   if (task->with_history) task->history.set_touching(first / width, asked, bits);
   if (bits) take(first, bits);
 }
@@ -120,12 +121,13 @@ const EightSpheres &BodyBatch::spheres_in_body()
 
 /* Contacts that have begun may last beyond zero overlap. */
 
-unsigned BodyBatch::touching_eight(std::size_t first, int high)
+unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 {
   const EightSpheres &its = spheres_in_body();
   if (law.tangential().second_order) {
     const unsigned bits = task->shape.touches_eight(its, high, contacts);
-    return bits | just_ended(first, its, task->history.touched(first / width) & ~bits);
+    const unsigned ours = (1U << high) - (1U << low);    // others may be changed by other threads
+    return bits | just_ended(first, its, task->history.touched(first / width) & ours & ~bits);
   }
   if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(its, high, contacts);
   double reach[width] = {};
@@ -290,17 +292,9 @@ void BodyBatch::flush()
     filled = 0;
     return;
   }
-  const bool accounts = task->account != nullptr;
-  const double time_at_setup = accounts ? task->account->time_at_setup : -1.0;
-  if (time_at_setup >= 0.0)
-    task->laws.accounting_kernel(law_index, false)(batch, 0, end, task->laws.coefficients(),
-                                                   time_at_setup);
-  const ContactKernel &kernel = accounts && time_at_setup < 0.0
-                                    ? task->laws.accounting_kernel(law_index, true)
-                                    : task->laws.kernel(law_index, task->advance);
-  kernel(batch, 0, end, task->laws.coefficients(), task->dt);
+  run_laws(batch, law_index, 0, end, {task->laws, task->dt, task->advance, task->account});
   if (task->with_history && task->advance) keep_histories();
-  if (accounts) account();
+  if (task->account) account();
   if (task->record_parts) record_parts();
   if (task->frame.turned) turn_to_space();
   if (task->view.records)

@@ -96,7 +96,7 @@ class BodyBatch {
   void look_at_eight(std::size_t first, int low, int high);
   void load_spheres(const int *index, int low, int high);
   const EightSpheres &spheres_in_body();
-  unsigned touching_eight(std::size_t first, int high);
+  unsigned touching_eight(std::size_t first, int low, int high);
   unsigned just_ended(std::size_t first, const EightSpheres &its, unsigned bits);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
