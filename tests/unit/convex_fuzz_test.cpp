@@ -306,15 +306,17 @@ TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
       for (ConvexContact &contact : other.points) contact.name = exchanged_name(contact.name);
       std::sort(other.points.begin(), other.points.end(),
                 [](const ConvexContact &p, const ConvexContact &q) { return p.name < q.name; });
-      // deep within each other, parallel bodies have several directions of least depth
-      if (c.pose_a.rotation == c.pose_b.rotation && deepest(one) > 0.05 + 2.0 * rounding) continue;
+      // parallel bodies have several directions of least depth: deep within each other, and those with many parallel
+      // edges, in steps of the rounding error, also where they just touch
+      const bool parallel = c.pose_a.rotation == c.pose_b.rotation;
+      if (parallel && (c.a == c.b || deepest(one) > 0.05 + 2.0 * rounding)) continue;
       compared++;
       ASSERT_EQ(one.points.size(), other.points.size()) << trial << " rounding " << rounding;
       for (std::size_t k = 0; k < one.points.size(); k++) {
         const ConvexContact &p = one.points[k], &q = other.points[k];
         EXPECT_EQ(p.name, q.name) << trial;
         EXPECT_LT(length(p.position - q.position), 1e-9) << trial;
-        EXPECT_LT(length(p.normal + q.normal), 1e-9) << trial;
+        EXPECT_LT(length(p.normal + q.normal), 1e-8) << trial;
         EXPECT_NEAR(p.overlap, q.overlap, 1e-10);
         EXPECT_NEAR(p.weight, q.weight, 1e-7);
       }
