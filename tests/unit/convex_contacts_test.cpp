@@ -213,8 +213,9 @@ TEST(ConvexPair, StackedCubesKeepTheNamesOfTheirContacts)
   std::vector<std::uint32_t> names;
   for (int trial = 0; trial < 200; trial++) {
     const double tiny = 1e-7;
-    const Pose above({tiny * random.uniform(-1, 1), tiny * random.uniform(-1, 1), 0.999},
-                     turned(tiny * random.uniform(-1, 1), random.uniform(-1, 1), 0.3, 1));
+    const Vector at{tiny * random.uniform(-1, 1), tiny * random.uniform(-1, 1), 0.999};
+    const double angle = tiny * random.uniform(-1, 1);
+    const Pose above(at, turned(angle, random.uniform(-1, 1), 0.3, 1));
     ASSERT_TRUE(pair.touch(above, Pose()));
     std::vector<std::uint32_t> now;
     for (const ConvexContact &c : pair.contacts.points) now.push_back(c.name);
@@ -286,8 +287,10 @@ TEST(ConvexPair, ExtremeShapes)
     for (int trial = 0; trial < 1000; trial++) {
       const ConvexShape &a = shapes[random.below(5)], &b = shapes[random.below(5)];
       const Pose pose_a({0, 0, 0}, random.orientation());
-      Pose pose_b(1.001 * (a.bounding_radius() + b.bounding_radius()) * random.direction(),
-                  random.orientation());
+      // one after the other: the order of arguments is the compiler's choice
+      const Eigen::Quaterniond rotation = random.orientation();
+      const double distance = 1.001 * (a.bounding_radius() + b.bounding_radius());
+      Pose pose_b(distance * random.direction(), rotation);
       // b comes nearer until they touch: from there less than the rounding, or a thousandth of the size
       SeparatingDirection direction;
       double far = 1.0, near = 0.0;
@@ -337,9 +340,9 @@ TEST(ConvexPair, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
     ConvexContacts contacts;
     SeparatingDirection direction;
     // a place where they touch, and a way past it; every third time with parallel faces, turning
-    const Eigen::Quaterniond qa = random.orientation(),
-                             turn = turned(0.3, random.uniform(-1, 1), random.uniform(-1, 1),
-                                           random.uniform(-1, 1));
+    const Eigen::Quaterniond qa = random.orientation();
+    const Vector axis{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const Eigen::Quaterniond turn = turned(0.3, axis.x, axis.y, axis.z);
     const bool parallel = random.chance(0.3);
     const Eigen::Quaterniond qb = parallel ? qa : random.orientation();
     const Vector toward = parallel ? from_eigen(qa * Eigen::Vector3d(0, 0, 1)) : random.direction();
