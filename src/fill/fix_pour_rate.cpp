@@ -176,31 +176,47 @@ void *FixPourRate::extract(const char *what, int &of_type)
 
 /* ---- restart -------------------------------------------------------------------------------- */
 
+/* Words of 8 bytes: layout, generator, diameter, what is due, mass, count, next step. Files of Talus
+   before 1.0 lack the first one. */
+
 namespace {
-struct State {
-  std::uint64_t random;
-  double next_diameter, due, poured, count;
-  bigint next_step;
-};
+constexpr std::uint64_t layout = 0x5461'6c75'7300'0002;    // "Talus", 2
+
+template <class Value> void put(std::uint64_t &word, Value value)
+{
+  static_assert(sizeof value == sizeof word);
+  std::memcpy(&word, &value, sizeof word);
+}
+
+template <class Value> void take(const char *&from, Value &value)
+{
+  static_assert(sizeof value == sizeof layout);
+  std::memcpy(&value, from, sizeof value);
+  from += sizeof value;
+}
 }    // namespace
 
 void FixPourRate::write_restart(FILE *file)
 {
   if (comm->me) return;
-  const State state{random.state, next_diameter, due, poured, count, next_reneighbor};
-  const int size = sizeof state;
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(&state, sizeof state, 1, file);
+  std::uint64_t words[7] = {layout, random.state};
+  const double numbers[] = {next_diameter, due, poured, count};
+  for (int n = 0; n < 4; n++) put(words[2 + n], numbers[n]);
+  put(words[6], static_cast<std::int64_t>(next_reneighbor));
+  const int size = sizeof words;
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(words, size, 1, file);
 }
 
 void FixPourRate::restart(char *buffer)
 {
-  State state;
-  std::memcpy(&state, buffer, sizeof state);
-  random.state = state.random;
-  next_diameter = state.next_diameter;
-  due = state.due;
-  poured = state.poured;
-  count = state.count;
-  next_reneighbor = state.next_step;
+  const char *from = buffer;
+  std::uint64_t first;
+  take(from, first);
+  if (first != layout) from = buffer;
+  take(from, random.state);
+  for (double *number : {&next_diameter, &due, &poured, &count}) take(from, *number);
+  std::int64_t step;
+  take(from, step);
+  next_reneighbor = static_cast<bigint>(step);
 }

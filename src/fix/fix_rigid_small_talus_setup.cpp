@@ -268,39 +268,65 @@ void FixRigidSmallTalus::find_body(int clump)
 }
 
 /* ----------------------------------------------------------------------
-   restart files: of each particle whether a set-up has been made, the ID of its body and its place in
-   it, of the one that owns the body the state as well
+   restart files: of each particle the layout of its row, whether a set-up has been made, the ID of its
+   body and its place in it, of the one that owns the body the state as well, number by number: the
+   struct of the host may change
 ------------------------------------------------------------------------- */
 
 static constexpr tagint no_setup = -1;    // in the place of the ID
+static constexpr tagint layout =
+    -2;    // that of before began with the ID, and had a struct of the host
+
+static constexpr int row_begin = 7, num_numbers = 1 + 12 * 3 + 2 * 4, num_whole = 2 + 4;
+
+template <class Body, class Visit> static void for_each_number(Body &b, Visit visit)
+{
+  visit(&b.mass, 1);
+  for (auto *three : {b.xcm, b.xgc, b.vcm, b.fcm, b.torque, b.inertia, b.ex_space, b.ey_space,
+                      b.ez_space, b.xgc_body, b.angmom, b.omega})
+    visit(three, 3);
+  for (auto *four : {b.quat, b.conjqm}) visit(four, 4);
+}
 
 int FixRigidSmallTalus::size_restart(int i)
 {
-  return 6 + (bodyown[i] >= 0 ? bodysize : 0);
+  return row_begin + (bodyown[i] >= 0 ? num_numbers + num_whole : 0);
 }
 
 int FixRigidSmallTalus::maxsize_restart()
 {
-  return 6 + bodysize;
+  return row_begin + num_numbers + num_whole;
 }
 
 int FixRigidSmallTalus::pack_restart(int i, double *buf)
 {
   const bool known = setupflag || restored, owns = bodyown[i] >= 0 && known;
   buf[0] = size_restart(i);
-  buf[1] = ubuf(known ? bodytag[i] : no_setup).d;
-  std::copy_n(displace[i], 3, buf + 2);
-  buf[5] = owns ? 1.0 : 0.0;
-  if (bodyown[i] >= 0) std::memcpy(buf + 6, &body[bodyown[i]], sizeof(Body));
+  buf[1] = ubuf(layout).d;
+  buf[2] = ubuf(known ? bodytag[i] : no_setup).d;
+  std::copy_n(displace[i], 3, buf + 3);
+  buf[6] = owns ? 1.0 : 0.0;
+  if (bodyown[i] < 0) return size_restart(i);
+  Body &its = body[bodyown[i]];
+  double *next = buf + row_begin;
+  for_each_number(its, [&](const double *value, int n) { next = std::copy_n(value, n, next); });
+  *next++ = its.natoms;
+  *next++ = ubuf(its.image).d;
+  std::copy_n(its.remapflag, 4, next);
   return size_restart(i);
 }
 
 void FixRigidSmallTalus::unpack_restart(int i, int nth)
 {
   const double *buf = atom->extra[i];
-  int m = 0;
-  for (int k = 0; k < nth; k++) m += static_cast<int>(buf[m]);
-  const tagint tag = static_cast<tagint>(ubuf(buf[m + 1]).i);
+  for (int k = 0; k < nth; k++) buf += static_cast<int>(buf[0]);
+  if (static_cast<tagint>(ubuf(buf[1]).i) != layout)
+    error->one(
+        FLERR,
+        "Fix {}: the restart file was written by a Talus older than 1.0: go on with that one, or "
+        "write a data file with it",
+        style);
+  const tagint tag = static_cast<tagint>(ubuf(buf[2]).i);
   if (tag == no_setup) return;
   if (!restored) {    // the constructor has looked for bodies on its own
     nlocal_body = 0;
@@ -309,10 +335,18 @@ void FixRigidSmallTalus::unpack_restart(int i, int nth)
   }
   restored = true;
   bodytag[i] = tag;
-  std::copy_n(buf + m + 2, 3, displace[i]);
-  if (buf[m + 5] == 0.0) return;
+  std::copy_n(buf + 3, 3, displace[i]);
+  if (buf[6] == 0.0) return;
   if (nlocal_body == nmax_body) grow_body();
-  std::memcpy(&body[nlocal_body], buf + m + 6, sizeof(Body));
+  Body &its = body[nlocal_body];
+  const double *next = buf + row_begin;
+  for_each_number(its, [&](double *value, int n) {
+    std::copy_n(next, n, value);
+    next += n;
+  });
+  its.natoms = static_cast<int>(*next++);
+  its.image = static_cast<imageint>(ubuf(*next++).i);
+  std::copy_n(next, 4, its.remapflag);
   body[nlocal_body].ilocal = i;
   bodyown[i] = nlocal_body++;
 }

@@ -173,9 +173,11 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   // fix_shape_gran_store.cpp
   void send_memories_to_ghosts();
   static constexpr int block_size = 32;    ///< doubles of a piece of a list
-  enum class Message { ORIENTATIONS, MEMORIES };
+  enum class Message { ORIENTATIONS, SIZES, MEMORIES };
   Message message = Message::ORIENTATIONS;
-  int piece = 0, pieces = 0;
+  int size_of_piece(int i) const;
+  int sent = 0;                              ///< doubles of each list that are at the ghosts
+  std::vector<int> sizes;                    ///< of the lists; 0 of particles that remember nothing
   std::vector<std::vector<double>> lists;    ///< of memories, on their way to ghosts
 };
 

@@ -17,7 +17,7 @@ using namespace Talus;
 
 namespace {
 
-constexpr double restart_version = 1.0;
+constexpr double restart_version = 2.0;    // 1 lacks the number of particles
 
 }    // namespace
 
@@ -55,38 +55,53 @@ int FixShapeGran::unpack_border(int n, int first, double *buf)
   return 4 * n;
 }
 
-/* Lists of memories go to ghosts in pieces of the same size, for messages have a fixed one. */
+/* Sizes first, one number of each particle. Then what is there, in pieces: a message of the host has
+   room for block_size doubles of each particle, and is shorter where there is less. */
 
 void FixShapeGran::send_memories_to_ghosts()
 {
   const int nall = atom->nlocal + atom->nghost;
+  sizes.assign(nall, 0);
   int mine = 0, longest = 0;
-  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, memories.packed_size(i));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!memories.of(i).empty()) sizes[i] = memories.packed_size(i);
+    mine = std::max(mine, sizes[i]);
+  }
   MPI_Allreduce(&mine, &longest, 1, MPI_INT, MPI_MAX, world);
   for (int i = atom->nlocal; i < nall; i++) memories.clear(i);
-  if (longest == 1) return;    // nothing is remembered
-  pieces = (longest + block_size - 1) / block_size;
-  lists.assign(nall, {});
-  for (int i = 0; i < atom->nlocal; i++) {
-    lists[i].assign(static_cast<std::size_t>(pieces) * block_size, 0.0);
-    memories.pack(i, lists[i].data());
-  }
-  for (int i = atom->nlocal; i < nall; i++)
-    lists[i].assign(static_cast<std::size_t>(pieces) * block_size, 0.0);
+  if (longest == 0) return;    // nothing is remembered
+  message = Message::SIZES;
+  comm->forward_comm(this, 1);
+  lists.resize(nall);
+  for (int i = 0; i < nall; i++) lists[i].resize(sizes[i]);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (sizes[i]) memories.pack(i, lists[i].data());
   message = Message::MEMORIES;
-  for (piece = 0; piece < pieces; piece++) comm->forward_comm(this, block_size);
+  for (sent = 0; sent < longest; sent += block_size) comm->forward_comm(this, block_size);
   message = Message::ORIENTATIONS;
-  for (int i = atom->nlocal; i < nall; i++) memories.unpack(i, lists[i].data());
+  for (int i = atom->nlocal; i < nall; i++)
+    if (sizes[i]) memories.unpack(i, lists[i].data());
   lists = {};
+  sizes = {};
+}
+
+/* Of a list, the doubles in the present piece. */
+
+int FixShapeGran::size_of_piece(int i) const
+{
+  return std::clamp(sizes[i] - sent, 0, block_size);
 }
 
 int FixShapeGran::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
   if (message == Message::ORIENTATIONS) return pack_border(n, list, buf);
+  double *next = buf;
   for (int k = 0; k < n; k++)
-    std::copy_n(&lists[list[k]][static_cast<std::size_t>(piece) * block_size], block_size,
-                buf + static_cast<long>(block_size) * k);
-  return block_size * n;
+    if (message == Message::SIZES)
+      *next++ = sizes[list[k]];
+    else if (const int size = size_of_piece(list[k]))
+      next = std::copy_n(&lists[list[k]][sent], size, next);
+  return static_cast<int>(next - buf);
 }
 
 void FixShapeGran::unpack_forward_comm(int n, int first, double *buf)
@@ -95,9 +110,13 @@ void FixShapeGran::unpack_forward_comm(int n, int first, double *buf)
     unpack_border(n, first, buf);
     return;
   }
-  for (int k = 0; k < n; k++)
-    std::copy_n(buf + static_cast<long>(block_size) * k, block_size,
-                &lists[first + k][static_cast<std::size_t>(piece) * block_size]);
+  for (int i = first; i < first + n; i++)
+    if (message == Message::SIZES) {
+      sizes[i] = static_cast<int>(*buf++);
+    } else if (const int size = size_of_piece(i)) {
+      std::copy_n(buf, size, &lists[i][sent]);
+      buf += size;
+    }
 }
 
 int FixShapeGran::pack_exchange(int i, double *buf)
@@ -112,25 +131,35 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
   return 4 + memories.unpack(i, buf + 4);
 }
 
-/* Restart files hold a version; of each particle the number of doubles, and what it carries. */
+/* Restart files hold a version and the number of particles; of each particle the number of doubles,
+   and what it carries. The host does not move what it has read for us when particles are deleted or
+   added before this fix is defined: their number tells. */
 
 void FixShapeGran::write_restart(FILE *fp)
 {
   keep_memories();    // on all ranks, before particles are packed
   if (comm->me) return;
-  const int size = sizeof restart_version;
+  const double head[] = {restart_version, static_cast<double>(atom->natoms)};
+  const int size = sizeof head;
   fwrite(&size, sizeof size, 1, fp);
-  fwrite(&restart_version, size, 1, fp);
+  fwrite(head, size, 1, fp);
 }
 
 void FixShapeGran::restart(char *buf)
 {
-  double version;
-  std::memcpy(&version, buf, sizeof version);
-  if (version != restart_version)
+  double head[2];
+  std::memcpy(head, buf, sizeof head[0]);
+  if (head[0] != restart_version)
     error->all(FLERR,
                "Fix shape/gran {}: the restart file was written by another version of Talus: go on "
                "with that version",
+               id);
+  std::memcpy(head, buf, sizeof head);
+  if (head[1] != static_cast<double>(atom->natoms))
+    error->all(FLERR,
+               "Fix shape/gran {}: particles were added or deleted between read_restart and this "
+               "command, so that orientations cannot be assigned: define the fix right after "
+               "read_restart",
                id);
 }
 

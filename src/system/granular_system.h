@@ -337,7 +337,14 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::vector<ContactObserver *> observers;
   EnergyByCause settled;    // before the step of the account
   WorkAccount account;
-  std::optional<std::vector<SurveyedContact>> kept;    ///< behind a run
+  /// A contact of the last run, whose particles may have other places by now.
+  struct KeptContact {
+    SurveyedContact contact;
+    std::int64_t tag[2];    ///< of its particles
+  };
+  std::optional<std::vector<KeptContact>> kept;    ///< behind a run
+  int present_index(const KeptContact &one, int end) const;
+  SurveyedContact at_present(const KeptContact &one) const;
 
   ExchangeSwitch exchange_switch;
   StyleReport report;

@@ -11,6 +11,7 @@
 #include "atom.h"
 #include "bond.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -159,8 +160,7 @@ double GranularSystem::counted_of_last_step() const
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
   if (kept) {
-    for (const SurveyedContact &one : *kept)
-      if (std::max(one.i, one.j) < atom->nlocal + atom->nghost) visit(one);
+    for (const KeptContact &one : *kept) visit(at_present(one));
     return;
   }
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
@@ -176,14 +176,42 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
   }
 }
 
-/* Memory is given back behind a run, and particles may be deleted. */
+/* Between runs particles may be sorted, sent to other ranks or deleted. */
+
+int GranularSystem::present_index(const KeptContact &one, int end) const
+{
+  const int last = end == 0 ? one.contact.i : one.contact.j;
+  const auto tag = static_cast<tagint>(one.tag[end]);
+  if (last < atom->nlocal + atom->nghost && atom->tag[last] == tag) return last;
+  const int found = atom->map_style != Atom::MAP_NONE ? atom->map(tag) : -1;
+  if (found < 0)
+    error->one(FLERR,
+               "Pair style {}: contacts of the last run cannot be listed, for particles have been "
+               "deleted or sent to other ranks since: use 'run 0' before",
+               style.name);
+  return found;
+}
+
+SurveyedContact GranularSystem::at_present(const KeptContact &one) const
+{
+  SurveyedContact now = one.contact;
+  now.i = present_index(one, 0);
+  if (now.j < 0) return now;
+  now.j = present_index(one, 1);
+  if (now.j != one.contact.j) now.j = domain->closest_image(now.i, now.j);
+  return now;
+}
+
+/* Memory is given back behind a run. */
 
 void GranularSystem::remember_contacts()
 {
   pipeline->remember_contacts();
   if (observers.empty() || kept) return;
-  std::vector<SurveyedContact> all;
-  for_each_contact(Ask::ALL, [&](const SurveyedContact &one) { all.push_back(one); });
+  std::vector<KeptContact> all;
+  for_each_contact(Ask::ALL, [&](const SurveyedContact &one) {
+    all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
+  });
   kept = std::move(all);
 }
 

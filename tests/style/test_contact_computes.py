@@ -165,6 +165,53 @@ class Bed(SceneCase):
         later, = read_local(self.path("later"))
         self.assertEqual(sorted(tuple(r.values())[1:] for r in rows[-1]), sorted(row[1:] for row in later.rows))
 
+    def test_after_particles_have_gone(self):
+        """A file is written, which sends particles to other ranks: rows name the same particles. Some are deleted: rows
+        could name others, and are refused."""
+        write = ("write_dump all local {} index c_rows[*] modify format line " + f'"%.0f{" %.17g" * len(WORDS)}"\n')
+        for np in 1, 2:
+            rows, *_ = self.run_bed(np, run=f"run 1500\nundump rows\nwrite_restart state\n{write.format('later')}")
+            later, = read_local(self.path("later"))
+            self.assertEqual(sorted(tuple(r.values())[1:] for r in rows[-1]), sorted(row[1:] for row in later.rows))
+        for np in 1, 2:
+            end = "run 1500\nundump rows\ngroup some id 1:100:7\ndelete_atoms group some\n"
+            with self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
+                self.run_bed(np, run=end + write.format("later"))
+            self.run_bed(np, run=f"{end}run 0\n{write.format('later')}")
+            names = {row["id1"] for frame in read_local(self.path("later")) for row in named(frame)}
+            self.assertGreater(len(names), 50)
+            self.assertFalse(names & set(range(1, 101, 7)))
+
+
+class Account(SceneCase):
+
+    def test_leaves_the_forces_of_a_set_up(self):
+        """Each step is a run of its own, and so has a set-up, also where contacts have just ended."""
+        spheres = [Sphere((1.5 * k - 12, 0, height), v=(0, 0.1, -1)) for k in range(16)
+                   for height in (0.51 + 0.007 * k, 1.55 + 0.011 * k)]
+        write_sphere_data(self.path("data"), ((-14, 14), (-2, 2), (-1, 9)), spheres)
+        for law in "hooke 4000 20 tangential multistep 2e3 5 0.5 slider midpoint", "hertz 5e4 40 tangential multistep NULL NULL 0.5 slider midpoint":
+            frames = []
+            for asks in "", "compute s all penalty/stats\ncompute lost all dissipation/gran/atom\n":
+                log = self.run_lammps(begin() + f"""
+pair_coeff * * {law} limit_damping
+fix step all nve/sphere/symplectic order 2 gravity 10 vector 0 0 -1
+fix floor all large/body plane 0 0 0 0 0 1 contact {law} limit_damping
+neighbor 0.1 bin
+timestep 1e-3
+{asks}compute f all reduce sum fz
+thermo_style custom step c_f {"c_s[5]" if asks else ""}
+variable k loop 250
+label again
+run 1
+next k
+jump SELF again
+write_dump all custom end{len(asks)} id x y z vx vy vz omegax omegay omegaz modify format float %.17g
+""").log
+                frames.append(read_dump(self.path(f"end{len(asks)}"))[0])
+            self.assertGreater(thermo(log)[-1]["c_s[5]"], 0)
+            self.assert_same_bits(*frames)
+
 
 class TwoContacts(SceneCase):
 

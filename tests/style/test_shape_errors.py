@@ -117,6 +117,18 @@ class ShapeErrors(SceneCase):
                 error = self.error(number, commands, *pair)
                 self.assertIn(expected, error)
 
+    def test_particles_deleted_before_the_fix(self):
+        """What a restart file holds for a fix waits in the order of the particles of the file."""
+        hooke = SCENE.format(commands=f"{FIX}\nrun 1\nwrite_restart state", pair="hooke 1e4 10")
+        head = "units lj\nboundary f f f\nnewton off\natom_style sphere\natom_modify map yes\ncomm_modify vel yes\n"
+        again = head + "read_restart state\n{}pair_style gran/penalty\npair_coeff * * hooke 1e4 10\n" + f"{FIX}\nrun 1\n"
+        self.run_lammps(hooke)
+        self.run_lammps(again.format(""))
+        for np in 1, 2:
+            log = self.run_lammps(again.format("group one id 1\ndelete_atoms group one\n"), np=np, expect_error=True).log
+            self.assertRegex(log, "ERROR: Fix shape/gran s: particles were added or deleted between read_restart and this "
+                                  "command, so that orientations cannot be assigned: define the fix right after read_restart")
+
     def test_modify(self):
         orient, picture = "fix_modify s orient ", "fix_modify s picture "
         for number, (words, expected, word) in enumerate((
