@@ -159,13 +159,13 @@ run verlet                        accelerated
 steps without output              in the records
 """, steps=200000, every=50000, long_steps=1000000, bench_steps=1000000, rubs="never"),
     StockInput("examples/granular/in.sync_verlet", """
-pair granular                     stock: synchronized_verlet
+pair granular                     accelerated
 fix frz freeze                    accelerated
-fix g gravity                     stock: the pair style is not accelerated
-fix 1 nve/sphere                  stock: the pair style is not accelerated
-fix 2 wall/gran                   stock: the pair style is not accelerated
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+fix g gravity                     accelerated
+fix 1 nve/sphere                  accelerated
+fix 2 wall/gran                   accelerated
+run verlet                        accelerated
+steps without output              in the records
 """, steps=100000, every=20000, long_steps=300000, bench_steps=300000, since=20260704),
     StockInput("examples/granular/in.tableting.200", """
 pair granular                     stock: normal model mdr
