@@ -160,6 +160,7 @@ double GranularSystem::counted_of_last_step() const
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
   if (kept) {
+    if (atom->natoms != kept_of) say_that_kept_are_old();
     for (const KeptContact &one : *kept) visit(at_present(one));
     return;
   }
@@ -176,7 +177,15 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
   }
 }
 
-/* Between runs particles may be sorted, sent to other ranks or deleted. */
+/* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */
+
+void GranularSystem::say_that_kept_are_old() const
+{
+  error->one(FLERR,
+             "Pair style {}: contacts of the last run cannot be listed, for particles have been "
+             "added, deleted or sent to other ranks since: use 'run 0' before",
+             style.name);
+}
 
 int GranularSystem::present_index(const KeptContact &one, int end) const
 {
@@ -184,11 +193,7 @@ int GranularSystem::present_index(const KeptContact &one, int end) const
   const auto tag = static_cast<tagint>(one.tag[end]);
   if (last < atom->nlocal + atom->nghost && atom->tag[last] == tag) return last;
   const int found = atom->map_style != Atom::MAP_NONE ? atom->map(tag) : -1;
-  if (found < 0)
-    error->one(FLERR,
-               "Pair style {}: contacts of the last run cannot be listed, for particles have been "
-               "deleted or sent to other ranks since: use 'run 0' before",
-               style.name);
+  if (found < 0) say_that_kept_are_old();
   return found;
 }
 
@@ -213,6 +218,7 @@ void GranularSystem::remember_contacts()
     all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
   });
   kept = std::move(all);
+  kept_of = atom->natoms;
 }
 
 }    // namespace Talus

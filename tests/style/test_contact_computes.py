@@ -169,17 +169,21 @@ class Bed(SceneCase):
         """A file is written, which sends particles to other ranks: rows name the same particles. Some are deleted: rows
         could name others, and are refused."""
         write = ("write_dump all local {} index c_rows[*] modify format line " + f'"%.0f{" %.17g" * len(WORDS)}"\n')
+        end, found = "run 1510\nundump rows\n", []    # step 1510 has not been asked for during the run
+        for np, before in (1, ""), (1, "write_restart state\n"), (2, "write_restart state\n"):
+            self.run_bed(np, run=f"{end}{before}{write.format('later')}")
+            frame, = read_local(self.path("later"))
+            found.append(sorted((row["id1"], row["id2"], row["body"], row["part"]) for row in named(frame)))
+        self.assertGreater(len(found[0]), 40)
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0], found[2])
+        delete = f"{end}group some id 1:100:7\ndelete_atoms group some compress no\n"
         for np in 1, 2:
-            rows, *_ = self.run_bed(np, run=f"run 1500\nundump rows\nwrite_restart state\n{write.format('later')}")
-            later, = read_local(self.path("later"))
-            self.assertEqual(sorted(tuple(r.values())[1:] for r in rows[-1]), sorted(row[1:] for row in later.rows))
-        for np in 1, 2:
-            end = "run 1500\nundump rows\ngroup some id 1:100:7\ndelete_atoms group some\n"
             with self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
-                self.run_bed(np, run=end + write.format("later"))
-            self.run_bed(np, run=f"{end}run 0\n{write.format('later')}")
+                self.run_bed(np, run=delete + write.format("later"))
+            self.run_bed(np, run=f"{delete}run 0\n{write.format('later')}")
             names = {row["id1"] for frame in read_local(self.path("later")) for row in named(frame)}
-            self.assertGreater(len(names), 50)
+            self.assertGreater(len(names), 20)
             self.assertFalse(names & set(range(1, 101, 7)))
 
 
