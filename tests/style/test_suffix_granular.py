@@ -4,7 +4,7 @@
 """Pair style granular with the suffix talus against the stock style: the same script, with and without -sf talus.
 
 Particles are driven, so that both styles see the same positions and velocities: what differs are the contacts alone.
-TALUS_GRANULAR_MODELS: number of models that are drawn at random."""
+TALUS_GRANULAR_MODELS: number of models that are drawn at random (default 16, in long test runs 40)."""
 
 import os
 import random
@@ -72,6 +72,10 @@ def packing(rng, count, sizes, types):
 
 def length(row):
     return sum(v * v for v in row)**0.5
+
+
+def number_of_models():
+    return int(os.environ.get("TALUS_GRANULAR_MODELS", 40 if os.environ.get("TALUS_LARGE_TESTS") else 16))
 
 
 class Case(SceneCase):
@@ -212,7 +216,7 @@ class TestModels(Case):
 
     def test_models(self):
         rng = random.Random(20250204)
-        number = int(os.environ.get("TALUS_GRANULAR_MODELS", 40))
+        number = number_of_models()
         self.check_models(rng, self.draw(rng, number))
 
     def test_synchronized(self):
@@ -222,7 +226,7 @@ class TestModels(Case):
             return
         self.of_rolling = 1e-3
         rng = random.Random(20260704)
-        number = max(12, int(os.environ.get("TALUS_GRANULAR_MODELS", 40)) // 4)
+        number = max(12, number_of_models() // 4)
         drawn = [c for c in self.draw(rng, 3 * number) if granular_models.synchronized(c)]
         self.check_models(rng, drawn[:number], "synchronized_verlet")
 

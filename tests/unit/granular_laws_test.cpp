@@ -47,9 +47,11 @@ ContactSpec random_law(RandomSource &random)
   if (s.law.normal().cohesive)
     choose(Stage::DAMPING, {"none", "velocity", "mass_velocity", "viscoelastic"});
   else
-    choose(Stage::DAMPING, {"none", "velocity", "mass_velocity", "viscoelastic", "tsuji", "coeff_restitution"});
-  choose(Stage::TANGENTIAL, {"linear_nohistory", "linear_history", "linear_history_classic", "mindlin",
-                             "mindlin/force", "mindlin_rescale", "mindlin_rescale/force", "mindlin_classic"});
+    choose(Stage::DAMPING,
+           {"none", "velocity", "mass_velocity", "viscoelastic", "tsuji", "coeff_restitution"});
+  choose(Stage::TANGENTIAL,
+         {"linear_nohistory", "linear_history", "linear_history_classic", "mindlin",
+          "mindlin/force", "mindlin_rescale", "mindlin_rescale/force", "mindlin_classic"});
   choose(Stage::ROLLING, {"none", "sds"});
   choose(Stage::TWISTING, {"none", "marshall", "sds"});
   auto &given = s.given;
@@ -59,7 +61,8 @@ ContactSpec random_law(RandomSource &random)
   given["gn"] = random.decade(0.0, 2.0);
   given["eta"] = random.uniform(0.1, 1.0);
   given["kt"] = random.chance(0.1) ? 0.0 : random.decade(4.0, 6.0);
-  for (const char *name : {"xt", "mu", "mu_roll", "mu_twist"}) given[name] = random.uniform(0.0, 1.0);
+  for (const char *name : {"xt", "mu", "mu_roll", "mu_twist"})
+    given[name] = random.uniform(0.0, 1.0);
   for (const char *name : {"k_roll", "k_twist"}) given[name] = random.decade(3.0, 5.0);
   for (const char *name : {"gamma_roll", "gamma_twist"}) given[name] = random.decade(0.0, 2.0);
   if (!s.law.normal().cohesive && random.chance(0.3)) given["limit_damping"] = 1.0;
@@ -68,7 +71,8 @@ ContactSpec random_law(RandomSource &random)
 
 /// Of two spheres, 1 to 10 cm; `swapped`: the other one first.
 ContactState<double> state_of(const double (&r)[2], const Vector3<double> &n, double overlap,
-                              const Vector3<double> (&v)[2], const Vector3<double> (&w)[2], bool swapped)
+                              const Vector3<double> (&v)[2], const Vector3<double> (&w)[2],
+                              bool swapped)
 {
   const int a = swapped ? 1 : 0, b = 1 - a;
   ContactState<double> s;
@@ -100,7 +104,8 @@ class GranularLaws : public testing::Test {
   {
     drawn.spec = random_law(random);
     drawn.row = contact_coefficients(drawn.spec, drawn.spec, FrictionMix::MINIMUM);
-    const double smaller = random.uniform(0.01, 0.05), r[2] = {smaller, smaller * random.uniform(1.0, 10.0)};
+    const double smaller = random.uniform(0.01, 0.05),
+                 r[2] = {smaller, smaller * random.uniform(1.0, 10.0)};
     const auto n = random.unit_vector();
     const Vector3<double> normal{n[0], n[1], n[2]};
     const Vector3<double> v[2] = {random_vector(random, 0.5), random_vector(random, 0.5)};
@@ -120,7 +125,7 @@ class GranularLaws : public testing::Test {
 
   void put(int lane, const ContactState<double> &s, const RememberedValues &memory)
   {
-    const auto set = [lane](double (&to)[3][width], const Vector3<double> &v) {
+    const auto set = [lane](double(&to)[3][width], const Vector3<double> &v) {
       to[0][lane] = v.x;
       to[1][lane] = v.y;
       to[2][lane] = v.z;
@@ -143,7 +148,8 @@ class GranularLaws : public testing::Test {
   struct Result {
     double force[3], moment[3], torque[3], history[ContactBatch::history_size];
   };
-  Result run(int lane, const ContactState<double> &s, const RememberedValues &memory, bool uniform, bool advance)
+  Result run(int lane, const ContactState<double> &s, const RememberedValues &memory, bool uniform,
+             bool advance)
   {
     put(lane, s, memory);
     const int begin = lane / lanes * lanes;
@@ -176,7 +182,8 @@ TEST_F(GranularLaws, DoNotDependOnLaneKernelOrPath)
       ASSERT_EQ(std::memcmp(&first, &again, sizeof first), 0) << title();
     }
     const Result read = run(5, drawn.state, drawn.memory, true, false);
-    const ContactLanes<double> query = single_contact(drawn.spec.law, drawn.row, drawn.state, dt, drawn.memory);
+    const ContactLanes<double> query =
+        single_contact(drawn.spec.law, drawn.row, drawn.state, dt, drawn.memory);
     const Vector3<double> *const found[] = {&query.force, &query.moment, &query.twisting_torque};
     const double *const expected[] = {read.force, read.moment, read.torque};
     for (int v = 0; v < 3; v++) {
@@ -200,7 +207,8 @@ TEST_F(GranularLaws, FusedKernelsAreTheirStages)
       const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
       for (int lane = 0; lane < width; lane++) {
         next();
-        if (!law.normal().lasts_beyond_contact) drawn.state.overlap = std::fabs(drawn.state.overlap);
+        if (!law.normal().lasts_beyond_contact)
+          drawn.state.overlap = std::fabs(drawn.state.overlap);
         put(lane, drawn.state, drawn.memory);
       }
       ContactBatch staged = batch;
@@ -208,9 +216,11 @@ TEST_F(GranularLaws, FusedKernelsAreTheirStages)
       contact_kernel(law, true, true)(batch, 0, end, &row, dt);
       staged_kernel(law, true, true)(staged, 0, end, &row, dt);
       ASSERT_EQ(std::memcmp(batch.force, staged.force, sizeof batch.force), 0) << describe_law(law);
-      ASSERT_EQ(std::memcmp(batch.moment, staged.moment, sizeof batch.moment), 0) << describe_law(law);
+      ASSERT_EQ(std::memcmp(batch.moment, staged.moment, sizeof batch.moment), 0)
+          << describe_law(law);
       ASSERT_EQ(std::memcmp(batch.twisting_torque, staged.twisting_torque, sizeof batch.moment), 0);
-      ASSERT_EQ(std::memcmp(batch.history, staged.history, sizeof batch.history), 0) << describe_law(law);
+      ASSERT_EQ(std::memcmp(batch.history, staged.history, sizeof batch.history), 0)
+          << describe_law(law);
     }
   }
   EXPECT_EQ(fused, 5);
@@ -228,8 +238,9 @@ TEST_F(GranularLaws, ForceIsReproducedFromTheStoredHistory)
     with_history += drawn.spec.law.has_history();
     const Result after = run((n + 3) % width, drawn.state, stored, false, false);
     ASSERT_EQ(std::memcmp(&before, &after, sizeof before), 0)
-        << title() << " " << n << ": torque " << before.torque[0] << " " << after.torque[0] << ", force "
-        << before.force[0] << " " << after.force[0] << ", moment " << before.moment[0] << " " << after.moment[0];
+        << title() << " " << n << ": torque " << before.torque[0] << " " << after.torque[0]
+        << ", force " << before.force[0] << " " << after.force[0] << ", moment " << before.moment[0]
+        << " " << after.moment[0];
   }
   EXPECT_GT(with_history, 10000);
 }
@@ -248,7 +259,8 @@ TEST_F(GranularLaws, SwappingTheBodiesNegatesForceAndTorqueExactly)
       ASSERT_EQ(a.torque[d], -b.torque[d]) << title();
       ASSERT_EQ(a.history[d], -b.history[d]) << title();
     }
-    for (int k = 3; k < ContactBatch::history_size; k++) ASSERT_EQ(a.history[k], b.history[k]) << title();
+    for (int k = 3; k < ContactBatch::history_size; k++)
+      ASSERT_EQ(a.history[k], b.history[k]) << title();
   }
 }
 
@@ -270,12 +282,14 @@ TEST_F(GranularLaws, FrictionActsInTheMiddleOfTheOverlap)
     const Vector3<double> errors[] = {on_first + (r1 - 0.5 * s.overlap) * moment,
                                       on_second + (r2 - 0.5 * s.overlap) * moment};
     const double size = std::sqrt(dot(moment, moment)) * sum;
-    for (const auto &error : errors) ASSERT_LE(std::sqrt(dot(error, error)), 1e-11 * size) << title();
+    for (const auto &error : errors)
+      ASSERT_LE(std::sqrt(dot(error, error)), 1e-11 * size) << title();
   }
 }
 
 /// Energy of the normal law at an overlap, and its elastic force.
-ContactLanes<double> at_overlap(const ContactSpec &spec, const ContactCoefficients &row, double radius, double overlap)
+ContactLanes<double> at_overlap(const ContactSpec &spec, const ContactCoefficients &row,
+                                double radius, double overlap)
 {
   ContactState<double> s;
   s.normal = {1.0, 0.0, 0.0};
@@ -294,7 +308,8 @@ TEST_F(GranularLaws, NormalForceAndStiffnessAreDerivativesOfTheEnergy)
       spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "none"));
       const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
       const double radius = 0.02, reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
-      const double overlap = random.uniform(-0.9 * reach, 0.1 * radius), h = 1e-5 * (overlap + reach);
+      const double overlap = random.uniform(-0.9 * reach, 0.1 * radius),
+                   h = 1e-5 * (overlap + reach);
       if (overlap - h <= 0.0 && reach == 0.0) continue;
       const auto energy = [&](double d) {
         const ContactLanes<double> s = at_overlap(spec, row, radius, d);
@@ -303,9 +318,11 @@ TEST_F(GranularLaws, NormalForceAndStiffnessAreDerivativesOfTheEnergy)
       const auto force = [&](double d) { return at_overlap(spec, row, radius, d).elastic; };
       const ContactLanes<double> s = at_overlap(spec, row, radius, overlap);
       const double scale = std::fabs(s.elastic) + s.kn * (std::fabs(overlap) + reach);
-      ASSERT_NEAR((energy(overlap + h) - energy(overlap - h)) / (2.0 * h), s.elastic, 2e-5 * scale) << name;
+      ASSERT_NEAR((energy(overlap + h) - energy(overlap - h)) / (2.0 * h), s.elastic, 2e-5 * scale)
+          << name;
       const double slope = (force(overlap + h) - force(overlap - h)) / (2.0 * h);
-      ASSERT_NEAR(s.tangent_n, slope, 1e-4 * std::fabs(slope) + 1e-4 * s.kn) << name << " " << overlap << " " << reach;
+      ASSERT_NEAR(s.tangent_n, slope, 1e-4 * std::fabs(slope) + 1e-4 * s.kn)
+          << name << " " << overlap << " " << reach;
     }
 }
 
@@ -320,13 +337,16 @@ TEST_F(GranularLaws, JkrPullsOffWith3PiGammaR)
     spec.given["E_eff"] = random.decade(5.0, 9.0);
     const double gamma = spec.given["gamma"] = random.decade(-2.0, 1.0);
     const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
-    const double radius = random.decade(-4.0, -1.0), reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
+    const double radius = random.decade(-4.0, -1.0),
+                 reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
     const double pull_off = 3.0 * pi * gamma * radius;
     double strongest = 0.0;
     for (int k = 0; k <= 20000; k++)
-      strongest = std::min(strongest, at_overlap(spec, row, radius, (k / 20000.0 - 1.0) * reach).elastic);
+      strongest =
+          std::min(strongest, at_overlap(spec, row, radius, (k / 20000.0 - 1.0) * reach).elastic);
     EXPECT_NEAR(-strongest, pull_off, 1e-7 * pull_off);
-    EXPECT_NEAR(-at_overlap(spec, row, radius, 0.0).elastic, 8.0 / 9.0 * pull_off, 1e-12 * pull_off);
+    EXPECT_NEAR(-at_overlap(spec, row, radius, 0.0).elastic, 8.0 / 9.0 * pull_off,
+                1e-12 * pull_off);
     EXPECT_NEAR(-at_overlap(spec, row, radius, -reach).elastic, pull_off, 1e-7 * pull_off);
   }
 }
