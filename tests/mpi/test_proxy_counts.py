@@ -16,6 +16,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from message_counts import counting
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 BOX = (12.0, 10.0, 8.0)
@@ -93,10 +94,8 @@ class Counts(SceneCase):
         for name in os.listdir(self.dir):
             if name.startswith("counts."):
                 os.remove(self.path(name))
-        library = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "libcount_mpi.so")
-        preload = " ".join(filter(None, [os.environ.get("LD_PRELOAD"), library]))
         result = self.run_lammps(SCRIPT.format(steps=steps, **scene), np=ranks, arguments=arguments,
-                                 env={"LD_PRELOAD": preload, "TALUS_COUNTS": stem, **(env or {})})
+                                 env={**counting(stem), **(env or {})})
         self.assertIn(f"Neighbor list builds = {builds}\n", result.log)
         found = []
         for r in range(ranks):

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from message_counts import counting, sent
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 EDGE, LARGE, SMALL = 24.0, 10.0, 0.5    # box, diameters
@@ -65,18 +66,9 @@ class SharedHistories(SceneCase):
 
     def simulate(self, np, grid="", more="", friction=FRICTION):
         """Frames, and (messages, bytes) that all ranks have sent point to point."""
-        library = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "libcount_mpi.so")
-        preload = " ".join(filter(None, [os.environ.get("LD_PRELOAD"), library]))
-        self.run_lammps(SCRIPT.format(grid=grid, more=more, friction=friction), np=np,
-                        env={"LD_PRELOAD": preload, "TALUS_COUNTS": self.path("counts")})
-        messages = size = 0
-        for rank in range(np):
-            with open(self.path(f"counts.{rank}")) as file:
-                for words in map(str.split, file):
-                    if words[0] == "to" and int(words[1]) != rank:
-                        messages += int(words[3])
-                        size += int(words[5])
-        return read_dump(self.path("dump")), messages, size
+        counts = self.path("counts")
+        self.run_lammps(SCRIPT.format(grid=grid, more=more, friction=friction), np=np, env=counting(counts))
+        return read_dump(self.path("dump")), *sent(counts, np)
 
     def test_same_bits_and_few_bytes(self):
         expected = self.simulate(1)[0]

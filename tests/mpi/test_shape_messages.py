@@ -1,0 +1,71 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""What contact points of shapes remember is sent to the ghosts that have some, and to no others: two cubes that rub on each
+other among many spheres cost next to nothing."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from message_counts import counting, sent
+from talus_testing import SceneCase, Sphere, write_sphere_data
+
+EVERY, STEPS = 5, 200
+SCRIPT = """
+units lj
+boundary f f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+processors 2 1 1
+read_data grains
+group balls type 1
+neighbor 0.3 bin
+neigh_modify every {every} delay 0 check no
+pair_style gran/penalty
+pair_coeff * * {law}
+timestep 1e-4
+fix step balls nve/sphere/symplectic
+fix shapes all shape/gran type 2 box 1 1 1 density 1
+thermo 100
+thermo_style custom step f_shapes
+run {steps}
+"""
+FRICTION = "hooke 1e4 10 tangential multistep 2e3 5 0.5"
+WITHOUT_HISTORY = "hooke 1e4 10"
+SIDE = 14
+
+
+class ShapeMessages(SceneCase):
+
+    def setUp(self):
+        """Spheres at rest, and two cubes on both sides of the border between two ranks, one sliding over the other."""
+        middle = 0.5 * SIDE * 1.01
+        spheres = [Sphere(tuple(1.01 * (s + 0.5) for s in (i, j, k)), diameter=1.0)
+                   for k in range(SIDE) for j in range(SIDE) for i in range(SIDE)
+                   if max(abs(1.01 * (s + 0.5) - middle) for s in (i, j, k)) > 2.2]
+        cubes = [Sphere((middle - 0.1, middle, middle - 0.495), type=2, diameter=3**0.5),
+                 Sphere((middle + 0.1, middle, middle + 0.495), type=2, diameter=3**0.5, v=(0.1, 0, 0))]
+        write_sphere_data(self.path("grains"), ((0, 1.01 * SIDE),) * 3, spheres + cubes)
+
+    def count(self, law):
+        counts = self.path("counts")
+        log = self.run_lammps(SCRIPT.format(law=law, every=EVERY, steps=STEPS), np=2, env=counting(counts)).log
+        self.assertGreater(float(log.split("f_shapes")[1].split()[1]), 0.0)
+        return sent(counts, 2)
+
+    def test_spheres_carry_nothing(self):
+        messages, size = self.count(FRICTION)
+        messages_without, size_without = self.count(WITHOUT_HISTORY)
+        rebuilds = STEPS // EVERY
+        more = (messages - messages_without) / rebuilds, (size - size_without) / rebuilds
+        print("messages and bytes more per rebuild with histories:", more)
+        ghosts = 2 * 2 * SIDE**2    # of both ranks, two layers within the skin
+        self.assertGreater(more[1], 0)
+        self.assertLess(more[1], 8 * ghosts + 4000)    # one number of each, and the lists of two cubes
+        self.assertLess(more[0], 16)
+
+
+if __name__ == "__main__":
+    unittest.main()
