@@ -10,7 +10,9 @@
 
 #include "laws/contact_batch.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace Talus {
@@ -34,7 +36,14 @@ class PointMemories {
   {
     for (auto &list : lists) list.clear();
   }
-  void add(int particle, const PointMemory &one) { lists[particle].push_back(one); }
+  /// What remembers nothing, as points of laws without history, is left out: a point that is not
+  /// found here begins with zeros.
+  void add(int particle, const PointMemory &one)
+  {
+    const auto &values = one.memory.value;
+    if (std::any_of(std::begin(values), std::end(values), [](double v) { return v != 0.0; }))
+      lists[particle].push_back(one);
+  }
   const std::vector<PointMemory> &of(int particle) const { return lists[particle]; }
 
   /// Longest list of the particles 0 ... n-1.

@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, sent
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 EVERY, STEPS = 5, 200
 SCRIPT = """
@@ -29,11 +29,12 @@ timestep 1e-4
 fix step balls nve/sphere/symplectic
 fix shapes all shape/gran type 2 box 1 1 1 density 1
 thermo 100
-thermo_style custom step f_shapes
+compute stats all penalty/stats
+thermo_style custom step c_stats[2]
 run {steps}
 """
-FRICTION = "hooke 1e4 10 tangential multistep 2e3 5 0.5"
-WITHOUT_HISTORY = "hooke 1e4 10"
+FRICTION = "hooke 100 1 tangential multistep 20 0.5 0.5"
+WITHOUT_HISTORY = "hooke 100 1"
 SIDE = 14
 
 
@@ -52,7 +53,7 @@ class ShapeMessages(SceneCase):
     def count(self, law):
         counts = self.path("counts")
         log = self.run_lammps(SCRIPT.format(law=law, every=EVERY, steps=STEPS), np=2, env=counting(counts)).log
-        self.assertGreater(float(log.split("f_shapes")[1].split()[1]), 0.0)
+        self.assertGreater(thermo(log)[-1]["c_stats[2]"], 0)
         return sent(counts, 2)
 
     def test_spheres_carry_nothing(self):
