@@ -19,10 +19,10 @@ talus_glob(talus_exchange_sources exchange)
 # Counts of pairs and of bytes pass 2^31: no 64-bit number becomes an int unseen.
 set(talus_index_flags -Wconversion -Wno-sign-conversion -Wno-float-conversion)
 
-# Headers of others that most sources include, compiled once. None of ours: a change would compile everything anew. Other
-# builds go without (TalusCoreOnly.cmake), so that no include is missing unseen.
-set(talus_std_headers <algorithm> <array> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <numeric>
-  <optional> <stdexcept> <string> <utility> <vector>)
+# Headers of others that most sources include, compiled once. None of ours that may change: everything would be compiled
+# anew. Other builds go without (TalusCoreOnly.cmake), so that no include is missing unseen.
+set(talus_headers <algorithm> <array> <cmath> <cstdint> <cstring> <deque> <functional> <limits> <map> <memory> <numeric>
+  <optional> <stdexcept> <string> <utility> <vector> <Eigen/Geometry> "${PROJECT_SOURCE_DIR}/src/base/intrinsics.h")
 
 # talus_add_code(suffix): libraries talus_core and talus_exchange with the flags talus_flags, each name with the suffix.
 function(talus_add_code suffix)
@@ -34,7 +34,7 @@ function(talus_add_code suffix)
   target_compile_options(${core} PRIVATE ${talus_index_flags})
   target_compile_definitions(${core} PRIVATE TALUS_HAS_CCD=$<TARGET_EXISTS:ccd>)
 
-  target_precompile_headers(${core} PRIVATE ${talus_std_headers} <Eigen/Geometry>)
+  target_precompile_headers(${core} PRIVATE ${talus_headers})
 
   # Headers of MPI only: the library comes from the process the plugin is loaded into, and tests link it themselves.
   set(exchange talus_exchange${suffix})

@@ -33,6 +33,6 @@ function(talus_add_style_objects suffix)
     POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(talus_styles${suffix} PRIVATE src)
   target_link_libraries(talus_styles${suffix} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
-  target_precompile_headers(talus_styles${suffix} PRIVATE ${talus_std_headers} <Eigen/Geometry> <atom.h> <comm.h> <compute.h>
+  target_precompile_headers(talus_styles${suffix} PRIVATE ${talus_headers} <atom.h> <comm.h> <compute.h>
     <domain.h> <error.h> <fix.h> <force.h> <group.h> <lammps.h> <modify.h> <neighbor.h> <pair.h> <update.h>)
 endfunction()

@@ -10,15 +10,11 @@
 #ifndef TALUS_BASE_VECTORS_H
 #define TALUS_BASE_VECTORS_H
 
+#include "base/intrinsics.h"
 #include "base/twice.h"
 
 #include <cmath>
 #include <cstdint>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#elif defined(__aarch64__)
-#include <arm_neon.h>
-#endif
 
 namespace Talus {
 
