@@ -65,7 +65,7 @@ if("thread" IN_LIST TALUS_SANITIZE)
   list(APPEND TALUS_TEST_ENVIRONMENT "OMP_NUM_THREADS=3" "OMP_TOOL_LIBRARIES=${talus_archer}"
     "TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1")
   set(TALUS_UNIT_TESTS contact_pipeline_test one_trajectory_test record_steps_test body_contacts_test
-    body_records_test deferred_forces_test history_store_test law_stages_test neighbor_search_test pair_rows_test
+    body_records_test body_threads_test deferred_forces_test history_store_test law_stages_test neighbor_search_test pair_rows_test
     work_partition_test)
 endif()
 add_subdirectory(tests/unit)
