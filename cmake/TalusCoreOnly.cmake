@@ -13,7 +13,7 @@
 option(TALUS_OPENMP "Threads, where the compiler has OpenMP" ON)
 set(GTEST_SOURCE_DIR /usr/src/googletest CACHE PATH "Source of GoogleTest, for cross-compilers")
 set(TALUS_LAMMPS_VERSION none)
-set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+option(CMAKE_DISABLE_PRECOMPILE_HEADERS "No include is missing unseen" ON)
 
 if(LAMMPS_BINARY_DIR)
   include(TalusHost)

@@ -86,6 +86,9 @@ mpi_headers() {
   done
 }
 
+# Once without precompiled headers is enough.
+TALUS_PRECOMPILE=(-D CMAKE_DISABLE_PRECOMPILE_HEADERS=OFF)
+
 # with_arm [options of CMake]: with a cross-compiler, the tests in an emulator.
 with_arm() {
   core_only aarch64 "aarch64, unit tests in an emulator" "${TALUS_CHECK[@]}" \

@@ -41,8 +41,8 @@ Digest digest_of(int threads, int &contacts_found)
   contacts.history.grow(p.size());
   const std::vector<int> mask(p.size(), 1);
   std::vector<slow::Vector> force(p.size()), torque(p.size());
-  const BodyParticleView view{p.size(),        p.x[0].data(), p.v[0].data(), p.omega[0].data(),
-                              p.radius.data(), p.mass.data(), nullptr,       p.type.data(),
+  const BodyParticleView view{p.size(),        p.x[0].data(),   p.v[0].data(), p.omega[0].data(),
+                              p.radius.data(), p.mass.data(),   nullptr,       p.type.data(),
                               force[0].data(), torque[0].data()};
   Digest digest;
   for (int step = 0; step < 12; step++) {
