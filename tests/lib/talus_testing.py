@@ -199,9 +199,9 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
 
 
 def ranks_of_refusal(n):
-    """Rank counts for the n-th of many refusals by one parser, which all ranks run alike: two ranks for every third, for
+    """Rank counts for the n-th of many refusals by one parser, which all ranks run alike: two ranks for every eighth, for
     all in long test runs."""
-    return (1, 2) if n % 3 == 0 or os.environ.get("TALUS_LARGE_TESTS") else (1,)
+    return (1, 2) if n % 8 == 0 or os.environ.get("TALUS_LARGE_TESTS") else (1,)
 
 
 def part_of(cases, every, first=0):
