@@ -344,7 +344,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   };
   std::optional<std::vector<KeptContact>> kept;    ///< behind a run
   std::int64_t kept_of = 0;                        ///< number of particles then
-  [[noreturn]] void say_that_kept_are_old() const;
   int present_index(const KeptContact &one, int end) const;
   SurveyedContact at_present(const KeptContact &one) const;
 

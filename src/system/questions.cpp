@@ -157,10 +157,14 @@ double GranularSystem::counted_of_last_step() const
   return modify->n_final_integrate > 0 ? 0.5 : 0.0;
 }
 
+static constexpr const char *kept_are_old = "Pair style {}: contacts of the last run cannot be "
+                                            "listed, for particles have been added, deleted "
+                                            "or sent to other ranks since: use 'run 0' before";
+
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
   if (kept) {
-    if (atom->natoms != kept_of) say_that_kept_are_old();
+    if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, style.name);
     for (const KeptContact &one : *kept) visit(at_present(one));
     return;
   }
@@ -179,21 +183,13 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
 
 /* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */
 
-void GranularSystem::say_that_kept_are_old() const
-{
-  error->one(FLERR,
-             "Pair style {}: contacts of the last run cannot be listed, for particles have been "
-             "added, deleted or sent to other ranks since: use 'run 0' before",
-             style.name);
-}
-
 int GranularSystem::present_index(const KeptContact &one, int end) const
 {
   const int last = end == 0 ? one.contact.i : one.contact.j;
   const auto tag = static_cast<tagint>(one.tag[end]);
   if (last < atom->nlocal + atom->nghost && atom->tag[last] == tag) return last;
   const int found = atom->map_style != Atom::MAP_NONE ? atom->map(tag) : -1;
-  if (found < 0) say_that_kept_are_old();
+  if (found < 0) error->one(FLERR, kept_are_old, style.name);
   return found;
 }
 
