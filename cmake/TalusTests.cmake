@@ -52,6 +52,9 @@ function(talus_set_test_properties test)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
+  if(CMAKE_CROSSCOMPILING)    # in an emulator
+    math(EXPR arg_TIMEOUT "20 * ${arg_TIMEOUT}")
+  endif()
   if(TALUS_SANITIZE)
     math(EXPR arg_TIMEOUT "4 * ${arg_TIMEOUT}")
   endif()
@@ -114,7 +117,7 @@ endfunction()
 # tests/folder/name.py.
 function(talus_add_python_test test)
   get_filename_component(folder "${test}" DIRECTORY)
-  add_test(NAME ${test} COMMAND Python3::Interpreter "${PROJECT_SOURCE_DIR}/tests/${test}.py")
+  add_test(NAME ${test} COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/tests/${test}.py")    # not emulated
   talus_set_test_properties(${test} LABELS ${folder} ${ARGN})
 endfunction()
 
