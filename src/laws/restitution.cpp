@@ -19,7 +19,8 @@ double beta(double e)
 }
 
 /// Damping ratio of a linear contact that ends as soon as its force vanishes. With z = cos(p) it
-/// ends at the phase 2 p, so that e = exp(-2 p cot p); with z = cosh(q), e = exp(-2 q coth q).
+/// ends at the phase 2 p, so that e = exp(-2 p cot p); with z = cosh(q), e = exp(-2 q coth q). By exp:
+/// tanh and cosh of the C library have other last bits on other processors.
 double damping_ratio_limited(double e)
 {
   const double decay = -std::log(std::clamp(e, 0.01, 1.0));
@@ -27,14 +28,15 @@ double damping_ratio_limited(double e)
   // p = pi/2 - a keeps all digits where e is near 1
   const auto decay_at = [=](double a) {
     if (oscillates) return (pi - 2.0 * a) * std::tan(a);
-    return a > 0.0 ? 2.0 * a / std::tanh(a) : 2.0;
+    const double growth = std::exp(2.0 * a);
+    return a > 1.0e-9 ? 2.0 * a * (growth + 1.0) / (growth - 1.0) : 2.0;
   };
   double low = 0.0, high = oscillates ? 0.5 * pi : 4.0;
   for (int n = 0; n < 100; n++) {
     const double middle = 0.5 * (low + high);
     (decay_at(middle) < decay ? low : high) = middle;
   }
-  return oscillates ? std::sin(low) : std::cosh(low);
+  return oscillates ? std::sin(low) : 0.5 * (std::exp(low) + std::exp(-low));
 }
 
 }    // namespace

@@ -124,9 +124,9 @@ inline Contact random_contact(RandomSource &random, NamedLaw law, const Composit
   const Number m = reduced(mass[0], mass[1]);
   const Stiffness k = stiffness(law.normal, p, overlap, m, reduced(radius[0], radius[1]),
                                 std::max(p.speed, Number(1e-3)));
-  double speed = static_cast<double>(overlap * std::sqrt(k.kn / m));
+  double speed = rounded(static_cast<double>(overlap * std::sqrt(k.kn / m)));
   if (random.chance(0.5) && k.gn > 0)    // where damping balances the spring
-    speed = std::min(1e6 * speed, static_cast<double>(k.kn * overlap / k.gn));
+    speed = std::min(1e6 * speed, rounded(static_cast<double>(k.kn * overlap / k.gn)));
   speed *= random.decade(-1.5, 1.5);
   std::array<double, 3> velocity[2], omega[2];
   for (int b = 0; b < 2; b++) {
@@ -134,7 +134,7 @@ inline Contact random_contact(RandomSource &random, NamedLaw law, const Composit
     omega[b] = random.in_cube(speed / radius[b]);
   }
   std::array<double, 3> history = random.in_cube(overlap * random.decade(-2.0, 1.0));
-  const double collision_time = static_cast<double>(pi * std::sqrt(m / k.kn));
+  const double collision_time = rounded(static_cast<double>(pi * std::sqrt(m / k.kn)));
 
   Contact c;
   c.normal = widen(random.unit_vector());
