@@ -288,7 +288,8 @@ class Install(PluginCase):
         env = {**os.environ, "LAMMPS_SOURCE_DIR": os.environ["TALUS_LAMMPS_SOURCE"]}
         subprocess.run([os.environ.get("TALUS_CMAKE", "cmake"), "-S", os.environ["TALUS_SOURCE_DIR"],
                         "--preset", "installed", "-B", build,
-                        "-D", "LAMMPS_EXECUTABLE=" + os.environ["TALUS_LMP"]],
+                        "-D", "LAMMPS_EXECUTABLE=" + os.environ["TALUS_LMP"],
+                        "-D", "MPI_CXX_COMPILER=" + os.environ["TALUS_MPICXX"]],
                        check=True, stdout=subprocess.DEVNULL, env=env)
 
         def definitions(folder):
