@@ -103,8 +103,8 @@ REGIONS = {
 }
 
 
-# of the largest number: until grains have met a wall a few times, and after 900 steps of collisions, where 3e-8 was seen
-EARLY, TOLERANCE = 1e-12, 1e-7
+# of the largest number: until grains have met a wall a few times, and after 900 steps of collisions, where 4e-9 was seen
+EARLY, TOLERANCE = 1e-12, 2e-8
 
 
 class Walls(SceneCase):

@@ -199,7 +199,7 @@ void expect_repulsion(const ConvexContacts &contacts)
     if (c.overlap > most->overlap) most = &c;
     force = force + (c.weight * c.overlap) * c.normal;
   }
-  EXPECT_GT(dot(force, most->normal), 0.45 * most->overlap);
+  EXPECT_GT(dot(force, most->normal), 0.5 * most->overlap);
 }
 
 void expect_sound(const ConvexContacts &contacts)
@@ -257,7 +257,8 @@ TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
   RandomBodies random(2);
   const std::vector<ConvexShape> shapes = some_shapes(random, 0.1);
   ConvexContacts contacts;
-  int touching = 0, apart = 0, wrong = 0, compared = 0, shared = 0;
+  int touching = 0, apart = 0, wrong = 0;
+  double worst = 0.0;
   for (int trial = 0; trial < number_of_pairs(); trial++) {
     const Case c = random_case(random, shapes);
     SeparatingDirection direction;
@@ -278,17 +279,13 @@ TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
       EXPECT_GE(distance, 0.2 - 1e-12);
       apart++;
     } else {
-      // a contact of two edges that is hardly deeper than its ends has next to no weight, and is left to them
-      const double overlap = 0.2 - distance, missing = std::fabs(overlap - deepest(contacts));
-      compared++;
-      shared += missing > 1e-6 * 0.2;
-      EXPECT_LT(missing, 2e-3 * overlap) << trial;
+      worst = std::max(worst, std::fabs(0.2 - distance - deepest(contacts)));
     }
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(touching, number_of_pairs() / 10);
   EXPECT_GT(apart, 100);
-  EXPECT_LE(shared, compared / 1000);
+  EXPECT_LT(worst, 1e-6 * 0.2);    // edges that exceed their ends by less are left out
 }
 
 TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
@@ -306,17 +303,15 @@ TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
       for (ConvexContact &contact : other.points) contact.name = exchanged_name(contact.name);
       std::sort(other.points.begin(), other.points.end(),
                 [](const ConvexContact &p, const ConvexContact &q) { return p.name < q.name; });
-      // parallel bodies have several directions of least depth: deep within each other, and those with many parallel
-      // edges, in steps of the rounding error, also where they just touch
-      const bool parallel = c.pose_a.rotation == c.pose_b.rotation;
-      if (parallel && (c.a == c.b || deepest(one) > 0.05 + 2.0 * rounding)) continue;
+      // deep within each other, parallel bodies have several directions of least depth
+      if (c.pose_a.rotation == c.pose_b.rotation && deepest(one) > 0.05 + 2.0 * rounding) continue;
       compared++;
       ASSERT_EQ(one.points.size(), other.points.size()) << trial << " rounding " << rounding;
       for (std::size_t k = 0; k < one.points.size(); k++) {
         const ConvexContact &p = one.points[k], &q = other.points[k];
         EXPECT_EQ(p.name, q.name) << trial;
         EXPECT_LT(length(p.position - q.position), 1e-9) << trial;
-        EXPECT_LT(length(p.normal + q.normal), 1e-8) << trial;
+        EXPECT_LT(length(p.normal + q.normal), 1e-9) << trial;
         EXPECT_NEAR(p.overlap, q.overlap, 1e-10);
         EXPECT_NEAR(p.weight, q.weight, 1e-7);
       }
