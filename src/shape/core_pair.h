@@ -50,9 +50,9 @@ Gap find_gap(const CorePair &pair, const Vector3<double> &start, double enough, 
 
 /// The direction in which cores that overlap are moved apart by the least distance, among the
 /// normals of faces and the cross products of edges; `kind` tells which, and a and b the faces or
-/// edges of it (or -1).
+/// edges of it (or -1). FACES: a face of each, which are parallel and as deep but for rounding.
 struct LeastDepth {
-  enum { FACE_OF_A, FACE_OF_B, EDGES } kind;
+  enum { FACE_OF_A, FACE_OF_B, FACES, EDGES } kind;
   int of_a, of_b;
   Vector3<double> direction;    ///< unit vector, from b to a
   double depth;                 ///< <= 0: the cores are apart

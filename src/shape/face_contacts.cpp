@@ -91,7 +91,7 @@ std::uint32_t name_of(const CorePair &pair, const LeastDepth &least)
     const Support high = highest_vertex(pair.b, pair.seen.direction_in_body(n));
     return contact_name(ContactParts::VERTEX_OF_B, 0, high.vertex);
   }
-  if (least.kind == LeastDepth::FACE_OF_B)
+  if (least.kind == LeastDepth::FACE_OF_B || least.kind == LeastDepth::FACES)
     return contact_name(ContactParts::VERTEX_OF_A, highest_vertex(pair.a, -n).vertex, 0);
   return contact_name(ContactParts::EDGES, std::max(0, least.of_a), std::max(0, least.of_b));
 }

@@ -9,6 +9,7 @@
 #include "shape/core_pair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Talus {
@@ -39,6 +40,16 @@ FaceDepth least_of_faces(const ConvexCore &core, const ConvexCore &other, const 
     best = {f, n, depth};
   }
   return best;
+}
+
+/* Parallel faces that lie on each other: rounding would choose one of them. `n`: the normal of that of b, in the frame of
+   that of a. */
+
+bool are_same(const FaceDepth &of_a, const FaceDepth &of_b, const Vector &n, double tolerance)
+{
+  constexpr double parallel = 1.0e-9;
+  const Vector sum = of_a.normal + n;
+  return std::fabs(of_a.depth - of_b.depth) < tolerance && dot(sum, sum) < parallel * parallel;
 }
 
 /// An edge as the search needs it.
@@ -141,9 +152,14 @@ LeastDepth find_least_depth(const CorePair &pair, const Gap &known)
   LeastDepth best{LeastDepth::EDGES, -1, -1, known.direction, margin - known.width};
   const FaceDepth of_a = least_of_faces(pair.a, pair.b, seen, best.depth);
   if (of_a.face >= 0) best = {LeastDepth::FACE_OF_A, of_a.face, -1, -of_a.normal, of_a.depth};
-  const FaceDepth of_b = least_of_faces(pair.b, pair.a, back, best.depth);
-  if (of_b.face >= 0)
-    best = {LeastDepth::FACE_OF_B, -1, of_b.face, seen.direction_in_space(of_b.normal), of_b.depth};
+  const FaceDepth of_b = least_of_faces(pair.b, pair.a, back, best.depth + 0.1 * margin);
+  if (of_b.face >= 0) {
+    const Vector n = seen.direction_in_space(of_b.normal);
+    if (of_a.face >= 0 && are_same(of_a, of_b, n, 0.1 * margin))
+      best = {LeastDepth::FACES, of_a.face, of_b.face, -of_a.normal, of_a.depth};
+    else if (of_b.depth < best.depth)
+      best = {LeastDepth::FACE_OF_B, -1, of_b.face, n, of_b.depth};
+  }
   if (best.depth <= 0.0) return best;
 
   // edges that are pushed apart by less than the depth are, along the direction found so far, not

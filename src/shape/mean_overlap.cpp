@@ -307,13 +307,13 @@ bool find_mean_overlap(const CorePair &pair, const LeastDepth &least, double bot
     sum.add(-0.25 * o / sums.area, sums.area_of[body]);
     by[body] = {in_space(frame, sum.force), in_space(frame, sum.torque)};
   }
-  if (least.kind == LeastDepth::FACE_OF_A) {    // the direction moves with a: as if b moved back
-    overlap.push = by[1].force;
-    overlap.turn = by[1].torque;
-    return true;
-  }
-  overlap.push = -by[0].force;
-  overlap.turn = -by[0].torque;
+  // a direction that moves with a: as if b moved back. One of both bodies is on a kink, where the mean of both is what
+  // does not depend on which of them is called a.
+  const double moves_with_a = least.kind == LeastDepth::FACE_OF_A ? 1.0
+                              : least.kind == LeastDepth::FACES   ? 0.5
+                                                                  : 0.0;
+  overlap.push = moves_with_a * by[1].force - (1.0 - moves_with_a) * by[0].force;
+  overlap.turn = moves_with_a * by[1].torque - (1.0 - moves_with_a) * by[0].torque;
   if (least.kind == LeastDepth::EDGES && least.of_a >= 0)
     overlap.turn = overlap.turn + turn_of_normal(pair, least, by[0].torque + by[1].torque);
   return true;

@@ -63,6 +63,7 @@ bool find_single_point(const CorePair &pair, const LeastDepth &least, Vector &of
 {
   const Vector n = least.direction;
   const Pose &seen = pair.seen;
+  if (least.kind == LeastDepth::FACES) return false;    // edges lie in the other face
   if (least.kind == LeastDepth::FACE_OF_A) {
     const int v = highest_vertex(pair.b, seen.direction_in_body(n)).vertex;
     of_a = pair.vertex_of_b(v) - least.depth * n;
