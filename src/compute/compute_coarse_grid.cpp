@@ -224,37 +224,17 @@ void ComputeCoarseGrid::add_particles()
 }
 
 /* The line of a contact is divided where the surfaces meet: each particle has a branch from its
-   center to there, which counts if the particle is in the group. A body has none. Shapes have one
-   for each of their points. */
+   center to there, which counts if the particle is in the group. A body has none. */
 
 void ComputeCoarseGrid::add_contacts()
 {
-  const SystemShapes *shapes = system->shapes();
-  const auto is_shaped = [&](int i) { return shapes && shapes->is_shaped(atom->type[i]); };
-  contacts.for_each([&](const PairContact &c) {
-    if (is_shaped(c.i) || is_shaped(c.j)) return;
-    const Vector3<double> x = row(atom->x[c.i]), f = c.force();
-    const double share = (atom->radius[c.i] - 0.5 * c.overlap) / length(c.separation);
-    const Vector3<double> partner = x - c.separation, meeting = x - share * c.separation;
-    if (atom->mask[c.i] & groupbit) add_branch(x, meeting, f);
-    if (atom->mask[c.j] & groupbit) add_branch(partner, meeting, -f);
+  if (!contacts.is_known())
+    error->all(FLERR, "compute coarse/grid: contacts are known in a run only: use 'run 0' before");
+  contacts.for_each([&](const SurveyedContact &c) {
+    const Vector3<double> x = row(atom->x[c.i]), meeting = x + c.arm[0];
+    if (atom->mask[c.i] & groupbit) add_branch(x, meeting, c.force);
+    if (c.j >= 0 && (atom->mask[c.j] & groupbit)) add_branch(meeting - c.arm[1], meeting, -c.force);
   });
-  if (shapes)
-    shapes->for_each_contact(Ask::ALL, [this](const SurveyedContact &c) {
-      // a pair of two ranks is visited on both
-      for (const int k : {0, 1}) {
-        const int i = k ? c.j : c.i;
-        if (i >= atom->nlocal || !(atom->mask[i] & groupbit)) continue;
-        const Vector3<double> x = row(atom->x[i]);
-        add_branch(x, x + c.arm[k], k ? -c.force : c.force);
-      }
-    });
-  for (LargeBody *body : system->bodies())
-    body->for_each_contact(Ask::ALL, [this](const SurveyedContact &c) {
-      if (!(atom->mask[c.i] & groupbit)) return;
-      const Vector3<double> x = row(atom->x[c.i]);
-      add_branch(x, x + c.arm[0], c.force);
-    });
 }
 
 void ComputeCoarseGrid::add_branch(const Vector3<double> &from, const Vector3<double> &to,

@@ -10,7 +10,7 @@
 #include "compute/coarse_kernel.h"
 #include "compute/grid_sum.h"
 #include "system/granular_system.h"
-#include "system/pair_contacts.h"
+#include "system/contact_list.h"
 
 #include "compute.h"
 
@@ -52,7 +52,7 @@ class ComputeCoarseGrid : public Compute {
   std::vector<int> quantities;    // what each column is
   bool with_contacts = false;
   std::shared_ptr<Talus::GranularSystem> system;    // its bodies
-  Talus::PairContacts contacts;
+  Talus::ContactList contacts;
 
   std::unique_ptr<GridSum> sums;
   double box_of_grid[3] = {}, reach_of_grid = 0.0;

@@ -120,17 +120,11 @@ void ComputeContactGranLocal::init()
     error->all(FLERR, "Compute contact/gran/local requires a pair style of Talus");
 }
 
-/* A contact with a ghost is known twice: the owner of the particle with the lower ID has it. */
-
-bool ComputeContactGranLocal::is_of_this_rank(const SurveyedContact &one) const
+bool ComputeContactGranLocal::is_chosen(const SurveyedContact &one) const
 {
-  const int nlocal = atom->nlocal;
   if (!(atom->mask[one.i] & groupbit)) return false;
-  if (one.body >= 0) return true;
-  if (!(atom->mask[one.j] & groupbit)) return false;
-  if (one.i < nlocal && one.j < nlocal) return true;
-  const auto [owned, ghost] = one.i < nlocal ? std::pair(one.i, one.j) : std::pair(one.j, one.i);
-  return atom->tag[owned] <= atom->tag[ghost];
+  if (one.j < 0) return true;
+  return (atom->mask[one.j] & groupbit) && system->is_of_this_rank(one);
 }
 
 ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedContact &one) const
@@ -167,7 +161,7 @@ void ComputeContactGranLocal::compute_local()
   invoked_local = update->ntimestep;
   values.clear();
   system->for_each_contact(Talus::Ask::ALL, [&](const SurveyedContact &one) {
-    if (!is_of_this_rank(one)) return;
+    if (!is_chosen(one)) return;
     const Row row = row_of(one);
     for (const auto value : columns) values.push_back(value(row));
   });

@@ -34,7 +34,7 @@ class ComputeContactGranLocal : public Compute, private Talus::ContactObserver {
 
  private:
   bool asks_for_work() const override { return false; }
-  bool is_of_this_rank(const Talus::SurveyedContact &one) const;
+  bool is_chosen(const Talus::SurveyedContact &one) const;
   Row row_of(const Talus::SurveyedContact &one) const;
 
   std::shared_ptr<Talus::GranularSystem> system;

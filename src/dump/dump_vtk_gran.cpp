@@ -213,7 +213,7 @@ VtkPolyData DumpVtkGran::grains()
 
 VtkPolyData DumpVtkGran::contacts()
 {
-  if (!contact_list->contacts.has_list())
+  if (!contact_list->contacts.is_known())
     error->all(FLERR,
                "dump vtk/gran: contacts are known from the first run after the dump command on; "
                "write grains alone with 'contacts no'");
@@ -223,42 +223,21 @@ VtkPolyData DumpVtkGran::contacts()
   auto &body_number = lines.add_cell_data("body", 1);
   auto &force = lines.add_cell_data("force", 3), &overlap = lines.add_cell_data("overlap", 1);
   const auto is_chosen = [this](int i) { return (atom->mask[i] & groupbit) != 0; };
-  const auto add = [&](int i, double partner, int body, const Vector3<double> &line,
-                       const Vector3<double> &force_on_i, double normal, double depth) {
-    const double *x = atom->x[i];
-    const Vector3<double> begin{x[0], x[1], x[2]};
+  contact_list->contacts.for_each([&](const SurveyedContact &c) {
+    const bool with_body = c.j < 0;
+    if (!is_chosen(c.i) || (!with_body && !is_chosen(c.j))) return;
+    const double *x = atom->x[c.i], normal_force = dot(c.force, c.normal);
+    const Vector3<double> begin{x[0], x[1], x[2]}, meeting = begin + c.arm[0];
     lines.add_point(begin);
-    lines.add_point(begin - line);
-    strength.add(normal);
-    strength.add(normal);
-    first.add(static_cast<double>(atom->tag[i]));
-    second.add(partner);
-    body_number.add(body);
-    force.add(force_on_i);
-    overlap.add(depth);
-  };
-  const SystemShapes *shapes = system->shapes();
-  const auto is_shaped = [&](int i) { return shapes && shapes->is_shaped(atom->type[i]); };
-  contact_list->contacts.for_each([&](const PairContact &c) {
-    if (!is_chosen(c.i) || !is_chosen(c.j) || is_shaped(c.i) || is_shaped(c.j)) return;
-    const double normal = dot(c.normal_force, c.separation) / length(c.separation);
-    add(c.i, static_cast<double>(atom->tag[c.j]), 0, c.separation, c.force(), normal, c.overlap);
+    lines.add_point(with_body ? meeting : meeting - c.arm[1]);
+    strength.add(normal_force);
+    strength.add(normal_force);
+    first.add(static_cast<double>(atom->tag[c.i]));
+    second.add(with_body ? 0.0 : static_cast<double>(atom->tag[c.j]));
+    body_number.add(c.body + 1);
+    force.add(c.force);
+    overlap.add(c.overlap);
   });
-  if (shapes)
-    shapes->for_each_point([&](int i, int j, const PointContact &c) {
-      if (i >= atom->nlocal || !is_chosen(i) || !is_chosen(j)) return;
-      const double *a = atom->x[i], *b = atom->x[j];
-      add(i, static_cast<double>(atom->tag[j]), 0, {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, c.force,
-          dot(c.force, c.normal), c.overlap);
-    });
-  int number = 0;
-  for (LargeBody *body : system->bodies()) {
-    number++;
-    body->for_each_contact(Ask::ALL, [&](const SurveyedContact &c) {
-      if (!is_chosen(c.i)) return;
-      add(c.i, 0.0, number, -c.arm[0], c.force, dot(c.force, c.normal), c.overlap);
-    });
-  }
   return lines;
 }
 

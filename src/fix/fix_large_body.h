@@ -55,6 +55,11 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
 
   // SystemFix
   std::string needs_host_arrays() override;
+  bool is_touched() const override { return true; }
+  void for_each_contact(Talus::Ask ask, const VisitContact &visit) override
+  {
+    body.for_each_contact(ask, visit);
+  }
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;

@@ -108,7 +108,6 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
                                 const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;
-  void for_each_point(const VisitPoint &visit) const override;
   Talus::DeepestContact deepest_contact() const override;
   double count_contacts() const override { return pairs.count_contacts(); }
   double count_candidates() const override { return pairs.count_candidates(); }

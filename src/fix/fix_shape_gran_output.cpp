@@ -104,11 +104,6 @@ int FixShapeGran::add_to_picture(int narg, char **arg)
 
 /* ---- contacts, pictures ---- */
 
-void FixShapeGran::for_each_point(const VisitPoint &visit) const
-{
-  pairs.for_each_point(visit);
-}
-
 void FixShapeGran::for_each_contact(Ask ask, const VisitContact &visit) const
 {
   pairs.for_each_contact(system->law_table(), update->dt, ask, visit);

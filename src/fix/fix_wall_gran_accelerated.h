@@ -56,6 +56,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   {
     Stock::init();
     candidates.forget();
+    has_forces = false;
     stock_reason = find_reason_for_stock();
     if (!stock_reason.empty()) return;
     wall_law.take(*this->model);
@@ -67,10 +68,12 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
 
   void post_force(int vflag) override
   {
-    if (stock_reason.empty())
-      add_contacts();
-    else
+    if (!stock_reason.empty()) {
       Stock::post_force(vflag);
+      return;
+    }
+    add_contacts();
+    has_forces = true;
   }
 
   double memory_usage() override { return Stock::memory_usage() + candidates.memory_usage(); }
@@ -78,6 +81,16 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
   bool adds_forces() const override { return true; }
+  bool is_touched() const override { return true; }
+  /// Of a wall that is not accelerated there are none.
+  void for_each_contact(Ask ask, const VisitContact &visit) override
+  {
+    if (!has_forces) return;
+    const Survey its{ask, visit};
+    survey = &its;
+    survey_contacts();
+    survey = nullptr;
+  }
   std::string needs_host_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
@@ -96,6 +109,8 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   virtual void begin_run() = 0;
   /// The forces of a step, on particles of which each is where it is.
   virtual void add_contacts() = 0;
+  /// The contacts as add_contacts() has left them, by deliver(), which surveys them.
+  virtual void survey_contacts() = 0;
   /// "", or why the methods of the stock class are needed by this kind of wall.
   virtual std::string what_only_stock_does() const = 0;
   /// "", or what in this wall may read the arrays of LAMMPS in every step.
@@ -107,8 +122,6 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     return this->atom->avec->size_forward > 3 || !this->modify->get_fix_by_style("^adapt").empty();
   }
   bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
-  /// As in LAMMPS: histories stand still while a run is set up.
-  bool histories_advance() const { return !this->update->setupflag; }
   /// Forces by particle are kept for output; steps in the records have no output.
   bool keeps_contacts() const
   {
@@ -127,8 +140,31 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     return this->heat_flag ? this->Twall - particles.temperature(i) : 0.0;
   }
 
+  /// Begins a step of a batch, or a survey.
+  void begin(WallBatch &batch)
+  {
+    const double dt = this->update->dt;
+    if (survey)
+      batch.begin_survey(dt);
+    else    // as in LAMMPS: histories stand still while a run is set up
+      batch.begin_step(wall_law, this->update->setupflag ? 0.0 : dt, accounts ? &account : nullptr);
+  }
+
+  /// Before the batches of a step begin.
+  void begin_account()
+  {
+    accounts = system->accounts_for_work();
+    if (!accounts) return;
+    account.time_at_setup = system->work_time_at_setup();
+    account.by_particle = system->work_lists();
+  }
+
   void deliver(WallBatch &batch, const WallParticles &particles)
   {
+    if (survey) {
+      batch.survey(survey->ask, survey->visit);
+      return;
+    }
     const bool keeps = keeps_contacts();
     batch.compute([&](const WallBatch::Result &its) {
       particles.add(its.atom, its.force, its.torque);
@@ -151,8 +187,17 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (this->size_peratom_cols > 8) row[8] = its.heat_flow;
   }
 
+  struct Survey {
+    Ask ask;
+    const VisitContact &visit;
+  };
+
   const char *plain_style;
   std::string stock_reason;
+  bool has_forces = false;    // of a step
+  const Survey *survey = nullptr;
+  bool accounts = false;
+  WorkAccount account;
 
   std::string find_reason_for_stock() const
   {

@@ -14,7 +14,7 @@ void FixWallGranRegionTalus::begin_run()
 {
   dynamic = region->dynamic_check();
   bounded = has_distance(*region) && !radii_vary();
-  pose = RegionPose();
+  parts = bounded ? RegionParts(*region) : RegionParts();
 }
 
 std::string FixWallGranRegionTalus::what_reads_arrays()
@@ -27,22 +27,23 @@ std::string FixWallGranRegionTalus::what_reads_arrays()
 
 double FixWallGranRegionTalus::displacement() const
 {
-  return in_frame() ? pose.largest_displacement(listed_pose, listed_box) : 0.0;
+  return dynamic && bounded ? parts.largest_displacement(listed_poses, listed_box) : 0.0;
 }
 
 bool FixWallGranRegionTalus::in_frame() const
 {
-  return dynamic && bounded;
+  return dynamic && bounded && !is_composite(*region);
 }
 
 bool FixWallGranRegionTalus::is_inside(const double *x)
 {
-  return in_frame() ? RegionInFrame(*region, pose).match(x) : region->match(x[0], x[1], x[2]);
+  return in_frame() ? RegionInFrame(*region, parts.poses()[0]).match(x)
+                    : region->match(x[0], x[1], x[2]);
 }
 
 int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
 {
-  return in_frame() ? RegionInFrame(*region, pose).surface(x, reach)
+  return in_frame() ? RegionInFrame(*region, parts.poses()[0]).surface(x, reach)
                     : region->surface(x[0], x[1], x[2], reach);
 }
 
@@ -64,12 +65,12 @@ void FixWallGranRegionTalus::find_candidates(double moved)
     return;
   }
   const WallParticles particles(*system, *atom);
-  listed_pose = pose;
+  listed_poses = parts.poses();
   listed_box = AxisBox();
   std::vector<int> others;
   double largest = 0.0;
   {
-    const ClosedSurface surface(*region, pose);
+    const ClosedSurface surface(parts);
     candidates.list(
         atom->nlocal, neighbor->skin, moved, 1,
         [&](int i, double margin) {
@@ -94,19 +95,32 @@ void FixWallGranRegionTalus::begin_step()
   if (dynamic) {
     region->prematch();
     region->set_velocity();
-    if (in_frame()) pose = RegionPose(*region);
+    parts.place();
   }
   std::fill(velocity, velocity + 3, 0.0);
-  find_wall_temperature();
-  batch.begin_step(wall_law, histories_advance() ? dt : 0.0);
 }
 
 void FixWallGranRegionTalus::add_contacts()
 {
   begin_step();
+  find_wall_temperature();
+  begin_account();
   const double moved = bounded ? system->moved_since_rebuild() : 0.0;
   if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
+  add_contacts_of_candidates();
+  system->add_work(batch.work);
+}
+
+void FixWallGranRegionTalus::survey_contacts()
+{
+  begin_step();
+  add_contacts_of_candidates();
+}
+
+void FixWallGranRegionTalus::add_contacts_of_candidates()
+{
+  begin(batch);
   const WallParticles particles(*system, *atom);
   constexpr int ahead = 8;
   for (int c = 0; c < candidates.size(); c++) {
@@ -188,6 +202,6 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
   batch.add({i, separation, contact.r, radius, system->mass_with_walls(i), contact.radius,
              particles.velocity(i), velocity, particles.omega(i),
-             temperature_difference(particles, i), history});
+             temperature_difference(particles, i), history, contact.iwall, particles.change(i)});
   if (batch.is_full()) deliver(batch, particles);
 }

@@ -23,6 +23,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
  protected:
   void begin_run() override;
   void add_contacts() override;
+  void survey_contacts() override;
   std::string what_only_stock_does() const override { return ""; }
   std::string what_reads_arrays() override;
 
@@ -33,15 +34,17 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   int find_contacts(const double *x, double reach);
   void find_candidates(double moved);
   void begin_step();
+  void add_contacts_of_candidates();
   void add_contacts_of(int i, const Talus::WallParticles &particles);
   void add_contact(int i, int ic, const Talus::WallParticles &particles);
   void find_wall_velocity(const double *position, int ic);
   void clear_history(int i);
   bool match_history(int i, int nc);
 
-  bool dynamic = false;    // the region moves or changes its shape
-  bool bounded = false;    // distances from it are known
-  Talus::RegionPose pose, listed_pose;
+  bool dynamic = false;        // the region moves or changes its shape
+  bool bounded = false;        // distances from it are known
+  Talus::RegionParts parts;    // if so
+  std::vector<Talus::RegionPose> listed_poses;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch
   Talus::WallBatch batch;
   double velocity[3] = {0.0, 0.0, 0.0};

@@ -77,7 +77,8 @@ FixWallGranTalus::Gap FixWallGranTalus::gap(const double *x, double radius) cons
   Gap its;
   if (!is_cylinder()) {
     const double above = x[wallstyle] - now[0], below = now[1] - x[wallstyle];
-    its.d[wallstyle] = above < below ? above : -below;
+    its.part = above < below ? 0 : 1;
+    its.d[wallstyle] = its.part ? -below : above;
     return its;
   }
   const double cylinder = radius_of_cylinder();
@@ -136,13 +137,29 @@ void FixWallGranTalus::add_contacts()
     find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
   find_wall_temperature();
+  begin_account();
   const WallParticles particles(*system, *atom);
   const int threads =
       std::clamp(candidates.size() / worth_a_thread, 1, static_cast<int>(batches.size()));
-  in_ranges(candidates.size(), threads, [&](int thread, int begin, int end) {
-    batches[thread].begin_step(wall_law, histories_advance() ? dt : 0.0);
-    add_contacts_of(batches[thread], particles, begin, end);
+  ranges.assign(threads, {0, 0});
+  in_ranges(candidates.size(), threads, [&](int thread, int first, int last) {
+    ranges[thread] = {first, last};
+    begin(batches[thread]);
+    add_contacts_of(batches[thread], particles, first, last);
   });
+  for (int t = 0; t < threads; t++)
+    if (ranges[t].first < ranges[t].second) system->add_work(batches[t].work);
+}
+
+void FixWallGranTalus::survey_contacts()
+{
+  place();
+  const WallParticles particles(*system, *atom);
+  for (std::size_t t = 0; t < ranges.size(); t++) {
+    if (ranges[t].first == ranges[t].second) continue;
+    begin(batches[t]);
+    add_contacts_of(batches[t], particles, ranges[t].first, ranges[t].second);
+  }
 }
 
 void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &particles, int begin,
@@ -167,7 +184,8 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
     if (beyond) history_one[i][0] = 1;
     batch.add({i, g.d, std::sqrt(squared), radius, system->mass_with_walls(i), g.radius,
                particles.velocity(i), velocity, particles.omega(i),
-               temperature_difference(particles, i), use_history ? history_one[i] : nullptr});
+               temperature_difference(particles, i), use_history ? history_one[i] : nullptr, g.part,
+               particles.change(i)});
     if (batch.is_full()) deliver(batch, particles);
   }
   deliver(batch, particles);

@@ -26,6 +26,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
  protected:
   void begin_run() override;
   void add_contacts() override;
+  void survey_contacts() override;
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override
   {
@@ -34,9 +35,10 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
 
  private:
   /// Vector from the wall to a particle, and the radius of the wall there: 0 for planes, negative
-  /// on the inside of a cylinder.
+  /// on the inside of a cylinder; which of the planes, or -1.
   struct Gap {
     double d[3] = {0.0, 0.0, 0.0}, radius = 0.0;
+    int part = -1;
   };
   bool is_cylinder() const
   {
@@ -53,8 +55,9 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
   void add_contacts_of(Talus::WallBatch &batch, const Talus::WallParticles &particles, int begin,
                        int end);
 
-  std::vector<Talus::WallBatch> batches;    // by thread
-  double now[2] = {0.0, 0.0};               // planes at lo and hi in this step
+  std::vector<Talus::WallBatch> batches;      // by thread
+  std::vector<std::pair<int, int>> ranges;    // of candidates, of the last step
+  double now[2] = {0.0, 0.0};                 // planes at lo and hi in this step
   double velocity[3] = {0.0, 0.0, 0.0};
   double listed_at = 0.0;    // displacement() when candidates were found
 };

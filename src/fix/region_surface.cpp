@@ -123,8 +123,33 @@ bool has_distance(const Region &region)
 {
   if (region.varshape) return false;
   if (!is_composite(region)) return is_convex(region);
-  return !region.dynamic && std::all_of(region.reglist, region.reglist + region.nregion,
-                                        [](const Region *part) { return has_distance(*part); });
+  return !region.moveflag && !region.rotateflag &&
+         std::all_of(region.reglist, region.reglist + region.nregion,
+                     [](const Region *part) { return has_distance(*part); });
+}
+
+void RegionParts::collect(Region &region)
+{
+  if (is_composite(region)) {
+    for (int n = 0; n < region.nregion; n++) collect(*region.reglist[n]);
+    return;
+  }
+  simple.push_back(&region);
+  pose.emplace_back();
+}
+
+void RegionParts::place()
+{
+  for (std::size_t k = 0; k < simple.size(); k++) pose[k] = RegionPose(*simple[k]);
+}
+
+double RegionParts::largest_displacement(const std::vector<RegionPose> &then,
+                                         const AxisBox &box) const
+{
+  double largest = 0.0;
+  for (std::size_t k = 0; k < simple.size(); k++)
+    if (simple[k]->dynamic) largest = std::max(largest, pose[k].largest_displacement(then[k], box));
+  return largest;
 }
 
 /* Of all equal-style variables the first whose value depends on more than the time, or "". */
@@ -202,35 +227,29 @@ int RegionInFrame::surface(const double *x, double cutoff) const
 
 /* ---------------------------------------------------------------------- */
 
-ClosedSurface::ClosedSurface(Region &region, const RegionPose &pose) : pose(pose)
+ClosedSurface::ClosedSurface(const RegionParts &its) : parts(its)
 {
-  collect(region);
-  for (const Part &part : parts) {
-    part.region->openflag = part.region->dynamic = part.region->rotateflag = 0;
-    std::fill(part.region->open_faces, part.region->open_faces + 6, 0);
+  for (Region *part : parts.regions()) {
+    Settings now{part->interior, part->openflag, part->dynamic, part->rotateflag, {}};
+    std::copy(part->open_faces, part->open_faces + 6, now.open_faces);
+    before.push_back(now);
+    part->openflag = part->dynamic = part->rotateflag = 0;
+    std::fill(part->open_faces, part->open_faces + 6, 0);
   }
 }
+
+/* From behind, for one may be there twice. */
 
 ClosedSurface::~ClosedSurface()
 {
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {    // one may be there twice
-    part->region->interior = part->interior;
-    part->region->openflag = part->openflag;
-    part->region->dynamic = part->dynamic;
-    part->region->rotateflag = part->rotateflag;
-    std::copy(part->open_faces, part->open_faces + 6, part->region->open_faces);
+  for (std::size_t k = before.size(); k-- > 0;) {
+    Region *part = parts.regions()[k];
+    part->interior = before[k].interior;
+    part->openflag = before[k].openflag;
+    part->dynamic = before[k].dynamic;
+    part->rotateflag = before[k].rotateflag;
+    std::copy(before[k].open_faces, before[k].open_faces + 6, part->open_faces);
   }
-}
-
-void ClosedSurface::collect(Region &region)
-{
-  if (is_composite(region)) {
-    for (int n = 0; n < region.nregion; n++) collect(*region.reglist[n]);
-    return;
-  }
-  Part part{&region, region.interior, region.openflag, region.dynamic, region.rotateflag, {}};
-  std::copy(region.open_faces, region.open_faces + 6, part.open_faces);
-  parts.push_back(part);
 }
 
 /* A surface point of a union or intersection is one of its parts. Asked beside x: on an axis or in
@@ -240,14 +259,16 @@ bool ClosedSurface::is_near(const double *x, double reach) const
 {
   const double aside[3] = {7.1e-4 * reach, -4.3e-4 * reach, 5.9e-4 * reach};
   const double beside[3] = {x[0] + aside[0], x[1] + aside[1], x[2] + aside[2]};
-  double y[3];
-  pose.origin_of(beside, y);
   const double wide = 1.002 * reach;
-  for (const Part &part : parts)
+  for (std::size_t k = 0; k < before.size(); k++) {
+    double y[3];
+    parts.poses()[k].origin_of(beside, y);
+    Region *part = parts.regions()[k];
     for (const int interior : {1, 0}) {
-      part.region->interior = interior;
-      if (part.region->surface(y[0], y[1], y[2], wide)) return true;
+      part->interior = interior;
+      if (part->surface(y[0], y[1], y[2], wide)) return true;
     }
+  }
   return false;
 }
 

@@ -50,9 +50,31 @@ class RegionPose {
 };
 
 /// The surface has a distance that can be bounded: a convex simple region of constant shape, or a
-/// union or intersection, to any depth, of those that neither move nor turn. Of all others every
-/// particle may touch the surface in every step.
+/// union or intersection of those, to any depth. Of all others every particle may touch the surface in
+/// every step.
 bool has_distance(const LAMMPS_NS::Region &region);
+
+/// The simple regions of which a region is made, or itself, and how each of them stands.
+class RegionParts {
+ public:
+  RegionParts() = default;
+  /// In init() of who asks, for regions may be defined anew; of a region that has_distance().
+  explicit RegionParts(LAMMPS_NS::Region &region) { collect(region); }
+
+  /// In each step, after Region::prematch().
+  void place();
+  /// See RegionPose; of all parts, since they had the poses `then`.
+  double largest_displacement(const std::vector<RegionPose> &then, const AxisBox &box) const;
+
+  const std::vector<LAMMPS_NS::Region *> &regions() const { return simple; }
+  const std::vector<RegionPose> &poses() const { return pose; }
+
+ private:
+  void collect(LAMMPS_NS::Region &region);
+
+  std::vector<LAMMPS_NS::Region *> simple;
+  std::vector<RegionPose> pose;
+};
 
 /// How a simple region that moves or turns stands, in the words of its command: x = point + turned
 /// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
@@ -105,23 +127,21 @@ class RegionInFrame {
 /// contacts: open faces count as closed, and both sides are seen.
 class ClosedSurface {
  public:
-  /// `pose`: of the region, must exist as long as this does.
-  ClosedSurface(LAMMPS_NS::Region &region, const RegionPose &pose);
+  /// Must exist as long as this does.
+  explicit ClosedSurface(const RegionParts &parts);
   ~ClosedSurface();
   ClosedSurface(const ClosedSurface &) = delete;
   ClosedSurface &operator=(const ClosedSurface &) = delete;
 
-  /// Whether the surface may be closer to x than `reach`; true for all that are. After prematch().
+  /// Whether the surface may be closer to x than `reach`; true for all that are.
   bool is_near(const double *x, double reach) const;
 
  private:
-  struct Part {
-    LAMMPS_NS::Region *region;
+  struct Settings {
     int interior, openflag, dynamic, rotateflag, open_faces[6];
   };
-  void collect(LAMMPS_NS::Region &region);
-  const RegionPose &pose;
-  std::vector<Part> parts;    // all simple regions
+  const RegionParts &parts;
+  std::vector<Settings> before;    // of each part
 };
 
 }    // namespace Talus

@@ -2,24 +2,25 @@
 //
 // Contacts of particles with a granular wall of LAMMPS on their way through the kernels of its
 // contact law: they are put in one by one, computed side by side, and handed back in the same
-// order. Lever arms against a wall are full radii.
+// order, as forces or, for outputs, as a survey. Lever arms against a wall are full radii.
 
 #ifndef TALUS_FIX_WALL_BATCH_H
 #define TALUS_FIX_WALL_BATCH_H
 
 #include "laws/contact_batch.h"
-#include "laws/contact_kernel.h"
+#include "laws/contact_energy.h"
+#include "material/law_table.h"
+#include "particles/change_record.h"
 #include "system/granular_spec.h"
 
+#include <functional>
 #include <vector>
 
 namespace Talus {
 
 /// The law of a wall, and where LAMMPS keeps what a contact remembers. Shared by threads.
 struct WallLaw {
-  ContactLaw law;
-  ContactCoefficients row;
-  ContactKernel kernel;
+  LawTable table;    ///< of one row, for all types of particles
   /// Of each value that LAMMPS keeps: its place with us, -1: not used.
   std::vector<int> places;
 
@@ -27,6 +28,9 @@ struct WallLaw {
   void take(const Model &model);
   /// How far a contact lasts beyond zero overlap (length).
   double reach(double radius, double wall_radius) const;
+
+  const ContactLaw &law() const { return table.law(0); }
+  const ContactCoefficients &row() const { return table.coefficients(0); }
 };
 
 class WallBatch {
@@ -40,16 +44,29 @@ class WallBatch {
     const double *velocity, *wall_velocity, *omega;
     double temperature_difference;    ///< of the wall over the particle; 0 if no heat is conducted
     double *history;    ///< as LAMMPS keeps it, or nullptr; must stay until the batch is computed
+    int part = -1;      ///< of the wall, see SurveyedContact
+    const ChangeRecord *change = nullptr;    ///< of the particle's velocities, for an account
   };
 
   WallBatch() { batch.clear(); }
 
-  /// dt is 0 while a run is set up.
-  void begin_step(const WallLaw &its, double time_step)
+  /// dt is 0 while a run is set up. `account`: nullptr, or asks for the work of the contacts.
+  void begin_step(const WallLaw &its, double time_step, const WorkAccount *its_account)
   {
     law = &its;
     dt = time_step;
+    account = its_account;
+    work = EnergyByCause{};
     filled = 0;    // an error may have left some
+    last.clear();
+  }
+  /// Behind a step, of which the same contacts are added again, for survey().
+  void begin_survey(double time_step)
+  {
+    dt = time_step;
+    account = nullptr;
+    filled = 0;
+    surveyed = 0;
   }
   void add(const Contact &contact);
   bool is_full() const { return filled == ContactBatch::width; }
@@ -64,16 +81,34 @@ class WallBatch {
     for (int k = 0; k < filled; k++) deliver(result(k));
     filled = 0;
   }
+  /// In the place of compute(): visit(contact) for each, which changes nothing.
+  void survey(Ask ask, const std::function<void(const SurveyedContact &)> &visit);
+
+  /// Since begin_step(), if there is an account.
+  EnergyByCause work;
 
  private:
   void run();
+  void set_change(int lane, const Contact &contact);
+  void add_to_account();
+  void keep_forces();
   Result result(int lane) const;
 
   const WallLaw *law = nullptr;
   double dt = 0.0;
+  const WorkAccount *account = nullptr;
   int filled = 0;
+
+  /// Of a contact in the last step. Not all laws of LAMMPS remember what would tell it again.
+  struct LastForce {
+    int atom;
+    Vector3<double> force, moment, twisting_torque;
+  };
+  std::vector<LastForce> last;
+  std::size_t surveyed = 0;    // of them
+
   ContactBatch batch;
-  int atoms[ContactBatch::width];
+  int atoms[ContactBatch::width], parts[ContactBatch::width];
   double *histories[ContactBatch::width];
   double distances[ContactBatch::width], radii[ContactBatch::width];
 };

@@ -21,7 +21,7 @@ class WallParticles {
  public:
   WallParticles(GranularSystem &system, LAMMPS_NS::Atom &atom) :
       atom(atom), records(system.residence() == Residence::RECORDS ? &system.records() : nullptr),
-      slot_of_atom(system.slot_of_atom())
+      slot_of_atom(system.slot_of_atom()), changes(system.velocity_changes())
   {
   }
 
@@ -46,6 +46,12 @@ class WallParticles {
       t[d] += torque[d];
     }
   }
+  /// See GranularSystem::velocity_changes(); nullptr if they are not kept.
+  const ChangeRecord *change(int i) const
+  {
+    if (records) return records->keeps_changes() ? &records->change[slot(i)] : nullptr;
+    return changes ? changes + i : nullptr;
+  }
   double temperature(int i) const { return atom.temperature[i]; }
   void add_heat(int i, double power) const { atom.heatflow[i] += power; }
   /// Calls what is needed of one particle into the cache; a hint.
@@ -63,6 +69,7 @@ class WallParticles {
   LAMMPS_NS::Atom &atom;
   ParticleRecords *records;
   const int *slot_of_atom;
+  const ChangeRecord *changes;
 
   std::size_t slot(int i) const { return static_cast<std::size_t>(slot_of_atom[i]); }
   Record *motion(int i) const { return &records->motion[2 * slot(i)]; }

@@ -7,11 +7,6 @@
 namespace Talus {
 namespace {
 
-Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
-{
-  return {v[0][k], v[1][k], v[2][k]};
-}
-
 /// Normal law and damping of a contact at rest with nothing remembered.
 ContactLanes<double> at_rest(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                              double mass_eff, double radius_eff)

@@ -90,6 +90,12 @@ void survey_contact(const ContactLaw &law, const ContactCoefficients &coefficien
                     const ContactState<double> &state, double dt, const RememberedValues &memory,
                     Ask ask, SurveyedContact &to);
 
+/// A vector of one lane of a batch.
+inline Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int lane)
+{
+  return {v[0][lane], v[1][lane], v[2][lane]};
+}
+
 /// The state of one lane of a batch, as before its kernel has run.
 ContactState<double> state_of_lane(const ContactBatch &batch, int lane);
 

@@ -1,12 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Internal compute TALUS_CONTACT_LIST: contacts between particles for a dump, which cannot ask for
-// neighbor lists itself. It calculates nothing.
+// Internal compute TALUS_CONTACT_LIST: contacts for a dump, which cannot ask for neighbor lists itself.
+// It calculates nothing.
 
 #ifndef LMP_COMPUTE_CONTACT_LIST_H
 #define LMP_COMPUTE_CONTACT_LIST_H
 
-#include "system/pair_contacts.h"
+#include "system/contact_list.h"
 
 #include "compute.h"
 
@@ -23,7 +23,7 @@ class ComputeContactList : public Compute {
   }
   void init_list(int, NeighList *list) override { contacts.set_list(list); }
 
-  Talus::PairContacts contacts;
+  Talus::ContactList contacts;
 };
 
 }    // namespace LAMMPS_NS

@@ -237,11 +237,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double counted_of_last_step() const;
   /// See WorkAccount.
   double work_time_at_setup() const;
-  /// Of a large body in a step.
+  /// Of a large body or wall in a step.
   void add_work(const EnergyByCause &its) { account.sum += its; }
-  /// visit(contact) for contacts of the last step on this rank, of pairs and large bodies, those
-  /// with a ghost as well. Behind a run only as long as someone observes them.
+  /// visit(contact) for contacts of the last step on this rank, of pairs, large bodies and walls,
+  /// those with a ghost as well. Behind a run only as long as someone observes them.
   void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
+  /// Of those that two ranks know, or one twice, only one is.
+  bool is_of_this_rank(const SurveyedContact &one) const;
+  /// In a run; behind it, if someone observes them.
+  bool knows_contacts() const;
 
   /// What a run warns about; registered by all who check something.
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }

@@ -19,6 +19,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -172,13 +173,32 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
     pipeline->for_each_contact(update->dt, lag(), ask, visit);
   if (shaped) shaped->for_each_contact(ask, visit);
   int number = 0;
-  for (const auto &body : large_bodies) {
-    body->for_each_contact(ask, [&](SurveyedContact one) {
+  for (const auto &fix : modify->get_fix_list()) {
+    auto *ours = dynamic_cast<SystemFix *>(fix);
+    if (!ours || !ours->is_touched()) continue;
+    ours->for_each_contact(ask, [&](SurveyedContact one) {
       one.body = number;
       visit(one);
     });
     number++;
   }
+}
+
+/* A contact with a ghost is known twice: the owner of the particle with the lower ID has it. */
+
+bool GranularSystem::is_of_this_rank(const SurveyedContact &one) const
+{
+  if (one.j < 0 || (one.i < atom->nlocal && one.j < atom->nlocal)) return true;
+  const auto [owned, ghost] =
+      one.i < atom->nlocal ? std::pair(one.i, one.j) : std::pair(one.j, one.i);
+  return atom->tag[owned] <= atom->tag[ghost];
+}
+
+/* Behind a run indices of particles may have changed. */
+
+bool GranularSystem::knows_contacts() const
+{
+  return kept || (update->whichflag != 0 && pipeline->has_pairs());
 }
 
 /* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */

@@ -6,6 +6,9 @@
 #ifndef TALUS_SYSTEM_SYSTEM_FIX_H
 #define TALUS_SYSTEM_SYSTEM_FIX_H
 
+#include "laws/contact_energy.h"
+
+#include <functional>
 #include <string>
 
 namespace Talus {
@@ -23,6 +26,13 @@ class SystemFix {
   /// It adds forces to particles in its own post_force(), also in the records. Bodies behind it in
   /// the script do not join then, see LargeBody::join_step().
   virtual bool adds_forces() const { return false; }
+
+  /// Particles touch it, a large body or a wall: it has a number, in the order of the script.
+  virtual bool is_touched() const { return false; }
+  /// Of such a fix: visit(contact) for those of the last step on this rank, once its forces have been
+  /// computed; without the number.
+  using VisitContact = std::function<void(const SurveyedContact &)>;
+  virtual void for_each_contact(Ask /*ask*/, const VisitContact & /*visit*/) {}
 
   /// It moves particles.
   virtual bool integrates() const { return false; }

@@ -67,10 +67,6 @@ class SystemShapes : public SystemFix {
   virtual void for_each_contact(Ask ask, const VisitContact &visit) const = 0;
   virtual void for_each_contact_of_body(LargeBody &body, Ask ask,
                                         const VisitContact &visit) const = 0;
-  /// visit(i, j, point) for each contact point of two particles in the last step, as i sees it; i
-  /// and j may be ghosts, and a pair of two ranks is visited on both.
-  using VisitPoint = std::function<void(int, int, const PointContact &)>;
-  virtual void for_each_point(const VisitPoint &visit) const = 0;
   /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
   using VisitTriangle = std::function<void(int, const Triangle &)>;
   virtual void for_each_triangle(const VisitTriangle &visit) const = 0;

@@ -99,6 +99,10 @@ REGIONS = {
     "swelling ball": SWELL + TURN + "region w sphere 4.7 3.5 0.0 v_radius side out rotate v_turn 4.7 3.5 0 0 0 1\n",
     "union": "region a sphere 2.0 2.0 0.5 1.3\nregion b block 5 8 2 5 -1 1.2\nregion w union 2 a b side out\n",
     "inside of a union": "region a cylinder z 3 3.6 4.5 0 9\nregion b block 4 10 0 7 0.5 8\nregion w union 2 a b\n",
+    "moving part of a union": SHAKE + "region a sphere 3.0 3.0 0.3 1.3 move v_dx NULL v_dz\nregion b block 5 8 2 5 -1 1.2\n"
+                              "region w union 2 a b side out\n",
+    "stirred tank": TURN + "region a block -0.2 9.7 -0.2 7.4 0 9\n"
+                    "region b block 3 6 3 4 -1 1.5 side out rotate v_turn 4.5 3.5 0 0 0 1\nregion w intersect 2 a b\n",
     "intersection": "region a block -0.2 9.7 -0.2 7.4 0 9\nregion b sphere 4.7 3.5 0.5 1.5 side out\n"
                     "region w intersect 2 a b\n",
 }

@@ -18,10 +18,6 @@ static_assert(width == lanes && ahead + width <= BodyTask::spare);
 constexpr std::size_t position_ahead = 24, list_ahead = 12, parts_ahead = 6;
 static_assert(position_ahead <= BodyTask::spare);
 
-Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int k)
-{
-  return {v[0][k], v[1][k], v[2][k]};
-}
 
 Vector3<Vec8> center_of(const EightSpheres &spheres)
 {
