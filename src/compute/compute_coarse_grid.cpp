@@ -60,10 +60,12 @@ ComputeCoarseGrid::ComputeCoarseGrid(LAMMPS *lmp, int narg, char **arg) :
   check_box();
   pergrid_flag = 1;
   reset_grid();
+  if (with_contacts) system->add_observer(this);
 }
 
 ComputeCoarseGrid::~ComputeCoarseGrid()
 {
+  system->drop_observer(this);
   free_data();
 }
 
@@ -229,7 +231,8 @@ void ComputeCoarseGrid::add_particles()
 void ComputeCoarseGrid::add_contacts()
 {
   if (!contacts.is_known())
-    error->all(FLERR, "compute coarse/grid: contacts are known in a run only: use 'run 0' before");
+    error->all(FLERR, "compute coarse/grid: contacts are known from the first run after the "
+                      "compute command on: use 'run 0' before");
   contacts.for_each([&](const SurveyedContact &c) {
     const Vector3<double> x = row(atom->x[c.i]), meeting = x + c.arm[0];
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, c.force);

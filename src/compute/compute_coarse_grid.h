@@ -9,8 +9,9 @@
 
 #include "compute/coarse_kernel.h"
 #include "compute/grid_sum.h"
-#include "system/granular_system.h"
 #include "system/contact_list.h"
+#include "system/contact_observer.h"
+#include "system/granular_system.h"
 
 #include "compute.h"
 
@@ -20,7 +21,7 @@
 
 namespace LAMMPS_NS {
 
-class ComputeCoarseGrid : public Compute {
+class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
  public:
   ComputeCoarseGrid(LAMMPS *, int, char **);
   ~ComputeCoarseGrid() override;
@@ -42,6 +43,7 @@ class ComputeCoarseGrid : public Compute {
   void free_data();
   void add_particles();
   void add_contacts();
+  bool asks_for_work() const override { return false; }
   void add_branch(const Talus::Vector3<double> &from, const Talus::Vector3<double> &to,
                   const Talus::Vector3<double> &force);
   double *moments_of(const Talus::CoarseKernel::Share &share);

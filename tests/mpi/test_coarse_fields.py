@@ -257,6 +257,13 @@ timestep 5e-4
                         self.assertEqual(marked_word(result.log), word)
         result = self.run_lammps(self.scene(field("cxx") + output(columns=""), pair="pair_style none"), expect_error=True)
         self.assertRegex(result.log, "compute coarse/grid: no contact stress: there is no pair style")
+        for np in 1, 2:
+            write = "write_dump all grid late c_field:grid:data\n"
+            result = self.run_lammps(self.scene("") + field("cxx") + write, np=np, expect_error=True)
+            self.assertIn("coarse/grid: contacts are known from the first run after the compute command on: use 'run 0' before",
+                          result.log)
+            self.run_lammps(self.scene("") + field("cxx") + "run 0\n" + write, np=np)
+            self.run_lammps(self.scene(field("cxx")) + write, np=np)
         self.run_lammps(self.scene(field("density vx") + output(), pair="pair_style zero 1.0\npair_coeff * *"))
         result = self.run_lammps("region b prism 0 1 0 1 0 1 0.1 0 0\natom_style sphere\ncreate_box 1 b\n" + field(),
                                  expect_error=True)
