@@ -38,6 +38,7 @@ talus_add_code("")
 if(LAMMPS_BINARY_DIR)
   include(TalusStyles)
   talus_add_style_objects("")
+  target_compile_options(talus_styles PRIVATE -O0)    # never run
   add_library(talus_plugin_objects OBJECT "${PROJECT_SOURCE_DIR}/src/talusplugin.cpp"
     "${PROJECT_SOURCE_DIR}/src/talusstyles.cpp")
   target_link_libraries(talus_plugin_objects PRIVATE talus_core talus_exchange lammps_host)

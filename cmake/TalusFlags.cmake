@@ -107,11 +107,12 @@ set(TALUS_SANITIZER_RUNTIMES "")
 if(TALUS_SANITIZE)
   string(REPLACE ";" "," talus_sanitizers "${TALUS_SANITIZE}")
   target_compile_options(talus_common_flags INTERFACE
-    -fsanitize=${talus_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    -fsanitize=${talus_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(talus_common_flags INTERFACE -fsanitize=${talus_sanitizers})
   if("undefined" IN_LIST TALUS_SANITIZE)
-    # vptr looks into type information of LAMMPS classes, which a host need not export.
-    target_compile_options(talus_common_flags INTERFACE -fno-sanitize=vptr)
+    # vptr looks into type information of LAMMPS classes, which a host need not export; what null and object-size find,
+    # the address sanitizer finds as well
+    target_compile_options(talus_common_flags INTERFACE -fno-sanitize=vptr,null,object-size)
   endif()
   foreach(pair address:asan undefined:ubsan thread:tsan)
     string(REPLACE ":" ";" pair "${pair}")

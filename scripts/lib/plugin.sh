@@ -65,10 +65,7 @@ configure_talus() {
   local dir=$1 sizes=$2 kind=$3 sanitizers='' portable=OFF more
   read -ra more <<<"${TALUS_CMAKE_OPTIONS:-}"
   mapfile -t -O "${#more[@]}" more < <(mpi_options; developer_options)
-  if [[ $kind == sanitize ]]; then
-    sanitizers='address;undefined'
-    more+=("${TALUS_CHECK[@]}")
-  fi
+  if [[ $kind == sanitize ]]; then sanitizers='address;undefined'; fi
   if [[ $kind == portable ]]; then portable=ON; fi
   mkdir -p "$dir"
   cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" \

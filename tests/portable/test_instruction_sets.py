@@ -18,7 +18,7 @@ from talus_testing import SceneCase, read_dump, write_sphere_data
 BUILD = os.environ["TALUS_BINARY_DIR"]
 CXX = os.environ.get("TALUS_CXX", "g++")
 WORDS = ["baseline", "avx2", "avx512"]
-LOGGED = {"baseline": "baseline instructions", "avx2": "AVX2", "avx512": "AVX-512"}
+LOGGED = {"baseline": "SSE2", "avx2": "AVX2", "avx512": "AVX-512"}
 
 
 def runnable():
