@@ -169,6 +169,11 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
     for (const KeptContact &one : *kept) visit(at_present(one));
     return;
   }
+  if (update->whichflag == 0)    // what bodies and walls know may be of particles that are gone
+    error->all(FLERR,
+               "Pair style {}: contacts are known from the first run after the command that asks "
+               "for them: use 'run 0' before",
+               style.name);
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
     pipeline->for_each_contact(update->dt, lag(), ask, visit);
   if (shaped) shaped->for_each_contact(ask, visit);
