@@ -230,9 +230,6 @@ void ComputeCoarseGrid::add_particles()
 
 void ComputeCoarseGrid::add_contacts()
 {
-  if (!contacts.is_known())
-    error->all(FLERR, "compute coarse/grid: contacts are known from the first run after the "
-                      "compute command on: use 'run 0' before");
   contacts.for_each([&](const SurveyedContact &c) {
     const Vector3<double> x = row(atom->x[c.i]), meeting = x + c.arm[0];
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, c.force);

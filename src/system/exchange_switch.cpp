@@ -3,6 +3,7 @@
 #include "system/exchange_switch.h"
 
 #include "system/granular_system.h"
+#include "system/private_members.h"
 
 #include "comm.h"
 #include "comm_brick.h"
@@ -93,8 +94,8 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
     return "the direct exchange does not run with the KOKKOS package: start LAMMPS without '-k on'";
   if (comm->style != Comm::BRICK || comm->layout == Comm::LAYOUT_TILED)
     return "'comm_style tiled' is not supported: use 'comm_style brick' and balance without rcb";
-  if (comm->mode != Comm::SINGLE)
-    return "'comm_modify mode multi' is not supported: use 'comm_modify mode single'";
+  // each side of a contact is computed where its particle is owned: a large one needs its small partners
+  if (leaves_out_small(*comm)) return "'comm_modify reduce/multi' is not supported: remove it";
   // what LAMMPS adds to the velocities of ghosts depends on their order in its messages
   if (in_run && domain->deform_vremap && comm->ghost_velocity)
     return "fix deform with 'remap v' is not supported: use 'remap x' or 'comm_modify vel no'";

@@ -40,6 +40,7 @@ using TransformOfRegion = void (Region::*)(double &, double &, double &);
 using VectorOfRegion = double (Region::*)[3];
 
 TALUS_PRIVATE_MEMBER(BorderGroup, int Comm::*, &Comm::bordergroup)
+TALUS_PRIVATE_MEMBER(ReducesMulti, int Comm::*, &Comm::multi_reduce)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
 TALUS_PRIVATE_MEMBER(Disable, int FixGravity::*, &FixGravity::disable)
 TALUS_PRIVATE_MEMBER(Transform, TransformOfRegion, &Region::forward_transform)
@@ -53,6 +54,11 @@ TALUS_PRIVATE_MEMBER(Angle, char *Region::*, &Region::tstr)
 bool sends_one_group(const Comm &comm)
 {
   return comm.*pointer_to(BorderGroup{}) != 0;
+}
+
+bool leaves_out_small(const Comm &comm)
+{
+  return comm.mode == Comm::MULTI && comm.*pointer_to(ReducesMulti{}) != 0;
 }
 
 NBin **bins_of(Neighbor &neighbor)

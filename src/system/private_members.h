@@ -29,6 +29,9 @@ namespace Talus {
 /// Whether `comm_modify group` is set, which leaves out proxies of other particles.
 bool sends_one_group(const LAMMPS_NS::Comm &comm);
 
+/// Whether `comm_modify reduce/multi` is set, which leaves out proxies of smaller particles.
+bool leaves_out_small(const LAMMPS_NS::Comm &comm);
+
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 

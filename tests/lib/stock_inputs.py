@@ -42,8 +42,6 @@ class StockInput:
         return os.path.basename(self.name)
 
 
-MULTI = "the exchange is the one of LAMMPS: 'comm_modify mode multi' is not supported: use 'comm_modify mode single'"
-
 # One paragraph for each table that differs from the one before it. Fixes that do not act within steps have no line.
 INPUTS = [
     StockInput("bench/in.chute", """
@@ -70,21 +68,21 @@ fix 3 gravity                     stock: the pair style is hybrid
 run verlet                        stock: the pair style is hybrid
 steps without output              through the arrays of LAMMPS: the pair style is hybrid
 """, steps=5000, every=500, long_steps=5000, bench_steps=5000),
-    StockInput("examples/granregion/in.granregion.funnel", f"""
+    StockInput("examples/granregion/in.granregion.funnel", """
 pair gran/hertz/history           accelerated
 fix grav gravity                  accelerated
 fix 1 nve/sphere                  accelerated
 fix hopper3 wall/gran/region      accelerated
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: {MULTI}
+steps without output              in the records
 """, steps=2000, every=1000, long_steps=20000, bench_steps=3000),
-    StockInput("examples/granregion/in.granregion.mixer", f"""
+    StockInput("examples/granregion/in.granregion.mixer", """
 pair gran/hertz/history           accelerated
 fix grav gravity                  accelerated
 fix 1 nve/sphere                  accelerated
 fix mixwall wall/gran/region      accelerated
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: {MULTI}
+steps without output              in the records
 """, steps=5000, every=1000, long_steps=100000, bench_steps=10000, rubs="long"),
     StockInput("examples/pour/in.pour", """
 pair gran/hooke/history           accelerated

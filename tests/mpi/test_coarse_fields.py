@@ -239,6 +239,20 @@ timestep 5e-4
         for one, other in zip(*densities, strict=True):
             self.assertAlmostEqual(one, other, delta=1e-3)    # trajectories in such a box differ by rounding
 
+    def test_behind_a_run(self):
+        """The contacts of its last step."""
+        self.make()
+        columns = "c_cell:grid:data c_field:grid:data"
+        write = f"write_dump all grid {{}} {columns} modify format float %.17g\n"
+        computes = field("cxx") + "compute cell all property/grid 9 8 7 id\n"
+        for np in 1, 2:
+            last = self.scene(computes + f"dump field all grid 50 during {columns}\ndump_modify field format float %.17g\n")
+            self.run_lammps(last + write.format("behind"), np=np)
+            self.run_lammps(self.scene(computes) + write.format("unasked"), np=np)
+            frames = [read_grid(self.path(name))[-1] for name in ("during", "behind", "unasked")]
+            self.assertEqual(frames[0], frames[1])
+            self.assertEqual(frames[0], frames[2])
+
     def test_errors(self):
         self.make()
         cases = [("compute f all coarse/grid 4 4\n", "compute coarse/grid: missing Nz", None),
@@ -257,13 +271,6 @@ timestep 5e-4
                         self.assertEqual(marked_word(result.log), word)
         result = self.run_lammps(self.scene(field("cxx") + output(columns=""), pair="pair_style none"), expect_error=True)
         self.assertRegex(result.log, "compute coarse/grid: no contact stress: there is no pair style")
-        for np in 1, 2:
-            write = "write_dump all grid late c_field:grid:data\n"
-            result = self.run_lammps(self.scene("") + field("cxx") + write, np=np, expect_error=True)
-            self.assertIn("coarse/grid: contacts are known from the first run after the compute command on: use 'run 0' before",
-                          result.log)
-            self.run_lammps(self.scene("") + field("cxx") + "run 0\n" + write, np=np)
-            self.run_lammps(self.scene(field("cxx")) + write, np=np)
         self.run_lammps(self.scene(field("density vx") + output(), pair="pair_style zero 1.0\npair_coeff * *"))
         result = self.run_lammps("region b prism 0 1 0 1 0 1 0.1 0 0\natom_style sphere\ncreate_box 1 b\n" + field(),
                                  expect_error=True)

@@ -210,14 +210,12 @@ class Exchange(SceneCase):
         """A reason instead of an error, also if the settings change after it was switched on."""
         for before in "", "run 1\n":
             for more, reason in (("comm_style tiled", "'comm_style tiled' is not supported: use 'comm_style brick' and balance without rcb"),
-                                 ("neighbor 0.2 multi\ncomm_modify mode multi",
-                                  "'comm_modify mode multi' is not supported: use 'comm_modify mode single'"),
                                  ("fix shape all deform 1 x erate 0.1 remap v",
                                   "fix deform with 'remap v' is not supported: use 'remap x' or 'comm_modify vel no'")):
                 with self.subTest(more=more, before=before):
                     log = self.run_scene(before + more)[0]
                     self.assertEqual(blocks(log)[-1][-1], through_arrays("the exchange is the one of LAMMPS: " + reason))
-        log = self.run_scene("run 1\nneighbor 0.2 multi\ncomm_modify mode multi\nrun 1\nneighbor 0.2 bin\ncomm_modify mode single")[0]
+        log = self.run_scene("run 1\ncomm_style tiled\nrun 1\ncomm_style brick")[0]
         self.assertEqual([b[-1] for b in blocks(log)][::2], [IN_RECORDS, IN_RECORDS])
 
     def test_minimize_after_a_run(self):

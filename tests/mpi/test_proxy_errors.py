@@ -68,10 +68,9 @@ class Messages(SceneCase):
     def test_refusals(self):
         box = BOX.format(before="")
         self.refused(box + "comm_style tiled\ncomm_proxy yes\n", "'comm_style tiled' is not supported")
-        self.refused(box + "neighbor 0.3 multi\ncomm_modify mode multi\ncomm_proxy yes\n",
-                     "'comm_modify mode multi' is not supported")
-        self.refused(SCENE.format(before="", middle="neighbor 0.3 multi\ncomm_modify mode multi"),
-                     "'comm_modify mode multi' is not supported")
+        reduce = "neighbor 0.3 multi\ncomm_modify mode multi reduce/multi"
+        self.refused(box + reduce + "\ncomm_proxy yes\n", "'comm_modify reduce/multi' is not supported: remove it")
+        self.refused(SCENE.format(before="newton on\n", middle=reduce), "'comm_modify reduce/multi' is not supported: remove it")
         deform = "fix shape all deform 1 x erate 0.1 remap v"
         self.refused(SCENE.format(before="", middle=deform),
                      "fix deform with 'remap v' is not supported")

@@ -283,16 +283,6 @@ class Refused(SceneCase):
                                  expect_error=True)
         self.assertIn("its internal fix c_DISSIPATION_STORE has been deleted: remove the unfix command", result.log)
 
-    def test_first_asked_behind_a_run(self):
-        write_sphere_data(self.path("data"), ((-2, 2),) * 3, [Sphere((0, 0, 0)), Sphere((0.99, 0, 0))])
-        script = (f"{begin()}pair_coeff * * hooke 1000.0 0.0\nfix step all nve/sphere/symplectic\nrun 2\n"
-                  "compute rows all contact/gran/local id1 id2\n{}write_dump all local later index c_rows[*]")
-        for np in 1, 2:
-            result = self.run_lammps(script.format(""), np=np, expect_error=True)
-            self.assertRegex(result.log, "contacts are known from the first run after the command that asks for them: use 'run 0'")
-            self.run_lammps(script.format("run 0\n"), np=np)
-            self.assertEqual([row[1:] for row in read_local(self.path("later"))[0].rows], [(1, 2)])
-
 
 if __name__ == "__main__":
     unittest.main()
