@@ -14,6 +14,7 @@ void FixWallGranRegionTalus::begin_run()
 {
   dynamic = region->dynamic_check();
   bounded = has_distance(*region) && !radii_vary();
+  in_frame = dynamic && bounded && !is_composite(*region);
   parts = bounded ? RegionParts(*region) : RegionParts();
 }
 
@@ -30,21 +31,16 @@ double FixWallGranRegionTalus::displacement() const
   return dynamic && bounded ? parts.largest_displacement(listed_poses, listed_box) : 0.0;
 }
 
-bool FixWallGranRegionTalus::in_frame() const
-{
-  return dynamic && bounded && !is_composite(*region);
-}
-
 bool FixWallGranRegionTalus::is_inside(const double *x)
 {
-  return in_frame() ? RegionInFrame(*region, parts.poses()[0]).match(x)
-                    : region->match(x[0], x[1], x[2]);
+  return in_frame ? RegionInFrame(*region, parts.poses()[0]).match(x)
+                  : region->match(x[0], x[1], x[2]);
 }
 
 int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
 {
-  return in_frame() ? RegionInFrame(*region, parts.poses()[0]).surface(x, reach)
-                    : region->surface(x[0], x[1], x[2], reach);
+  return in_frame ? RegionInFrame(*region, parts.poses()[0]).surface(x, reach)
+                  : region->surface(x[0], x[1], x[2], reach);
 }
 
 /* A particle that is not asked for keeps its histories, as in LAMMPS, if it is not in the region,

@@ -29,7 +29,6 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
  private:
   double displacement() const;
-  bool in_frame() const;
   bool is_inside(const double *x);
   int find_contacts(const double *x, double reach);
   void find_candidates(double moved);
@@ -43,7 +42,8 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
   bool dynamic = false;        // the region moves or changes its shape
   bool bounded = false;        // distances from it are known
-  Talus::RegionParts parts;    // if so
+  bool in_frame = false;       // it is asked in its own frame, see RegionInFrame
+  Talus::RegionParts parts;    // if it is bounded
   std::vector<Talus::RegionPose> listed_poses;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch
   Talus::WallBatch batch;

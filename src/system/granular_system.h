@@ -359,7 +359,11 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
   std::vector<LargeBody *> bodies_of_run;       // that may join
-  std::vector<LAMMPS_NS::Fix *> integrators;    // of Talus, in this run
+  struct Integrator {
+    LAMMPS_NS::Fix *fix;
+    SystemFix *ours;    ///< the same
+  };
+  std::vector<Integrator> integrators;    // of Talus, in this run
   std::vector<RecordStep> steps;                // of the first of these, in this step
   SystemGravity *gravity = nullptr;
   SystemShapes *shaped = nullptr;

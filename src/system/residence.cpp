@@ -83,8 +83,8 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   steps.clear();    // an error may have left some
   for (Fix *fix : modify->get_fix_list()) {
     const int mask = modify->get_fix_mask(fix);
-    const auto *ours = dynamic_cast<SystemFix *>(fix);
-    if (ours && ours->integrates()) integrators.push_back(fix);
+    auto *ours = dynamic_cast<SystemFix *>(fix);
+    if (ours && ours->integrates()) integrators.push_back({fix, ours});
     const std::string its = reason_of_fix(fix, mask);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
     if ((mask & END_OF_STEP) == 0 || fix == store) continue;
@@ -109,13 +109,14 @@ std::string GranularSystem::reason_of_integrators() const
   };
   for (std::size_t n = 1; n < integrators.size(); n++)
     for (std::size_t m = 0; m < n; m++) {
-      if (is_of_shapes(integrators[n]) || is_of_shapes(integrators[m])) continue;    // sees to it
-      const int one = integrators[m]->groupbit, other = integrators[n]->groupbit;
+      if (is_of_shapes(integrators[n].fix) || is_of_shapes(integrators[m].fix))
+        continue;    // sees to it
+      const int one = integrators[m].fix->groupbit, other = integrators[n].fix->groupbit;
       bool both = one == other || one == all || other == all;
       for (int i = 0; i < atom->nlocal && !both; i++)
         both = (atom->mask[i] & one) && (atom->mask[i] & other);
       if (any_rank(both, world))
-        return std::string("fixes ") + integrators[m]->id + " and " + integrators[n]->id +
+        return std::string("fixes ") + integrators[m].fix->id + " and " + integrators[n].fix->id +
                " may move the same particles";
     }
   return "";
@@ -208,7 +209,7 @@ void GranularSystem::return_to_host(bool with_forces)
   const bool between_steps = with_forces && !pipeline->is_moving();
   const bool any = atom->nlocal > 0;
   pipeline->complete_move();
-  for (Fix *fix : integrators) dynamic_cast<SystemFix *>(fix)->leave_records();
+  for (const Integrator &one : integrators) one.ours->leave_records();
   if (pipeline->keeps_changes()) pipeline->write_changes(store->all_changes());
   pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
                          any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,

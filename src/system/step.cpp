@@ -51,10 +51,9 @@ void GranularSystem::advance(const RecordStep &step)
 int GranularSystem::mover_of(int i) const
 {
   for (std::size_t n = 0; n < integrators.size(); n++) {
-    if (!(atom->mask[i] & integrators[n]->groupbit)) continue;
-    const auto *its = dynamic_cast<const SystemFix *>(integrators[n]);
-    if (!its->moves_particle(i)) continue;
-    return its->places_particles() ? -1 : static_cast<int>(n);
+    const auto &[fix, ours] = integrators[n];
+    if (!(atom->mask[i] & fix->groupbit) || !ours->moves_particle(i)) continue;
+    return ours->places_particles() ? -1 : static_cast<int>(n);
   }
   return -1;
 }
