@@ -358,13 +358,13 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  std::vector<LargeBody *> bodies_of_run;       // that may join
+  std::vector<LargeBody *> bodies_of_run;    // that may join
   struct Integrator {
     LAMMPS_NS::Fix *fix;
     SystemFix *ours;    ///< the same
   };
   std::vector<Integrator> integrators;    // of Talus, in this run
-  std::vector<RecordStep> steps;                // of the first of these, in this step
+  std::vector<RecordStep> steps;          // of the first of these, in this step
   SystemGravity *gravity = nullptr;
   SystemShapes *shaped = nullptr;
   LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there

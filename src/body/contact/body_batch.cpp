@@ -18,7 +18,6 @@ static_assert(width == lanes && ahead + width <= BodyTask::spare);
 constexpr std::size_t position_ahead = 24, list_ahead = 12, parts_ahead = 6;
 static_assert(position_ahead <= BodyTask::spare);
 
-
 Vector3<Vec8> center_of(const EightSpheres &spheres)
 {
   const auto &x = spheres.center;
