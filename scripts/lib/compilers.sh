@@ -9,7 +9,10 @@ TALUS_ARM_PACKAGES=(g++-aarch64-linux-gnu qemu-user googletest)
 # package_of COMPILER: clang++-14 is in clang-14.
 package_of() { printf '%s' "${1/clang++/clang}"; }
 
-is_default_compiler() { [[ $("$1" --version | head -n 1) == "$("$(host_compiler)" --version | head -n 1)" ]]; }
+# kind_and_version COMPILER: the first line but for the name by which it was called.
+kind_and_version() { "$1" --version | sed -n '1s/^\(g++\|c++\)[^ ]* //;1p'; }
+
+is_default_compiler() { [[ $(kind_and_version "$1") == "$(kind_and_version "$(host_compiler)")" ]]; }
 
 # other_compiler: one that is older than usual and not that of the build; the first that is there, else the first that
 # can be installed. Nothing if there is none.

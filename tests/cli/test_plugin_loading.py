@@ -296,7 +296,8 @@ class Install(PluginCase):
             with open(os.path.join(folder, "compile_commands.json")) as file:
                 command, = [entry["command"] for entry in json.load(file)
                             if entry["file"].endswith("talusplugin.cpp")]
-            return sorted(set(re.findall(r"-D *([^ ]+)", command)))
+            # NDEBUG tells how the build is optimized
+            return sorted(set(re.findall(r"-D *([^ ]+)", command)) - {"NDEBUG"})
         self.assertEqual(definitions(build), definitions(BUILD))
         presets = subprocess.run([os.environ.get("TALUS_CMAKE", "cmake"), "--list-presets=all"],
                                  check=True, capture_output=True, text=True,
