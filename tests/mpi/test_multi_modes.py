@@ -38,8 +38,9 @@ MODES = {
     "single": "neighbor 0.15 bin",
     "multi": "neighbor 0.15 multi\ncomm_modify mode multi",
     "multi with collections": "neighbor 0.15 multi\nneigh_modify collection/type 2 1 2\ncomm_modify mode multi",
-    "multi/old": "neighbor 0.15 multi/old\ncomm_modify mode multi/old",
 }
+if int(os.environ["TALUS_LAMMPS_VERSION"]) < 20260000:    # removed from newer ones
+    MODES["multi/old"] = "neighbor 0.15 multi/old\ncomm_modify mode multi/old"
 
 
 def grains():
