@@ -307,8 +307,8 @@ bool find_mean_overlap(const CorePair &pair, const LeastDepth &least, double bot
     sum.add(-0.25 * o / sums.area, sums.area_of[body]);
     by[body] = {in_space(frame, sum.force), in_space(frame, sum.torque)};
   }
-  // a direction that moves with a: as if b moved back. One of both bodies is on a kink, where the mean of both is what
-  // does not depend on which of them is called a.
+  // A direction that moves with a: as if b moved back. Where faces of both are as deep the overlap has a kink, and the
+  // mean of both derivatives does not depend on which body is called a.
   const double moves_with_a = least.kind == LeastDepth::FACE_OF_A ? 1.0
                               : least.kind == LeastDepth::FACES   ? 0.5
                                                                   : 0.0;

@@ -169,7 +169,8 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
     for (const KeptContact &one : *kept) visit(at_present(one));
     return;
   }
-  if (update->whichflag == 0)    // what bodies and walls know may be of particles that are gone
+  // what bodies and walls know may be of particles that are gone; only our pair styles keep contacts
+  if (pair && update->whichflag == 0)
     error->all(FLERR,
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",

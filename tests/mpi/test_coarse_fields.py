@@ -246,6 +246,8 @@ timestep 5e-4
         write = f"write_dump all grid {{}} {columns} modify format float %.17g\n"
         computes = field("cxx") + "compute cell all property/grid 9 8 7 id\n"
         for np in 1, 2:
+            self.run_lammps(self.scene(computes, pair=STOCK) + write.format("stock"), np=np)
+            self.assertGreater(max(abs(row[0]) for row in read_grid(self.path("stock"))[-1]), 0.0)
             last = self.scene(computes + f"dump field all grid 50 during {columns}\ndump_modify field format float %.17g\n")
             self.run_lammps(last + write.format("behind"), np=np)
             self.run_lammps(self.scene(computes) + write.format("unasked"), np=np)
