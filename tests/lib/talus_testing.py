@@ -94,25 +94,30 @@ def _end(process):
     process.wait()
 
 
-def _lock_another_core(folder, held):
-    """Whether a core was free: add its locked file to held, {number: file}."""
-    for core in range(len(os.sched_getaffinity(0))):
-        if core not in held:
-            file = open(os.path.join(folder, str(core)), "w")
+CORES = len(os.sched_getaffinity(0))
+PLACES = CORES + 2    # short runs of one rank wait for files and their launcher a third of their time
+
+
+def _lock_another_place(folder, held):
+    """Whether a place was free: add its locked file to held, {number: file}."""
+    for place in range(PLACES):
+        if place not in held:
+            file = open(os.path.join(folder, str(place)), "w")
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 file.close()
             else:
-                held[core] = file
+                held[place] = file
                 return True
     return False
 
 
 @contextlib.contextmanager
 def _cores(count):
-    """Hold that many of the machine's cores, at most all, so that tests which run side by side start no more ranks and
-    threads than there are cores: a rank spins while it waits for one that has no core."""
+    """Hold places for that many ranks and threads.  Several hold one more, and never all: a rank spins while it waits for one
+    that has no core, so on two cores no two runs of several ranks go side by side."""
+    wanted = count if count == 1 else min(count, CORES) + 1
     folder = os.path.join(os.path.dirname(PLUGIN), "cores")
     os.makedirs(folder, exist_ok=True)
     held = {}
@@ -120,8 +125,8 @@ def _cores(count):
         # one collects at a time: two with a part each would wait for each other
         with open(os.path.join(folder, "gate"), "w") as gate:
             fcntl.flock(gate, fcntl.LOCK_EX)
-            while len(held) < min(count, len(os.sched_getaffinity(0))):
-                if not _lock_another_core(folder, held):
+            while len(held) < wanted:
+                if not _lock_another_place(folder, held):
                     time.sleep(0.005)
         yield
     finally:
