@@ -3,7 +3,7 @@
 // Narrow phase of convex particles: time per pair that touches, that nearly does, and that is apart, with the direction
 // known from the step before. Arguments: vertices of each body, 1 if rounded.
 
-#include "shape/collide.h"
+#include "shape/convex/collide.h"
 
 #include <benchmark/benchmark.h>
 
@@ -59,7 +59,7 @@ std::vector<Couple> couples(const ConvexShape &shape, double deeper)
     return Eigen::Quaterniond(number(), number(), number(), number()).normalized();
   };
   std::vector<Couple> all;
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   for (int k = 0; k < 256; k++) {
     Couple couple{Pose({0.0, 0.0, 0.0}, orientation()), Pose({0.0, 0.0, 0.0}, orientation()), {}};
     const Vector3<double> d =
@@ -81,7 +81,7 @@ void run(benchmark::State &state, double deeper, NarrowPhase method)
 {
   const ConvexShape shape = body(static_cast<int>(state.range(0)), state.range(1) ? 0.05 : 0.0);
   std::vector<Couple> all = couples(shape, deeper);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   std::size_t found = 0, pairs = 0;
   for (auto _ : state)
     for (Couple &couple : all) {

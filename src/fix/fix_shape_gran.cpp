@@ -5,6 +5,7 @@
 #include "base/in_parallel.h"
 #include "fix/orientations.h"
 #include "fix/particle_shapes.h"
+#include "shaped/shape_list.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -28,7 +29,8 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), pairs(table)
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), table(collisions_of_shapes()),
+    pairs(table)
 {
   time_integrate = 1;
   dynamic_group_allow = 0;
@@ -125,7 +127,8 @@ void FixShapeGran::keep_memories()
   if (memories_are_current) return;
   memories.clear_all();
   pairs.save(memories);
-  for (auto &[body, its] : walls) its.points->save(memories);
+  for (auto &[body, its] : walls)
+    if (its.points) its.points->save(memories);
   memories_are_current = true;
   set_maxexchange();
 }
@@ -156,7 +159,8 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   pairs.set_pairs(view(), found, tags, system->law_table());
   list_lent();
   pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
-  for (auto &[body, its] : walls) list_particles(*body, *its.points);
+  for (auto &[body, its] : walls)
+    if (its.points) list_particles(*body, *its.points);
 }
 
 void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
@@ -221,32 +225,24 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
   });
 }
 
-std::string FixShapeGran::refusal_of(LargeBody &body) const
+FixShapeGran::Wall &FixShapeGran::wall_of(LargeBody &body)
 {
-  const std::string surface = BodyWalls::refusal(body.shape());
-  if (!surface.empty()) return surface;
-  for (int type = 1; type <= table.last_type(); type++) {
-    if (!is_shaped(type)) continue;
-    const std::string its = PointBatch::refusal(body.law_of(type));
-    if (!its.empty())
-      return fmt::format("its contact with particles of type {}, which have a shape, {}", type,
-                         its);
-  }
-  return "";
+  Wall &its = walls[&body];
+  if (!its.surfaces) its.surfaces = std::make_unique<BodySurfaces>(body.shape(), table);
+  return its;
 }
 
 BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double *virial)
 {
-  auto &its = walls[&body];
+  Wall &its = wall_of(body);
   if (!its.points) {
-    its.surface = std::make_unique<BodyWalls>(body.shape());
     its.points = std::make_unique<WallPoints>(table, name_of(body));
     list_particles(body, *its.points);
   }
   if (step.advance) memories_are_current = false;
   const bool in_records = system->residence() == Residence::RECORDS;
   if (in_records) show_forces();
-  const BodyLoad load = its.points->compute(*its.surface, body.present_frame(), view(),
+  const BodyLoad load = its.points->compute(*its.surfaces, body.present_frame(), view(),
                                             body.law_table(), step, virial);
   if (in_records) take_forces();
   return load;

@@ -100,7 +100,6 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double *const *orientations() const override { return quat; }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
-  std::string refusal_of(Talus::LargeBody &body) const override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
   bool keeps_change_of(int i) const override { return moves_particle(i); }
@@ -132,7 +131,8 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   // fix_shape_gran_check.cpp
   void check_scene();
-  void check_laws();
+  void check_pairs();
+  void check_bodies();
   void check_fixes();
   void check_computes();
   void require_no_other_integrator() const;
@@ -143,9 +143,10 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::ShapeTable table;
   Talus::ShapedPairs pairs;
   struct Wall {
-    std::unique_ptr<Talus::BodyWalls> surface;
+    std::unique_ptr<Talus::BodySurfaces> surfaces;
     std::unique_ptr<Talus::WallPoints> points;
   };
+  Wall &wall_of(Talus::LargeBody &body);
   std::map<const Talus::LargeBody *, Wall> walls;
   double **quat = nullptr;    ///< w x y z of owned particles and ghosts; 0: not known yet
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it

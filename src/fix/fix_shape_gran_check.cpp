@@ -42,28 +42,50 @@ void FixShapeGran::check_scene()
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: neighbor lists are those of LAMMPS because of {}: leave it out",
                lists);
-  check_laws();
+  check_pairs();
   check_fixes();
   check_computes();
-  for (LargeBody *body : system->bodies()) {
-    const std::string its = refusal_of(*body);
-    if (!its.empty()) error->all(FLERR, Error::NOLASTLINE, "{}: {}", body->name(), its);
-  }
-  walls.clear();    // a script may have deleted some; what they remember is in the lists
+  check_bodies();
 }
 
-void FixShapeGran::check_laws()
+void FixShapeGran::check_pairs()
 {
   const LawTable &laws = system->law_table();
+  const auto name = [this](int type) {
+    return is_shaped(type) ? table.of(type)->shape().name() : "sphere";
+  };
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       if (!is_shaped(i) && !is_shaped(j)) continue;
+      if (!table.collision(i, j))
+        error->all(
+            FLERR, Error::NOLASTLINE,
+            "Fix shape/gran: contacts of types {} and {}, which have the shapes {} and {}, are "
+            "not known: give particles of this script other shapes",
+            i, j, name(i), name(j));
       const std::string its = PointBatch::refusal(laws.law(laws.row(i, j)));
       if (!its.empty())
         error->all(FLERR, Error::NOLASTLINE,
                    "Fix shape/gran: the contact of types {} and {}, of which one has a shape, {}",
                    i, j, its);
     }
+}
+
+void FixShapeGran::check_bodies()
+{
+  walls.clear();    // a script may have deleted some; what they remember is in the lists
+  for (LargeBody *body : system->bodies()) {
+    const std::string surface = wall_of(*body).surfaces->refusal();
+    if (!surface.empty()) error->all(FLERR, Error::NOLASTLINE, "{}: {}", body->name(), surface);
+    for (int type = 1; type <= table.last_type(); type++) {
+      if (!is_shaped(type)) continue;
+      const std::string law = PointBatch::refusal(body->law_of(type));
+      if (!law.empty())
+        error->all(FLERR, Error::NOLASTLINE,
+                   "{}: its contact with particles of type {}, which have a shape, {}",
+                   body->name(), type, law);
+    }
+  }
 }
 
 void FixShapeGran::check_fixes()

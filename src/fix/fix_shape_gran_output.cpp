@@ -113,7 +113,7 @@ void FixShapeGran::for_each_contact_of_body(LargeBody &body, Ask ask,
                                             const VisitContact &visit) const
 {
   const auto its = walls.find(&body);
-  if (its == walls.end()) return;
+  if (its == walls.end() || !its->second.points) return;
   its->second.points->for_each_contact(body.present_frame(), view(), body.law_table(), update->dt,
                                        ask, visit);
 }

@@ -194,6 +194,7 @@ double FixShapeGran::memory_usage()
 {
   double bytes = 4.0 * sizeof(double) * atom->nmax + memories.memory_usage() +
                  pairs.memory_usage() + table.memory_usage();
-  for (const auto &[body, its] : walls) bytes += its.points->memory_usage();
+  for (const auto &[body, its] : walls)
+    if (its.points) bytes += its.points->memory_usage();
   return bytes;
 }

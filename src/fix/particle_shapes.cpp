@@ -2,21 +2,24 @@
 
 #include "fix/particle_shapes.h"
 
+#include "shape/convex/collide.h"
+#include "shaped/shape_list.h"
 #include "system/shared_file.h"
 
 #include "atom.h"
 #include "utils.h"
 
-#include <cmath>
-#include <memory>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
 ShapeTable ParticleShapes::parse()
 {
-  ShapeTable table;
+  ShapeTable table(collisions_of_shapes());
   while (!words.at_end()) {
     words.about("");
     if (words.choice("keyword", {"type", "contacts"}) == 0)
@@ -46,71 +49,58 @@ void ParticleShapes::parse_type(ShapeTable &table)
   utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, lmp->error);
   for (int type = lo; type <= hi; type++)
     if (table.of(type)) words.fail(1, "type " + std::to_string(type) + " has a shape already");
-  given = Given{};
-  parse_kind();
+  const auto description = parse_shape();
   const int at_shape = words.index();
-
-  double density = 0.0;
-  bool random = false;
-  int seed = 0;
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  while (!words.at_end() && !words.is_next("type") && !words.is_next("contacts")) {
-    words.about("type");
-    const int which = words.choice("keyword", {"rounded", "scale", "density", "orient"});
-    if (which == 0) {
-      given.radius = words.not_negative("rounded r");
-    } else if (which == 1) {
-      if (given.kind == Kind::BOX) words.fail(1, "scale is for polyhedron and vertices");
-      given.scale = words.positive("scale s");
-    } else if (which == 2) {
-      density = words.positive("density rho");
-    } else if (words.choice("orientation", {"random", "quat"}) == 0) {
-      random = true;
-      seed = words.integer("seed", 1);
-    } else {
-      double q[4];
-      for (double &component : q) component = words.number("orient quat w x y z");
-      orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-      if (!(orientation.norm() > 0.0)) words.fail(1, "a quaternion must not be zero");
-      orientation.normalize();
-      random = false;
-    }
-  }
-  if (!(density > 0.0)) words.fail(1, "no density is given: add 'density rho'");
+  const Given given = parse_keywords(*description);
   try {
-    auto shape = std::make_shared<ParticleShape>(make_shape(), density);
-    shape->set_fixed(orientation);
-    if (random) shape->set_random(static_cast<std::uint64_t>(seed));
+    const auto shape = std::make_shared<ParticleShape>(description->make(), given.density);
+    shape->set_fixed(given.orientation);
+    if (given.seed) shape->set_random(static_cast<std::uint64_t>(given.seed));
     for (int type = lo; type <= hi; type++) table.set(type, shape);
   } catch (const std::runtime_error &problem) {
-    const std::string where = given.file.empty() ? "" : "'" + given.file + "': ";
-    words.fail(words.index() - at_shape + 1, where + problem.what());
+    words.fail(words.index() - at_shape + 1, problem.what());
   }
 }
 
-void ParticleShapes::parse_kind()
+std::unique_ptr<ShapeDescription> ParticleShapes::parse_shape()
 {
-  given.kind = static_cast<Kind>(words.choice("shape", {"box", "polyhedron", "vertices"}));
-  if (given.kind == Kind::BOX) {
-    given.edges = {words.positive("box a"), words.positive("box b"), words.positive("box c")};
-  } else if (given.kind == Kind::POLYHEDRON) {
-    given.file = words.text("an STL file");
-    given.content = read_everywhere(lmp, words, given.file);
-  } else {
-    const int count = words.integer("number of vertices", 4);
-    for (int n = 0; n < count; n++) given.vertices.push_back(words.vector("vertex x y z"));
-  }
+  const auto read_file = [this](const std::string &name) {
+    return read_everywhere(lmp, words, name);
+  };
+  std::vector<std::string> known;
+  for (const ShapeWord &one : shape_words()) known.push_back(one.name);
+  return shape_words()[words.choice("shape", known)].read({words, read_file});
 }
 
-ConvexShape ParticleShapes::make_shape()
+ParticleShapes::Given ParticleShapes::parse_keywords(ShapeDescription &description)
 {
-  switch (given.kind) {
-  case Kind::BOX:
-    return ConvexShape::box(given.edges, given.radius);
-  case Kind::POLYHEDRON:
-    return ConvexShape::stl(given.content, given.scale, given.radius);
-  default:
-    for (Vector3<double> &v : given.vertices) v = given.scale * v;
-    return ConvexShape::polyhedron(given.vertices, given.radius);
+  Given given;
+  std::vector<std::string> known = description.keywords();
+  known.insert(known.end(), {"density", "orient"});
+  while (!words.at_end() && !words.is_next("type") && !words.is_next("contacts")) {
+    words.about("type");
+    const std::string keyword = known[words.choice("keyword", known)];
+    if (keyword == "density")
+      given.density = words.positive("density rho");
+    else if (keyword == "orient")
+      parse_orientation(given);
+    else
+      description.read(keyword, words);
   }
+  if (!(given.density > 0.0)) words.fail(1, "no density is given: add 'density rho'");
+  return given;
+}
+
+void ParticleShapes::parse_orientation(Given &given)
+{
+  if (words.choice("orientation", {"random", "quat"}) == 0) {
+    given.seed = words.integer("seed", 1);
+    return;
+  }
+  double q[4];
+  for (double &component : q) component = words.number("orient quat w x y z");
+  given.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  if (!(given.orientation.norm() > 0.0)) words.fail(1, "a quaternion must not be zero");
+  given.orientation.normalize();
+  given.seed = 0;
 }

@@ -6,12 +6,12 @@
 #define LMP_PARTICLE_SHAPES_H
 
 #include "base/words.h"
+#include "shape/shape_description.h"
 #include "shaped/shape_table.h"
 
 #include "pointers.h"
 
-#include <optional>
-#include <vector>
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -23,22 +23,20 @@ class ParticleShapes : protected Pointers {
   Talus::ShapeTable parse();
 
  private:
+  /// Keywords of all shapes, of the type that is being read.
+  struct Given {
+    double density = 0.0;
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+    int seed = 0;    ///< of random orientations; 0: the one above
+  };
+
   void parse_type(Talus::ShapeTable &table);
-  Talus::ConvexShape make_shape();
+  std::unique_ptr<Talus::ShapeDescription> parse_shape();
+  Given parse_keywords(Talus::ShapeDescription &description);
+  void parse_orientation(Given &given);
+  Talus::NarrowPhase parse_method();
 
   Talus::Words &words;
-
-  // of the type that is being read
-  enum class Kind { BOX, POLYHEDRON, VERTICES };
-  struct Given {
-    Kind kind = Kind::BOX;
-    Talus::Vector3<double> edges{};
-    std::string file, content;
-    std::vector<Talus::Vector3<double>> vertices;
-    double scale = 1.0, radius = 0.0;
-  } given;
-  Talus::NarrowPhase parse_method();
-  void parse_kind();
 };
 
 }    // namespace LAMMPS_NS

@@ -12,28 +12,13 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// What a corner of a face on that of another shape counts: of a rounded shape it is a contact of its
-/// own, of a sharp one it has the angle by which the polygon turns there, over a right angle.
-double weight_of_corner(const ConvexShape &shape, int face, int k)
-{
-  if (shape.radius() > 0.0) return 1.0;
-  const ConvexCore &core = shape.core();
-  const int n = core.num_corners(face);
-  const int *corner = core.corners(face);
-  const Vector3<double> here = core.vertex(corner[k]);
-  const Vector3<double> in = here - core.vertex(corner[(k + n - 1) % n]);
-  const Vector3<double> out = core.vertex(corner[(k + 1) % n]) - here;
-  constexpr double right_angle = 1.57079632679489661923;
-  return std::acos(std::clamp(dot(in, out) / (length(in) * length(out)), -1.0, 1.0)) / right_angle;
-}
-
 }    // namespace
 
-FaceStiffness::FaceStiffness(const ConvexShape &shape)
+FaceStiffness::FaceStiffness(const Shape &shape)
 {
-  const ConvexCore &core = shape.core();
+  const std::vector<HeldFace> faces = shape.held_faces();
   const Eigen::Vector3d moments = shape.principal_moments() / shape.volume();
-  const double share = std::min(1.0, most_faces / core.num_faces());
+  const double share = std::min(1.0, most_faces / static_cast<double>(faces.size()));
   const auto row = [&](const Vector3<double> &arm, const Vector3<double> &direction) {
     const Vector3<double> turn = cross(arm, direction);
     Vector6 its;
@@ -41,12 +26,10 @@ FaceStiffness::FaceStiffness(const ConvexShape &shape)
         turn.y / std::sqrt(moments(1)), turn.z / std::sqrt(moments(2));
     return its;
   };
-  for (int f = 0; f < core.num_faces(); f++) {
+  for (const HeldFace &face : faces) {
     Springs of_shapes, of_bodies;
-    for (int k = 0; k < core.num_corners(f); k++) {
-      const Vector3<double> n = core.normal(f);
-      const Vector3<double> arm = core.vertex(core.corners(f)[k]) + shape.radius() * n;
-      const Vector6 along = row(arm, n);
+    for (const auto &[arm, weight] : face.points) {
+      const Vector6 along = row(arm, face.normal);
       const Matrix normal = along * along.transpose();
       Matrix tangential = -normal;
       for (const Vector3<double> axis :
@@ -55,7 +38,6 @@ FaceStiffness::FaceStiffness(const ConvexShape &shape)
         const Vector6 any = row(arm, axis);
         tangential += any * any.transpose();
       }
-      const double weight = weight_of_corner(shape, f, k);
       of_shapes.normal += weight * normal;
       of_shapes.tangential += weight * tangential;
       of_bodies.normal += normal;

@@ -7,7 +7,7 @@
 #ifndef TALUS_SHAPE_FACE_STIFFNESS_H
 #define TALUS_SHAPE_FACE_STIFFNESS_H
 
-#include "shape/convex_shape.h"
+#include "shape/shape.h"
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,7 +20,7 @@ class FaceStiffness {
   /// each counts less, but where one alone holds the body better than all of them so.
   static constexpr double most_faces = 12.0;
 
-  explicit FaceStiffness(const ConvexShape &shape);
+  explicit FaceStiffness(const Shape &shape);
 
   /// Mass of the body times the square of the highest frequency, if other shapes hold all faces by
   /// springs of stiffness kn and kt (>= 0) at a corner: 24 kn of a cube without kt.

@@ -13,7 +13,7 @@ namespace Talus {
 /// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
 /// way through the laws.
 struct PointContact {
-  // geometry, see ConvexContact
+  // geometry, see ShapeContact
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
   double overlap, weight, energy;
   double inverse_radius;    ///< 1/R_eff

@@ -20,7 +20,7 @@ namespace Talus {
 /// One contact point, as the particle that keeps it sees it (it is the first body).
 struct PointMemory {
   std::int64_t partner;    ///< ID of the other particle (> 0), or name of a large body (< 0)
-  std::uint64_t name;      ///< of the contact, see ConvexContact
+  std::uint64_t name;      ///< of the contact, see ShapeContact
   RememberedValues memory;
 
   static constexpr int size = 2 + ContactBatch::history_size;    ///< doubles in messages

@@ -10,18 +10,18 @@
 namespace Talus {
 namespace {
 
-FreeRotation rotation_of(const ConvexShape &shape, double density)
+FreeRotation rotation_of(const Shape &shape, double density)
 {
-  const Eigen::Vector3d &unit = shape.principal_moments();
+  const Eigen::Vector3d unit = shape.principal_moments();
   return {{density * unit(0), density * unit(1), density * unit(2)},
           Eigen::Quaterniond(shape.given_frame().rotation)};
 }
 
 }    // namespace
 
-ParticleShape::ParticleShape(ConvexShape its_shape, double density) :
-    geometry(std::move(its_shape)), its_mass(density * geometry.volume()),
-    free(rotation_of(geometry, density)), held(geometry)
+ParticleShape::ParticleShape(std::shared_ptr<const Shape> its_shape, double density) :
+    geometry(std::move(its_shape)), its_mass(density * geometry->volume()),
+    free(rotation_of(*geometry, density)), held(*geometry)
 {
 }
 
@@ -34,6 +34,21 @@ Eigen::Quaterniond ParticleShape::new_orientation(std::int64_t id) const
   const double u = numbers.uniform(), a = two_pi * numbers.uniform(),
                b = two_pi * numbers.uniform(), r = std::sqrt(1.0 - u), s = std::sqrt(u);
   return {s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b)};
+}
+
+void ShapeTable::set(int type, std::shared_ptr<const ParticleShape> its)
+{
+  if (type >= static_cast<int>(shapes.size())) shapes.resize(type + 1);
+  shapes[type] = std::move(its);
+  const Sphere sphere;
+  const auto geometry_of = [&](std::size_t k) -> const Geometry & {
+    if (shapes[k]) return shapes[k]->shape();
+    return sphere;
+  };
+  of_types.clear();
+  for (std::size_t i = 0; i < shapes.size(); i++)
+    for (std::size_t j = 0; j < shapes.size(); j++)
+      of_types.push_back(collisions->find(geometry_of(i), geometry_of(j)));
 }
 
 double ShapeTable::memory_usage() const

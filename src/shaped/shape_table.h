@@ -4,9 +4,9 @@
 #define TALUS_SHAPED_SHAPE_TABLE_H
 
 #include "body/motion/free_rotation.h"
-#include "shape/collide.h"
-#include "shape/convex_shape.h"
+#include "shape/collisions.h"
 #include "shape/face_stiffness.h"
+#include "shape/shape.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,23 +14,23 @@
 
 namespace Talus {
 
-/// What all particles of a type have in common. Orientations lead from the frame in which the shape
-/// was given to space; that of the core follows.
+/// What all particles of a type have in common. Orientations lead from the frame in which the script
+/// gives the shape to space; that of the shape itself follows.
 class ParticleShape {
  public:
   /// `density`: mass/length^3.
-  ParticleShape(ConvexShape its_shape, double density);
+  ParticleShape(std::shared_ptr<const Shape> its_shape, double density);
 
-  const ConvexShape &shape() const { return geometry; }
+  const Shape &shape() const { return *geometry; }
   double mass() const { return its_mass; }
   const FreeRotation &rotation() const { return free; }
   const FaceStiffness &faces() const { return held; }
-  /// Of the core, for a particle with its center of mass at x.
+  /// Of the shape, for a particle with its center of mass at x.
   Pose pose(const Vector3<double> &x, const Eigen::Quaterniond &orientation) const
   {
     Pose whole;
     whole.position = x;
-    whole.rotation = orientation.toRotationMatrix() * geometry.given_frame().rotation;
+    whole.rotation = orientation.toRotationMatrix() * geometry->given_frame().rotation;
     return whole;
   }
 
@@ -45,7 +45,7 @@ class ParticleShape {
   }
 
  private:
-  ConvexShape geometry;
+  std::shared_ptr<const Shape> geometry;
   double its_mass;
   FreeRotation free;
   FaceStiffness held;
@@ -57,11 +57,10 @@ class ParticleShape {
 /// By type, from 1; types without a shape are spheres.
 class ShapeTable {
  public:
-  void set(int type, std::shared_ptr<const ParticleShape> its)
-  {
-    if (type >= static_cast<int>(shapes.size())) shapes.resize(type + 1);
-    shapes[type] = std::move(its);
-  }
+  /// `collisions`: must live as long as this.
+  explicit ShapeTable(const Collisions &its_collisions) : collisions(&its_collisions) {}
+
+  void set(int type, std::shared_ptr<const ParticleShape> its);
   /// nullptr of spheres.
   const ParticleShape *of(int type) const
   {
@@ -72,6 +71,16 @@ class ShapeTable {
     return of(type) ? of(type)->shape().bounding_radius() : 0.0;
   }
   bool is_empty() const { return shapes.empty(); }
+  /// What finds the contacts of particles of two types; nothing of two spheres.
+  const Collisions::Collision &collision(int i, int j) const
+  {
+    return of_types[shapes.size() * row(i) + row(j)];
+  }
+  /// The same of a type with a shape and a surface of a large body.
+  Collisions::Collision collision(int type, const Geometry &surface) const
+  {
+    return collisions->find(of(type)->shape(), surface);
+  }
   /// How contacts of two shapes are found.
   NarrowPhase method() const { return way; }
   void set_method(NarrowPhase its) { way = its; }
@@ -79,7 +88,12 @@ class ShapeTable {
   double memory_usage() const;
 
  private:
+  /// Of of_types: 0 of spheres.
+  std::size_t row(int type) const { return of(type) ? static_cast<std::size_t>(type) : 0; }
+
+  const Collisions *collisions;
   std::vector<std::shared_ptr<const ParticleShape>> shapes;
+  std::vector<Collisions::Collision> of_types;
   NarrowPhase way = NarrowPhase::FEATURES;
 };
 

@@ -22,7 +22,13 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
     if (tag[a] == tag[b]) continue;
     const bool in_order = tag[a] < tag[b];
     const int first = in_order ? a : b, second = in_order ? b : a;
-    list.push_back({first, second, laws.row(view.type[first], view.type[second]), tag[second], {}});
+    const int of_first = view.type[first], of_second = view.type[second];
+    list.push_back({first,
+                    second,
+                    laws.row(of_first, of_second),
+                    tag[second],
+                    shapes.collision(of_first, of_second),
+                    {}});
   }
   std::sort(list.begin(), list.end(), [](const Pair &one, const Pair &other) {
     return one.first != other.first ? one.first < other.first : one.second < other.second;
@@ -124,7 +130,7 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
       Solid &its = solids[i];
       const ParticleShape *shape = shapes.of(view.type[i]);
       its.shape = shape ? &shape->shape() : nullptr;
-      its.radius = view.radius[i];
+      its.around.radius = view.radius[i];
       its.pose.position = view.row(view.x, i);
       if (shape) its.pose = shape->pose(its.pose.position, view.turn(i));
     }
@@ -155,21 +161,22 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
   while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
   const Solid &a = solids[pair.first], &b = solids[pair.second];
   if (!a.may_touch(b)) return;
-  if (!touch(a, b, shapes.method(), laws.force_exponent(pair.row), pair.direction, chunk.found))
-    return;
-  if (chunk.found.cores_overlap) look_at_cores(chunk, pair);
+  const CollisionRequest request{laws.force_exponent(pair.row), shapes.method(), &pair.direction};
+  if (!pair.collision(a.geometry(), a.pose, b.geometry(), b.pose, request, chunk.found)) return;
+  if (chunk.found.core_depth > chunk.cores.depth)
+    chunk.cores = {chunk.found.core_depth, chunk.found.core_ratio, pair.first, pair.second};
   const int i = pair.first, j = pair.second;
   const double change = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   PointContact point{};
-  point.inverse_radius = 1.0 / a.contact_radius() + 1.0 / b.contact_radius();
   point.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
   point.row = pair.row;
-  for (const ConvexContact &one : chunk.found.points) {
+  for (const ShapeContact &one : chunk.found.points) {
     point.place = one.position;
     point.normal = one.normal;
     point.overlap = one.overlap;
     point.weight = one.weight;
     point.energy = one.energy;
+    point.inverse_radius = one.curvature[0] + one.curvature[1];
     point.name = one.name;
     point.velocity = view.velocity_at(i, one.position) - view.velocity_at(j, one.position);
     if (change != 0.0)
@@ -181,17 +188,6 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
     chunk.points.push_back(point);
     chunk.pair_of_point.push_back(p);
   }
-}
-
-void ShapedPairs::look_at_cores(Chunk &chunk, const Pair &pair) const
-{
-  const double a = solids[pair.first].shape->radius(), b = solids[pair.second].shape->radius();
-  double overlap = 0.0;
-  for (const ConvexContact &one : chunk.found.points) overlap = std::max(overlap, one.overlap);
-  const double depth = overlap - (a + b);
-  if (depth > chunk.cores.depth)
-    chunk.cores = {depth, depth / (a > 0.0 && b > 0.0 ? std::min(a, b) : a + b), pair.first,
-                   pair.second};
 }
 
 ShapedPairs::CoreOverlap ShapedPairs::deepest_core_overlap() const

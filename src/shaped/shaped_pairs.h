@@ -94,6 +94,7 @@ class ShapedPairs {
     int first, second;       ///< host's indices
     int row;                 ///< of the table of laws
     std::int64_t partner;    ///< ID of the second
+    Collisions::Collision collision;
     SeparatingDirection direction{};
   };
   struct Result {
@@ -109,7 +110,7 @@ class ShapedPairs {
     int begin, end;    ///< pairs
     std::vector<PointContact> points, before;
     std::vector<int> pair_of_point, pair_before;
-    ConvexContacts found;
+    ShapeContacts found;
     CoreOverlap cores{};    ///< deepest since set_pairs()
   };
 
@@ -120,7 +121,6 @@ class ShapedPairs {
   void find_points(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                    int pair, std::size_t &old);
   void account(WorkAccount &to) const;
-  void look_at_cores(Chunk &chunk, const Pair &pair) const;
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
   double share(const Pair &pair) const

@@ -46,12 +46,13 @@ void WallPoints::save(PointMemories &to) const
       to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
 }
 
-BodyLoad WallPoints::compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
-                             const LawTable &laws, const BodyStep &step, double *virial)
+BodyLoad WallPoints::compute(const BodySurfaces &surfaces, const BodyFrame &frame,
+                             const ShapedView &view, const LawTable &laws, const BodyStep &step,
+                             double *virial)
 {
   while (static_cast<int>(batches.size()) < step.threads)
     batches.push_back(std::make_unique<PointBatch>());
-  const Task task{walls, frame, view, laws, step, virial};
+  const Task task{surfaces, frame, view, laws, step, virial};
   in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
     for (int c = begin; c < end; c++) {
       Chunk &chunk = chunks[c];
@@ -92,21 +93,21 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   Pose pose = particle.pose(seen, view.turn(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
   const int row = task.laws.row(view.type[i], view.type[i]);
-  const BodyWalls::Particle seen_particle{particle.shape(), pose, task.laws.force_exponent(row)};
-  for (int w = 0; w < task.walls.size(); w++) {
-    if (!task.walls.touch(w, seen_particle, chunk.found)) continue;
+  const BodySurfaces::Particle seen_particle{view.type[i], pose, task.laws.force_exponent(row)};
+  for (int w = 0; w < task.surfaces.size(); w++) {
+    if (!task.surfaces.touch(w, seen_particle, chunk.found)) continue;
     PointContact point{};
-    point.inverse_radius = 1.0 / particle.shape().contact_radius();
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
     point.row = row;
-    for (const ConvexContact &one : chunk.found.points) {
+    for (const ShapeContact &one : chunk.found.points) {
       point.place = one.position;
       point.normal = one.normal;
       point.overlap = one.overlap;
       point.weight = one.weight;
       point.energy = one.energy;
+      point.inverse_radius = one.curvature[0];
       point.name = (static_cast<std::uint64_t>(w) + one.surface) << 32 | one.name;
-      point.part = task.walls.has_parts() ? one.part : -1;
+      point.part = task.surfaces.has_parts() ? one.part : -1;
       const Vector3<double> place = frame.point_to_space(one.position);
       Vector3<double> v = view.velocity_at(i, place);
       if (frame.moves) v = v - frame.velocity_at(place);

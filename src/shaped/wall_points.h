@@ -12,7 +12,7 @@
 
 #include "body/contact/body_batch.h"
 #include "body/contact/body_contacts.h"
-#include "shaped/body_walls.h"
+#include "shaped/body_surfaces.h"
 #include "shaped/point_batch.h"
 #include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
@@ -38,7 +38,7 @@ class WallPoints {
 
   /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
   /// particle, added to.
-  BodyLoad compute(const BodyWalls &walls, const BodyFrame &frame, const ShapedView &view,
+  BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,
                    const LawTable &laws, const BodyStep &step, double *virial);
   /// visit(contact) for each point of the last compute(), with what it remembers now; its large
   /// body has no number. Positions of particles and body are still those of that step.
@@ -52,13 +52,13 @@ class WallPoints {
     int begin, end;    ///< of the particles
     std::vector<PointContact> points, before;
     std::vector<int> of_point, of_before;    ///< which particle, counted in the list
-    ConvexContacts found;
+    ShapeContacts found;
     BodyLoad load;
     ExactLoad exact;
     std::vector<TouchedPart> touched;
   };
   struct Task {
-    const BodyWalls &walls;
+    const BodySurfaces &surfaces;
     const BodyFrame &frame;
     const ShapedView &view;
     const LawTable &laws;

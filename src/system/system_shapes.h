@@ -51,8 +51,6 @@ class SystemShapes : public SystemFix {
   /// in the records, when all particles of this step are there, ghosts included. Collective.
   virtual void compute_contacts(const ContactStep &step) = 0;
 
-  /// "" or why a large body cannot touch shapes, and the cure, for people.
-  virtual std::string refusal_of(LargeBody &body) const = 0;
   /// Adds the forces between owned particles with a shape and a large body; returns what the body
   /// bears. `virial`: as for LargeBody::compute().
   virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;

@@ -13,7 +13,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
-PLUGIN = os.path.join(os.environ["TALUS_BINARY_DIR"], "added_law")
+PLUGIN = os.path.join(os.environ["TALUS_BINARY_DIR"], "added")
 WITH_LAW = {"LAMMPS_PLUGIN_PATH": PLUGIN}
 STIFFNESS, SPEED = 2e4, 0.5
 

@@ -6,7 +6,7 @@
 #define TALUS_TESTS_CONVEX_BODIES_H
 
 #include "random_source.h"
-#include "shape/convex_shape.h"
+#include "shape/convex/convex_shape.h"
 
 #include <array>
 #include <cmath>

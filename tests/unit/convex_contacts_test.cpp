@@ -5,7 +5,7 @@
 
 #include "body/shape/frustum.h"
 #include "convex_bodies.h"
-#include "shape/collide.h"
+#include "shape/convex/collide.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
 
 struct Pair {
   const ConvexShape &a, &b;
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   SeparatingDirection direction;
 
   bool touch(const Pose &pose_a, const Pose &pose_b)
@@ -39,7 +39,7 @@ struct Pair {
   double weight() const
   {
     double sum = 0.0;
-    for (const ConvexContact &c : contacts.points) sum += c.weight;
+    for (const ShapeContact &c : contacts.points) sum += c.weight;
     return sum;
   }
 };
@@ -48,10 +48,10 @@ struct Pair {
 struct Load {
   Vector force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
 };
-Load load_of(const ConvexContacts &contacts)
+Load load_of(const ShapeContacts &contacts)
 {
   Load load;
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     const Vector f = (c.weight * c.overlap) * c.normal;
     load.force = load.force + f;
     load.torque = load.torque + cross(c.position, f);
@@ -66,11 +66,11 @@ Load load_of(const ConvexContacts &contacts)
 TEST(ConvexPlane, FlatCubeHasFourPointsOfEqualDepth)
 {
   const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, 0.0);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   ASSERT_TRUE(
       collide_plane(cube, Pose({0.3, 0.2, 0.49}, turned(0.4, 0, 0, 1)), {0, 0, 1}, 0.0, contacts));
   ASSERT_EQ(contacts.points.size(), 4U);
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     EXPECT_NEAR(c.overlap, 0.01, 1e-15);
     EXPECT_NEAR(c.position.z, -0.005, 1e-15);
     EXPECT_EQ(c.normal.z, 1.0);
@@ -82,7 +82,7 @@ TEST(ConvexPlane, FlatCubeHasFourPointsOfEqualDepth)
 TEST(ConvexPlane, RoundedCubeOnFaceEdgeCorner)
 {
   const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, 0.1);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   collide_plane(cube, Pose({0, 0, 0.59}, straight), {0, 0, 1}, 0.0, contacts);
   EXPECT_EQ(contacts.points.size(), 4U);
   collide_plane(cube, Pose({0, 0, 0.09 + std::sqrt(0.5)}, turned(pi / 4, 1, 0, 0)), {0, 0, 1}, 0.0,
@@ -99,7 +99,7 @@ TEST(ConvexPlane, RoundedCubeOnFaceEdgeCorner)
 TEST(ConvexCylinder, InsideOfADrum)
 {
   const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, 0.1);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   // flat at the bottom of a drum along x: the four lower corners at the same distance from the axis
   const double low = 1.5;
   const double from_axis = std::sqrt(0.25 + low * low);
@@ -110,7 +110,7 @@ TEST(ConvexCylinder, InsideOfADrum)
   };
   ASSERT_TRUE(collide_vessel(cube, pose, drum(from_axis + 0.09), contacts));
   ASSERT_EQ(contacts.points.size(), 4U);
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     EXPECT_NEAR(c.overlap, 0.01, 1e-14);
     EXPECT_NEAR(c.normal.z, low / from_axis, 1e-14);
     EXPECT_EQ(c.normal.x, 0.0);
@@ -124,7 +124,7 @@ TEST(ConvexSphere, FaceEdgeCornerAndInside)
 {
   const ConvexShape box = ConvexShape::box({2.0, 2.0, 2.0}, 0.1);
   const Pose pose({5.0, 6.0, 7.0}, straight);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   const auto touch = [&](double x, double y, double z) {
     return collide_sphere(box, pose, pose.position + Vector{x, y, z}, 0.5, contacts);
   };
@@ -148,7 +148,7 @@ TEST(ConvexSphere, FaceEdgeCornerAndInside)
 TEST(ConvexSphere, RandomPlacesAgainstSamplesOfTheSurface)
 {
   RandomBodies random(9);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   for (const int count : {4, 8, 40, 500}) {
     const ConvexShape shape = ConvexShape::polyhedron(random.corners(count, {1.0, 0.6, 0.3}), 0.0);
     const auto surface = shape.core_surface();
@@ -191,7 +191,7 @@ TEST(ConvexPair, SharpCubeOnCube)
   ASSERT_TRUE(pair.touch(Pose({0, 0, 0.99}, straight), below));
   EXPECT_EQ(pair.contacts.points.size(), 4U);
   EXPECT_NEAR(pair.weight(), std::sqrt(15.0), 1e-12);
-  for (const ConvexContact &c : pair.contacts.points) {
+  for (const ShapeContact &c : pair.contacts.points) {
     EXPECT_NEAR(c.overlap, 0.01, 1e-14);
     EXPECT_NEAR(c.weight, std::sqrt(15.0) / 4.0, 1e-12);
     EXPECT_NEAR(c.normal.z, 1.0, 1e-14);
@@ -218,7 +218,7 @@ TEST(ConvexPair, StackedCubesKeepTheNamesOfTheirContacts)
     const Pose above(at, turned(angle, random.uniform(-1, 1), 0.3, 1));
     ASSERT_TRUE(pair.touch(above, Pose()));
     std::vector<std::uint32_t> now;
-    for (const ConvexContact &c : pair.contacts.points) now.push_back(c.name);
+    for (const ShapeContact &c : pair.contacts.points) now.push_back(c.name);
     if (trial == 0) names = now;
     EXPECT_EQ(now, names) << trial;
     EXPECT_EQ(now.size(), 4U);
@@ -233,7 +233,7 @@ TEST(ConvexPair, RoundedCubeOnCube)
   Pair on_plate{cube, plate, {}, {}};
   ASSERT_TRUE(on_plate.touch(Pose({0.1, 0.2, 1.09}, turned(0.3, 0, 0, 1)), Pose()));
   EXPECT_EQ(on_plate.contacts.points.size(), 4U);
-  for (const ConvexContact &c : on_plate.contacts.points) {
+  for (const ShapeContact &c : on_plate.contacts.points) {
     EXPECT_NEAR(c.overlap, 0.01, 1e-14);
     EXPECT_NEAR(c.normal.z, 1.0, 1e-14);
     EXPECT_NEAR(c.weight, 1.0, 1e-14);
@@ -242,7 +242,7 @@ TEST(ConvexPair, RoundedCubeOnCube)
   Pair on_cube{cube, cube, {}, {}};
   ASSERT_TRUE(on_cube.touch(Pose({0, 0, 1.09}, turned(pi / 4, 0, 0, 1)), Pose()));
   EXPECT_EQ(on_cube.contacts.points.size(), 8U);    // edges that cross
-  for (const ConvexContact &c : on_cube.contacts.points)
+  for (const ShapeContact &c : on_cube.contacts.points)
     EXPECT_EQ(parts_of(c.name), ContactParts::EDGES);
   EXPECT_FALSE(on_cube.touch(Pose({0, 0, 1.101}, straight), Pose()));
   EXPECT_FALSE(on_cube.contacts.cores_overlap);
@@ -260,7 +260,7 @@ TEST(ConvexPair, CrossedEdges)
     ASSERT_TRUE(pair.touch(Pose({0.1, 0.2, 2.0 * (edge + r) - 0.001}, turned(pi / 4, 1, 0, 0)),
                            Pose({0, 0, 0}, turned(pi / 4, 0, 1, 0))));
     ASSERT_EQ(pair.contacts.points.size(), 1U);
-    const ConvexContact &c = pair.contacts.points[0];
+    const ShapeContact &c = pair.contacts.points[0];
     EXPECT_EQ(parts_of(c.name), ContactParts::EDGES);
     EXPECT_NEAR(c.overlap, 0.001, 1e-14);
     EXPECT_NEAR(c.weight, 1.0, 1e-14);
@@ -282,7 +282,7 @@ TEST(ConvexPair, ExtremeShapes)
         {{0, 0, 25}, {0.2, 0, -25}, {-0.1, 0.2, -25}, {-0.1, -0.2, -25}}, r));
     shapes.push_back(ConvexShape::polyhedron(random.corners(500, {1.0, 1.0, 1.0}), r));
     shapes.push_back(ConvexShape::box({30.0, 30.0, 30.0}, r));
-    ConvexContacts contacts;
+    ShapeContacts contacts;
     int touching = 0;
     for (int trial = 0; trial < 1000; trial++) {
       const ConvexShape &a = shapes[random.below(5)], &b = shapes[random.below(5)];
@@ -304,7 +304,7 @@ TEST(ConvexPair, ExtremeShapes)
       const bool touch = collide(a, pose_a, b, pose_b, direction, contacts);
       touching += touch;
       EXPECT_TRUE(touch) << trial;
-      for (const ConvexContact &c : contacts.points) {
+      for (const ShapeContact &c : contacts.points) {
         EXPECT_LT(c.overlap, 2e-3) << trial;
         EXPECT_GT(c.overlap, 0.0);
         EXPECT_NEAR(length(c.normal), 1.0, 1e-9);
@@ -337,7 +337,7 @@ TEST(ConvexPair, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
   int paths = 0;
   while (paths < 400) {
     const ConvexShape &a = shapes[random.below(4)], &b = shapes[random.below(4)];
-    ConvexContacts contacts;
+    ShapeContacts contacts;
     SeparatingDirection direction;
     // a place where they touch, and a way past it; every third time with parallel faces, turning
     const Eigen::Quaterniond qa = random.orientation();
@@ -410,7 +410,7 @@ TEST(ConvexPair, NamesLastWhileBodiesMoveALittle)
     above.position.x += 1e-4;
     ASSERT_TRUE(pair.touch(above, Pose()));
     std::map<std::uint32_t, Vector> now;
-    for (const ConvexContact &c : pair.contacts.points) now[c.name] = c.position;
+    for (const ShapeContact &c : pair.contacts.points) now[c.name] = c.position;
     for (const auto &[name, x] : now) {
       all++;
       const auto found = last.find(name);

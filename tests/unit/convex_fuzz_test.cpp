@@ -4,8 +4,8 @@
 // exchange of the bodies, and that nothing depends on what is known from before. TALUS_LARGE_TESTS=1: a million pairs.
 
 #include "convex_bodies.h"
-#include "shape/collide.h"
-#include "shape/shared_energy.h"
+#include "shape/convex/collide.h"
+#include "shape/convex/shared_energy.h"
 
 #include <ccd/ccd.h>
 #include <gtest/gtest.h>
@@ -220,10 +220,10 @@ Case random_case(RandomBodies &random, const std::vector<ConvexShape> &shapes)
   return c;
 }
 
-double deepest(const ConvexContacts &contacts)
+double deepest(const ShapeContacts &contacts)
 {
   double overlap = 0.0;
-  for (const ConvexContact &c : contacts.points) overlap = std::max(overlap, c.overlap);
+  for (const ShapeContact &c : contacts.points) overlap = std::max(overlap, c.overlap);
   return overlap;
 }
 
@@ -231,12 +231,12 @@ double deepest(const ConvexContacts &contacts)
    half of that at least, but where one that is nearly as deep is at a right angle to it. So one pair of a hundred
    thousand may repel less, and none attracts. */
 
-bool repels(const ConvexContacts &contacts)
+bool repels(const ShapeContacts &contacts)
 {
   if (contacts.points.empty() || contacts.cores_overlap) return true;
-  const ConvexContact *most = &contacts.points[0];
+  const ShapeContact *most = &contacts.points[0];
   Vector force{0.0, 0.0, 0.0};
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     if (c.overlap > most->overlap) most = &c;
     force = force + (c.weight * c.overlap) * c.normal;
   }
@@ -248,10 +248,10 @@ bool repels(const ConvexContacts &contacts)
    power of the energy (Euler's theorem). Of one that two edges share with their ends, each of which keeps its own,
    prod (1 - p/.9) + sum p is left, or more, which is 1 - sum p/9 if sum p < .9, and is .9 at least. */
 
-void expect_shared_energy(const ConvexContacts &contacts)
+void expect_shared_energy(const ShapeContacts &contacts)
 {
   double work = 0.0, energy = 0.0, most = 0.0;
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     work += c.weight * c.overlap * c.overlap;
     energy += c.energy * c.overlap * c.overlap;
     most = std::max(most, c.overlap * c.overlap);
@@ -260,10 +260,10 @@ void expect_shared_energy(const ConvexContacts &contacts)
   EXPECT_GE(energy, 0.9 * most - 1e-12);
 }
 
-void expect_sound(const ConvexContacts &contacts)
+void expect_sound(const ShapeContacts &contacts)
 {
   for (std::size_t k = 0; k < contacts.points.size(); k++) {
-    const ConvexContact &c = contacts.points[k];
+    const ShapeContact &c = contacts.points[k];
     EXPECT_GT(c.overlap, 0.0);
     EXPECT_TRUE(std::isfinite(c.weight));
     EXPECT_NEAR(length(c.normal), 1.0, 1e-9);
@@ -280,7 +280,7 @@ TEST(ConvexFuzz, SharpPairsAgainstLibccdAndAllParts)
 {
   RandomBodies random(1);
   const std::vector<ConvexShape> shapes = some_shapes(random, 0.0);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   int touching = 0, compared = 0, wrong = 0, weak = 0;
   double worst = 0.0;
   for (int trial = 0; trial < number_of_pairs(); trial++) {
@@ -315,7 +315,7 @@ TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
 {
   RandomBodies random(2);
   const std::vector<ConvexShape> shapes = some_shapes(random, 0.1);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   int touching = 0, apart = 0, wrong = 0, weak = 0, left_out = 0;
   double worst = 0.0;
   for (int trial = 0; trial < number_of_pairs(); trial++) {
@@ -358,7 +358,7 @@ TEST(ConvexFuzz, RoundedPairsAgainstLibccdAndAllParts)
 TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
 {
   RandomBodies random(3);
-  ConvexContacts one, other;
+  ShapeContacts one, other;
   int compared = 0;
   for (const double rounding : {0.0, 0.1}) {
     const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
@@ -367,15 +367,15 @@ TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
       SeparatingDirection direction, exchanged;
       collide(*c.a, c.pose_a, *c.b, c.pose_b, direction, one);
       collide(*c.b, c.pose_b, *c.a, c.pose_a, exchanged, other);
-      for (ConvexContact &contact : other.points) contact.name = exchanged_name(contact.name);
+      for (ShapeContact &contact : other.points) contact.name = exchanged_name(contact.name);
       std::sort(other.points.begin(), other.points.end(),
-                [](const ConvexContact &p, const ConvexContact &q) { return p.name < q.name; });
+                [](const ShapeContact &p, const ShapeContact &q) { return p.name < q.name; });
       // deep within each other, parallel bodies have several directions of least depth
       if (c.pose_a.rotation == c.pose_b.rotation && deepest(one) > 0.05 + 2.0 * rounding) continue;
       compared++;
       ASSERT_EQ(one.points.size(), other.points.size()) << trial << " rounding " << rounding;
       for (std::size_t k = 0; k < one.points.size(); k++) {
-        const ConvexContact &p = one.points[k], &q = other.points[k];
+        const ShapeContact &p = one.points[k], &q = other.points[k];
         EXPECT_EQ(p.name, q.name) << trial;
         EXPECT_LT(length(p.position - q.position), 1e-9) << trial;
         // points that share a force lean by its torque over the square of their spread: rounding over the least share
@@ -391,7 +391,7 @@ TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
 TEST(ConvexFuzz, ContactsDoNotDependOnTheDirectionThatIsKnown)
 {
   RandomBodies random(4);
-  ConvexContacts one, other;
+  ShapeContacts one, other;
   for (const double rounding : {0.0, 0.1}) {
     const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
     for (int trial = 0; trial < number_of_pairs() / 4; trial++) {
@@ -403,7 +403,7 @@ TEST(ConvexFuzz, ContactsDoNotDependOnTheDirectionThatIsKnown)
         collide(*c.a, c.pose_a, *c.b, c.pose_b, known, other);
         ASSERT_EQ(one.points.size(), other.points.size()) << trial;
         for (std::size_t k = 0; k < one.points.size(); k++) {
-          const ConvexContact &p = one.points[k], &q = other.points[k];
+          const ShapeContact &p = one.points[k], &q = other.points[k];
           EXPECT_EQ(p.name, q.name);
           EXPECT_EQ(std::memcmp(&p.position, &q.position, sizeof p.position), 0);
           EXPECT_EQ(std::memcmp(&p.normal, &q.normal, sizeof p.normal), 0);
@@ -421,7 +421,7 @@ TEST(ConvexFuzz, ContactsDoNotDependOnTheDirectionThatIsKnown)
 TEST(ConvexFuzz, MprFindsTheSamePairs)
 {
   RandomBodies random(5);
-  ConvexContacts mpr, features;
+  ShapeContacts mpr, features;
   for (const double rounding : {0.0, 0.1}) {
     const std::vector<ConvexShape> shapes = some_shapes(random, rounding);
     int different = 0, touching = 0, weak = 0;

@@ -3,7 +3,7 @@
 // Random impacts of convex bodies, moved by a twin of their own: what is kept.
 
 #include "flying_body.h"
-#include "shape/collide.h"
+#include "shape/convex/collide.h"
 
 #include <gtest/gtest.h>
 
@@ -30,13 +30,13 @@ double energy_error(Impact scene, double dt)
   const Eigen::Vector3d turning = a.whole_momentum() + b.whole_momentum(),
                         moving = a.mass() * a.v + b.mass() * b.v;
   SeparatingDirection direction;
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   double last = -1.0;
   for (double t = 0.0; t < 2.0 && (last < 0.0 || t - last < 0.05); t += dt) {
     if (collide(*a.shape, a.pose(), *b.shape, b.pose(), direction, contacts, NarrowPhase::FEATURES,
                 scene.force_exponent))
       last = t;
-    for (const ConvexContact &c : contacts.points) {
+    for (const ShapeContact &c : contacts.points) {
       a.push(c, 1.0, scene.stiffness, scene.force_exponent, dt);
       b.push(c, -1.0, scene.stiffness, scene.force_exponent, dt);
     }

@@ -4,8 +4,8 @@
 // against their meshes, ridges, valleys and corners by hand, sides, forces that are continuous.
 
 #include "convex_bodies.h"
-#include "shape/collide.h"
-#include "shape/collide_mesh.h"
+#include "shape/convex/collide.h"
+#include "shape/convex/collide_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
 struct Mesh {
   MeshShape shape;
   MeshFeatures features;
-  ConvexContacts contacts;
+  ShapeContacts contacts;
 
   explicit Mesh(const std::vector<Triangle> &triangles, MeshSide side = MeshSide::NORMALS,
                 bool orient = false) :
@@ -93,10 +93,10 @@ std::vector<Triangle> box_of(Vector half, int cells)
 struct Load {
   Vector force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
 };
-Load load_of(const ConvexContacts &contacts)
+Load load_of(const ShapeContacts &contacts)
 {
   Load load;
-  for (const ConvexContact &c : contacts.points) {
+  for (const ShapeContact &c : contacts.points) {
     const Vector f = (c.weight * c.overlap) * c.normal;
     load.force = load.force + f;
     load.torque = load.torque + cross(c.position, f);
@@ -108,10 +108,10 @@ double difference(const Load &a, const Load &b)
   return std::max(length(a.force - b.force), length(a.torque - b.torque));
 }
 
-double weight_of(const ConvexContacts &contacts)
+double weight_of(const ShapeContacts &contacts)
 {
   double sum = 0.0;
-  for (const ConvexContact &c : contacts.points) sum += c.weight;
+  for (const ShapeContact &c : contacts.points) sum += c.weight;
   return sum;
 }
 
@@ -132,12 +132,12 @@ TEST(ConvexMesh, FloorOfManyTrianglesIsAPlane)
       const double low = n % 2 ? 0.5 : 0.2;
       const Pose pose({random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(low, 0.8)},
                       n % 5 ? random.orientation() : turned(random.uniform(0, 6), 0, 0, 1));
-      ConvexContacts plane;
+      ShapeContacts plane;
       const bool expected = collide_plane(body, pose, {0, 0, 1}, 0.0, plane);
       ASSERT_EQ(floor.touch(body, pose), expected) << n;
       ASSERT_EQ(floor.contacts.points.size(), plane.points.size()) << n;
       EXPECT_LT(difference(load_of(floor.contacts), load_of(plane)), 1e-13);
-      for (const ConvexContact &c : floor.contacts.points) EXPECT_EQ(c.surface, 0U);
+      for (const ShapeContact &c : floor.contacts.points) EXPECT_EQ(c.surface, 0U);
       touching += expected;
     }
   EXPECT_GT(touching, 1500);
@@ -191,7 +191,7 @@ TEST(ConvexMesh, InsideOfABoxIsItsFaces)
         deep = deep || (behind > 0 && near > behind);
       }
       if (deep) continue;
-      ConvexContacts wall;
+      ShapeContacts wall;
       for (const double s : {1.0, -1.0})
         for (const Vector n_of : {Vector{s, 0, 0}, Vector{0, s, 0}, Vector{0, 0, s}}) {
           collide_plane(body, pose, n_of, -2.0, wall);
@@ -218,7 +218,7 @@ TEST(ConvexMesh, RoundedBodiesOutsideABoxOfManyTriangles)
     const Vector d = random.direction();
     const Pose pose(random.uniform(1.2, 2.2) * d, random.orientation());
     SeparatingDirection direction;
-    ConvexContacts pair;
+    ShapeContacts pair;
     collide(body, pose, block, Pose(), direction, pair);
     if (pair.cores_overlap) continue;
     coarse.touch(body, pose);
@@ -246,7 +246,7 @@ TEST(ConvexMesh, CubeOverTheEdgeOfATable)
     // with energies shared: two edges, and what they leave of the corners
     EXPECT_NEAR(weight_of(table.contacts), 2.0 - 2.0 / 9.0, 1e-3);
     std::set<std::uint64_t> names;
-    for (const ConvexContact &c : table.contacts.points) {
+    for (const ShapeContact &c : table.contacts.points) {
       EXPECT_GT(c.normal.z, 0.999);
       names.insert(static_cast<std::uint64_t>(c.surface) << 32 | c.name);
     }
@@ -318,7 +318,7 @@ TEST(ConvexMesh, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
       const double t = static_cast<double>(k) / steps;
       const Pose pose(from + t * way, Eigen::Quaterniond(Eigen::AngleAxisd(0.3 * t, axis)) * q);
       SeparatingDirection direction;
-      ConvexContacts pair;
+      ShapeContacts pair;
       static const ConvexShape solid = ConvexShape::box({2.0, 2.0, 2.0}, 0.0);
       collide(body, pose, solid, Pose(), direction, pair);
       if (pair.cores_overlap) {
@@ -381,7 +381,7 @@ TEST(ConvexMesh, NearlyParallelEdgesTouchOnlyWhereTheyAreNear)
       EXPECT_EQ(ridge.contacts.points.size(), 0U) << n;
     }
     double weight = 0.0;
-    for (const ConvexContact &c : ridge.contacts.points) {
+    for (const ShapeContact &c : ridge.contacts.points) {
       EXPECT_NEAR(c.overlap, radius - distance, 1e-9) << n;
       EXPECT_NEAR(dot(c.normal, away), distance, 1e-9) << n;
       weight += c.weight;

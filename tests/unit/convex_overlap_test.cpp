@@ -3,8 +3,8 @@
 // The elastic energy of sharp bodies that overlap: what it is where it is known, and that forces are its derivatives.
 
 #include "convex_bodies.h"
-#include "shape/collide.h"
-#include "shape/mean_overlap.h"
+#include "shape/convex/collide.h"
+#include "shape/convex/mean_overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ struct Couple {
   Pose pose_of_b;
   double exponent = 1.0;
   SeparatingDirection direction{};
-  ConvexContacts contacts{};
+  ShapeContacts contacts{};
 
   Pose pose_of_a() const { return Pose(place_of_a, turn_of_a); }
   bool touch()
@@ -43,7 +43,7 @@ struct Couple {
   {
     touch();
     double sum = 0.0;
-    for (const ConvexContact &c : contacts.points)
+    for (const ShapeContact &c : contacts.points)
       sum += c.energy * std::pow(c.overlap, exponent + 1.0) / (exponent + 1.0);
     return sum;
   }
@@ -105,7 +105,7 @@ TEST(ConvexOverlap, CornerEdgeAndFaceOnAFace)
                   1e-9 * stiffer * std::pow(d, exponent + 1.0));
       double weight = 0.0;
       couple.touch();
-      for (const ConvexContact &c : couple.contacts.points) {
+      for (const ShapeContact &c : couple.contacts.points) {
         weight += c.weight;
         EXPECT_NEAR(c.overlap, d, 1e-14);
         EXPECT_NEAR(c.normal.z, 1.0, 1e-12);
@@ -130,7 +130,7 @@ TEST(ConvexOverlap, AFaceThatLeansIsPushedBack)
   Couple couple{cube, plate, {0.0, 0.0, 1.0 - d}, turned(tilt, {0.0, 1.0, 0.0}), Pose()};
   couple.touch();
   double torque = 0.0;
-  for (const ConvexContact &c : couple.contacts.points)
+  for (const ShapeContact &c : couple.contacts.points)
     torque -= c.position.x * c.weight * c.overlap * c.normal.z;
   EXPECT_NEAR(torque / (-std::sqrt(15.0) / 4.0 * tilt), 1.0, 0.02);
 }
@@ -172,7 +172,7 @@ TEST(ConvexOverlap, ForcesAreDerivativesOfTheEnergy)
         low.of_b != high.of_b)
       continue;
     Vector force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
-    for (const ConvexContact &c : couple.contacts.points) {
+    for (const ShapeContact &c : couple.contacts.points) {
       const Vector f = (c.weight * std::pow(c.overlap, couple.exponent)) * c.normal;
       force = force + f;
       torque = torque + cross(c.position, f);

@@ -5,7 +5,7 @@
 
 #include "body/shape/frustum.h"
 #include "convex_bodies.h"
-#include "shape/collide.h"
+#include "shape/convex/collide.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ Eigen::Quaterniond turned(double angle, double x, double y, double z)
 }
 const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
 
-Vector force_of(const ConvexContacts &contacts)
+Vector force_of(const ShapeContacts &contacts)
 {
   Vector force{0.0, 0.0, 0.0};
-  for (const ConvexContact &c : contacts.points) force = force + (c.weight * c.overlap) * c.normal;
+  for (const ShapeContact &c : contacts.points) force = force + (c.weight * c.overlap) * c.normal;
   return force;
 }
 
@@ -37,14 +37,14 @@ TEST(ConvexRound, FaceEdgeAndCornerOnALyingCylinder)
 {
   const Frustum log({0, 0, 0}, {0, 1, 0}, 2.0, 2.0, std::numeric_limits<double>::infinity(), false);
   const Frustum stump({0, 0, 0}, {0, 1, 0}, 2.0, 2.0, 0.5, false);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   for (const double radius : {0.0, 0.1}) {
     const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, radius);
     // a face on it: two edges cross the line that touches
     const double flat = 2.0 + 0.5 + radius - 0.01;
     ASSERT_TRUE(collide_round(cube, Pose({0, 0.2, flat}, straight), log, contacts));
     ASSERT_EQ(contacts.points.size(), 2U);
-    for (const ConvexContact &c : contacts.points) {
+    for (const ShapeContact &c : contacts.points) {
       EXPECT_NEAR(c.overlap, 0.01, 1e-12);
       EXPECT_NEAR(c.normal.z, 1.0, 1e-12);
       EXPECT_NEAR(c.position.z, 2.0 - 0.005, 1e-12);
@@ -70,7 +70,7 @@ TEST(ConvexRound, CapAndTip)
 {
   const Frustum column({0, 0, -1}, {0, 0, 1}, 0.3, 0.3, 2.0, false);
   const Frustum spike({0, 0, -1}, {0, 0, 1}, 0.5, 0.0, 2.0, false);
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   for (const double radius : {0.0, 0.1}) {
     const ConvexShape cube = ConvexShape::box({1.0, 1.0, 1.0}, radius);
     const Pose pose({0.1, 0.05, 0.5 + radius - 0.01}, straight);
@@ -105,12 +105,12 @@ TEST(ConvexRound, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
     bool known = false;
     for (int k = 0; k <= steps; k++) {
       const double t = static_cast<double>(k) / steps;
-      ConvexContacts contacts;
+      ShapeContacts contacts;
       collide_round(shape,
                     Pose(from + t * way, Eigen::Quaterniond(Eigen::AngleAxisd(0.3 * t, axis)) * q),
                     body, contacts);
       const bool deep = std::any_of(contacts.points.begin(), contacts.points.end(),
-                                    [](const ConvexContact &c) { return c.overlap >= 0.2; });
+                                    [](const ShapeContact &c) { return c.overlap >= 0.2; });
       const Vector now = force_of(contacts);
       if (known && !deep) largest = std::max(largest, length(now - before));
       touching += !contacts.points.empty();

@@ -9,7 +9,8 @@
 #include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
 #include "flying_body.h"
-#include "shaped/body_walls.h"
+#include "shaped/body_surfaces.h"
+#include "shaped/shape_list.h"
 
 #include <gtest/gtest.h>
 
@@ -129,31 +130,31 @@ Flying thrown(RandomBodies &random, const Wall &wall, const ConvexShape &shape, 
 }
 
 /// Away from the wall until it touches nothing.
-void step_back(Flying &body, const BodyWalls &walls)
+void step_back(Flying &body, const BodySurfaces &walls)
 {
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   const auto touches = [&] {
     const Pose pose = body.pose();
     for (int w = 0; w < walls.size(); w++)
-      if (walls.touch(w, {*body.shape, pose, 1.0}, contacts)) return true;
+      if (walls.touch(w, {1, pose, 1.0}, contacts)) return true;
     return false;
   };
   while (touches()) body.x -= 0.02 * body.v;
 }
 
 /// Returns by which part the energy has changed.
-double energy_error(Flying body, const BodyWalls &walls, double stiffness, double exponent,
+double energy_error(Flying body, const BodySurfaces &walls, double stiffness, double exponent,
                     double dt)
 {
   const double energy = body.energy();
-  ConvexContacts contacts;
+  ShapeContacts contacts;
   double last = -1.0;
   for (double t = 0.0; t < 2.0 && (last < 0.0 || t - last < 0.05); t += dt) {
     const Pose pose = body.pose();
     for (int w = 0; w < walls.size(); w++) {
-      if (!walls.touch(w, {*body.shape, pose, exponent}, contacts)) continue;
+      if (!walls.touch(w, {1, pose, exponent}, contacts)) continue;
       last = t;
-      for (const ConvexContact &c : contacts.points) body.push(c, 1.0, stiffness, exponent, dt);
+      for (const ShapeContact &c : contacts.points) body.push(c, 1.0, stiffness, exponent, dt);
     }
     body.move(dt);
   }
@@ -170,8 +171,11 @@ TEST(ConvexWallImpact, EnergyOfRoundedBodies)
 {
   constexpr int count = 4;
   for (const Wall &wall : all_walls()) {
-    const BodyWalls walls(*wall.body);
     for (const Kind &kind : all_kinds(0.05)) {
+      ShapeTable types(collisions_of_shapes());
+      types.set(
+          1, std::make_shared<ParticleShape>(std::make_shared<const ConvexShape>(kind.shape), 1.0));
+      const BodySurfaces walls(*wall.body, types);
       RandomBodies random(41);
       Errors coarse, fine;
       for (int k = 0; k < count; k++) {

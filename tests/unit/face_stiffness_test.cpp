@@ -2,6 +2,7 @@
 //
 // Springs at the corners of the faces of a body: its highest frequency against closed formulas.
 
+#include "shape/convex/convex_shape.h"
 #include "shape/face_stiffness.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #define TALUS_TESTS_FLYING_BODY_H
 
 #include "convex_bodies.h"
-#include "shape/convex_contact.h"
+#include "shape/shape_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ struct Flying {
     rotate(half.omega(), dt);
   }
   /// `pushed`: +1 if it is body a of the contact, -1 if b.
-  void push(const ConvexContact &c, double pushed, double stiffness, double force_exponent,
+  void push(const ShapeContact &c, double pushed, double stiffness, double force_exponent,
             double dt)
   {
     const double size = stiffness * c.weight * std::pow(c.overlap, force_exponent);

@@ -19,7 +19,7 @@
 #include "law_states.h"
 #include "packing.h"
 #include "second_order_engine.h"
-#include "shape/collide.h"
+#include "shape/convex/collide.h"
 #include "test_rank.h"
 
 #include <gtest/gtest.h>
@@ -260,11 +260,11 @@ Digest of_shapes(double radius)
       body[k].momentum = 0.02 * to_eigen(random.direction());
     }
     SeparatingDirection direction;
-    ConvexContacts contacts;
+    ShapeContacts contacts;
     for (int step = 0; step < 200; step++) {
       collide(*body[0].shape, body[0].pose(), *body[1].shape, body[1].pose(), direction, contacts,
               NarrowPhase::FEATURES, 1.5);
-      for (const ConvexContact &c : contacts.points) {
+      for (const ShapeContact &c : contacts.points) {
         digest.add(c.position);
         digest.add(c.normal);
         digest.add(c.overlap);

@@ -2,6 +2,8 @@
 
 #include "body/shape/ball.h"
 
+#include "body/shape/surface_visitor.h"
+
 #include <cmath>
 
 namespace Talus {
@@ -44,6 +46,14 @@ void Ball::tessellate(const Eigen::AlignedBox3d & /*visible*/,
       if (i < rings - 1)
         triangles.push_back({{point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)}});
     }
+}
+
+void Ball::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  if (inside)
+    visitor.vessel(*this);
+  else
+    visitor.ball(middle, size);
 }
 
 }    // namespace Talus

@@ -14,15 +14,13 @@ class Ball : public LargeBodyShape {
  public:
   Ball(const Vector3<double> &center, double radius, bool inside);
 
-  double radius() const { return size; }
-  bool is_inside() const { return inside; }
-
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   Vector3<double> middle;

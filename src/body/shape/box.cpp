@@ -2,6 +2,8 @@
 
 #include "body/shape/box.h"
 
+#include "body/shape/surface_visitor.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -107,6 +109,21 @@ void Box::tessellate(const Eigen::AlignedBox3d & /*visible*/,
       triangles.push_back({{face - a - b, face + a - b, face + a + b}});
       triangles.push_back({{face - a - b, face + a + b, face - a + b}});
     }
+}
+
+/* The faces from inside are numbered as touched_from_inside() does. */
+
+void Box::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  const Vector3<double> to_corner{half[0], half[1], half[2]};
+  if (!inside) return visitor.box(middle, 2.0 * to_corner);
+  for (const double sign : {1.0, -1.0}) {
+    const int face = sign > 0.0 ? 0 : 1;
+    const Vector3<double> corner = middle - sign * to_corner;
+    visitor.flat({sign, 0.0, 0.0}, corner, false, face);
+    visitor.flat({0.0, sign, 0.0}, corner, false, face + 2);
+    visitor.flat({0.0, 0.0, sign}, corner, false, face + 4);
+  }
 }
 
 }    // namespace Talus

@@ -18,9 +18,6 @@ class Box : public LargeBodyShape {
   /// `edges`: the three lengths, > 0.
   Box(const Vector3<double> &center, const Vector3<double> &edges, bool inside);
 
-  bool is_inside() const { return inside; }
-  double half_edge(int axis) const { return half[axis]; }
-
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
@@ -30,6 +27,7 @@ class Box : public LargeBodyShape {
                     SurfaceContact *found) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   bool touches_from_outside(const Vector3<double> &center, double radius,

@@ -3,6 +3,7 @@
 #include "body/shape/frustum.h"
 
 #include "base/linear_algebra.h"
+#include "body/shape/surface_visitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -209,6 +210,15 @@ void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangl
     if (low > 0.0) triangles.push_back({{cap[0], point(0, k + 1), point(0, k)}});
     if (high > 0.0) triangles.push_back({{cap[1], point(1, k), point(1, k + 1)}});
   }
+}
+
+void Frustum::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  if (open) return;    // touched from both sides
+  if (inside)
+    visitor.vessel(*this);
+  else
+    visitor.frustum(*this);
 }
 
 }    // namespace Talus

@@ -26,9 +26,6 @@ class Frustum : public LargeBodyShape {
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
           double length, bool inside, bool open = false);
 
-  /// Touched from inside alone, or from outside alone.
-  bool is_vessel() const { return inside && !open; }
-  bool is_solid() const { return !inside && !open; }
   bool is_endless() const { return endless; }
   /// The edge of a cap, 0 at the low end, 1 at the high one.
   struct Rim {
@@ -52,6 +49,7 @@ class Frustum : public LargeBodyShape {
                     SurfaceContact *found) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   /// A point in the plane through the axis: rho from the axis, s along it; and the unit vector away

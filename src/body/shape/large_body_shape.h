@@ -31,6 +31,8 @@ typedef AlignedBox<double, 3> AlignedBox3d;
 
 namespace Talus {
 
+class SurfaceVisitor;
+
 /// Where a sphere touches a body.
 struct SurfaceContact {
   Vector3<double> normal;    ///< unit vector from the body to the center of the sphere
@@ -155,6 +157,10 @@ class LargeBodyShape {
     (void) visible;
     (void) triangles;
   }
+
+  /// For particles with a shape: tells the surfaces that they touch, see surface_visitor.h. They touch
+  /// none of a body that tells none, and scripts with both are refused.
+  virtual void visit_surfaces(SurfaceVisitor &visitor) const { (void) visitor; }
 
   /// touches() for the first `count` of eight spheres: returns one bit for each, and fills the
   /// contacts whose bits are set. Called instead of touches(), so it must yield the same bits. To

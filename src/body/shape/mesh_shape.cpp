@@ -2,6 +2,8 @@
 
 #include "body/shape/mesh_shape.h"
 
+#include "body/shape/surface_visitor.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -250,6 +252,11 @@ void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                            std::vector<Triangle> &triangles) const
 {
   for (int t = 0; t < mesh.size(); t++) triangles.push_back(mesh.triangle(t));
+}
+
+void MeshShape::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  visitor.mesh({std::shared_ptr<void>(), this});    // not the owner
 }
 
 }    // namespace Talus

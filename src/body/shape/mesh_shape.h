@@ -80,6 +80,7 @@ class MeshShape : public LargeBodyShape {
   bool focus(const Eigen::AlignedBox3d &bounds) override;
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   void look_at(const Eigen::AlignedBox3d &bounds);

@@ -4,6 +4,7 @@
 
 #include "base/lanes.h"
 #include "base/linear_algebra.h"
+#include "body/shape/surface_visitor.h"
 
 #include <cmath>
 #include <limits>
@@ -89,6 +90,11 @@ void Plane::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle>
   }
   for (std::size_t k = 1; k + 1 < polygon.size(); k++)
     triangles.push_back({{polygon[0], polygon[k], polygon[k + 1]}});
+}
+
+void Plane::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  visitor.flat(normal, point, two_sided, 0);
 }
 
 }    // namespace Talus

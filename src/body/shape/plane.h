@@ -16,9 +16,6 @@ class Plane : public LargeBodyShape {
   /// `normal` must be a unit vector.
   Plane(const Vector3<double> &point, const Vector3<double> &normal, bool two_sided);
 
-  const Vector3<double> &unit_normal() const { return normal; }
-  bool has_two_sides() const { return two_sided; }
-
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   unsigned touches_eight(const EightSpheres &spheres, int count,
@@ -27,6 +24,7 @@ class Plane : public LargeBodyShape {
   Vector3<double> reference_point() const override { return point; }
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   Vector3<double> point, normal;

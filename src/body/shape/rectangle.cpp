@@ -2,6 +2,9 @@
 
 #include "body/shape/rectangle.h"
 
+#include "body/shape/mesh_shape.h"
+#include "body/shape/surface_visitor.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +61,16 @@ void Rectangle::tessellate(const Eigen::AlignedBox3d & /*visible*/,
   const Vector3<double> u = first_half * first, v = second_half * second;
   triangles.push_back({{middle - u - v, middle + u - v, middle + u + v}});
   triangles.push_back({{middle - u - v, middle + u + v, middle - u + v}});
+}
+
+/* As a mesh of two triangles. */
+
+void Rectangle::visit_surfaces(SurfaceVisitor &visitor) const
+{
+  std::vector<Triangle> triangles;
+  tessellate({}, triangles);
+  visitor.mesh(std::make_shared<const MeshShape>(TriangleMesh(triangles),
+                                                 two_sided ? MeshSide::BOTH : MeshSide::NORMALS));
 }
 
 }    // namespace Talus

@@ -19,14 +19,13 @@ class Rectangle : public LargeBodyShape {
             const Vector3<double> &first_edge, double first_length, double second_length,
             bool two_sided);
 
-  bool has_two_sides() const { return two_sided; }
-
   bool touches(const Vector3<double> &center, double radius,
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
+  void visit_surfaces(SurfaceVisitor &visitor) const override;
 
  private:
   /// Vector from the nearest point of the rectangle to `center`; `above`: that point is inside it.

@@ -1,0 +1,59 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#ifndef TALUS_SHAPED_BODY_SURFACES_H
+#define TALUS_SHAPED_BODY_SURFACES_H
+
+#include "body/shape/large_body_shape.h"
+#include "shaped/shape_table.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Talus {
+
+/// A large body as particles with a shape touch it, in its frame: one surface or several, such as the
+/// faces of a box from inside.
+class BodySurfaces {
+ public:
+  /// Both must live as long as this.
+  BodySurfaces(const LargeBodyShape &body, const ShapeTable &shapes);
+
+  /// "", or for people: why some particles cannot touch this body, and the cure. Else all can.
+  std::string refusal() const;
+
+  int size() const { return static_cast<int>(surfaces.size()); }
+  /// Contacts tell which part they touch, as those of spheres do.
+  bool has_parts() const { return parts; }
+
+  struct Particle {
+    int type;
+    const Pose &pose;    ///< of its shape, in the frame of the body
+    double force_exponent;
+  };
+  /// Contacts of a particle with surface 0 ... size()-1; returns whether there are any.
+  bool touch(int surface, const Particle &particle, ShapeContacts &contacts) const
+  {
+    const Surface &its = surfaces[surface];
+    return its.collision[particle.type](shapes.of(particle.type)->shape(), particle.pose,
+                                        *its.geometry, its.pose, {particle.force_exponent},
+                                        contacts);
+  }
+
+ private:
+  struct Surface {
+    std::shared_ptr<const Geometry> geometry;
+    Pose pose{};
+    std::vector<Collisions::Collision> collision{};    ///< by type
+  };
+  class Listing;
+  bool touches_all(int type) const;
+
+  const ShapeTable &shapes;
+  bool parts;
+  std::vector<Surface> surfaces;
+};
+
+}    // namespace Talus
+
+#endif

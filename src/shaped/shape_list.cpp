@@ -1,0 +1,42 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "shaped/shape_list.h"
+
+#include "shape/convex/convex_words.h"
+
+namespace Talus {
+namespace {
+
+/// Made at the first question: static objects of other files may ask, and add to it.
+struct AllShapes {
+  std::vector<ShapeWord> words = convex_words();
+  Collisions collisions;
+
+  AllShapes() { add_convex_collisions(collisions); }
+};
+
+AllShapes &list()
+{
+  static AllShapes all;
+  return all;
+}
+
+}    // namespace
+
+const std::vector<ShapeWord> &shape_words()
+{
+  return list().words;
+}
+
+const Collisions &collisions_of_shapes()
+{
+  return list().collisions;
+}
+
+AddedShape::AddedShape(const ShapeWord &word, void (*add_collisions)(Collisions &table))
+{
+  list().words.push_back(word);
+  add_collisions(list().collisions);
+}
+
+}    // namespace Talus
