@@ -54,7 +54,6 @@ def _environment(extra):
     env.setdefault("LAMMPS_PLUGIN_PATH", os.path.dirname(PLUGIN))
     env.setdefault("OMP_NUM_THREADS", "1")
     env.setdefault("OMP_WAIT_POLICY", "passive")    # more threads than cores must not spin
-    env.setdefault("MALLOC_PERTURB_", "165")    # what is read before it is set is garbage each time, not once a month
     env.setdefault("OMPI_MCA_pml", "ob1")    # others take 0.2 s to start
     env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")    # ranks that wait leave busy cores to others
     env.update(OMPI_MCA_ess_singleton_isolated="1",    # no daemon for one rank, 0.1 s
