@@ -35,7 +35,6 @@ set(TALUS_TEST_ENVIRONMENT
   "OMP_WAIT_POLICY=passive"
   "OMPI_MCA_pml=ob1"
   "OMPI_MCA_mpi_yield_when_idle=1"
-  "OMPI_MCA_ess_singleton_isolated=1"    # one rank alone starts no daemon
   "OMPI_MCA_rmaps_base_oversubscribe=1"    # Open MPI 4
   "OMPI_MCA_hwloc_base_binding_policy=none"    # jobs side by side would be bound to the same cores
   "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe"    # Open MPI 5

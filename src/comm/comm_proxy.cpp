@@ -19,13 +19,10 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-/* The host's constructor leaves localsendlist as it is, and its destructor frees it. */
-
 CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
     CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), host_packer(lmp),
     sphere_packer(lmp)
 {
-  localsendlist = nullptr;
   system->exchange().is_made(this, this);
 }
 

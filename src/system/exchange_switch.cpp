@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "error.h"
 #include "lammps.h"
+#include "modify.h"
 #include "update.h"
 
 #include <memory>
@@ -22,15 +23,11 @@ namespace {
 
 ExchangeSwitch::MakeDirect make_direct = nullptr;
 
-/* The stock object, apart from a pointer that its constructor leaves as it is and its destructor
-   frees. It holds the system, and with it what the user has chosen, until `clear`. */
+/* The stock object. It holds the system, and with it what the user has chosen, until `clear`. */
 
 class StockComm : public CommBrick {
  public:
-  StockComm(LAMMPS *lmp, Comm *old) : CommBrick(lmp, old), system(GranularSystem::of(lmp))
-  {
-    localsendlist = nullptr;
-  }
+  StockComm(LAMMPS *lmp, Comm *old) : CommBrick(lmp, old), system(GranularSystem::of(lmp)) {}
 
  private:
   std::shared_ptr<GranularSystem> system;
@@ -58,6 +55,7 @@ void ExchangeSwitch::choose(Choice choice)
 
 void ExchangeSwitch::start_run()
 {
+  settle_brick();
   const bool has_proxies =
       comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
   if (!has_proxies || chosen == Choice::NO || present()) return;
@@ -102,10 +100,20 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
   return "";
 }
 
+/* Also of objects that a script made with comm_style, which end with a crash otherwise. */
+
+void ExchangeSwitch::settle_brick()
+{
+  auto *brick = dynamic_cast<CommBrick *>(comm);
+  if (brick && modify->get_fix_by_style("^bond/react").empty()) forget_local_send_list(*brick);
+}
+
 void ExchangeSwitch::replace_comm(Comm *with)
 {
+  settle_brick();
   Comm *old = comm;
   comm = with;
+  settle_brick();
   delete old;
   // The new object knows of no ghosts yet: even 'run N pre no' has to set up everything.
   update->first_update = 0;

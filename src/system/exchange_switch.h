@@ -53,6 +53,7 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
 
  private:
   void replace_comm(LAMMPS_NS::Comm *with);
+  void settle_brick();
 
   ProxyUpdates *present() const { return comm == made ? proxies_of_made : nullptr; }
 

@@ -8,6 +8,7 @@
 #include "system/lammps_compat.h"
 
 #include "comm.h"
+#include "comm_brick.h"
 #include "fix_gravity.h"
 #include "neighbor.h"
 #include "region.h"
@@ -41,6 +42,7 @@ using VectorOfRegion = double (Region::*)[3];
 
 TALUS_PRIVATE_MEMBER(BorderGroup, int Comm::*, &Comm::bordergroup)
 TALUS_PRIVATE_MEMBER(ReducesMulti, int Comm::*, &Comm::multi_reduce)
+TALUS_PRIVATE_MEMBER(LocalSendList, int *CommBrick::*, &CommBrick::localsendlist)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
 TALUS_PRIVATE_MEMBER(Disable, int FixGravity::*, &FixGravity::disable)
 TALUS_PRIVATE_MEMBER(Transform, TransformOfRegion, &Region::forward_transform)
@@ -59,6 +61,11 @@ bool sends_one_group(const Comm &comm)
 bool leaves_out_small(const Comm &comm)
 {
   return comm.mode == Comm::MULTI && comm.*pointer_to(ReducesMulti{}) != 0;
+}
+
+void forget_local_send_list(CommBrick &comm)
+{
+  comm.*pointer_to(LocalSendList{}) = nullptr;
 }
 
 NBin **bins_of(Neighbor &neighbor)

@@ -11,6 +11,7 @@
 
 namespace LAMMPS_NS {
 class Comm;
+class CommBrick;
 class FixGravity;
 class NBin;
 class Neighbor;
@@ -31,6 +32,10 @@ bool sends_one_group(const LAMMPS_NS::Comm &comm);
 
 /// Whether `comm_modify reduce/multi` is set, which leaves out proxies of smaller particles.
 bool leaves_out_small(const LAMMPS_NS::Comm &comm);
+
+/// A brick that was made from another object (comm_style brick) does not set this pointer, and frees it
+/// in the end: to be called before it is deleted, unless fix bond/react has asked for the list.
+void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);

@@ -171,7 +171,7 @@ class Life(SceneCase):
             "print('survived')\n")
         library = os.path.join(os.environ["TALUS_LAMMPS_BINARY"], "liblammps.so")
         result = subprocess.run([sys.executable, "-c", program, library, scene(), PAIR], cwd=self.dir, capture_output=True,
-                                text=True, timeout=120, env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"})
+                                text=True, timeout=120, env={**os.environ, "TMPDIR": self.dir})
         self.assertIn("survived", result.stdout, result.stderr)
         with open(self.path("log.a")) as file:
             self.assertEqual(blocks(file.read()), [OURS])
