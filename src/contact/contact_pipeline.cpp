@@ -106,7 +106,7 @@ void ContactPipeline::make_room()
 
 void ContactPipeline::release_records()
 {
-  in_records = prepared = move_pending = false;
+  leave_records();
   if (memory_usage() < worth_giving_back) return;
   particles.release_sums();
   deferred.release();
@@ -118,9 +118,8 @@ void ContactPipeline::release()
 {
   const bool much = memory_usage() > worth_giving_back;
   release_records();
-  if (!much) return;
-  chunks.clear();
   pairs_known = false;
+  if (much) chunks.clear();
 }
 
 void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay)
@@ -156,7 +155,6 @@ void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &
 
 void ContactPipeline::start_step()
 {
-  remembered.reset();
   if (!particles.has_room()) make_room();
   deferred.begin_step();
 }

@@ -35,13 +35,6 @@ struct DeepestContact {
   bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
 };
 
-/// The answers of a ContactPipeline about the contacts of a step, see there.
-struct ContactSurvey {
-  double contacts, candidates;
-  DeepestContact deepest;
-  double smallest_period, largest_speed;
-};
-
 /// Both records of a contact by place, see ContactBatch::history.
 RememberedValues remembered_values(const Record &history, const Record &impact);
 
@@ -80,6 +73,8 @@ class ContactPipeline {
   /// of pairs and histories as well, which are then unknown until set_pairs().
   void release_records();
   void release();
+  /// Only this: the state must be in the host's arrays, and what prepare_to_move() was told is void.
+  void leave_records() { in_records = prepared = move_pending = false; }
   /// What counts as much (bytes).
   void set_worth_giving_back(double bytes) { worth_giving_back = bytes; }
 
@@ -148,10 +143,6 @@ class ContactPipeline {
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.
   std::optional<RememberedValues> remembered_of(int i, int j) const;
-
-  /// At the end of a run, before memory is given back: the answers below, of which early_share() is
-  /// none, are those of now until the next compute().
-  void remember_contacts();
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.
@@ -222,7 +213,6 @@ class ContactPipeline {
 
   ContactScene scene;
   double worth_giving_back = Talus::worth_giving_back;
-  std::optional<ContactSurvey> remembered;
   bool pairs_known = false;
   int threads = 1;
   int next_threads = 1;

@@ -14,16 +14,8 @@
 
 namespace Talus {
 
-void ContactPipeline::remember_contacts()
-{
-  if (remembered || !pairs_known) return;
-  remembered = ContactSurvey{count_contacts(), count_candidates(), deepest_contact(),
-                             smallest_contact_period(), largest_relative_speed()};
-}
-
 double ContactPipeline::count_contacts() const
 {
-  if (remembered) return remembered->contacts;
   double count = 0.0;
   for (const ContactChunk &chunk : chunks)
     chunk.for_each_contact([&](std::int64_t pair) {
@@ -34,7 +26,6 @@ double ContactPipeline::count_contacts() const
 
 double ContactPipeline::count_candidates() const
 {
-  if (remembered) return remembered->candidates;
   double count = 0.0;
   for (const ContactChunk &chunk : chunks)
     for (std::int64_t c = 0; c < chunk.pairs.num_pairs(); c++)
@@ -137,7 +128,6 @@ Value ContactPipeline::largest_of_chunks(Value none, Result result) const
 
 DeepestContact ContactPipeline::deepest_contact() const
 {
-  if (remembered) return remembered->deepest;
   return largest_of_chunks(DeepestContact{}, [this](const ContactChunk &chunk) {
     DeepestContact deepest;
     chunk.for_each_contact([&](std::int64_t pair) {
@@ -157,7 +147,6 @@ DeepestContact ContactPipeline::deepest_contact() const
 
 double ContactPipeline::smallest_contact_period() const
 {
-  if (remembered) return remembered->smallest_period;
   // the largest of the inverse squares
   const double largest = largest_of_chunks(0.0, [this](const ContactChunk &chunk) {
     double of_chunk = 0.0;
@@ -177,7 +166,6 @@ double ContactPipeline::smallest_contact_period() const
 
 double ContactPipeline::largest_relative_speed() const
 {
-  if (remembered) return remembered->largest_speed;
   return std::sqrt(largest_of_chunks(0.0, [this](const ContactChunk &chunk) {
     double largest = 0.0;
     for (std::int64_t c = 0; c < chunk.pairs.num_pairs(); c++) {

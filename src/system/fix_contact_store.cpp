@@ -124,6 +124,7 @@ void FixContactStore::setup_pre_exchange()
   // a run style of the host cannot do so
   const bool its_own = dynamic_cast<Talus::SystemRunStyle *>(update->integrate) != nullptr;
   if (system && update->whichflag == 1 && !its_own) system->report_styles(true);
+  if (system) system->release_pairs();
   take_over_sorting();
   sort_particles();
   keep_positions();
@@ -225,9 +226,8 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 
 void FixContactStore::post_run()
 {
-  if (system) system->remember_contacts();
   store_histories(Occasion::END_OF_RUN);
-  if (system && store.holds_last_lists() && !pairs_stay_after_run()) system->release_pairs();
+  if (system) system->end_contacts_of_run();
   give_sorting_back();
 }
 
@@ -238,24 +238,19 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* In a periodic box a run that goes on without a
-   new set-up goes on with the histories of both sides as they are, not with what the sides agree
-   on: the same bits as one run. */
-
-bool FixContactStore::pairs_stay_after_run() const
-{
-  return in_periodic_box();
-}
+/* Pairs stay behind a run, for those who ask for contacts, and for a run that goes on without a new
+   set-up: in a periodic box it goes on with the histories of both sides as they are, not with what the
+   sides agree on, so with the same bits as one run. */
 
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
   system->look_at_contacts(occasion == Occasion::END_OF_RUN);
-  if (occasion != Occasion::RESTART_FILE) system->release_records();
-  const bool pairs_stay = occasion == Occasion::RESTART_FILE ||
-                          (occasion == Occasion::END_OF_RUN && pairs_stay_after_run());
-  const bool particles_may_leave = comm->nprocs > 1 || occasion != Occasion::REBUILD;
-  system->keep_history(store, {particles_may_leave, in_periodic_box()}, pairs_stay);
+  const bool rebuild = occasion == Occasion::REBUILD;
+  if (rebuild) system->release_records();
+  if (occasion == Occasion::END_OF_RUN) system->leave_records();
+  const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
+  system->keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
   agree_with_other_ranks();
   current = false;
 }

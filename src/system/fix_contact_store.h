@@ -122,7 +122,6 @@ class FixContactStore : public Fix {
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;
-  bool pairs_stay_after_run() const;
   void refresh_key(int i);
   void remember_velocity(int i);
   void take_over_sorting();

@@ -85,6 +85,7 @@ void GranularSystem::detach(const Pair *one)
   laws_current = false;
   announced.clear();
   settled = account.sum = EnergyByCause{};
+  behind_run.reset();
   kept.reset();
   pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})
@@ -104,6 +105,7 @@ std::string GranularSystem::reason_of_pair_style() const
 
 void GranularSystem::init_pair_style()
 {
+  keep_contacts();
   neighbors.init(pair);
   gravity = nullptr;    // its init() comes later
   masses.find_fixes();

@@ -205,12 +205,13 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   /// The pairs are still those of the last step, on all ranks.
   void look_at_contacts(bool run_is_over);
-  /// A run has ended: what is asked about its contacts is what it would be now.
-  void remember_contacts();
+  /// A run has ended: until the next one contacts are those of now, for those who observe them.
+  void end_contacts_of_run();
   /// Puts histories aside. The pairs are gone then until renumber_pairs(), unless they stay.
   void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
   /// Memory that is free for others until renumber_pairs().
   void release_records();
+  void leave_records() { pipeline->leave_records(); }
   void release_pairs() { pipeline->release(); }
   /// New neighbor lists are due: finds the pairs, and their histories.
   void renumber_pairs();
@@ -346,8 +347,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
     SurveyedContact contact;
     std::int64_t tag[2];    ///< of its particles
   };
-  std::optional<std::vector<KeptContact>> kept;    ///< behind a run
-  std::int64_t kept_of = 0;                        ///< number of particles then
+  /// Behind a run whose contacts are observed: of the particles then; and contacts that have been kept
+  /// because particles may have changed places since, with the number of particles then.
+  std::optional<std::uint64_t> behind_run;
+  std::optional<std::vector<KeptContact>> kept;
+  std::int64_t kept_of = 0;
+  std::uint64_t digest_of_particles() const;
+  void require_contacts_of_last_run() const;
+  void keep_contacts();
+  void visit_contacts(Ask ask, const ContactPipeline::VisitContact &visit);
   int present_index(const KeptContact &one, int end) const;
   SurveyedContact at_present(const KeptContact &one) const;
 

@@ -19,6 +19,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -105,7 +106,7 @@ bool GranularSystem::histories_were_read() const
 
 std::optional<RememberedValues> GranularSystem::remembered_of(int i, int j)
 {
-  if (pipeline->has_pairs()) return pipeline->remembered_of(i, j);
+  if (update->whichflag != 0) return pipeline->remembered_of(i, j);
   const FoundHistory found = store->histories().find_of_atoms(i, j);
   if (!found.known) return std::nullopt;
   return remembered_values(found.seen_by_a(), *found.impact);
@@ -158,23 +159,26 @@ double GranularSystem::counted_of_last_step() const
   return modify->n_final_integrate > 0 ? 0.5 : 0.0;
 }
 
-static constexpr const char *kept_are_old = "Pair style {}: contacts of the last run cannot be "
-                                            "listed, for particles have been added, deleted "
-                                            "or sent to other ranks since: use 'run 0' before";
+static constexpr const char *kept_are_old =
+    "Pair style {}: contacts of the last run cannot be "
+    "listed, for particles have been added, deleted, changed "
+    "or sent to other ranks since: use 'run 0' before";
 
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
-  if (kept) {
-    if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, style.name);
-    for (const KeptContact &one : *kept) visit(at_present(one));
-    return;
+  if (pair && update->whichflag == 0) {
+    if (kept) {
+      if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, style.name);
+      for (const KeptContact &one : *kept) visit(at_present(one));
+      return;
+    }
+    require_contacts_of_last_run();
   }
-  // what bodies and walls know may be of particles that are gone; only our pair styles keep contacts
-  if (pair && update->whichflag == 0)
-    error->all(FLERR,
-               "Pair style {}: contacts are known from the first run after the command that asks "
-               "for them: use 'run 0' before",
-               style.name);
+  visit_contacts(ask, visit);
+}
+
+void GranularSystem::visit_contacts(Ask ask, const ContactPipeline::VisitContact &visit)
+{
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
     pipeline->for_each_contact(update->dt, lag(), ask, visit);
   if (shaped) shaped->for_each_contact(ask, visit);
@@ -204,7 +208,7 @@ bool GranularSystem::is_of_this_rank(const SurveyedContact &one) const
 
 bool GranularSystem::knows_contacts() const
 {
-  return kept || (update->whichflag != 0 && pipeline->has_pairs());
+  return update->whichflag != 0 ? pipeline->has_pairs() : kept || behind_run;
 }
 
 /* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */
@@ -229,14 +233,56 @@ SurveyedContact GranularSystem::at_present(const KeptContact &one) const
   return now;
 }
 
-/* Memory is given back behind a run. */
+/* Of the arrays of LAMMPS as far as contacts depend on them; FNV-1a by words. */
 
-void GranularSystem::remember_contacts()
+std::uint64_t GranularSystem::digest_of_particles() const
 {
-  pipeline->remember_contacts();
-  if (observers.empty() || kept) return;
+  constexpr std::uint64_t prime = 1099511628211U;
+  std::uint64_t digest = 14695981039346656037U;
+  const auto add = [&digest](const void *value) {
+    std::uint64_t word;
+    std::memcpy(&word, value, sizeof word);
+    digest = (digest ^ (word >> 32U) ^ word) * prime;
+  };
+  const int owned = atom->nlocal, all = owned + atom->nghost;
+  for (int i = 0; i < all; i++) {
+    const auto tag = static_cast<std::int64_t>(atom->tag[i]);
+    add(&tag);
+  }
+  for (double **rows : {atom->x, atom->v, atom->omega})
+    for (int n = 0; n < 3 * owned; n++) add(&rows[0][n]);
+  return digest;
+}
+
+/* Pairs and states stay until the next set-up, and contacts are found when somebody asks. */
+
+void GranularSystem::end_contacts_of_run()
+{
+  behind_run.reset();
+  if (!observers.empty() && !kept) behind_run = digest_of_particles();
+}
+
+/* What bodies and walls know may be of particles that are gone. */
+
+void GranularSystem::require_contacts_of_last_run() const
+{
+  if (!behind_run)
+    error->all(FLERR,
+               "Pair style {}: contacts are known from the first run after the command that asks "
+               "for them: use 'run 0' before",
+               style.name);
+  if (*behind_run != digest_of_particles()) error->one(FLERR, kept_are_old, style.name);
+}
+
+/* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the
+   last moment at which contacts of the last run can be found. */
+
+void GranularSystem::keep_contacts()
+{
+  if (update->whichflag != 0 || kept || !behind_run) return;
+  if (*behind_run != digest_of_particles()) return;    // those who ask will be told
   std::vector<KeptContact> all;
-  for_each_contact(Ask::ALL, [&](const SurveyedContact &one) {
+  visit_contacts(Ask::ALL, [&](const SurveyedContact &one) {
     all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
   });
   kept = std::move(all);

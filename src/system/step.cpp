@@ -115,6 +115,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   account.by_particle.clear();
   account.time_at_setup = work_time_at_setup();
   begin_account(setting_up);
+  behind_run.reset();
   kept.reset();
   step.lag = lag();
   step.read = residence() == Residence::HOST;

@@ -165,6 +165,29 @@ class Bed(SceneCase):
         later, = read_local(self.path("later"))
         self.assertEqual(sorted(tuple(r.values())[1:] for r in rows[-1]), sorted(row[1:] for row in later.rows))
 
+    def test_behind_runs_that_go_on(self):
+        """A program that takes ten steps at a time, without set-ups, and asks in between: as in one run, on any ranks."""
+        write = f'write_dump all local later.{{}} index c_rows[*] modify format line "%.0f{" %.17g" * len(WORDS)}"\n'
+        parts = "".join(f"run 10 pre no post no\n{write.format(1500 + 10 * k)}" for k in range(1, 21))
+        whole, *_ = self.run_bed(run="undump rows\ndump rows all local 10 rows index c_rows[*]\n"
+                                 f'dump_modify rows format line "%.0f{" %.17g" * len(WORDS)}"\nrun 1700')
+        for np in 1, 2:
+            self.run_bed(np, run=f"undump rows\nrun 1500\n{parts}")
+            for k in range(1, 21):
+                frame, = read_local(self.path(f"later.{1500 + 10 * k}"))
+                self.assertEqual(sorted(tuple(row.values())[1:] for row in named(frame)),
+                                 sorted(tuple(row.values())[1:] for row in whole[150 + k]), (np, k))
+
+    def test_after_something_has_changed(self):
+        """Contacts of the last step are those of particles as they were then: refused if a command has changed these."""
+        end, write = "run 1510\nundump rows\n", "write_dump all local later index c_rows[*]"
+        for change in "velocity all set 0 0 0", "displace_atoms all move 0 0 1e-5", "set atom 7 omega 0 0 1":
+            for np in 1, 2:
+                with self.subTest(change, np=np), \
+                        self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
+                    self.run_bed(np, run=f"{end}{change}\n{write}")
+            self.run_bed(run=f"{end}{change}\nrun 0\n{write}")
+
     def test_after_particles_have_gone(self):
         """A file is written, which sends particles to other ranks: rows name the same particles. Some are deleted: rows
         could name others, and are refused."""
