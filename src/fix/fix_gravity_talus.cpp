@@ -67,8 +67,7 @@ std::string FixGravityTalus::reason_of_fixes_before() const
       if (some_frozen_move(fix->groupbit))
         return std::string("fix ") + fix->id +
                " (freeze) comes before it, so that frozen particles fall: put it behind";
-    } else if ((modify->get_fix_mask(fix) & FixConst::POST_FORCE) &&
-               !dynamic_cast<const Talus::SystemFix *>(fix)) {
+    } else if ((modify->get_fix_mask(fix) & FixConst::POST_FORCE) && !Talus::SystemFix::of(fix)) {
       return std::string("fix ") + fix->id + " (" + fix->style + ") acts on forces before it";
     }
   }

@@ -2,8 +2,6 @@
 
 #include "fix/fix_large_body.h"
 
-#include "body/shape/plane.h"
-#include "body/shape/rectangle.h"
 #include "fix/large_body_shapes.h"
 #include "fix/region_shape.h"
 
@@ -104,10 +102,7 @@ void FixLargeBody::parse_keywords(Words &words)
                         contact_keywords);
     }
   }
-  const LargeBodyShape &shape = body.shape();
-  const bool is_flat =
-      dynamic_cast<const Plane *>(&shape) || dynamic_cast<const Rectangle *>(&shape) || side.mesh();
-  if (motion.frame().runs && !is_flat)
+  if (motion.frame().runs && !body.shape().is_flat())
     error->all(FLERR, "fix large/body: surface_velocity is for plane, rectangle and mesh: give a "
                       "cylinder or cone that turns 'move rotate'");
   for (int type = 1; type <= atom->ntypes; type++)

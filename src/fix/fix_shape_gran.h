@@ -103,7 +103,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
                              double *virial) override;
   bool keeps_change_of(int i) const override { return moves_particle(i); }
-  void for_each_contact(Talus::Ask ask, const VisitContact &visit) const override;
+  void for_each_contact_of_pairs(Talus::Ask ask, const VisitContact &visit) const override;
   void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
                                 const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;

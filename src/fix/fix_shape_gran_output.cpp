@@ -104,7 +104,7 @@ int FixShapeGran::add_to_picture(int narg, char **arg)
 
 /* ---- contacts, pictures ---- */
 
-void FixShapeGran::for_each_contact(Ask ask, const VisitContact &visit) const
+void FixShapeGran::for_each_contact_of_pairs(Ask ask, const VisitContact &visit) const
 {
   pairs.for_each_contact(system->law_table(), update->dt, ask, visit);
 }

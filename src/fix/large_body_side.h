@@ -18,7 +18,7 @@ class LargeBodySide : protected Pointers {
   explicit LargeBodySide(LAMMPS *lmp) : Pointers(lmp) {}
 
   /// Of shapes that are no mesh nothing is decided. `shape` must live as long as this.
-  void watch(Talus::LargeBodyShape &shape) { its = dynamic_cast<Talus::MeshShape *>(&shape); }
+  void watch(Talus::LargeBodyShape &shape) { its = shape.as_mesh(); }
   const Talus::MeshShape *mesh() const { return its; }
   /// The command has not said it.
   bool is_open() const { return its && its->side() == Talus::MeshSide::UNDECIDED; }

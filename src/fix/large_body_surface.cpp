@@ -25,8 +25,8 @@ constexpr int size_image = 10;    // type and three corners
 
 }    // namespace
 
-LargeBodySurface::LargeBodySurface(LAMMPS *lmp, const LargeBodyShape &its_shape) :
-    Pointers(lmp), shape(its_shape), mesh(dynamic_cast<const MeshShape *>(&its_shape))
+LargeBodySurface::LargeBodySurface(LAMMPS *lmp, LargeBodyShape &its_shape) :
+    Pointers(lmp), shape(its_shape), mesh(its_shape.as_mesh())
 {
 }
 

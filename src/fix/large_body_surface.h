@@ -27,7 +27,7 @@ namespace LAMMPS_NS {
 
 class LargeBodySurface : protected Pointers {
  public:
-  LargeBodySurface(LAMMPS *lmp, const Talus::LargeBodyShape &shape);
+  LargeBodySurface(LAMMPS *lmp, Talus::LargeBodyShape &shape);
 
   /// `pressure yes|no|average`, `wear k` or `vtk N file`, if that is the next word.
   bool parse(Talus::Words &words);

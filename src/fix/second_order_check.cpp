@@ -31,7 +31,7 @@ void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
   for (const auto &other : modify->get_fix_list()) {
     seen = seen || other == fix;
     if (other == fix || !other->time_integrate) continue;
-    const auto *ours = dynamic_cast<const Talus::SystemFix *>(other);
+    const auto *ours = Talus::SystemFix::of(other);
     if (!ours || ours->order() != 2)
       error->all(FLERR, Error::NOLASTLINE,
                  "{} order 2: fix {} ({}) moves particles as well, with order 1: use order 1, or "

@@ -122,7 +122,7 @@ void FixContactStore::min_pre_exchange()
 void FixContactStore::setup_pre_exchange()
 {
   // a run style of the host cannot do so
-  const bool its_own = dynamic_cast<Talus::SystemRunStyle *>(update->integrate) != nullptr;
+  const bool its_own = Talus::SystemRunStyle::of(update->integrate) != nullptr;
   if (system && update->whichflag == 1 && !its_own) system->report_styles(true);
   if (system) system->release_pairs();
   take_over_sorting();

@@ -5,7 +5,6 @@
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
-#include "body/shape/plane.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -68,7 +67,7 @@ void LargeBody::keep_history()
   with_history = any(&ContactLaw::has_history);
   if (with_history)
     contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact),
-                          !dynamic_cast<const Plane *>(its_shape.get()));
+                          !its_shape->has_one_normal());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -56,7 +56,7 @@ std::string LargeBody::reason_against_second_order()
 
 std::string LargeBody::note_on_second_order() const
 {
-  const auto *mesh = dynamic_cast<const MeshShape *>(its_shape.get());
+  const MeshShape *mesh = its_shape->as_mesh();
   if (!mesh || !mesh->has_jumps()) return "";
   return "where particles go from facet to facet of a hollow that stands for a curved surface the "
          "force turns at once, and the error is of first order: less with more facets";

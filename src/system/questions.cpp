@@ -38,15 +38,14 @@ int GranularSystem::order() const
 {
   int highest = 1;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = dynamic_cast<const SystemFix *>(fix))
-      highest = std::max(highest, ours->order());
+    if (const auto *ours = SystemFix::of(fix)) highest = std::max(highest, ours->order());
   return highest;
 }
 
 double GranularSystem::lag() const
 {
   for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = dynamic_cast<const SystemFix *>(fix);
+    const auto *ours = SystemFix::of(fix);
     if (ours && ours->order() == 2) return ours->lag();
   }
   return 0.0;
@@ -149,7 +148,7 @@ double GranularSystem::work_time_at_setup() const
   if (update->setupflag == 0) return -1.0;
   double share = 1.0;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = dynamic_cast<const SystemFix *>(fix); ours && ours->integrates())
+    if (const auto *ours = SystemFix::of(fix); ours && ours->integrates())
       share = std::min(share, ours->next_kick_in_steps());
   return share * update->dt;
 }
@@ -181,10 +180,10 @@ void GranularSystem::visit_contacts(Ask ask, const ContactPipeline::VisitContact
 {
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
     pipeline->for_each_contact(update->dt, lag(), ask, visit);
-  if (shaped) shaped->for_each_contact(ask, visit);
+  if (shaped) shaped->for_each_contact_of_pairs(ask, visit);
   int number = 0;
   for (const auto &fix : modify->get_fix_list()) {
-    auto *ours = dynamic_cast<SystemFix *>(fix);
+    auto *ours = SystemFix::of(fix);
     if (!ours || !ours->is_touched()) continue;
     ours->for_each_contact(ask, [&](SurveyedContact one) {
       one.body = number;

@@ -62,7 +62,7 @@ void GranularSystem::report_styles(bool pairs_computed)
 
 std::string GranularSystem::find_reason_for_host(bool pairs_computed)
 {
-  const auto *run_style = dynamic_cast<const SystemRunStyle *>(update->integrate);
+  const auto *run_style = SystemRunStyle::of(update->integrate);
   if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!run_style) return std::string("run style ") + update->integrate_style;
@@ -83,7 +83,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   steps.clear();    // an error may have left some
   for (Fix *fix : modify->get_fix_list()) {
     const int mask = modify->get_fix_mask(fix);
-    auto *ours = dynamic_cast<SystemFix *>(fix);
+    auto *ours = SystemFix::of(fix);
     if (ours && ours->integrates()) integrators.push_back({fix, ours});
     const std::string its = reason_of_fix(fix, mask);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
@@ -104,13 +104,9 @@ std::string GranularSystem::reason_of_integrators() const
     return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
   if (integrators.size() > most_integrators) return "many fixes move particles";
   constexpr int all = 1;
-  const auto is_of_shapes = [this](const Fix *fix) {
-    return shaped && dynamic_cast<const SystemShapes *>(fix) == shaped;
-  };
   for (std::size_t n = 1; n < integrators.size(); n++)
     for (std::size_t m = 0; m < n; m++) {
-      if (is_of_shapes(integrators[n].fix) || is_of_shapes(integrators[m].fix))
-        continue;    // sees to it
+      if (integrators[n].ours == shaped || integrators[m].ours == shaped) continue;    // sees to it
       const int one = integrators[m].fix->groupbit, other = integrators[n].fix->groupbit;
       bool both = one == other || one == all || other == all;
       for (int i = 0; i < atom->nlocal && !both; i++)
@@ -127,7 +123,7 @@ std::string GranularSystem::reason_of_integrators() const
 
 std::string GranularSystem::reason_of_fix(Fix *fix, int mask)
 {
-  if (auto *ours = dynamic_cast<SystemFix *>(fix)) return ours->needs_host_arrays();
+  if (auto *ours = SystemFix::of(fix)) return ours->needs_host_arrays();
   return acts_within_steps(fix, mask) ? "may look at particles in every step" : "";
 }
 
@@ -223,7 +219,7 @@ void GranularSystem::complete_step()
 {
   for (const bool integrating : {false, true})
     for (Fix *fix : modify->get_fix_list()) {
-      auto *ours = dynamic_cast<SystemFix *>(fix);
+      auto *ours = SystemFix::of(fix);
       if (ours && ours->integrates() == integrating) ours->complete_step();
       if (!ours && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
     }

@@ -192,8 +192,7 @@ int GranularSystem::groups_with_changes() const
 {
   int bits = 0;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = dynamic_cast<const SystemFix *>(fix); ours && ours->keeps_changes())
-      bits |= fix->groupbit;
+    if (const auto *ours = SystemFix::of(fix); ours && ours->keeps_changes()) bits |= fix->groupbit;
   return bits;
 }
 
@@ -233,7 +232,7 @@ std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
 {
   std::vector<LargeBody *> found;
   for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = dynamic_cast<SystemFix *>(fix);
+    const auto *ours = SystemFix::of(fix);
     if (ours && ours->adds_forces()) break;
     for (const auto &body : large_bodies)
       if (body->command() == fix) found.push_back(body.get());

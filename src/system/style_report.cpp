@@ -68,13 +68,13 @@ bool StyleReport::concerns(const GranularSystem &system) const
   if (force->pair && force->pair_match("^gran", 0)) return true;    // in hybrid
   const auto &fixes = modify->get_fix_list();
   return std::any_of(fixes.begin(), fixes.end(),
-                     [](Fix *fix) { return dynamic_cast<SystemFix *>(fix) != nullptr; });
+                     [](Fix *fix) { return SystemFix::of(fix) != nullptr; });
 }
 
 std::string StyleReport::text(const GranularSystem &system,
                               const std::string &reason_for_host) const
 {
-  const auto *ours = dynamic_cast<const SystemPair *>(force->pair);
+  const auto *ours = SystemPair::of(force->pair);
   const std::string pair = ours ? ours->plain_style() : force->pair ? force->pair_style : "none";
   return "Talus " TALUS_VERSION "\nTalus: styles of this run\n" +
          line("pair " + pair, pair_is(system)) + lines_of_fixes(system) +
@@ -87,8 +87,7 @@ std::string StyleReport::text(const GranularSystem &system,
 std::string StyleReport::pair_is(const GranularSystem &system) const
 {
   if (!force->pair) return how("there is no pair style");
-  if (const auto *ours = dynamic_cast<const SystemPair *>(force->pair))
-    return how(ours->reason_for_stock());
+  if (const auto *ours = SystemPair::of(force->pair)) return how(ours->reason_for_stock());
   if (system.has_pair_style())
     return "sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock";
   if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");
@@ -102,7 +101,7 @@ std::string StyleReport::lines_of_fixes(const GranularSystem &system) const
 {
   std::string lines;
   for (Fix *fix : modify->get_fix_list()) {
-    const auto *ours = dynamic_cast<SystemFix *>(fix);
+    const auto *ours = SystemFix::of(fix);
     const bool acts = ours || system.acts_within_steps(fix, modify->get_fix_mask(fix));
     if (is_internal(fix) || !acts) continue;
     lines += line(std::string("fix ") + fix->id + " " + fix->style,
@@ -113,7 +112,7 @@ std::string StyleReport::lines_of_fixes(const GranularSystem &system) const
 
 std::string StyleReport::run_style_is() const
 {
-  const auto *ours = dynamic_cast<const SystemRunStyle *>(update->integrate);
+  const auto *ours = SystemRunStyle::of(update->integrate);
   return how(ours ? ours->reason_for_stock() : "use run_style verlet");
 }
 

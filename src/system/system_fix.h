@@ -11,11 +11,22 @@
 #include <functional>
 #include <string>
 
+namespace LAMMPS_NS {
+class Fix;
+}
+
 namespace Talus {
 
 /// A fix that does its work on particles in the records as well as in the arrays of LAMMPS.
 class SystemFix {
  public:
+  /// nullptr of fixes of LAMMPS.
+  static SystemFix *of(LAMMPS_NS::Fix *fix);
+  static const SystemFix *of(const LAMMPS_NS::Fix *fix)
+  {
+    return of(const_cast<LAMMPS_NS::Fix *>(fix));
+  }
+
   /// At the start of a run, collective: "", or why it needs the arrays of LAMMPS in this run.
   virtual std::string needs_host_arrays() = 0;
 

@@ -1,17 +1,23 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What is known of the pair styles of Talus besides what they tell GranularSystem. Found by a cast
-// from Pair.
+// What is known of the pair styles of Talus besides what they tell GranularSystem.
 
 #ifndef TALUS_SYSTEM_SYSTEM_PAIR_H
 #define TALUS_SYSTEM_SYSTEM_PAIR_H
 
 #include <string>
 
+namespace LAMMPS_NS {
+class Pair;
+}
+
 namespace Talus {
 
 class SystemPair {
  public:
+  /// nullptr of pair styles of LAMMPS, and of none.
+  static const SystemPair *of(const LAMMPS_NS::Pair *pair);
+
   /// As scripts have it, without a suffix.
   virtual std::string plain_style() const = 0;
 

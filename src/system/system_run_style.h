@@ -9,13 +9,17 @@
 #include <string>
 
 namespace LAMMPS_NS {
+class Integrate;
 class LAMMPS;
-}
+}    // namespace LAMMPS_NS
 
 namespace Talus {
 
 class SystemRunStyle {
  public:
+  /// nullptr of run styles of LAMMPS.
+  static const SystemRunStyle *of(const LAMMPS_NS::Integrate *style);
+
   /// "" if it makes the steps of this run itself, else why it calls those of LAMMPS. Valid in
   /// setup() and run().
   virtual std::string reason_for_stock() const = 0;

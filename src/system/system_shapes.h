@@ -62,7 +62,7 @@ class SystemShapes : public SystemFix {
   /// visit(contact) for each contact point of the last step on this rank: of two particles, and of
   /// a particle and a large body, which has no number.
   using VisitContact = std::function<void(const SurveyedContact &)>;
-  virtual void for_each_contact(Ask ask, const VisitContact &visit) const = 0;
+  virtual void for_each_contact_of_pairs(Ask ask, const VisitContact &visit) const = 0;
   virtual void for_each_contact_of_body(LargeBody &body, Ask ask,
                                         const VisitContact &visit) const = 0;
   /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.

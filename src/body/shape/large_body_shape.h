@@ -31,6 +31,7 @@ typedef AlignedBox<double, 3> AlignedBox3d;
 
 namespace Talus {
 
+class MeshShape;
 class SurfaceVisitor;
 
 /// Where a sphere touches a body.
@@ -149,6 +150,13 @@ class LargeBodyShape {
   }
 
   virtual bool thread_safe() const { return true; }
+
+  /// All of it has one normal, apart from the sign.
+  virtual bool has_one_normal() const { return false; }
+  /// The same of each of its parts, so that a surface may run in a direction along it.
+  virtual bool is_flat() const { return has_one_normal(); }
+  /// Itself if it is a mesh, whose triangles can be looked at one by one.
+  virtual MeshShape *as_mesh() { return nullptr; }
 
   /// For pictures: the surface as triangles; what is infinite ends at `visible`.
   virtual void tessellate(const Eigen::AlignedBox3d &visible,

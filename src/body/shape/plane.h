@@ -22,6 +22,7 @@ class Plane : public LargeBodyShape {
                          EightContacts &contacts) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return point; }
+  bool has_one_normal() const override { return true; }
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
   void visit_surfaces(SurfaceVisitor &visitor) const override;

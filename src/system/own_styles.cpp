@@ -1,0 +1,30 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Which objects of LAMMPS are of Talus.
+
+#include "system/system_fix.h"
+#include "system/system_pair.h"
+#include "system/system_run_style.h"
+
+#include "fix.h"
+#include "integrate.h"
+#include "pair.h"
+
+namespace Talus {
+
+SystemFix *SystemFix::of(LAMMPS_NS::Fix *fix)
+{
+  return dynamic_cast<SystemFix *>(fix);
+}
+
+const SystemPair *SystemPair::of(const LAMMPS_NS::Pair *pair)
+{
+  return dynamic_cast<const SystemPair *>(pair);
+}
+
+const SystemRunStyle *SystemRunStyle::of(const LAMMPS_NS::Integrate *style)
+{
+  return dynamic_cast<const SystemRunStyle *>(style);
+}
+
+}    // namespace Talus
