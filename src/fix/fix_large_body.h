@@ -56,6 +56,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   // SystemFix
   std::string needs_host_arrays() override;
   bool is_touched() const override { return true; }
+  void add_to(Talus::StateDigest &digest) const override;
   void for_each_contact(Talus::Ask ask, const VisitContact &visit) override
   {
     body.for_each_contact(ask, visit);

@@ -4,6 +4,8 @@
 
 #include "fix/fix_large_body.h"
 
+#include "base/state_digest.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "force.h"
@@ -25,6 +27,13 @@ double FixLargeBody::compute_vector(int n)
   const BodyFrame &frame = motion.frame();
   frame.state.to_array(state);
   return state[n - 6];
+}
+
+void FixLargeBody::add_to(StateDigest &digest) const
+{
+  double state[BodyState::size];
+  motion.frame().state.to_array(state);
+  digest.add(state, BodyState::size);
 }
 
 double FixLargeBody::compute_scalar()

@@ -83,6 +83,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   // SystemFix
   std::string needs_host_arrays() override;
+  void add_to(Talus::StateDigest &digest) const override;
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
   bool moves_particle(int i) const override;

@@ -4,6 +4,7 @@
 
 #include "fix/fix_shape_gran.h"
 
+#include "base/state_digest.h"
 #include "fix/orientations.h"
 #include "system/command_words.h"
 #include "system/lammps_compat.h"
@@ -53,6 +54,11 @@ double FixShapeGran::compute_scalar()
 double FixShapeGran::compute_vector(int n)
 {
   return sums()[n];
+}
+
+void FixShapeGran::add_to(StateDigest &digest) const
+{
+  if (atom->nlocal) digest.add(quat[0], 4L * atom->nlocal);
 }
 
 /* The words behind the keyword; of the command line those before it are missing. */

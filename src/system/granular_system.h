@@ -347,12 +347,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
     SurveyedContact contact;
     std::int64_t tag[2];    ///< of its particles
   };
-  /// Behind a run whose contacts are observed: of the particles then; and contacts that have been kept
-  /// because particles may have changed places since, with the number of particles then.
+  /// Behind a run whose contacts are observed: digest of the state then; and contacts that have been
+  /// kept because particles may have changed places since, with the number of particles then.
   std::optional<std::uint64_t> behind_run;
   std::optional<std::vector<KeptContact>> kept;
   std::int64_t kept_of = 0;
-  std::uint64_t digest_of_particles() const;
+  std::uint64_t digest_of_state() const;
   void require_contacts_of_last_run() const;
   void keep_contacts();
   void visit_contacts(Ask ask, const ContactPipeline::VisitContact &visit);

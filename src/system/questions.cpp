@@ -4,6 +4,7 @@
 
 #include "system/granular_system.h"
 
+#include "base/state_digest.h"
 #include "system/fix_contact_store.h"
 #include "system/private_members.h"
 #include "system/system_shapes.h"
@@ -19,7 +20,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -160,8 +160,8 @@ double GranularSystem::counted_of_last_step() const
 
 static constexpr const char *kept_are_old =
     "Pair style {}: contacts of the last run cannot be "
-    "listed, for particles have been added, deleted, changed "
-    "or sent to other ranks since: use 'run 0' before";
+    "listed, for particles or bodies have been added, deleted, "
+    "changed or sent to other ranks since: use 'run 0' before";
 
 void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit)
 {
@@ -232,25 +232,25 @@ SurveyedContact GranularSystem::at_present(const KeptContact &one) const
   return now;
 }
 
-/* Of the arrays of LAMMPS as far as contacts depend on them; FNV-1a by words. */
+/* As far as contacts of the last step depend on it. */
 
-std::uint64_t GranularSystem::digest_of_particles() const
+std::uint64_t GranularSystem::digest_of_state() const
 {
-  constexpr std::uint64_t prime = 1099511628211U;
-  std::uint64_t digest = 14695981039346656037U;
-  const auto add = [&digest](const void *value) {
-    std::uint64_t word;
-    std::memcpy(&word, value, sizeof word);
-    digest = (digest ^ (word >> 32U) ^ word) * prime;
-  };
+  StateDigest digest;
+  digest.add(static_cast<std::uint64_t>(update->ntimestep));
+  digest.add(update->dt);
   const int owned = atom->nlocal, all = owned + atom->nghost;
-  for (int i = 0; i < all; i++) {
-    const auto tag = static_cast<std::int64_t>(atom->tag[i]);
-    add(&tag);
-  }
-  for (double **rows : {atom->x, atom->v, atom->omega})
-    for (int n = 0; n < 3 * owned; n++) add(&rows[0][n]);
-  return digest;
+  for (int i = 0; i < all; i++) digest.add(static_cast<std::uint64_t>(atom->tag[i]));
+  for (int i = 0; i < owned; i++) digest.add(static_cast<std::uint64_t>(atom->type[i]));
+  for (const double *values : {atom->radius, atom->rmass}) digest.add(values, owned);
+  if (owned)
+    for (double **rows : {atom->x, atom->v, atom->omega}) digest.add(rows[0], 3L * owned);
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *ours = SystemFix::of(fix)) {
+      digest.add(static_cast<std::uint64_t>(ours->is_touched()));
+      ours->add_to(digest);
+    }
+  return digest.value();
 }
 
 /* Pairs and states stay until the next set-up, and contacts are found when somebody asks. */
@@ -258,7 +258,7 @@ std::uint64_t GranularSystem::digest_of_particles() const
 void GranularSystem::end_contacts_of_run()
 {
   behind_run.reset();
-  if (!observers.empty() && !kept) behind_run = digest_of_particles();
+  if (!observers.empty()) behind_run = digest_of_state();
 }
 
 /* What bodies and walls know may be of particles that are gone. */
@@ -270,7 +270,7 @@ void GranularSystem::require_contacts_of_last_run() const
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",
                style.name);
-  if (*behind_run != digest_of_particles()) error->one(FLERR, kept_are_old, style.name);
+  if (*behind_run != digest_of_state()) error->one(FLERR, kept_are_old, style.name);
 }
 
 /* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the
@@ -279,7 +279,7 @@ void GranularSystem::require_contacts_of_last_run() const
 void GranularSystem::keep_contacts()
 {
   if (update->whichflag != 0 || kept || !behind_run) return;
-  if (*behind_run != digest_of_particles()) return;    // those who ask will be told
+  if (*behind_run != digest_of_state()) return;    // those who ask will be told
   std::vector<KeptContact> all;
   visit_contacts(Ask::ALL, [&](const SurveyedContact &one) {
     all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});

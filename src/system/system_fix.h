@@ -17,6 +17,8 @@ class Fix;
 
 namespace Talus {
 
+class StateDigest;
+
 /// A fix that does its work on particles in the records as well as in the arrays of LAMMPS.
 class SystemFix {
  public:
@@ -44,6 +46,10 @@ class SystemFix {
   /// computed; without the number.
   using VisitContact = std::function<void(const SurveyedContact &)>;
   virtual void for_each_contact(Ask /*ask*/, const VisitContact & /*visit*/) {}
+
+  /// Adds what contacts depend on besides time and particles: a command may have changed it behind a
+  /// run.
+  virtual void add_to(StateDigest & /*digest*/) const {}
 
   /// It moves particles.
   virtual bool integrates() const { return false; }

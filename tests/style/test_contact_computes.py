@@ -179,14 +179,21 @@ class Bed(SceneCase):
                                  sorted(tuple(row.values())[1:] for row in whole[150 + k]), (np, k))
 
     def test_after_something_has_changed(self):
-        """Contacts of the last step are those of particles as they were then: refused if a command has changed these."""
+        """Contacts of the last step are those of particles and bodies as they were then: refused if a command has changed
+        these."""
         end, write = "run 1510\nundump rows\n", "write_dump all local later index c_rows[*]"
-        for change in "velocity all set 0 0 0", "displace_atoms all move 0 0 1e-5", "set atom 7 omega 0 0 1":
+        for change in ("velocity all set 0 0 0", "displace_atoms all move 0 0 1e-5", "set atom 7 omega 0 0 1",
+                       "set atom 7 diameter 0.0088", "unfix stone", "timestep 1e-5"):
             for np in 1, 2:
                 with self.subTest(change, np=np), \
                         self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
                     self.run_bed(np, run=f"{end}{change}\n{write}")
             self.run_bed(run=f"{end}{change}\nrun 0\n{write}")
+        steered = BED.format(boundary="f f f").replace(f"outside contact {LAW}", f"outside contact {LAW} move external")
+        moved = "fix_modify stone state 0.025 0.02 0.001 1 0 0 0 0 0 0 0 0 0\n"
+        self.run_lammps(f"{steered}run 10\n{write}")
+        log = self.run_lammps(f"{steered}run 10\n{moved}{write}", expect_error=True).log
+        self.assertRegex(log, "contacts of the last run cannot be listed, for particles or bodies")
 
     def test_after_particles_have_gone(self):
         """A file is written, which sends particles to other ranks: rows name the same particles. Some are deleted: rows
