@@ -115,10 +115,26 @@ void ComputeCoarseGrid::free_data()
   memory->destroy4d_offset_last(array_of_cells, lo[2], lo[1], lo[0]);
 }
 
+/* Numbers of messages and arrays are counted with int, and a rank may own a part of the box only. */
+
+void ComputeCoarseGrid::require_countable() const
+{
+  double numbers = num_moments;
+  for (int d = 0; d < 3; d++)
+    numbers *= cells[d] + 2.0 * (reach_of_grid * cells[d] / domain->prd[d] + 1.0);
+  if (numbers > MAXSMALLINT)
+    error->all(
+        FLERR,
+        "compute coarse/grid: the grid and what is nearer to it than the width {} have {:.3g} "
+        "numbers: take less cells or a smaller width",
+        width, numbers);
+}
+
 void ComputeCoarseGrid::reset_grid()
 {
   free_data();
   reach_of_grid = reach();
+  require_countable();
   std::copy(domain->prd, domain->prd + 3, box_of_grid);
   sums = std::make_unique<GridSum>(lmp, cells, num_moments, reach_of_grid);
   const int *lo = sums->lo(), *hi = sums->hi(), columns = static_cast<int>(quantities.size());

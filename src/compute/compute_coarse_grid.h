@@ -31,6 +31,7 @@ class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
   void compute_pergrid() override;
 
   void reset_grid() override;
+  void require_countable() const;
   int get_grid_by_name(const std::string &, int &) override;
   void *get_grid_by_index(int) override;
   int get_griddata_by_name(int, const std::string &, int &) override;

@@ -73,7 +73,7 @@ void FillRegion::command(int narg, char **arg)
   const double volume = space.volume();
   const int count = count_spheres(volume);
   const std::vector<KnownSphere> present = spheres_in_box(lmp, space.lo, space.hi);
-  const std::vector<KnownSphere> made = pack(space, count, present);
+  const std::vector<KnownSphere> made = pack(space, count, volume, present);
   double solid = 0.0;
   for (const KnownSphere &sphere : made) solid += four_thirds_pi * cube(sphere.radius);
   if (reached > limit)
@@ -105,15 +105,32 @@ int FillRegion::count_spheres(double volume) const
   return static_cast<int>(count);
 }
 
+/* Spheres that are smaller by the overlap that is allowed do not overlap. The volume is measured on a
+   grid, and what is far beyond it is asked for by mistake. */
+
+void FillRegion::require_room(const std::vector<double> &radii, double volume) const
+{
+  constexpr double far_beyond = 1.5;
+  double solid = 0.0;
+  for (const double r : radii) solid += four_thirds_pi * cube(r);
+  if (cube(1.0 - limit) * solid > far_beyond * volume)
+    error->all(
+        FLERR,
+        "fill_region: {} spheres, a solid fraction of {:.4g} of region '{}', cannot fit: ask "
+        "for fewer or smaller spheres",
+        radii.size(), solid / volume, region_id);
+}
+
 /* One rank does it, for all. */
 
-std::vector<KnownSphere> FillRegion::pack(const RegionSpace &space, int count,
+std::vector<KnownSphere> FillRegion::pack(const RegionSpace &space, int count, double volume,
                                           const std::vector<KnownSphere> &present)
 {
   RandomNumbers random(seed);
   const std::vector<double> diameters = sizes.diameters(count, random);
   std::vector<double> radii;
   for (const double d : diameters) radii.push_back(0.5 * d);
+  require_room(radii, volume);
   std::vector<Vector3<double>> places(count);
   if (comm->me == 0) {
     for (Vector3<double> &x : places) {

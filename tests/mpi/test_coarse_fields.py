@@ -277,6 +277,10 @@ timestep 5e-4
         result = self.run_lammps("region b prism 0 1 0 1 0 1 0.1 0 0\natom_style sphere\ncreate_box 1 b\n" + field(),
                                  expect_error=True)
         self.assertRegex(result.log, "requires 'dimension 3' and a box that is not triclinic")
+        for np in 1, 2:
+            result = self.run_lammps("boundary f f f\nregion b block 0 1 0 1 0 1\natom_style sphere\ncreate_box 1 b\n"
+                                     + field(width=1e3), np=np, expect_error=True)
+            self.assertRegex(result.log, "nearer to it than the width 1000 have .* numbers: take less cells or a smaller width")
         result = self.run_lammps("region b block 0 1 0 1 0 1\ncreate_box 1 b\n" + field(), expect_error=True)
         self.assertRegex(result.log, "compute coarse/grid requires atom attributes radius and rmass: use 'atom_style sphere'")
 

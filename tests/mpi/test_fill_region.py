@@ -146,6 +146,9 @@ class Fill(SceneCase):
             self.fill(f"1 fraction 0.72 diameter 0.25 {COMMON} steps 300", np=np, expect_error=True)
             self.assertRegex(self.log, r"fill_region: \d+ spheres, a solid fraction of 0\.7\d+ of region 'r', do not fit: the largest overlap "
                              r"is 0\.\d+ of the smaller radius after 300 steps, the limit 0\.001\. Ask for fewer spheres or allow more overlap or more steps")
+            self.fill(f"1 number 2000 diameter discrete 2 3.0 1e308 0.2 1 {COMMON}", np=np, expect_error=True)
+            self.assertRegex(self.log, r"fill_region: 2000 spheres, a solid fraction of [\d.e+]+ of region 'r', cannot fit: ask for fewer "
+                             "or smaller spheres")
         frame = self.fill(f"1 fraction 0.68 diameter 0.25 {COMMON} overlap 0.25")
         self.assertGreater(self.deepest(self.spheres(frame), (True, True, False), 0.25), 0.01)
 
