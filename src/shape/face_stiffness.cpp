@@ -11,7 +11,6 @@ namespace Talus {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 }    // namespace
 
 FaceStiffness::FaceStiffness(const Shape &shape)

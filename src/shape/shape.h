@@ -51,8 +51,8 @@ class Shape : public Geometry {
     return same;
   }
 
-  /// For estimates of the time step: the radius of the surface where it is most curved (length), and
-  /// where it may be held at the same time.
+  /// For estimates of the time step: the radius of the surface (length) as its contacts tell the laws,
+  /// see ShapeContact::curvature, of several the smallest; and where it may be held at the same time.
   virtual double contact_radius() const = 0;
   virtual std::vector<HeldFace> held_faces() const = 0;
 

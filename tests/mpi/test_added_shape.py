@@ -12,6 +12,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
+from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 from vtk_files import read_part, read_series
 
@@ -24,17 +25,9 @@ ACROSS = OF_CYLINDER * (LENGTH ** 2 / 12 + RADIUS ** 2 / 4) \
     + OF_BALL * (0.4 * RADIUS ** 2 + LENGTH ** 2 / 4 + 0.375 * LENGTH * RADIUS)
 ALONG = OF_CYLINDER * RADIUS ** 2 / 2 + OF_BALL * 0.4 * RADIUS ** 2
 
-HEAD = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-pair_style gran/penalty
+HEAD = begin("lj", data="{data}").replace("read_data {data}", "{read}") + """
 pair_coeff * * {law}
+neighbor 0.2 bin
 timestep {dt}
 """
 COLUMNS = "x y z vx vy vz omegax omegay omegaz f_s[1] f_s[2] f_s[3] f_s[4]".split()
