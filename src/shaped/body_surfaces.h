@@ -28,16 +28,16 @@ class BodySurfaces {
 
   struct Particle {
     int type;
-    const Pose &pose;    ///< of its shape, in the frame of the body
+    const Shape &shape;    ///< that of its type
+    const Pose &pose;      ///< in the frame of the body
     double force_exponent;
   };
   /// Contacts of a particle with surface 0 ... size()-1; returns whether there are any.
   bool touch(int surface, const Particle &particle, ShapeContacts &contacts) const
   {
     const Surface &its = surfaces[surface];
-    return its.collision[particle.type](shapes.of(particle.type)->shape(), particle.pose,
-                                        *its.geometry, its.pose, {particle.force_exponent},
-                                        contacts);
+    return its.collision[particle.type](particle.shape, particle.pose, *its.geometry, its.pose,
+                                        {particle.force_exponent}, contacts);
   }
 
  private:

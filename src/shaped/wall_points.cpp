@@ -93,7 +93,8 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   Pose pose = particle.pose(seen, view.turn(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
   const int row = task.laws.row(view.type[i], view.type[i]);
-  const BodySurfaces::Particle seen_particle{view.type[i], pose, task.laws.force_exponent(row)};
+  const BodySurfaces::Particle seen_particle{view.type[i], particle.shape(), pose,
+                                             task.laws.force_exponent(row)};
   for (int w = 0; w < task.surfaces.size(); w++) {
     if (!task.surfaces.touch(w, seen_particle, chunk.found)) continue;
     PointContact point{};

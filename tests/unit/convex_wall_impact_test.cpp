@@ -136,7 +136,7 @@ void step_back(Flying &body, const BodySurfaces &walls)
   const auto touches = [&] {
     const Pose pose = body.pose();
     for (int w = 0; w < walls.size(); w++)
-      if (walls.touch(w, {1, pose, 1.0}, contacts)) return true;
+      if (walls.touch(w, {1, *body.shape, pose, 1.0}, contacts)) return true;
     return false;
   };
   while (touches()) body.x -= 0.02 * body.v;
@@ -152,7 +152,7 @@ double energy_error(Flying body, const BodySurfaces &walls, double stiffness, do
   for (double t = 0.0; t < 2.0 && (last < 0.0 || t - last < 0.05); t += dt) {
     const Pose pose = body.pose();
     for (int w = 0; w < walls.size(); w++) {
-      if (!walls.touch(w, {1, pose, exponent}, contacts)) continue;
+      if (!walls.touch(w, {1, *body.shape, pose, exponent}, contacts)) continue;
       last = t;
       for (const ShapeContact &c : contacts.points) body.push(c, 1.0, stiffness, exponent, dt);
     }
