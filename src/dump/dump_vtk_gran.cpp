@@ -148,7 +148,7 @@ void DumpVtkGran::write()
     some = shapes();
     write_part("shapes", some, true);
   }
-  for (LargeBody *body : system->bodies()) {
+  for (LargeBody *body : system->bodies().in_order()) {
     if (!with_bodies) break;
     VtkPolyData surface = body->picture();
     write_part(std::string("body_") + body->command()->id, surface, false);

@@ -27,7 +27,7 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->add_body(this)), motion(lmp),
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->bodies().add(this)), motion(lmp),
     side(lmp), monitor(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
@@ -61,7 +61,7 @@ FixLargeBody::~FixLargeBody()
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);
   }
-  system->remove_body(body);
+  system->bodies().remove(body);
 }
 
 void FixLargeBody::offer_output()

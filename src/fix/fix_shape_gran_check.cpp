@@ -74,7 +74,7 @@ void FixShapeGran::check_pairs()
 void FixShapeGran::check_bodies()
 {
   walls.clear();    // a script may have deleted some; what they remember is in the lists
-  for (LargeBody *body : system->bodies()) {
+  for (LargeBody *body : system->bodies().in_order()) {
     const std::string surface = wall_of(*body).surfaces->refusal();
     if (!surface.empty()) error->all(FLERR, Error::NOLASTLINE, "{}: {}", body->name(), surface);
     for (int type = 1; type <= table.last_type(); type++) {

@@ -104,7 +104,7 @@ std::vector<double> CriticalTimeStep::sizes_here(int types, int group) const
 {
   std::vector<double> sizes_of_all = smallest_here(types, group);
   std::set<int> known{group};
-  for (const LargeBody *body : GranularSystem::of(lmp)->bodies())
+  for (const LargeBody *body : GranularSystem::of(lmp)->bodies().in_order())
     if (const int groups = group | body->group_bits(); known.insert(groups).second) {
       const std::vector<double> its = smallest_here(types, groups);
       sizes_of_all.insert(sizes_of_all.end(), its.begin(), its.end());
@@ -207,7 +207,7 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 {
   double smallest = 0.0;
   std::map<int, Sizes> known{{group, sizes}};
-  for (LargeBody *body : GranularSystem::of(lmp)->bodies()) {
+  for (LargeBody *body : GranularSystem::of(lmp)->bodies().in_order()) {
     const int groups = group | body->group_bits();
     if (!known.count(groups)) known[groups] = smallest_particles(types, groups);
     const auto &[radius, mass, own_mass, overlap] = known[groups];

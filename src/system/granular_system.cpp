@@ -45,7 +45,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
+    Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
     monitors(lmp), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
@@ -265,35 +265,6 @@ void GranularSystem::drop_shapes(const SystemShapes *its)
 void GranularSystem::drop_gravity(const SystemGravity *field)
 {
   if (gravity == field) gravity = nullptr;
-}
-
-/* ---------------------------------------------------------------------- */
-
-/* A command that ended in an error has left a body behind, and another one may have its address. */
-
-LargeBody &GranularSystem::add_body(const Fix *command)
-{
-  const auto is_left = [command](const auto &one) { return one->command() == command; };
-  large_bodies.erase(std::remove_if(large_bodies.begin(), large_bodies.end(), is_left),
-                     large_bodies.end());
-  large_bodies.push_back(std::make_unique<LargeBody>(command, *this, lmp));
-  return *large_bodies.back();
-}
-
-void GranularSystem::remove_body(const LargeBody &body)
-{
-  const auto is_it = [&body](const auto &one) { return one.get() == &body; };
-  large_bodies.erase(std::remove_if(large_bodies.begin(), large_bodies.end(), is_it),
-                     large_bodies.end());
-}
-
-std::vector<LargeBody *> GranularSystem::bodies() const
-{
-  std::vector<LargeBody *> found;
-  for (const auto &fix : modify->get_fix_list())
-    for (const auto &body : large_bodies)
-      if (body->command() == fix) found.push_back(body.get());
-  return found;
 }
 
 }    // namespace Talus

@@ -25,7 +25,7 @@
 #include "system/contact_observer.h"
 #include "system/effective_masses.h"
 #include "system/exchange_switch.h"
-#include "system/large_body.h"
+#include "system/large_bodies.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
@@ -279,14 +279,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// proxies is finished.
   double share_without_proxies() const;
 
-  // ---- large bodies
-
-  /// A new body, until remove_body(): in the constructor of the command that defines it, and in its
-  /// destructor.
-  LargeBody &add_body(const LAMMPS_NS::Fix *command);
-  void remove_body(const LargeBody &body);
-  /// All of them, in the order of the script.
-  std::vector<LargeBody *> bodies() const;
+  LargeBodies &bodies() { return large_bodies; }
 
   double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
 
@@ -306,8 +299,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   int mover_of(int i) const;
   std::string reason_of_integrators() const;
   void complete_step();
-  std::size_t bodies_that_join();
-  std::vector<LargeBody *> bodies_that_may_join() const;
   double moved_in_arrays() const;
   void find_changes(ContactStep &step);
   void begin_account(bool again);
@@ -332,7 +323,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // particles, pairs, contacts
   std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
-  std::vector<std::unique_ptr<LargeBody>> large_bodies;
+  LargeBodies large_bodies;
   LAMMPS_NS::NeighborSource neighbors;
   LAMMPS_NS::EffectiveMasses masses;
   LAMMPS_NS::LargestRadii radii;
@@ -366,7 +357,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  std::vector<LargeBody *> bodies_of_run;    // that may join
   struct Integrator {
     LAMMPS_NS::Fix *fix;
     SystemFix *ours;    ///< the same

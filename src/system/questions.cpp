@@ -58,9 +58,7 @@ ChangeRecord *GranularSystem::velocity_changes()
 
 bool GranularSystem::needs_changes() const
 {
-  return order() == 2 || accounts_for_work() ||
-         std::any_of(large_bodies.begin(), large_bodies.end(),
-                     [](const auto &body) { return body->accounts(); });
+  return order() == 2 || accounts_for_work() || large_bodies.account();
 }
 
 std::string GranularSystem::reason_against_second_order() const
@@ -74,7 +72,7 @@ std::string GranularSystem::reason_against_second_order() const
       const std::string its = book.reason_against_second_order(i, j);
       if (!its.empty()) return fmt::format("the contact of types {} and {} {}", i, j, its);
     }
-  for (LargeBody *body : bodies()) {
+  for (LargeBody *body : large_bodies.in_order()) {
     const std::string its = body->reason_against_second_order();
     if (!its.empty()) return body->name() + " " + its;
   }
@@ -84,7 +82,7 @@ std::string GranularSystem::reason_against_second_order() const
 std::vector<std::string> GranularSystem::notes_on_second_order() const
 {
   std::vector<std::string> notes;
-  for (LargeBody *body : bodies()) {
+  for (LargeBody *body : large_bodies.in_order()) {
     const std::string its = body->note_on_second_order();
     if (!its.empty()) notes.push_back(body->name() + ": " + its);
   }

@@ -50,7 +50,7 @@ void GranularSystem::start_run(bool pairs_computed)
   moved_in_records = farthest.step = -1;    // reset_timestep may bring a step back
   host_reason = find_reason_for_host(pairs_computed);
   report.print(*this, host_reason);    // what setup has found out may have changed it
-  bodies_of_run = bodies_that_may_join();
+  large_bodies.start_run();
 }
 
 void GranularSystem::report_styles(bool pairs_computed)

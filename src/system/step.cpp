@@ -126,11 +126,12 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
-  const std::size_t joined = bodies_that_join();
-  const std::function<void(int, int, int)> add_bodies = [&](int thread, int begin, int end) {
-    for (std::size_t n = 0; n < joined; n++) bodies_of_run[n]->add_to_slots(thread, begin, end);
+  const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
+    large_bodies.add_to_slots(thread, begin, end);
   };
-  if (joined) step.add_more = &add_bodies;
+  // contacts of shapes come before those of bodies, and after those of spheres
+  if (!shaped && !step.read && !step.deliver && large_bodies.join_step())
+    step.add_more = &add_bodies;
 
   compute_around_proxies(step);
   if (step.deliver && !step.read && atom->nlocal)
@@ -224,32 +225,6 @@ void GranularSystem::finish_proxies()
   timer->stamp(Timer::PAIR);
   proxies->finish();
   timer->stamp(Timer::COMM);
-}
-
-/* None of those behind a fix that adds its forces on its own. */
-
-std::vector<LargeBody *> GranularSystem::bodies_that_may_join() const
-{
-  std::vector<LargeBody *> found;
-  for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = SystemFix::of(fix);
-    if (ours && ours->adds_forces()) break;
-    for (const auto &body : large_bodies)
-      if (body->command() == fix) found.push_back(body.get());
-  }
-  return found;
-}
-
-/* Bodies add their forces in the records if the particles are there before and after the step;
-   those behind one that does not join act on their own, so that the order of sums stays that of the
-   fixes. Contacts of shapes come before them, and after those of spheres. */
-
-std::size_t GranularSystem::bodies_that_join()
-{
-  if (shaped || next_residence == Residence::HOST || residence() == Residence::HOST) return 0;
-  std::size_t joined = 0;
-  while (joined < bodies_of_run.size() && bodies_of_run[joined]->join_step()) joined++;
-  return joined;
 }
 
 ParticleView GranularSystem::view() const
