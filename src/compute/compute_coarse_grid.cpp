@@ -60,12 +60,12 @@ ComputeCoarseGrid::ComputeCoarseGrid(LAMMPS *lmp, int narg, char **arg) :
   check_box();
   pergrid_flag = 1;
   reset_grid();
-  if (with_contacts) system->add_observer(this);
+  if (with_contacts) system->account().add_observer(this);
 }
 
 ComputeCoarseGrid::~ComputeCoarseGrid()
 {
-  system->drop_observer(this);
+  system->account().drop_observer(this);
   free_data();
 }
 

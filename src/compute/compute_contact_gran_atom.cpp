@@ -21,12 +21,12 @@ ComputeContactGranAtom::ComputeContactGranAtom(LAMMPS *lmp, int narg, char **arg
   if (narg > 3) error->all(FLERR, 3, "compute contact/gran/atom: surplus word '{}'", arg[3]);
   peratom_flag = 1;
   size_peratom_cols = SIZE;
-  system->add_observer(this);
+  system->account().add_observer(this);
 }
 
 ComputeContactGranAtom::~ComputeContactGranAtom()
 {
-  system->drop_observer(this);
+  system->account().drop_observer(this);
   memory->destroy(array_atom);
 }
 

@@ -106,12 +106,12 @@ ComputeContactGranLocal::ComputeContactGranLocal(LAMMPS *lmp, int narg, char **a
   }
   local_flag = 1;
   size_local_cols = columns.size() == 1 ? 0 : static_cast<int>(columns.size());
-  system->add_observer(this);
+  system->account().add_observer(this);
 }
 
 ComputeContactGranLocal::~ComputeContactGranLocal()
 {
-  system->drop_observer(this);
+  system->account().drop_observer(this);
 }
 
 void ComputeContactGranLocal::init()

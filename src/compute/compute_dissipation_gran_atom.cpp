@@ -29,12 +29,12 @@ ComputeDissipationGranAtom::ComputeDissipationGranAtom(LAMMPS *lmp, int narg, ch
       modify->add_fix(store_id + " " + group->names[igroup] + " STORE/ATOM 6 0 no yes"));
   if (!store) error->all(FLERR, "Compute dissipation/gran/atom: cannot create fix {}", store_id);
   started = store->restart_reset;
-  system->add_observer(this);
+  system->account().add_observer(this);
 }
 
 ComputeDissipationGranAtom::~ComputeDissipationGranAtom()
 {
-  system->drop_observer(this);
+  system->account().drop_observer(this);
   if (modify->get_fix_by_id(store_id)) modify->delete_fix(store_id);
   memory->destroy(array_atom);
 }
@@ -62,7 +62,7 @@ void ComputeDissipationGranAtom::setup()
   if (started) return;
   started = true;
   add_springs(store->astore, 1.0);
-  const double counted = system->counted_of_last_step();
+  const double counted = system->account().counted_of_last_step();
   for (int i = 0; i < atom->nlocal; i++)
     for (int n = 0; n < size; n++) store->astore[i][n] -= counted * store->astore[i][size + n];
 }
@@ -88,7 +88,7 @@ void ComputeDissipationGranAtom::compute_peratom()
     nmax = atom->nmax;
     memory->grow(array_atom, nmax, size, "dissipation/gran/atom:energy");
   }
-  const double counted = system->counted_of_last_step();
+  const double counted = system->account().counted_of_last_step();
   for (int i = 0; i < atom->nlocal; i++)
     for (int n = 0; n < size; n++)
       array_atom[i][n] = store->astore[i][n] + counted * store->astore[i][size + n];

@@ -40,12 +40,12 @@ ComputePenaltyStats::ComputePenaltyStats(LAMMPS *lmp, int narg, char **arg) :
   size_vector = SIZE;
   extvector = 0;
   vector = new double[size_vector]();
-  system->add_observer(this);
+  system->account().add_observer(this);
 }
 
 ComputePenaltyStats::~ComputePenaltyStats()
 {
-  system->drop_observer(this);
+  system->account().drop_observer(this);
   delete[] vector;
 }
 
@@ -63,7 +63,7 @@ void ComputePenaltyStats::setup()
 {
   if (started) return;
   started = true;
-  before = dissipated(system->work(), survey().stored);
+  before = dissipated(system->account().work(), survey().stored);
 }
 
 ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
@@ -92,7 +92,7 @@ void ComputePenaltyStats::compute_vector()
   invoked_vector = update->ntimestep;
   double mine[SIZE] = {};
   const Survey found = survey();
-  const Talus::EnergyByCause lost = dissipated(system->work(), found.stored) - before;
+  const Talus::EnergyByCause lost = dissipated(system->account().work(), found.stored) - before;
   mine[ELASTIC] = found.stored.total();
   mine[NORMAL] = lost.normal;
   mine[TANGENTIAL] = lost.tangential;

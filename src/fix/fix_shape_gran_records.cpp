@@ -23,7 +23,7 @@ std::string FixShapeGran::needs_host_arrays()
 {
   if (!system->turns_particles())
     return "it turns particles and the contacts between them have no friction";
-  if (system->accounts_for_work())
+  if (system->account().is_asked())
     return "the energies of contacts of particles with a shape are asked for";
   return "";
 }

@@ -153,10 +153,8 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   /// Before the batches of a step begin.
   void begin_account()
   {
-    accounts = system->accounts_for_work();
-    if (!accounts) return;
-    account.time_at_setup = system->work_time_at_setup();
-    account.by_particle = system->work_lists();
+    accounts = system->account().is_asked();
+    if (accounts) account = system->account().part_of_step();
   }
 
   void deliver(WallBatch &batch, const WallParticles &particles)

@@ -105,7 +105,7 @@ void FixWallGranRegionTalus::add_contacts()
   if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
   add_contacts_of_candidates();
-  system->add_work(batch.work);
+  system->account().add(batch.work);
 }
 
 void FixWallGranRegionTalus::survey_contacts()

@@ -148,7 +148,7 @@ void FixWallGranTalus::add_contacts()
     add_contacts_of(batches[thread], particles, first, last);
   });
   for (int t = 0; t < threads; t++)
-    if (ranges[t].first < ranges[t].second) system->add_work(batches[t].work);
+    if (ranges[t].first < ranges[t].second) system->account().add(batches[t].work);
 }
 
 void FixWallGranTalus::survey_contacts()

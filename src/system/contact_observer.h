@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Someone who asks about contacts: a compute. As long as one is registered with GranularSystem, the
+// Someone who asks about contacts: a compute. As long as one is registered with EnergyAccount, the
 // work of contacts is accounted for in each step if it asks for that, and the contacts of the last
 // step of a run can still be asked for behind it.
 

@@ -46,7 +46,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    monitors(lmp), exchange_switch(lmp), report(lmp)
+    monitors(lmp), energies(lmp), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
 }
@@ -84,7 +84,7 @@ void GranularSystem::detach(const Pair *one)
   book = LawBook{};
   laws_current = false;
   announced.clear();
-  settled = account.sum = EnergyByCause{};
+  energies.clear();
   behind_run.reset();
   kept.reset();
   pipeline.emplace();

@@ -22,8 +22,8 @@
 #include "exchange/record_packer.h"
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
-#include "system/contact_observer.h"
 #include "system/effective_masses.h"
+#include "system/energy_account.h"
 #include "system/exchange_switch.h"
 #include "system/large_bodies.h"
 #include "system/largest_radii.h"
@@ -221,25 +221,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Of those of a restart file of LAMMPS' own styles; not on ranks that have read none.
   void set_order_of_histories(int order);
 
-  // ---- energies
+  // ---- energies and contacts
 
-  /// Until drop_observer(): in the constructor of a compute, and in its destructor.
-  void add_observer(ContactObserver *one) { observers.push_back(one); }
-  void drop_observer(const ContactObserver *one);
-  /// In this step the work of contacts is accounted for.
-  bool accounts_for_work() const;
-  /// For a step: where it goes by particle.
-  const std::vector<double **> &work_lists() const { return account.by_particle; }
-  /// What contacts of this rank have taken in steps that were accounted for, up to the time of the
-  /// velocities.
-  EnergyByCause work() const { return settled + counted_of_last_step() * account.sum; }
-  /// Of what the last step has taken that part is in the velocities by now: half of it if an
-  /// integrator has given the second half of the kick, else nothing.
-  double counted_of_last_step() const;
-  /// See WorkAccount.
-  double work_time_at_setup() const;
-  /// Of a large body or wall in a step.
-  void add_work(const EnergyByCause &its) { account.sum += its; }
+  EnergyAccount &account() { return energies; }
   /// visit(contact) for contacts of the last step on this rank, of pairs, large bodies and walls,
   /// those with a ghost as well. Behind a run only as long as someone observes them.
   void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
@@ -301,7 +285,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void complete_step();
   double moved_in_arrays() const;
   void find_changes(ContactStep &step);
-  void begin_account(bool again);
   int groups_with_changes() const;
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
@@ -330,9 +313,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::ContactMonitor monitor;
   LAMMPS_NS::TimeStepMonitor time_step;
   LAMMPS_NS::RunMonitor monitors;
-  std::vector<ContactObserver *> observers;
-  EnergyByCause settled;    // before the step of the account
-  WorkAccount account;
+  EnergyAccount energies;
   /// A contact of the last run, whose particles may have other places by now.
   struct KeptContact {
     SurveyedContact contact;

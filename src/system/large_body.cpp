@@ -181,9 +181,7 @@ BodyStep LargeBody::step_of(bool advance)
   step.lag = system.lag();
   step.advance = advance;
   step.threads = comm->nthreads;
-  account.sum = EnergyByCause{};
-  account.time_at_setup = system.work_time_at_setup();
-  account.by_particle = system.work_lists();
+  account = system.account().part_of_step();
   step.account = accounts() ? &account : nullptr;
   step.exact = moves ? &exact : nullptr;
   step.touched = touched;
@@ -219,7 +217,7 @@ void LargeBody::compute(bool advance, double *virial)
   if (accounts()) {
     const double before = std::exchange(last_dissipated, account.sum.total());
     if (advance) dissipated += before;
-    system.add_work(account.sum);
+    system.account().add(account.sum);
   }
   if (already_frozen) clear_frozen();
 }
@@ -233,7 +231,7 @@ BodyFindings LargeBody::findings_now() const
 
 bool LargeBody::accounts() const
 {
-  return is_asked || was_asked || system.accounts_for_work();
+  return is_asked || was_asked || system.account().is_asked();
 }
 
 void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visit)
@@ -258,7 +256,7 @@ BodyFindings LargeBody::find_worst()
 double LargeBody::energy()
 {
   is_asked = true;
-  double here = dissipated + system.counted_of_last_step() * last_dissipated, all;
+  double here = dissipated + system.account().counted_of_last_step() * last_dissipated, all;
   for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
     here += one.stored.normal - one.stored.tearing;
   });

@@ -58,7 +58,7 @@ ChangeRecord *GranularSystem::velocity_changes()
 
 bool GranularSystem::needs_changes() const
 {
-  return order() == 2 || accounts_for_work() || large_bodies.account();
+  return order() == 2 || energies.is_asked() || large_bodies.account();
 }
 
 std::string GranularSystem::reason_against_second_order() const
@@ -128,32 +128,6 @@ DeepestContact GranularSystem::deepest_contact() const
 double GranularSystem::share_without_proxies() const
 {
   return pipeline->in_two_phases() ? pipeline->early_share() : 0.0;
-}
-
-void GranularSystem::drop_observer(const ContactObserver *one)
-{
-  observers.erase(std::remove(observers.begin(), observers.end(), one), observers.end());
-}
-
-bool GranularSystem::accounts_for_work() const
-{
-  return std::any_of(observers.begin(), observers.end(),
-                     [](const ContactObserver *one) { return one->asks_for_work(); });
-}
-
-double GranularSystem::work_time_at_setup() const
-{
-  if (update->setupflag == 0) return -1.0;
-  double share = 1.0;
-  for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix); ours && ours->integrates())
-      share = std::min(share, ours->next_kick_in_steps());
-  return share * update->dt;
-}
-
-double GranularSystem::counted_of_last_step() const
-{
-  return modify->n_final_integrate > 0 ? 0.5 : 0.0;
 }
 
 static constexpr const char *kept_are_old =
@@ -256,7 +230,7 @@ std::uint64_t GranularSystem::digest_of_state() const
 void GranularSystem::end_contacts_of_run()
 {
   behind_run.reset();
-  if (!observers.empty()) behind_run = digest_of_state();
+  if (energies.has_observers()) behind_run = digest_of_state();
 }
 
 /* What bodies and walls know may be of particles that are gone. */

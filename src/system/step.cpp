@@ -111,10 +111,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   const bool setting_up = update->setupflag != 0;
   const bool limits = style.limits_at_setup && !pipeline->law_table().second_order();
   ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, report,
-                   accounts_for_work() ? &account : nullptr};
-  account.by_particle.clear();
-  account.time_at_setup = work_time_at_setup();
-  begin_account(setting_up);
+                   energies.begin_step(setting_up)};
   behind_run.reset();
   kept.reset();
   step.lag = lag();
@@ -147,20 +144,6 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   monitors.look(RunMonitor::Moment::SETUP);
 }
 
-/* The step before has been taken; or its forces are found again for the next run. */
-
-void GranularSystem::begin_account(bool again)
-{
-  if (!again) settled += account.sum;
-  account.sum = EnergyByCause{};
-  for (ContactObserver *one : observers)
-    if (double **rows = one->work_by_particle()) account.by_particle.push_back(rows);
-  for (double **rows : account.by_particle)
-    in_ranges(atom->nlocal, comm->nthreads, [rows, again](int, int begin, int end) {
-      for (int i = begin; i < end; i++) begin_work(rows[i], again);
-    });
-}
-
 /* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
 
 void GranularSystem::find_changes(ContactStep &step)
@@ -184,7 +167,7 @@ float GranularSystem::weight_of_changes(bool setting_up) const
   constexpr int every = 4;
   if (!pipeline->keeps_changes()) return 0.0F;
   if (setting_up || pipeline->law_table().second_order()) return 1.0F;
-  return accounts_for_work() && update->ntimestep % every == 0 ? every : 0.0F;
+  return energies.is_asked() && update->ntimestep % every == 0 ? every : 0.0F;
 }
 
 /* Bits of the groups whose integrators keep them. */

@@ -1,0 +1,59 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The work that contacts take from particles, over all steps in which somebody asks for it: of
+// pairs, of large bodies and of walls. GranularSystem begins each step; those that compute contacts
+// add theirs, and computes ask for the sum, or receive it by particle (see contact_observer.h).
+//
+// Energies are in units of the script.
+
+#ifndef TALUS_SYSTEM_ENERGY_ACCOUNT_H
+#define TALUS_SYSTEM_ENERGY_ACCOUNT_H
+
+#include "laws/contact_energy.h"
+#include "system/contact_observer.h"
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace Talus {
+
+class EnergyAccount : protected LAMMPS_NS::Pointers {
+ public:
+  explicit EnergyAccount(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// Until drop_observer(): in the constructor of a compute, and in its destructor.
+  void add_observer(ContactObserver *one) { observers.push_back(one); }
+  void drop_observer(const ContactObserver *one);
+  bool has_observers() const { return !observers.empty(); }
+  /// In this step the work of contacts is accounted for.
+  bool is_asked() const;
+
+  /// A pair style begins: nothing has been taken yet.
+  void clear() { settled = of_step.sum = EnergyByCause{}; }
+  /// Before the contacts of a step are computed, or `again` those of the last one, for the next run.
+  /// Returns where the contacts between particles add theirs, or nullptr if nobody asks.
+  WorkAccount *begin_step(bool again);
+  /// For the contacts of a large body or wall in a step: an empty sum, and the same particles.
+  WorkAccount part_of_step() const;
+  /// The sum of such a part.
+  void add(const EnergyByCause &its) { of_step.sum += its; }
+
+  /// What contacts of this rank have taken in steps that were accounted for, up to the time of the
+  /// velocities.
+  EnergyByCause work() const { return settled + counted_of_last_step() * of_step.sum; }
+  /// Of what the last step has taken that part is in the velocities by now: half of it if an
+  /// integrator has given the second half of the kick, else nothing.
+  double counted_of_last_step() const;
+
+ private:
+  double time_at_setup() const;
+
+  std::vector<ContactObserver *> observers;
+  EnergyByCause settled;    // before the step
+  WorkAccount of_step;
+};
+
+}    // namespace Talus
+
+#endif
