@@ -170,7 +170,7 @@ void FixLargeBody::follow_region()
 
 void FixLargeBody::post_integrate()
 {
-  motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{}, system->lag());
+  motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{}, system->integrators().lag());
 }
 
 void FixLargeBody::setup_post_neighbor()

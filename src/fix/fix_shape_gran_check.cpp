@@ -28,7 +28,7 @@ void FixShapeGran::check_scene()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran cannot be used with run_style respa: use run_style verlet");
-  if (system->order() == 2)
+  if (system->integrators().order() == 2)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes "
                "nve/sphere/symplectic and rigid/small/symplectic");

@@ -14,6 +14,45 @@
 #include <vector>
 
 using namespace LAMMPS_NS;
+using Talus::GranularSystem;
+using Talus::LargeBody;
+
+namespace {
+
+/* "", or which contacts of the run are not of second order, and the cure, for people. */
+
+std::string reason_of_contacts(GranularSystem &system)
+{
+  if (!system.pair_style_is_alone())
+    return "contacts of particles are not those of a pair style of Talus: use pair_style "
+           "gran/penalty, or a granular style with the suffix talus, and not hybrid";
+  const Talus::LawBook &laws = system.laws();
+  for (int i = 1; i <= laws.num_types(); i++)
+    for (int j = i; j <= laws.num_types(); j++) {
+      if (!laws.known(i, j)) continue;
+      const std::string its = laws.reason_against_second_order(i, j);
+      if (!its.empty()) return fmt::format("the contact of types {} and {} {}", i, j, its);
+    }
+  for (LargeBody *body : system.bodies().in_order()) {
+    const std::string its = body->reason_against_second_order();
+    if (!its.empty()) return body->name() + " " + its;
+  }
+  return "";
+}
+
+/* What is of first order nevertheless. */
+
+std::vector<std::string> notes_on_bodies(GranularSystem &system)
+{
+  std::vector<std::string> notes;
+  for (LargeBody *body : system.bodies().in_order()) {
+    const std::string its = body->note_on_second_order();
+    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+  }
+  return notes;
+}
+
+}    // namespace
 
 void SecondOrderCheck::set_half(LAMMPS *lmp, const char *title, StartTime &start, bool says_start)
 {
@@ -46,7 +85,7 @@ void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
                  "{} order 2: contacts with fix {} ({}) are of first order: use fix large/body, or "
                  "order 1",
                  title, other->id, other->style);
-  const std::string reason = system.reason_against_second_order();
+  const std::string reason = reason_of_contacts(system);
   if (!reason.empty())
     error->all(FLERR, Error::NOLASTLINE, "{} order 2: {}; or use order 1", title, reason);
   if (!announced) announce(system);
@@ -55,7 +94,7 @@ void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
 
 void SecondOrderCheck::announce(Talus::GranularSystem &system)
 {
-  const std::vector<std::string> notes = system.notes_on_second_order();
+  const std::vector<std::string> notes = notes_on_bodies(system);
   if (comm->me) return;
   utils::logmesg(lmp,
                  "{} {}: order 2: errors of {} contacts are of second order "

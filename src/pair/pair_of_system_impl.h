@@ -70,7 +70,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
   if (const Talus::ChangeRecord *changes = system->velocity_changes()) {
-    s.lag = system->lag();
+    s.lag = system->integrators().lag();
     Talus::set_changes(s, changes[i], changes[j], ri, rj);
   }
   if (atom->temperature_flag)

@@ -64,7 +64,7 @@ void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
 void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
 {
   law_period = period_of_shapes = rayleigh = hertz = stable = 0.0;
-  order = GranularSystem::of(lmp)->order();
+  order = GranularSystem::of(lmp)->integrators().order();
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
 }

@@ -3,11 +3,10 @@
 #include "system/energy_account.h"
 
 #include "base/in_parallel.h"
-#include "system/system_fix.h"
+#include "system/integrators.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "fix.h"
 #include "modify.h"
 #include "update.h"
 
@@ -48,16 +47,11 @@ WorkAccount EnergyAccount::part_of_step() const
   return {time_at_setup(), EnergyByCause{}, of_step.by_particle};
 }
 
-/* See WorkAccount: the shortest kick that comes next. */
+/* See WorkAccount. */
 
 double EnergyAccount::time_at_setup() const
 {
-  if (update->setupflag == 0) return -1.0;
-  double share = 1.0;
-  for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix); ours && ours->integrates())
-      share = std::min(share, ours->next_kick_in_steps());
-  return share * update->dt;
+  return update->setupflag == 0 ? -1.0 : integrators.next_kick();
 }
 
 double EnergyAccount::counted_of_last_step() const

@@ -18,9 +18,14 @@
 
 namespace Talus {
 
+class Integrators;
+
 class EnergyAccount : protected LAMMPS_NS::Pointers {
  public:
-  explicit EnergyAccount(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  EnergyAccount(LAMMPS_NS::LAMMPS *lmp, const Integrators &of_script) :
+      Pointers(lmp), integrators(of_script)
+  {
+  }
 
   /// Until drop_observer(): in the constructor of a compute, and in its destructor.
   void add_observer(ContactObserver *one) { observers.push_back(one); }
@@ -49,6 +54,7 @@ class EnergyAccount : protected LAMMPS_NS::Pointers {
  private:
   double time_at_setup() const;
 
+  const Integrators &integrators;
   std::vector<ContactObserver *> observers;
   EnergyByCause settled;    // before the step
   WorkAccount of_step;

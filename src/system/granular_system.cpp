@@ -46,7 +46,7 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    monitors(lmp), energies(lmp), exchange_switch(lmp), report(lmp)
+    monitors(lmp), movers(lmp), energies(lmp, movers), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
 }
@@ -194,7 +194,7 @@ const ContactSpec *GranularSystem::own_law(int type) const
 
 void GranularSystem::prepare_laws()
 {
-  const LawTable table = book.table(order());
+  const LawTable table = book.table(movers.order());
   store->keep_impacts(table.has_impact());
   pipeline->set_laws(table);
   laws_current = true;

@@ -25,6 +25,7 @@
 #include "system/effective_masses.h"
 #include "system/energy_account.h"
 #include "system/exchange_switch.h"
+#include "system/integrators.h"
 #include "system/large_bodies.h"
 #include "system/largest_radii.h"
 #include "system/neighbor_source.h"
@@ -127,22 +128,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// Waits for proxies that are under way.
   void finish_proxies();
 
-  // ---- order
-
-  /// Of the integrators of the script in the time step: 1, or 2 if one is.
-  int order() const;
-  /// "", or which contacts of the run are not of second order, and the cure, for people. In init()
-  /// of a fix, after that of the pair style.
-  std::string reason_against_second_order() const;
-  /// What is of first order nevertheless.
-  std::vector<std::string> notes_on_second_order() const;
+  const Integrators &integrators() const { return movers; }
   /// Where integrators keep the changes of velocities of particles in the arrays of the host,
   /// nullptr if they are not needed; see ParticleRecords::change.
   ChangeRecord *velocity_changes();
   /// Second order does, and the work of contacts.
   bool needs_changes() const;
-  /// The time by which velocities are behind positions, with an integrator of second order.
-  double lag() const;
 
   // ---- gravity
 
@@ -280,12 +271,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void find_weightless();
   void change_order_of_histories();
   NeighborView without_shapes(const NeighborView &all);
-  int mover_of(int i) const;
-  std::string reason_of_integrators() const;
   void complete_step();
   double moved_in_arrays() const;
   void find_changes(ContactStep &step);
-  int groups_with_changes() const;
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
   void deliver_positions();
@@ -313,6 +301,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::ContactMonitor monitor;
   LAMMPS_NS::TimeStepMonitor time_step;
   LAMMPS_NS::RunMonitor monitors;
+  Integrators movers;
   EnergyAccount energies;
   /// A contact of the last run, whose particles may have other places by now.
   struct KeptContact {
@@ -338,12 +327,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string host_reason = "no run yet";
   Residence next_residence = Residence::HOST;
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  struct Integrator {
-    LAMMPS_NS::Fix *fix;
-    SystemFix *ours;    ///< the same
-  };
-  std::vector<Integrator> integrators;    // of Talus, in this run
-  std::vector<RecordStep> steps;          // of the first of these, in this step
   SystemGravity *gravity = nullptr;
   SystemShapes *shaped = nullptr;
   LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there

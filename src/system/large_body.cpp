@@ -58,7 +58,7 @@ void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
 
 void LargeBody::keep_history()
 {
-  const bool second_order = system.order() == 2;
+  const bool second_order = system.integrators().order() == 2;
   const auto any = [this, second_order](bool (ContactLaw::*has)() const) {
     return std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
       return (s.law.*has)() || (second_order && (second_order_law(s.law).*has)());
@@ -81,7 +81,7 @@ void LargeBody::init()
   masses.find_fixes();
   find_frozen();
   set_laws();
-  if (system.order() == 1) contacts.history.forget_normals();
+  if (system.integrators().order() == 1) contacts.history.forget_normals();
   if (order_of_history == 0) order_of_history = system.order_of_histories();    // of a restart file
 }
 
@@ -114,10 +114,10 @@ void LargeBody::list_particles()
   if (its_shape->wants_focus()) its_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
-  if (order_of_history != 0 && order_of_history != system.order())
-    contacts.change_order(system.order(), atom->type,
+  if (order_of_history != 0 && order_of_history != system.integrators().order())
+    contacts.change_order(system.integrators().order(), atom->type,
                           [this](int type) -> const ContactLaw & { return specs[type].law; });
-  order_of_history = system.order();
+  order_of_history = system.integrators().order();
 }
 
 /* Particles with a shape may be asked for anywhere: which are near is found in every step. */
@@ -178,7 +178,7 @@ BodyStep LargeBody::step_of(bool advance)
 {
   BodyStep step;
   step.dt = update->dt;
-  step.lag = system.lag();
+  step.lag = system.integrators().lag();
   step.advance = advance;
   step.threads = comm->nthreads;
   account = system.account().part_of_step();

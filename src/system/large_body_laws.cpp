@@ -31,7 +31,7 @@ void LargeBody::set_laws()
   LawTable table;
   table.reset(atom->ntypes);
   const std::vector<ContactSpec> as_given = specs;
-  if (system.order() == 2)
+  if (system.integrators().order() == 2)
     for (ContactSpec &one : specs) one.law = second_order_law(one.law);
   for (int i = 1; i <= atom->ntypes; i++)    // only the rows (t, t) are used
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));

@@ -34,23 +34,6 @@ std::string GranularSystem::unsupported_settings() const
   return "";
 }
 
-int GranularSystem::order() const
-{
-  int highest = 1;
-  for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix)) highest = std::max(highest, ours->order());
-  return highest;
-}
-
-double GranularSystem::lag() const
-{
-  for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = SystemFix::of(fix);
-    if (ours && ours->order() == 2) return ours->lag();
-  }
-  return 0.0;
-}
-
 ChangeRecord *GranularSystem::velocity_changes()
 {
   return store ? store->all_changes() : nullptr;
@@ -58,35 +41,7 @@ ChangeRecord *GranularSystem::velocity_changes()
 
 bool GranularSystem::needs_changes() const
 {
-  return order() == 2 || energies.is_asked() || large_bodies.account();
-}
-
-std::string GranularSystem::reason_against_second_order() const
-{
-  if (!pair_style_is_alone())
-    return "contacts of particles are not those of a pair style of Talus: use pair_style "
-           "gran/penalty, or a granular style with the suffix talus, and not hybrid";
-  for (int i = 1; i <= book.num_types(); i++)
-    for (int j = i; j <= book.num_types(); j++) {
-      if (!book.known(i, j)) continue;
-      const std::string its = book.reason_against_second_order(i, j);
-      if (!its.empty()) return fmt::format("the contact of types {} and {} {}", i, j, its);
-    }
-  for (LargeBody *body : large_bodies.in_order()) {
-    const std::string its = body->reason_against_second_order();
-    if (!its.empty()) return body->name() + " " + its;
-  }
-  return "";
-}
-
-std::vector<std::string> GranularSystem::notes_on_second_order() const
-{
-  std::vector<std::string> notes;
-  for (LargeBody *body : large_bodies.in_order()) {
-    const std::string its = body->note_on_second_order();
-    if (!its.empty()) notes.push_back(body->name() + ": " + its);
-  }
-  return notes;
+  return movers.order() == 2 || energies.is_asked() || large_bodies.account();
 }
 
 HistoryStore &GranularSystem::histories()
@@ -151,7 +106,7 @@ void GranularSystem::for_each_contact(Ask ask, const ContactPipeline::VisitConta
 void GranularSystem::visit_contacts(Ask ask, const ContactPipeline::VisitContact &visit)
 {
   if (pipeline->num_particles() == atom->nlocal + atom->nghost)
-    pipeline->for_each_contact(update->dt, lag(), ask, visit);
+    pipeline->for_each_contact(update->dt, movers.lag(), ask, visit);
   if (shaped) shaped->for_each_contact_of_pairs(ask, visit);
   int number = 0;
   for (const auto &fix : modify->get_fix_list()) {

@@ -95,7 +95,7 @@ void GranularSystem::set_order_of_histories(int order)
 
 void GranularSystem::change_order_of_histories()
 {
-  const int before = store->order_of_histories(), now = order();
+  const int before = store->order_of_histories(), now = movers.order();
   store->set_order_of_histories(now);
   if (before == 0 || before == now) return;
   pipeline->change_order(now,

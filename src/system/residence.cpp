@@ -31,18 +31,6 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 namespace Talus {
-namespace {
-
-constexpr std::size_t most_integrators = 32;
-
-bool any_rank(bool here, MPI_Comm world)
-{
-  int mine = here, all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_LOR, world);
-  return all != 0;
-}
-
-}    // namespace
 
 void GranularSystem::start_run(bool pairs_computed)
 {
@@ -79,12 +67,9 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
     return "the exchange is the one of LAMMPS: " + exchange_switch.reason_for_stock();
 
   at_end_of_step.clear();
-  integrators.clear();
-  steps.clear();    // an error may have left some
+  movers.start_run();
   for (Fix *fix : modify->get_fix_list()) {
     const int mask = modify->get_fix_mask(fix);
-    auto *ours = SystemFix::of(fix);
-    if (ours && ours->integrates()) integrators.push_back({fix, ours});
     const std::string its = reason_of_fix(fix, mask);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
     if ((mask & END_OF_STEP) == 0 || fix == store) continue;
@@ -93,29 +78,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
              "): looks at particles at the end of every step: a larger Nevery";
     at_end_of_step.push_back(fix);
   }
-  return reason_of_integrators();
-}
-
-/* Particles that come later, from fix pour, belong to the group all and to one other. */
-
-std::string GranularSystem::reason_of_integrators() const
-{
-  if (integrators.empty())
-    return "no fix nve/sphere/symplectic or nve/sphere/talus moves particles";
-  if (integrators.size() > most_integrators) return "many fixes move particles";
-  constexpr int all = 1;
-  for (std::size_t n = 1; n < integrators.size(); n++)
-    for (std::size_t m = 0; m < n; m++) {
-      if (integrators[n].ours == shaped || integrators[m].ours == shaped) continue;    // sees to it
-      const int one = integrators[m].fix->groupbit, other = integrators[n].fix->groupbit;
-      bool both = one == other || one == all || other == all;
-      for (int i = 0; i < atom->nlocal && !both; i++)
-        both = (atom->mask[i] & one) && (atom->mask[i] & other);
-      if (any_rank(both, world))
-        return std::string("fixes ") + integrators[m].fix->id + " and " + integrators[n].fix->id +
-               " may move the same particles";
-    }
-  return "";
+  return movers.reason_against_records(shaped);
 }
 
 /* A fix of the host that is called in every step may read or change anything. Fix freeze and OMP
@@ -205,7 +168,7 @@ void GranularSystem::return_to_host(bool with_forces)
   const bool between_steps = with_forces && !pipeline->is_moving();
   const bool any = atom->nlocal > 0;
   pipeline->complete_move();
-  for (const Integrator &one : integrators) one.ours->leave_records();
+  movers.leave_records();
   if (pipeline->keeps_changes()) pipeline->write_changes(store->all_changes());
   pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
                          any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,

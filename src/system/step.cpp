@@ -32,30 +32,15 @@ namespace Talus {
 
 void GranularSystem::advance(const RecordStep &step)
 {
-  steps.push_back(step);
-  if (steps.size() < integrators.size()) return;
+  if (!movers.give(step)) return;
   if (!pipeline->can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
-    pipeline->prepare_to_move([this](int i) { return mover_of(i); }, sent,
+    pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, sent,
                               then && atom->nlocal ? then[0] : nullptr);
   }
   update_gravity();
-  pipeline->advance(steps);
+  pipeline->advance(movers.steps());
   moved_in_records = update->ntimestep;
-  steps.clear();
-}
-
-/* Of the integrators of the run, -1 if none does, or does not any more: their groups have no
-   common members. */
-
-int GranularSystem::mover_of(int i) const
-{
-  for (std::size_t n = 0; n < integrators.size(); n++) {
-    const auto &[fix, ours] = integrators[n];
-    if (!(atom->mask[i] & fix->groupbit) || !ours->moves_particle(i)) continue;
-    return ours->places_particles() ? -1 : static_cast<int>(n);
-  }
-  return -1;
 }
 
 void GranularSystem::update_gravity()
@@ -114,7 +99,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
                    energies.begin_step(setting_up)};
   behind_run.reset();
   kept.reset();
-  step.lag = lag();
+  step.lag = movers.lag();
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
@@ -135,7 +120,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
     pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
   if (step.deliver && pipeline->keeps_changes()) {
     if (!step.read) pipeline->write_changes(store->all_changes());
-    store->remember_velocities(groups_with_changes());
+    store->remember_velocities(movers.groups_with_changes());
   }
   if (shaped) shaped->compute_contacts(step);
   store->pairs_are_current();
@@ -155,7 +140,7 @@ void GranularSystem::find_changes(ContactStep &step)
   if (!pipeline->keeps_changes()) return;
   const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
   if (moved_in_arrays && !update->setupflag)
-    store->follow_velocities(groups_with_changes(), shaped);
+    store->follow_velocities(movers.groups_with_changes(), shaped);
   step.weight_of_changes = weight_of_changes(update->setupflag != 0);
   if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(store);
 }
@@ -168,16 +153,6 @@ float GranularSystem::weight_of_changes(bool setting_up) const
   if (!pipeline->keeps_changes()) return 0.0F;
   if (setting_up || pipeline->law_table().second_order()) return 1.0F;
   return energies.is_asked() && update->ntimestep % every == 0 ? every : 0.0F;
-}
-
-/* Bits of the groups whose integrators keep them. */
-
-int GranularSystem::groups_with_changes() const
-{
-  int bits = 0;
-  for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix); ours && ours->keeps_changes()) bits |= fix->groupbit;
-  return bits;
 }
 
 /* In two phases pairs without proxies are computed while these are under way. */
