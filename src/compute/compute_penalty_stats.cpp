@@ -100,7 +100,7 @@ void ComputePenaltyStats::compute_vector()
   mine[CANDIDATES] = system->count_candidates();
   mine[CONTACTS] = found.contacts;
   double largest = std::max(system->deepest_contact().overlap_ratio, found.deepest_in_body);
-  if (Talus::ProxyUpdates *proxies = system->proxy_updates()) {
+  if (Talus::ProxyUpdates *proxies = system->exchange().direct()) {
     const Talus::ExchangeCounters &c = proxies->counters();
     mine[MESSAGES] = proxies->messages_per_exchange();
     mine[BYTES] = proxies->bytes_per_exchange();

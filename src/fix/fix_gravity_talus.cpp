@@ -121,7 +121,7 @@ void FixGravityTalus::post_force(int vflag)
 
   eflag = 0;
   egrav = 0.0;
-  const int frozenbits = system->frozen_groups();
+  const int frozenbits = system->masses().frozen_groups();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double m = atom->rmass[i], *x = atom->x[i];

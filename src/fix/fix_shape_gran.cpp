@@ -184,7 +184,7 @@ ShapedView FixShapeGran::view() const
           atom->omega[0],
           atom->radius,
           atom->rmass,
-          system->mass_override(),
+          system->masses().override_or_null(),
           atom->type,
           quat[0],
           atom->f[0],
@@ -196,7 +196,7 @@ ShapedView FixShapeGran::view() const
 
 void FixShapeGran::send_orientations()
 {
-  const ProxyUpdates *direct = system->proxy_updates();
+  const ProxyUpdates *direct = system->exchange().direct();
   if (direct && direct->has_plan() && !orientations_were_set) return;
   message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);

@@ -196,7 +196,7 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
 
   if (dynamic) find_wall_velocity(particles.position(i), ic);
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
-  batch.add({i, separation, contact.r, radius, system->mass_with_walls(i), contact.radius,
+  batch.add({i, separation, contact.r, radius, system->masses().of_body(i), contact.radius,
              particles.velocity(i), velocity, particles.omega(i),
              temperature_difference(particles, i), history, contact.iwall, particles.change(i)});
   if (batch.is_full()) deliver(batch, particles);

@@ -182,7 +182,7 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
     }
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
-    batch.add({i, g.d, std::sqrt(squared), radius, system->mass_with_walls(i), g.radius,
+    batch.add({i, g.d, std::sqrt(squared), radius, system->masses().of_body(i), g.radius,
                particles.velocity(i), velocity, particles.omega(i),
                temperature_difference(particles, i), use_history ? history_one[i] : nullptr, g.part,
                particles.change(i)});

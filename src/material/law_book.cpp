@@ -15,6 +15,7 @@ void LawBook::resize(int ntypes)
 {
   types = ntypes;
   entries.assign((types + 1) * (types + 1), Entry{});
+  changes++;
 }
 
 bool LawBook::can_mix(int i, int j) const

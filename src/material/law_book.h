@@ -23,9 +23,21 @@ class LawBook {
   int num_types() const { return types; }
 
   /// Sets the pair (i, j) with i <= j.
-  void set(int i, int j, const ContactSpec &spec) { entry(i, j) = {spec, true}; }
+  void set(int i, int j, const ContactSpec &spec)
+  {
+    entry(i, j) = {spec, true};
+    changes++;
+  }
   bool is_set(int i, int j) const { return entry(i, j).set; }
   const ContactSpec &spec(int i, int j) const { return entry(i, j).spec; }
+
+  /// Of a type with itself; nullptr if it is not set, or there is no such type.
+  const ContactSpec *own(int type) const
+  {
+    return type <= types && is_set(type, type) ? &spec(type, type) : nullptr;
+  }
+  /// Another number after each change of a pair.
+  int revision() const { return changes; }
 
   /// Both types are set and have the same law, so that the pair can be mixed. Material laws must
   /// also agree on whether kt and gt are numbers or NULL: the two have no common meaning.
@@ -64,7 +76,7 @@ class LawBook {
   Entry &entry(int i, int j) { return entries[i * (types + 1) + j]; }
   const Entry &entry(int i, int j) const { return entries[i * (types + 1) + j]; }
 
-  int types = 0;
+  int types = 0, changes = 0;
   std::vector<Entry> entries;
 };
 

@@ -69,11 +69,11 @@ void PairGranPenalty::init_style()
   check_host();
   system->init_pair_style();
   const std::string lists = system->reason_for_lists_of_host();
-  if (!lists.empty() && system->largest_reach() > neighbor->skin)
+  if (!lists.empty() && system->range().largest_reach() > neighbor->skin)
     error->all(FLERR,
                "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
                "which are used because of {}: use a skin of at least {:g} in the neighbor command",
-               lists, system->largest_reach());
+               lists, system->range().largest_reach());
 }
 
 void PairGranPenalty::check_host()
@@ -116,7 +116,7 @@ double PairGranPenalty::init_one(int i, int j)
                  "add 'pair_coeff {} {} ...'",
                  i, j, i, j);
   }
-  return system->cutoff(i, j);
+  return system->range().cutoff(i, j);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -163,5 +163,5 @@ double PairGranPenalty::atom2cut(int i)
 
 double PairGranPenalty::radii2cut(double r1, double r2)
 {
-  return r1 + r2 + system->largest_reach();
+  return r1 + r2 + system->range().largest_reach();
 }

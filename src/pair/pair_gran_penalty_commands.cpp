@@ -59,5 +59,4 @@ void PairGranPenalty::coeff(int narg, char **arg)
                "pair_coeff gran/penalty: no pair of types in '{} {}', write the lower type "
                "first",
                arg[0], arg[1]);
-  system->laws_have_changed();
 }

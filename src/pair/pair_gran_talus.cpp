@@ -62,7 +62,6 @@ template <class Stock> void PairGranTalus<Stock>::set_laws()
   laws.resize(this->atom->ntypes);
   for (int i = 1; i <= this->atom->ntypes; i++)
     for (int j = i; j <= this->atom->ntypes; j++) laws.set(i, j, spec);
-  this->system->laws_have_changed();
 }
 
 template <class Stock>

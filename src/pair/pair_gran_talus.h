@@ -29,7 +29,7 @@ template <class Stock> class PairGranTalus : public AcceleratedPair<Stock> {
  protected:
   std::string reason_of_models() const override { return ""; }
   void set_laws() override;
-  double init_pair_of_types(int i, int j) override { return this->system->cutoff(i, j); }
+  double init_pair_of_types(int i, int j) override { return this->system->range().cutoff(i, j); }
   std::string stock_history() const override { return this->history ? " 0 1 2" : ""; }
   void report_single(const std::optional<SinglePair> &pair) override;
 };

@@ -67,7 +67,6 @@ void PairGranularTalus::set_laws()
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
       if (setflag[i][j]) laws.set(i, j, spec_of_model(model_of(i, j)));
-  system->laws_have_changed();
   if (!conducts_heat() || single_extra > stock_extra) return;
   single_extra = stock_extra + 1;    // and the heat flow
   delete[] svector;
@@ -87,15 +86,14 @@ void PairGranularTalus::reset_dt()
 
 double PairGranularTalus::init_pair_of_types(int i, int j)
 {
-  const LargestRadii &radii = system->largest_radii();
+  const LargestRadii &radii = system->range().radii();
   for (int type = 1; type <= atom->ntypes; type++) {
     maxrad_dynamic[type] = radii.of_free(type);
     maxrad_frozen[type] = radii.of_frozen(type);
   }
   const double stock = PairGranular::init_one(i, j);
   system->laws().set(i, j, spec_of_model(model_of(i, j)));
-  system->laws_have_changed();
-  return std::max(stock, system->cutoff(i, j));
+  return std::max(stock, system->range().cutoff(i, j));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -131,7 +129,7 @@ double PairGranularTalus::atom2cut(int i)
 
 double PairGranularTalus::radii2cut(double r1, double r2)
 {
-  return in_system() ? r1 + r2 + system->largest_reach() : PairGranular::radii2cut(r1, r2);
+  return in_system() ? r1 + r2 + system->range().largest_reach() : PairGranular::radii2cut(r1, r2);
 }
 #endif
 

@@ -62,7 +62,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.overlap = ri + rj - r;
   s.velocity = row(atom->v[i]) - row(atom->v[j]);
   s.surface_rotation = ri * row(atom->omega[i]) + rj * row(atom->omega[j]);
-  s.inverse_mass = 1.0 / system->mass_in_contacts(i) + 1.0 / system->mass_in_contacts(j);
+  s.inverse_mass = 1.0 / system->masses().mass(i) + 1.0 / system->masses().mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
   s.circle = Talus::circle_of_intersection(ri, rj, s.overlap);
@@ -100,13 +100,13 @@ void PairOfSystem<Base>::describe_pair(const std::optional<SinglePair> &pair, do
 
 template <class Base> int PairOfSystem<Base>::pack_masses(int n, const int *send, double *buf) const
 {
-  for (int k = 0; k < n; k++) buf[k] = system->mass_override()[send[k]];
+  for (int k = 0; k < n; k++) buf[k] = system->masses().override_or_null()[send[k]];
   return n;
 }
 
 template <class Base> void PairOfSystem<Base>::unpack_masses(int n, int first, const double *buf)
 {
-  std::copy(buf, buf + n, system->mass_override() + first);
+  std::copy(buf, buf + n, system->masses().override_or_null() + first);
 }
 
 }    // namespace LAMMPS_NS

@@ -35,7 +35,7 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
     return std::string("pair style ") + lmp->force->pair_style +
            " does not wait for proxies: only one of Talus on its own does";
   if (!pairs_computed) return "'pair_modify compute no' is set";
-  if (!system->proxy_updates())
+  if (!system->exchange().direct())
     return "the exchange is the one of LAMMPS: " + system->exchange().reason_for_stock();
   for (Fix *fix : lmp->modify->get_fix_list()) {
     if ((lmp->modify->get_fix_mask(fix) & FixConst::PRE_FORCE) && may_read_proxies(fix))

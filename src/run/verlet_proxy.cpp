@@ -88,14 +88,14 @@ void VerletProxy::decide_on_overlap()
   if (comm->me == 0 && !hazard.empty() && has_proxies && hazard != announced)
     error->warning(FLERR, "Run style {}: overlap is off: {}", update->integrate_style, hazard);
   announced = hazard;
-  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->set_overlap(overlaps);
+  if (ProxyUpdates *proxies = system->exchange().direct()) proxies->set_overlap(overlaps);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void VerletProxy::run(int n)
 {
-  if (ProxyUpdates *proxies = system->proxy_updates()) {
+  if (ProxyUpdates *proxies = system->exchange().direct()) {
     at_start = proxies->counters();
     proxies->set_overlap(overlaps);
   }
@@ -231,7 +231,7 @@ void VerletProxy::compute_forces()
     timer->stamp(Timer::PAIR);
   }
   // the pair style has done that; everything below may read proxies
-  if (ProxyUpdates *proxies = system->proxy_updates()) proxies->finish();
+  if (ProxyUpdates *proxies = system->exchange().direct()) proxies->finish();
 
   if (atom->molecular != Atom::ATOMIC) {
     if (force->bond) force->bond->compute(eflag, vflag);
@@ -273,7 +273,7 @@ void VerletProxy::cleanup()
                      "moved by something else than its velocity: increase the skin",
                      update->integrate_style, lists->num_unforeseen());
   }
-  ProxyUpdates *proxies = system->proxy_updates();
+  ProxyUpdates *proxies = system->exchange().direct();
   if (!proxies) return;
   proxies->set_overlap(false);
   const std::string text = summarize_exchange(proxies->counters().since(at_start), world);

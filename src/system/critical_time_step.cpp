@@ -79,7 +79,7 @@ double CriticalTimeStep::smallest() const
 
 std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
 {
-  const GranularSystem &system = *GranularSystem::of(lmp);
+  GranularSystem &system = *GranularSystem::of(lmp);
   std::vector<double> mine(3 * (static_cast<size_t>(types) + 1), never);
   std::vector<std::vector<double>> found(comm->nthreads);
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
@@ -89,7 +89,7 @@ std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
       if ((atom->mask[i] & groups) != groups) continue;
       const int type = atom->type[i];
       r[type] = std::min(r[type], atom->radius[i]);
-      if (system.knows_mass(i)) m[type] = std::min(m[type], system.mass_with_walls(i));
+      if (system.masses().knows(i)) m[type] = std::min(m[type], system.masses().of_body(i));
       own[type] = std::min(own[type], atom->rmass[i]);
     }
     found[t] = std::move(its);

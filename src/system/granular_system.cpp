@@ -45,8 +45,9 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), masses(lmp), radii(lmp), monitor(lmp), time_step(lmp),
-    monitors(lmp), movers(lmp), energies(lmp, movers), exchange_switch(lmp), report(lmp)
+    Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), effective_masses(lmp),
+    contact_range(lmp, book), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
+    energies(lmp, movers), exchange_switch(lmp), report(lmp)
 {
   pipeline.emplace();
 }
@@ -82,7 +83,7 @@ void GranularSystem::detach(const Pair *one)
   pair = nullptr;
   store = nullptr;
   book = LawBook{};
-  laws_current = false;
+  prepared.reset();
   announced.clear();
   energies.clear();
   behind_run.reset();
@@ -108,63 +109,13 @@ void GranularSystem::init_pair_style()
   keep_contacts();
   neighbors.init(pair);
   gravity = nullptr;    // its init() comes later
-  masses.find_fixes();
-  radii.find(masses.frozen_groups(), shaped);
-  require_sizes();
+  effective_masses.find_fixes();
+  contact_range.find(effective_masses.frozen_groups(), shaped);
+  contact_range.require_sizes(style.name);
   create_store();
   monitors.start();
   time_step.start();
-  laws_current = false;    // init_one() will mix what is not set
-}
-
-/* A radius far beyond the box makes ghosts or cells of neighbors without end. A frozen particle may
-   touch its image: it does not move. */
-
-void GranularSystem::require_sizes() const
-{
-  constexpr double far_beyond = 1.0e6;
-  const double largest = radii.largest(),
-               box = std::max({domain->prd[0], domain->prd[1], domain->prd[2]});
-  if (!(largest <= far_beyond * box))
-    error->all(
-        FLERR,
-        "Pair style {}: the largest particle has a radius of {:.4g}, {:.3g} times the longest "
-        "side of the box: look for what has set it (set diameter, read_data, fix adapt, fix "
-        "pour or deposit), in units of length",
-        style.name, largest, largest / box);
-  double free = 0.0;
-  for (int type = 1; type <= atom->ntypes; type++) free = std::max(free, radii.of_free(type));
-  for (int d = 0; d < 3; d++) {
-    const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
-    if (!matters || domain->prd[d] >= 2.0 * free) continue;
-    const std::string problem =
-        fmt::format("the box is periodic in {} with a period of {:.4g}, and the largest particle "
-                    "has a diameter "
-                    "of {:.4g}: it touches its own image: make the box at least {:.4g} wide, or "
-                    "use 'boundary f'",
-                    std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, 4.0 * free);
-    error->all(FLERR, "Pair style {}: {}", style.name, problem);
-  }
-}
-
-/* Of the largest particles; the reach grows with both radii. */
-
-double GranularSystem::reach(int i, int j) const
-{
-  return book.known(i, j) ? book.reach(i, j, radii.largest(i), radii.largest(j)) : 0.0;
-}
-
-double GranularSystem::cutoff(int i, int j) const
-{
-  return radii.cutoff(i, j) + reach(std::min(i, j), std::max(i, j));
-}
-
-double GranularSystem::largest_reach() const
-{
-  double largest = 0.0;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) largest = std::max(largest, reach(i, j));
-  return largest;
+  prepared.reset();    // init_one() will mix what is not set
 }
 
 void GranularSystem::create_store()
@@ -176,7 +127,8 @@ void GranularSystem::create_store()
                style.name, expected);
   if (store) return;
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
-  const double cell = radii.largest() > 0.0 ? 0.125 * radii.largest() : 1.0;
+  const double largest = contact_range.radii().largest();
+  const double cell = largest > 0.0 ? 0.125 * largest : 1.0;
   const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
   store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
   if (!store) error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
@@ -185,24 +137,20 @@ void GranularSystem::create_store()
 
 /* ---------------------------------------------------------------------- */
 
-const ContactSpec *GranularSystem::own_law(int type) const
-{
-  return type <= book.num_types() && book.is_set(type, type) ? &book.spec(type, type) : nullptr;
-}
-
 /* Once all pairs of types are known: at the first rebuild of a run, or the first question. */
 
 void GranularSystem::prepare_laws()
 {
+  if (prepared == book.revision()) return;
   const LawTable table = book.table(movers.order());
   store->keep_impacts(table.has_impact());
   pipeline->set_laws(table);
-  laws_current = true;
+  prepared = book.revision();
 
   const std::string description = "Talus " + style.name + ": " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
-  const std::string problem = pipeline->keeps_history() ? small_period() : "";
+  const std::string problem = pipeline->keeps_history() ? contact_range.small_period() : "";
   if (problem.empty()) return;
   if (!style.allows_small_period) error->all(FLERR, "Pair style {}: {}", style.name, problem);
   if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", style.name, problem);
@@ -210,39 +158,23 @@ void GranularSystem::prepare_laws()
 
 const LawTable &GranularSystem::law_table()
 {
-  if (!laws_current) prepare_laws();
+  prepare_laws();
   return pipeline->law_table();
-}
-
-/* Histories are known by the IDs of the two particles, which two images of one of them share. */
-
-std::string GranularSystem::small_period() const
-{
-  const double needed = 4.0 * radii.largest();
-  for (int d = 0; d < 3; d++) {
-    const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
-    if (matters && domain->prd[d] < needed)
-      return fmt::format(
-          "the box is periodic in {} with a period of {:.4g}, below two diameters of the largest "
-          "particle: two particles could touch on both sides, and laws with history cannot tell "
-          "these contacts apart: make the box at least {:.4g} wide, or use 'boundary f'",
-          std::string(1, "xyz"[d]), domain->prd[d], needed);
-  }
-  return "";
 }
 
 std::string GranularSystem::reason_against_history()
 {
-  masses.find_fixes();
-  radii.find(masses.frozen_groups(), shaped);
-  return small_period();
+  effective_masses.find_fixes();
+  contact_range.find(effective_masses.frozen_groups(), shaped);
+  return contact_range.small_period();
 }
 
 std::string GranularSystem::take_gravity(SystemGravity *field)
 {
   if (!accelerates_pairs()) return reason_of_pair_style();
   if (!pair->compute_flag) return "'pair_modify compute no' is set";
-  if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
+  if (effective_masses.unit() != 1.0)
+    return "the unit of force is not that of mass times acceleration";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   if (gravity && gravity != field) return "another fix gravity comes before it";

@@ -22,12 +22,12 @@
 #include "exchange/record_packer.h"
 #include "material/law_book.h"
 #include "system/contact_monitor.h"
+#include "system/contact_range.h"
 #include "system/effective_masses.h"
 #include "system/energy_account.h"
 #include "system/exchange_switch.h"
 #include "system/integrators.h"
 #include "system/large_bodies.h"
-#include "system/largest_radii.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
 #include "system/run_monitor.h"
@@ -98,19 +98,14 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string unsupported_settings() const;
   /// "" if neighbors are found here, else why neighbor lists are those of LAMMPS.
   std::string reason_for_lists_of_host() const { return neighbors.reason_for_host(); }
-  /// Of types i and j, after init_pair_style() (length): at which particles may touch, or part.
-  double cutoff(int i, int j) const;
-  /// How far contacts of all types last beyond zero overlap (length).
-  double largest_reach() const;
-  /// As of init_pair_style().
-  const LAMMPS_NS::LargestRadii &largest_radii() const { return radii; }
-
+  /// After init_pair_style().
+  const ContactRange &range() const { return contact_range; }
+  /// Between all types, as the script gives them.
   Talus::LawBook &laws() { return book; }
-  const Talus::LawBook &laws() const { return book; }
-  /// After each change of laws().
-  void laws_have_changed() { laws_current = false; }
-  /// The law of a type with itself, as set by pair_coeff, or nullptr.
-  const Talus::ContactSpec *own_law(int type) const;
+  /// Laws and coefficients as the kernels have them.
+  const LawTable &law_table();
+  /// Masses that contacts feel.
+  LAMMPS_NS::EffectiveMasses &masses() { return effective_masses; }
 
   // ---- one step
 
@@ -142,8 +137,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::string take_gravity(SystemGravity *field);
   /// The fix is going.
   void drop_gravity(const SystemGravity *field);
-  /// Bits of groups with a fix freeze: their particles have no weight in the sums.
-  int frozen_groups() const { return masses.frozen_groups(); }
 
   // ---- residence
 
@@ -236,17 +229,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
   /// do not touch.
   std::optional<RememberedValues> remembered_of(int i, int j);
-  /// Laws and coefficients as the kernels have them.
-  const LawTable &law_table();
-  /// Mass that contacts feel of an owned particle or ghost, in units of force/acceleration.
-  double mass_in_contacts(int i) const { return masses.mass(i); }
-  /// Of an owned particle with a wall of LAMMPS: of the rigid body, or its own, in units of mass.
-  double mass_with_walls(int i) const { return masses.of_body(i); }
-  /// That is known, see EffectiveMasses::knows().
-  bool knows_mass(int i) const { return masses.knows(i); }
-  double *mass_override() { return masses.override_or_null(); }
-  /// The direct exchange, or nullptr while the host's is in force.
-  ProxyUpdates *proxy_updates() const { return exchange_switch.direct(); }
   ExchangeSwitch &exchange() { return exchange_switch; }
   /// Contacts between particles exert torques.
   bool turns_particles() const { return pipeline->keeps_spins(); }
@@ -259,12 +241,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
 
  private:
-  double reach(int i, int j) const;
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();
-  std::string small_period() const;
-  void require_sizes() const;
 
   ParticleView view() const;
   void update_gravity();
@@ -289,15 +268,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   StyleTraits style{"gran/penalty"};
   LAMMPS_NS::FixContactStore *store = nullptr;
   Talus::LawBook book;
-  bool laws_current = false;
-  std::string announced;    // last description of the laws in the log
+  std::optional<int> prepared;    // revision of the book that the pipeline has
+  std::string announced;          // last description of the laws in the log
 
   // particles, pairs, contacts
   std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
   LargeBodies large_bodies;
   LAMMPS_NS::NeighborSource neighbors;
-  LAMMPS_NS::EffectiveMasses masses;
-  LAMMPS_NS::LargestRadii radii;
+  LAMMPS_NS::EffectiveMasses effective_masses;
+  ContactRange contact_range;
   LAMMPS_NS::ContactMonitor monitor;
   LAMMPS_NS::TimeStepMonitor time_step;
   LAMMPS_NS::RunMonitor monitors;

@@ -71,7 +71,7 @@ ContactCoefficients LargeBody::coefficients_of(int type)
   const ContactSpec &body = specs[type];
   if (!body.is_material()) return contact_coefficients(body, body, FrictionMix::MINIMUM);
 
-  const ContactSpec *own = system.own_law(type);
+  const ContactSpec *own = system.laws().own(type);
   if (!own || !own->is_material())
     error->all(
         FLERR,

@@ -3,7 +3,7 @@
 // The direct exchange as the system and the run style see it: states of proxies are valid only once
 // nothing is pending. The communication object of the host implements it while it is
 // in force (see exchange_switch.h); scripts may replace that object at any time, so
-// GranularSystem::proxy_updates() looks for it anew in every step.
+// ExchangeSwitch::direct() looks for it anew in every step.
 
 #ifndef TALUS_SYSTEM_PROXY_UPDATES_H
 #define TALUS_SYSTEM_PROXY_UPDATES_H

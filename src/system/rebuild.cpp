@@ -51,15 +51,15 @@ void GranularSystem::renumber_pairs()
     error->all(FLERR,
                "Pair style {}: 'run ... pre no' cannot follow a new pair style: leave 'pre no' out",
                style.name);
-  if (!laws_current) prepare_laws();
+  prepare_laws();
   timer->stamp(Timer::MODIFY);
   pipeline->release();
   const int nall = atom->nlocal + atom->nghost;
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
-  const ProxyUpdates *proxies = proxy_updates();
+  const ProxyUpdates *proxies = exchange_switch.direct();
   pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
-    NeighborView found = neighbors.find(pair->list, largest_reach());
+    NeighborView found = neighbors.find(pair->list, contact_range.largest_reach());
     if (shaped) found = without_shapes(found);
     pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, found);
     neighbors.release();
@@ -76,9 +76,9 @@ void GranularSystem::renumber_pairs()
   find_weightless();
   store->pairs_are_numbered(pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
-  pipeline->set_own_masses(masses.bodies_are_rigid() ? atom->rmass : nullptr);
-  masses.update();
-  if (masses.needed()) comm->forward_comm(pair);
+  pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
+  effective_masses.update();
+  if (effective_masses.needed()) comm->forward_comm(pair);
 }
 
 int GranularSystem::order_of_histories() const

@@ -55,7 +55,8 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!run_style) return std::string("run style ") + update->integrate_style;
   if (book.conducts_heat()) return "contacts conduct heat";
-  if (masses.unit() != 1.0) return "the unit of force is not that of mass times acceleration";
+  if (effective_masses.unit() != 1.0)
+    return "the unit of force is not that of mass times acceleration";
   if (atom->molecular != Atom::ATOMIC || force->kspace)
     return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
@@ -63,7 +64,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
-  if ((comm->nprocs > 1 || periodic) && !proxy_updates())
+  if ((comm->nprocs > 1 || periodic) && !exchange_switch.direct())
     return "the exchange is the one of LAMMPS: " + exchange_switch.reason_for_stock();
 
   at_end_of_step.clear();
@@ -103,7 +104,7 @@ Residence GranularSystem::choose_residence(bigint step, bool tallied)
 {
   const bool stay = host_reason.empty() && !tallied && !is_looked_at(step);
   next_residence = stay ? Residence::RECORDS : Residence::HOST;
-  if (stay && !sent_is_known) find_sent_particles(proxy_updates());
+  if (stay && !sent_is_known) find_sent_particles(exchange_switch.direct());
   return next_residence;
 }
 
@@ -131,7 +132,7 @@ void GranularSystem::find_sent_particles(const ProxyUpdates *proxies)
 
 void GranularSystem::update_proxies(bool overlap)
 {
-  ProxyUpdates *proxies = proxy_updates();
+  ProxyUpdates *proxies = exchange_switch.direct();
   ProxyPacker *from_records = packer_of_records(proxies);
   if (!proxies || !proxies->has_plan() || !(overlap || from_records)) {
     comm->forward_comm();    // complete at its end

@@ -164,7 +164,7 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
     pipeline->compute(view(), step);
     return;
   }
-  ProxyUpdates *proxies = proxy_updates();
+  ProxyUpdates *proxies = exchange_switch.direct();
   const std::function<void()> progress = [proxies] { proxies->progress(); };
   if (proxies && proxies->pending() && proxies->may_progress_beside(comm->nthreads))
     step.meanwhile = &progress;
@@ -178,7 +178,7 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
 
 void GranularSystem::finish_proxies()
 {
-  ProxyUpdates *proxies = proxy_updates();
+  ProxyUpdates *proxies = exchange_switch.direct();
   if (!proxies || !proxies->pending()) return;
   timer->stamp(Timer::PAIR);
   proxies->finish();
@@ -193,7 +193,7 @@ ParticleView GranularSystem::view() const
           any ? atom->omega[0] : nullptr,
           atom->radius,
           atom->rmass,
-          masses.override_or_null(),
+          effective_masses.override_or_null(),
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
           pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,

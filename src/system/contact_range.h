@@ -1,0 +1,53 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// At which distance particles may touch, or part, by their types: from the largest radii, and from
+// how far the laws let contacts last beyond zero overlap. And whether the box has room for that.
+
+#ifndef TALUS_SYSTEM_CONTACT_RANGE_H
+#define TALUS_SYSTEM_CONTACT_RANGE_H
+
+#include "material/law_book.h"
+#include "system/largest_radii.h"
+
+#include "pointers.h"
+
+#include <string>
+
+namespace Talus {
+
+class SystemShapes;
+
+class ContactRange : protected LAMMPS_NS::Pointers {
+ public:
+  ContactRange(LAMMPS_NS::LAMMPS *lmp, const LawBook &its_laws) :
+      Pointers(lmp), largest_radii(lmp), laws(its_laws)
+  {
+  }
+
+  /// Before a run, collective; the rest holds for what there was then. See LargestRadii::find().
+  void find(int frozen_groups, const SystemShapes *shapes)
+  {
+    largest_radii.find(frozen_groups, shapes);
+  }
+  const LAMMPS_NS::LargestRadii &radii() const { return largest_radii; }
+  /// Of types i and j (length): at which particles may touch, or part.
+  double cutoff(int i, int j) const;
+  /// How far contacts of all types last beyond zero overlap (length).
+  double largest_reach() const;
+
+  /// Ends in an error of the pair style of that name if a particle is too large for the box.
+  void require_sizes(const std::string &style) const;
+  /// "", or that two particles may touch on both sides of a period: histories are known by the IDs
+  /// of both, which two images of one share.
+  std::string small_period() const;
+
+ private:
+  double reach(int i, int j) const;
+
+  LAMMPS_NS::LargestRadii largest_radii;
+  const LawBook &laws;
+};
+
+}    // namespace Talus
+
+#endif
