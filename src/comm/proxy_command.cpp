@@ -63,6 +63,6 @@ void ProxyCommand::info()
     return;
   }
   const std::string text =
-      describe_exchange(*proxy, GranularSystem::of(lmp)->share_without_proxies(), world);
+      describe_exchange(*proxy, GranularSystem::of(lmp)->pipeline().early_share(), world);
   if (comm->me == 0) utils::logmesg(lmp, text);
 }

@@ -124,7 +124,7 @@ bool ComputeContactGranLocal::is_chosen(const SurveyedContact &one) const
 {
   if (!(atom->mask[one.i] & groupbit)) return false;
   if (one.j < 0) return true;
-  return (atom->mask[one.j] & groupbit) && system->is_of_this_rank(one);
+  return (atom->mask[one.j] & groupbit) && system->contacts().is_of_this_rank(one);
 }
 
 ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedContact &one) const
@@ -160,7 +160,7 @@ void ComputeContactGranLocal::compute_local()
 {
   invoked_local = update->ntimestep;
   values.clear();
-  system->for_each_contact(Talus::Ask::ALL, [&](const SurveyedContact &one) {
+  system->contacts().for_each(Talus::Ask::ALL, [&](const SurveyedContact &one) {
     if (!is_chosen(one)) return;
     const Row row = row_of(one);
     for (const auto value : columns) values.push_back(value(row));

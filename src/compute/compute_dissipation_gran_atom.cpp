@@ -70,7 +70,7 @@ void ComputeDissipationGranAtom::setup()
 void ComputeDissipationGranAtom::add_springs(double **to, double sign) const
 {
   const int nlocal = atom->nlocal;
-  system->for_each_contact(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+  system->contacts().for_each(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
     const double share = sign * (one.body < 0 ? 0.5 : 1.0);
     for (const int i : {one.i, one.j}) {
       if (i < 0 || i >= nlocal) continue;

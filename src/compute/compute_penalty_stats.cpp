@@ -69,7 +69,7 @@ void ComputePenaltyStats::setup()
 ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
 {
   Survey found;
-  system->for_each_contact(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+  system->contacts().for_each(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
     found.stored += one.share * one.stored;
     found.contacts += one.share;
     if (one.body < 0) return;
@@ -97,9 +97,9 @@ void ComputePenaltyStats::compute_vector()
   mine[NORMAL] = lost.normal;
   mine[TANGENTIAL] = lost.tangential;
   mine[RESISTANCE] = lost.resistance;
-  mine[CANDIDATES] = system->count_candidates();
+  mine[CANDIDATES] = system->contacts().count_candidates();
   mine[CONTACTS] = found.contacts;
-  double largest = std::max(system->deepest_contact().overlap_ratio, found.deepest_in_body);
+  double largest = std::max(system->contacts().deepest().overlap_ratio, found.deepest_in_body);
   if (Talus::ProxyUpdates *proxies = system->exchange().direct()) {
     const Talus::ExchangeCounters &c = proxies->counters();
     mine[MESSAGES] = proxies->messages_per_exchange();

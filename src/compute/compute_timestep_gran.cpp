@@ -34,7 +34,7 @@ void ComputeTimestepGran::init()
 void ComputeTimestepGran::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  critical.compute(system->laws(), system->contacts(), groupbit);
+  critical.compute(system->laws(), system->pipeline(), groupbit);
   const double steps[3] = {critical.contact, critical.rayleigh, critical.hertz};
   for (int n = 0; n < 3; n++) {
     vector[n] = steps[n];

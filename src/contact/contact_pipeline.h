@@ -148,7 +148,7 @@ class ContactPipeline {
   /// count half, so that the sums over all ranks are the numbers of pairs.
   double count_contacts() const;
   double count_candidates() const;
-  /// Share of the candidate pairs that compute_early() computes.
+  /// Share of the candidate pairs that compute_early() computes; 0 in one phase.
   double early_share() const;
 
   /// visit(contact) for each contact of the last compute(), with the state that it found and the

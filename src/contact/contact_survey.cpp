@@ -35,6 +35,7 @@ double ContactPipeline::count_candidates() const
 
 double ContactPipeline::early_share() const
 {
+  if (!in_two_phases()) return 0.0;
   std::int64_t early = 0, all = 0;
   for (const ContactChunk &chunk : chunks) {
     all += chunk.pairs.num_pairs();

@@ -102,7 +102,9 @@ std::string FixRigidSmallTalus::reason_of_spheres() const
 std::string FixRigidSmallTalus::needs_host_arrays()
 {
   if (!reason.empty()) return reason;
-  return system->turns_particles() ? "" : "it turns particles and the contacts between them do not";
+  return system->pipeline().keeps_spins()
+             ? ""
+             : "it turns particles and the contacts between them do not";
 }
 
 int FixRigidSmallTalus::threads() const

@@ -37,7 +37,7 @@ void FixShapeGran::check_scene()
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
                "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",
                system->reason_of_pair_style());
-  const std::string lists = system->reason_for_lists_of_host();
+  const std::string lists = system->neighbors().reason_for_host();
   if (!lists.empty())
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: neighbor lists are those of LAMMPS because of {}: leave it out",

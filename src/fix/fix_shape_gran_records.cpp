@@ -21,7 +21,7 @@ using namespace Talus;
 
 std::string FixShapeGran::needs_host_arrays()
 {
-  if (!system->turns_particles())
+  if (!system->pipeline().keeps_spins())
     return "it turns particles and the contacts between them have no friction";
   if (system->account().is_asked())
     return "the energies of contacts of particles with a shape are asked for";

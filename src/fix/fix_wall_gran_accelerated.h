@@ -95,7 +95,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   {
     if (!stock_reason.empty()) return stock_reason;
     if (this->heat_flag) return "it conducts heat";
-    if (!system->turns_particles())
+    if (!system->pipeline().keeps_spins())
       return "it exerts torques and the contacts between particles do not";
     return what_reads_arrays();
   }

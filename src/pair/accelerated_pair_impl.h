@@ -99,7 +99,7 @@ template <class Stock> std::string AcceleratedPair<Stock>::find_reason_for_stock
 template <class Stock> std::string AcceleratedPair<Stock>::reason_that_came_later() const
 {
   const std::string its = reason_of_models();
-  return its.empty() ? this->system->unsupported_settings() : its;
+  return its.empty() ? this->unsupported_settings() : its;
 }
 
 /* Histories and canonical keys have to be put aside before a fix moves particles between ranks. */

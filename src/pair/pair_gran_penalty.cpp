@@ -68,7 +68,7 @@ void PairGranPenalty::init_style()
 {
   check_host();
   system->init_pair_style();
-  const std::string lists = system->reason_for_lists_of_host();
+  const std::string lists = system->neighbors().reason_for_host();
   if (!lists.empty() && system->range().largest_reach() > neighbor->skin)
     error->all(FLERR,
                "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
@@ -92,7 +92,7 @@ void PairGranPenalty::check_host()
   if (system->laws().conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
     error->all(FLERR, "Pair style gran/penalty: heat is conducted between particles that have a "
                       "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'");
-  const std::string problem = system->unsupported_settings();
+  const std::string problem = unsupported_settings();
   if (!problem.empty())
     error->all(FLERR,
                "Pair style gran/penalty: {}: use bonds that last, and no 'comm_modify group'",
@@ -126,8 +126,8 @@ void PairGranPenalty::compute(int eflag, int vflag)
   compute_contacts(eflag, vflag);
   if (!eflag_global) return;
   // for compute pair; what two ranks compute counts half on each
-  pvector[0] = system->count_contacts();
-  pvector[1] = system->count_candidates();
+  pvector[0] = system->contacts().count();
+  pvector[1] = system->contacts().count_candidates();
 }
 
 double PairGranPenalty::single(int i, int j, int itype, int jtype, double rsq, double, double,

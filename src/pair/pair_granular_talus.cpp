@@ -28,7 +28,7 @@ std::vector<const Model *> PairGranularTalus::all_models() const
 
 std::string PairGranularTalus::reason_of_models() const
 {
-  const std::string lists = system->reason_for_lists_of_host();
+  const std::string lists = system->neighbors().reason_for_host();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       if (!setflag[i][j]) continue;

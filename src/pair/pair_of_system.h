@@ -15,6 +15,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace LAMMPS_NS {
 
@@ -34,6 +35,9 @@ struct SinglePair {
 template <class Base> class PairOfSystem : public Base, public Talus::SystemPair {
  protected:
   explicit PairOfSystem(LAMMPS *lmp) : Base(lmp), system(Talus::GranularSystem::of(lmp)) {}
+
+  /// In init_style(): "", or what of the settings of LAMMPS would make forces wrong.
+  std::string unsupported_settings() const;
 
   /// In the place of compute().
   void compute_contacts(int eflag, int vflag);

@@ -10,8 +10,12 @@
 #include "contact/state_of_pair.h"
 #include "laws/circle_of_intersection.h"
 #include "laws/tangential/end_of_contact.h"
+#include "system/private_members.h"
 
 #include "atom.h"
+#include "bond.h"
+#include "comm.h"
+#include "force.h"
 #include "update.h"
 
 #include <algorithm>
@@ -20,6 +24,15 @@
 #include <iterator>
 
 namespace LAMMPS_NS {
+
+template <class Base> std::string PairOfSystem<Base>::unsupported_settings() const
+{
+  const Bond *bond = this->force->bond;
+  if (bond && bond->partial_flag)
+    return "bonds may break, whose particles then touch with the same neighbor lists";
+  if (Talus::sends_one_group(*this->comm)) return "'comm_modify group' leaves out proxies";
+  return "";
+}
 
 template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int vflag)
 {
@@ -49,7 +62,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   const Talus::LawTable &laws = system->law_table();
   const double ri = atom->radius[i], rj = atom->radius[j];
-  const auto remembered = system->remembered_of(i, j);
+  const auto remembered = system->contacts().remembered_of(i, j);
   const int row_of_types = laws.row(itype, jtype);
   const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
   const bool ended = remembered && laws.law(row_of_types).tangential().second_order &&

@@ -42,15 +42,15 @@ void ContactList::request(Compute *owner)
 
 bool ContactList::is_known() const
 {
-  return system->pair_style_is_alone() ? system->knows_contacts() : list != nullptr;
+  return system->pair_style_is_alone() ? system->contacts().are_known() : list != nullptr;
 }
 
 void ContactList::for_each(const VisitContact &visit) const
 {
   const bool ours = system->pair_style_is_alone();
   if (!ours) for_each_pair_of_host(visit);
-  system->for_each_contact(Ask::ALL, [&](const SurveyedContact &one) {
-    if (one.body >= 0 || (ours && system->is_of_this_rank(one))) visit(one);
+  system->contacts().for_each(Ask::ALL, [&](const SurveyedContact &one) {
+    if (one.body >= 0 || (ours && system->contacts().is_of_this_rank(one))) visit(one);
   });
 }
 

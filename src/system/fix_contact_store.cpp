@@ -245,10 +245,9 @@ bool FixContactStore::in_periodic_box() const
 void FixContactStore::store_histories(Occasion occasion)
 {
   if (!system || !current) return;
-  system->look_at_contacts(occasion == Occasion::END_OF_RUN);
+  system->run_monitor().look(occasion == Occasion::END_OF_RUN ? RunMonitor::Moment::END
+                                                              : RunMonitor::Moment::REBUILD);
   const bool rebuild = occasion == Occasion::REBUILD;
-  if (rebuild) system->release_records();
-  if (occasion == Occasion::END_OF_RUN) system->leave_records();
   const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
   system->keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
   agree_with_other_ranks();

@@ -2,6 +2,7 @@
 
 #include "system/fix_pair_history.h"
 
+#include "system/fix_contact_store.h"
 #include "system/granular_system.h"
 
 #include "atom.h"
@@ -56,7 +57,7 @@ void FixPairHistory::post_constructor()
 
 int FixPairHistory::read_list(int i)
 {
-  Talus::HistoryStore &store = system->histories();
+  Talus::HistoryStore &store = system->store()->histories();
   list.resize(store.list_size(i));
   store.pack_list(i, list.data());
   return static_cast<int>(list[0]);
@@ -79,7 +80,7 @@ int FixPairHistory::pack_restart(int i, double *buf)
 
 void FixPairHistory::unpack_restart(int i, int nth)
 {
-  if (system->histories_were_read()) return;
+  if (system->store()->restart_reset) return;
   const double *from = atom->extra[i];
   for (int n = 0; n < nth; n++) from += static_cast<int>(*from);
   const int contacts = static_cast<int>(from[1]);
@@ -95,10 +96,10 @@ void FixPairHistory::unpack_restart(int i, int nth)
     const auto before = read_before.find(static_cast<tagint>(ubuf(*from).i));
     if (before != read_before.end()) take_even_values_of(before->second, atom->tag[i], to + 1);
   }
-  Talus::HistoryStore &store = system->histories();
+  Talus::HistoryStore &store = system->store()->histories();
   store.set_name(i, atom->tag[i]);
   store.unpack_list(i, list.data());
-  system->set_order_of_histories(1);
+  system->store()->set_order_of_histories(1);
   read_before[atom->tag[i]] = i;
 }
 
@@ -106,7 +107,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
 
 void FixPairHistory::take_even_values_of(int partner, tagint tag, double *values)
 {
-  Talus::HistoryStore &store = system->histories();
+  Talus::HistoryStore &store = system->store()->histories();
   other.resize(store.list_size(partner));
   store.pack_list(partner, other.data());
   const double *entry = other.data() + list_header, *end = other.data() + other.size();
@@ -126,7 +127,7 @@ int FixPairHistory::size_restart(int i)
 
 int FixPairHistory::maxsize_restart()
 {
-  const int contacts = system->histories().largest_list(atom->nlocal) / least_entry;
+  const int contacts = system->store()->histories().largest_list(atom->nlocal) / least_entry;
   int mine = header + stock_entry() * contacts, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;

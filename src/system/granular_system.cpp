@@ -45,11 +45,11 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), large_bodies(lmp, *this), neighbors(lmp), effective_masses(lmp),
+    Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
     contact_range(lmp, book), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
-    energies(lmp, movers), exchange_switch(lmp), report(lmp)
+    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp), report(lmp)
 {
-  pipeline.emplace();
+  contact_pipeline.emplace();
 }
 
 GranularSystem::~GranularSystem() = default;
@@ -61,13 +61,15 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
   if (pair) return false;
   pair = one;
   style = traits;
-  monitors.add(pair,
-               {{0.5, [this] { return store ? store->find_no_number() : RunMonitor::Finding{}; },
-                 [this](const RunMonitor::Finding &found) {
-                   store->say_no_number(found);
-                   return true;
-                 }}});
-  monitors.add(pair, monitor.checks([this] { return deepest_contact(); }));
+  monitors.add(
+      pair,
+      {{0.5,
+        [this] { return contact_store ? contact_store->find_no_number() : RunMonitor::Finding{}; },
+        [this](const RunMonitor::Finding &found) {
+          contact_store->say_no_number(found);
+          return true;
+        }}});
+  monitors.add(pair, monitor.checks([this] { return run_contacts.deepest(); }));
   monitors.add(pair, {time_step.check(book)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);
@@ -81,14 +83,13 @@ void GranularSystem::detach(const Pair *one)
   if (!pair || one != pair) return;
   monitors.remove(pair);
   pair = nullptr;
-  store = nullptr;
+  contact_store = nullptr;
   book = LawBook{};
   prepared.reset();
   announced.clear();
   energies.clear();
-  behind_run.reset();
-  kept.reset();
-  pipeline.emplace();
+  run_contacts.forget();
+  contact_pipeline.emplace();
   for (const auto *internal : {store_id, placeholder_id})
     if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
 }
@@ -106,8 +107,8 @@ std::string GranularSystem::reason_of_pair_style() const
 
 void GranularSystem::init_pair_style()
 {
-  keep_contacts();
-  neighbors.init(pair);
+  run_contacts.keep();
+  neighbor_source.init(pair);
   gravity = nullptr;    // its init() comes later
   effective_masses.find_fixes();
   contact_range.find(effective_masses.frozen_groups(), shaped);
@@ -120,19 +121,20 @@ void GranularSystem::init_pair_style()
 
 void GranularSystem::create_store()
 {
-  const char *expected = store ? store_id : placeholder_id;
+  const char *expected = contact_store ? store_id : placeholder_id;
   if (!modify->get_fix_by_id(expected))
     error->all(FLERR,
                "Pair style {}: its internal fix {} has been deleted: remove the unfix command",
                style.name, expected);
-  if (store) return;
+  if (contact_store) return;
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
   const double largest = contact_range.radii().largest();
   const double cell = largest > 0.0 ? 0.125 * largest : 1.0;
   const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
-  store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
-  if (!store) error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
-  store->serve(this);
+  contact_store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
+  if (!contact_store)
+    error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
+  contact_store->serve(this);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -143,14 +145,14 @@ void GranularSystem::prepare_laws()
 {
   if (prepared == book.revision()) return;
   const LawTable table = book.table(movers.order());
-  store->keep_impacts(table.has_impact());
-  pipeline->set_laws(table);
+  contact_store->keep_impacts(table.has_impact());
+  contact_pipeline->set_laws(table);
   prepared = book.revision();
 
   const std::string description = "Talus " + style.name + ": " + book.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
-  const std::string problem = pipeline->keeps_history() ? contact_range.small_period() : "";
+  const std::string problem = contact_pipeline->keeps_history() ? contact_range.small_period() : "";
   if (problem.empty()) return;
   if (!style.allows_small_period) error->all(FLERR, "Pair style {}: {}", style.name, problem);
   if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", style.name, problem);
@@ -159,7 +161,7 @@ void GranularSystem::prepare_laws()
 const LawTable &GranularSystem::law_table()
 {
   prepare_laws();
-  return pipeline->law_table();
+  return contact_pipeline->law_table();
 }
 
 std::string GranularSystem::reason_against_history()

@@ -9,7 +9,6 @@
 //   step.cpp              one step, from the move to the forces
 //   rebuild.cpp           from old neighbor lists to new ones
 //   residence.cpp         which steps are made in the records
-//   questions.cpp         answers for outputs
 //
 // A step is made in the arrays of the host, or, if only Talus looks at the particles in it, in the
 // records of the contacts (see contact/contact_pipeline.h), with the same bits.
@@ -30,6 +29,7 @@
 #include "system/large_bodies.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_updates.h"
+#include "system/run_contacts.h"
 #include "system/run_monitor.h"
 #include "system/style_report.h"
 #include "system/system_fix.h"
@@ -94,10 +94,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool accelerates_pairs() const { return pair_style_is_alone(); }
   /// "" if so, else why not, for people.
   std::string reason_of_pair_style() const;
-  /// In init_style(), before it: "", or what of the settings of LAMMPS would make forces wrong.
-  std::string unsupported_settings() const;
-  /// "" if neighbors are found here, else why neighbor lists are those of LAMMPS.
-  std::string reason_for_lists_of_host() const { return neighbors.reason_for_host(); }
+  /// Where pairs that may touch are found.
+  const LAMMPS_NS::NeighborSource &neighbors() const { return neighbor_source; }
   /// After init_pair_style().
   const ContactRange &range() const { return contact_range; }
   /// Between all types, as the script gives them.
@@ -116,13 +114,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// How far the particles went in the last step, if it was made in the records.
-  RecordTravel travel() const { return pipeline->travel(); }
+  RecordTravel travel() const { return contact_pipeline->travel(); }
   /// After particles have moved: largest distance of an owned particle from where it was when
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
-  /// Waits for proxies that are under way.
-  void finish_proxies();
-
   const Integrators &integrators() const { return movers; }
   /// Where integrators keep the changes of velocities of particles in the arrays of the host,
   /// nullptr if they are not needed; see ParticleRecords::change.
@@ -142,7 +137,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   Residence residence() const
   {
-    return pipeline->holds_state() ? Residence::RECORDS : Residence::HOST;
+    return contact_pipeline->holds_state() ? Residence::RECORDS : Residence::HOST;
   }
   /// At the start of a run, after setup: finds out whether it may have steps in the records.
   /// Collective; `pairs_computed`: the run style calls the pair style.
@@ -152,8 +147,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void report_styles(bool pairs_computed);
   /// A fix of the host reads or changes particles in every step.
   bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask) const;
-  /// "" if this run has such steps, else the first reason why not, for people.
-  const std::string &reason_for_host() const { return host_reason; }
   /// Before the forces of a step are computed: where the particles will be after it. `tallied`:
   /// energies or virials are asked for in it.
   Residence choose_residence(LAMMPS_NS::bigint step, bool tallied);
@@ -167,8 +160,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// The same at the end of a run, however it ends.
   void end_run();
   /// In the records: for forces other than those between particles, in the order of slots.
-  ParticleRecords &records() { return pipeline->records(); }
-  const int *slot_of_atom() const { return pipeline->particle_order().slot_of_atom.data(); }
+  ParticleRecords &records() { return contact_pipeline->records(); }
+  const int *slot_of_atom() const { return contact_pipeline->particle_order().slot_of_atom.data(); }
 
   // ---- particles that are not spheres
 
@@ -178,67 +171,40 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void drop_shapes(const SystemShapes *its);
   /// nullptr: all particles are spheres.
   SystemShapes *shapes() const { return shaped; }
-  /// Pairs of particles that touch on this rank; those that another one has as well count half.
-  double count_contacts() const;
-  /// Pairs that may touch; the same.
-  double count_candidates() const;
-  /// Of the pairs that touch on this rank.
-  DeepestContact deepest_contact() const;
 
   // ---- rebuild: called by FixContactStore, in this order
 
-  /// The pairs are still those of the last step, on all ranks.
-  void look_at_contacts(bool run_is_over);
-  /// A run has ended: until the next one contacts are those of now, for those who observe them.
-  void end_contacts_of_run();
-  /// Puts histories aside. The pairs are gone then until renumber_pairs(), unless they stay.
+  /// Puts histories aside. Unless the pairs stay they are gone then until renumber_pairs(), and
+  /// memory is free for others.
   void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
-  /// Memory that is free for others until renumber_pairs().
-  void release_records();
-  void leave_records() { pipeline->leave_records(); }
-  void release_pairs() { pipeline->release(); }
+  void release_pairs() { contact_pipeline->release(); }
   /// New neighbor lists are due: finds the pairs, and their histories.
   void renumber_pairs();
-  /// Of the integrator, by whose laws the histories of this run began or, before its set-up, those of
-  /// the last run or of a restart file are; 0: not known.
-  int order_of_histories() const;
-  /// Of those of a restart file of LAMMPS' own styles; not on ranks that have read none.
-  void set_order_of_histories(int order);
+  /// A run has ended, and what belongs to particles has been put aside.
+  void end_contacts_of_run();
 
   // ---- energies and contacts
 
   EnergyAccount &account() { return energies; }
-  /// visit(contact) for contacts of the last step on this rank, of pairs, large bodies and walls,
-  /// those with a ghost as well. Behind a run only as long as someone observes them.
-  void for_each_contact(Ask ask, const ContactPipeline::VisitContact &visit);
-  /// Of those that two ranks know, or one twice, only one is.
-  bool is_of_this_rank(const SurveyedContact &one) const;
-  /// In a run; behind it, if someone observes them.
-  bool knows_contacts() const;
+  const RunContacts &contacts() const { return run_contacts; }
 
   /// What a run warns about; registered by all who check something.
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
 
   // ---- questions
 
-  const ContactPipeline &contacts() const { return *pipeline; }
-  /// What particles carry along of their contacts, after init_pair_style().
-  HistoryStore &histories();
-  /// It has been read from a restart file.
-  bool histories_were_read() const;
-  /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
-  /// do not touch.
-  std::optional<RememberedValues> remembered_of(int i, int j);
+  /// Contacts between particles as they are computed.
+  const ContactPipeline &pipeline() const { return *contact_pipeline; }
+  /// What particles carry along of their contacts; nullptr before the first init_pair_style().
+  LAMMPS_NS::FixContactStore *store() const { return contact_store; }
   ExchangeSwitch &exchange() { return exchange_switch; }
-  /// Contacts between particles exert torques.
-  bool turns_particles() const { return pipeline->keeps_spins(); }
-  /// Share of the owned particles of this rank whose forces are computed before a pending update of
-  /// proxies is finished.
-  double share_without_proxies() const;
 
   LargeBodies &bodies() { return large_bodies; }
 
-  double memory_usage() const { return pipeline->memory_usage() + neighbors.memory_usage(); }
+  double memory_usage() const
+  {
+    return contact_pipeline->memory_usage() + neighbor_source.memory_usage();
+  }
 
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
@@ -255,7 +221,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void find_changes(ContactStep &step);
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
-  void deliver_positions();
+  void finish_proxies();
 
   std::string find_reason_for_host(bool pairs_computed);
   std::string reason_of_fix(LAMMPS_NS::Fix *fix, int mask);
@@ -266,15 +232,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   // the pair style
   LAMMPS_NS::Pair *pair = nullptr;
   StyleTraits style{"gran/penalty"};
-  LAMMPS_NS::FixContactStore *store = nullptr;
+  LAMMPS_NS::FixContactStore *contact_store = nullptr;
   Talus::LawBook book;
   std::optional<int> prepared;    // revision of the book that the pipeline has
   std::string announced;          // last description of the laws in the log
 
   // particles, pairs, contacts
-  std::optional<ContactPipeline> pipeline;    // always there; anew with each pair style
+  std::optional<ContactPipeline> contact_pipeline;    // always there; anew with each pair style
   LargeBodies large_bodies;
-  LAMMPS_NS::NeighborSource neighbors;
+  LAMMPS_NS::NeighborSource neighbor_source;
   LAMMPS_NS::EffectiveMasses effective_masses;
   ContactRange contact_range;
   LAMMPS_NS::ContactMonitor monitor;
@@ -282,22 +248,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor monitors;
   Integrators movers;
   EnergyAccount energies;
-  /// A contact of the last run, whose particles may have other places by now.
-  struct KeptContact {
-    SurveyedContact contact;
-    std::int64_t tag[2];    ///< of its particles
-  };
-  /// Behind a run whose contacts are observed: digest of the state then; and contacts that have been
-  /// kept because particles may have changed places since, with the number of particles then.
-  std::optional<std::uint64_t> behind_run;
-  std::optional<std::vector<KeptContact>> kept;
-  std::int64_t kept_of = 0;
-  std::uint64_t digest_of_state() const;
-  void require_contacts_of_last_run() const;
-  void keep_contacts();
-  void visit_contacts(Ask ask, const ContactPipeline::VisitContact &visit);
-  int present_index(const KeptContact &one, int end) const;
-  SurveyedContact at_present(const KeptContact &one) const;
+  RunContacts run_contacts;
 
   ExchangeSwitch exchange_switch;
   StyleReport report;

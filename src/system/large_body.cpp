@@ -2,6 +2,7 @@
 
 #include "system/large_body.h"
 
+#include "system/fix_contact_store.h"
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
@@ -82,7 +83,8 @@ void LargeBody::init()
   find_frozen();
   set_laws();
   if (system.integrators().order() == 1) contacts.history.forget_normals();
-  if (order_of_history == 0) order_of_history = system.order_of_histories();    // of a restart file
+  if (const FixContactStore *store = system.store(); store && order_of_history == 0)
+    order_of_history = store->order_of_histories();    // of a restart file
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its
@@ -169,7 +171,7 @@ std::string LargeBody::needs_host_arrays() const
 {
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && !system.turns_particles())
+  if (turns && !system.pipeline().keeps_spins())
     return "it has friction and the contacts between particles have none";
   return "";
 }

@@ -27,20 +27,19 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::look_at_contacts(bool run_is_over)
-{
-  monitors.look(run_is_over ? RunMonitor::Moment::END : RunMonitor::Moment::REBUILD);
-}
-
 void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
-  pipeline->keep_history(to, scope, pairs_stay);
+  if (!pairs_stay) contact_pipeline->release_records();
+  contact_pipeline->keep_history(to, scope, pairs_stay);
   if (shaped) shaped->keep_memories();
 }
 
-void GranularSystem::release_records()
+/* Pairs and states stay until the next set-up. */
+
+void GranularSystem::end_contacts_of_run()
 {
-  pipeline->release_records();
+  contact_pipeline->leave_records();
+  run_contacts.end_run();
 }
 
 /* The timer of the host stands at the fixes; the work is that of neighbor lists. */
@@ -53,17 +52,17 @@ void GranularSystem::renumber_pairs()
                style.name);
   prepare_laws();
   timer->stamp(Timer::MODIFY);
-  pipeline->release();
+  contact_pipeline->release();
   const int nall = atom->nlocal + atom->nghost;
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   const ProxyUpdates *proxies = exchange_switch.direct();
-  pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
+  contact_pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
   try {
-    NeighborView found = neighbors.find(pair->list, contact_range.largest_reach());
+    NeighborView found = neighbor_source.find(pair->list, contact_range.largest_reach());
     if (shaped) found = without_shapes(found);
-    pipeline->set_pairs({atom->nlocal, store->all_keys(), tags, atom->type}, found);
-    neighbors.release();
-    pipeline->start_pairs(store->histories());
+    contact_pipeline->set_pairs({atom->nlocal, contact_store->all_keys(), tags, atom->type}, found);
+    neighbor_source.release();
+    contact_pipeline->start_pairs(contact_store->histories());
     change_order_of_histories();
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style {}: {}: use more ranks", style.name, problem.what());
@@ -74,42 +73,32 @@ void GranularSystem::renumber_pairs()
                style.name, atom->nlocal, atom->nghost);
   }
   find_weightless();
-  store->pairs_are_numbered(pipeline->particle_order());
+  contact_store->pairs_are_numbered(contact_pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
-  pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
+  contact_pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
   effective_masses.update();
   if (effective_masses.needed()) comm->forward_comm(pair);
-}
-
-int GranularSystem::order_of_histories() const
-{
-  return store ? store->order_of_histories() : 0;
-}
-
-void GranularSystem::set_order_of_histories(int order)
-{
-  store->set_order_of_histories(order);
 }
 
 /* Where a run goes on with the other order. */
 
 void GranularSystem::change_order_of_histories()
 {
-  const int before = store->order_of_histories(), now = movers.order();
-  store->set_order_of_histories(now);
+  const int before = contact_store->order_of_histories(), now = movers.order();
+  contact_store->set_order_of_histories(now);
   if (before == 0 || before == now) return;
-  pipeline->change_order(now,
-                         [this](int i, int j) -> const ContactLaw & { return book.law(i, j); });
+  contact_pipeline->change_order(
+      now, [this](int i, int j) -> const ContactLaw & { return book.law(i, j); });
 }
 
 /* What the host has found cannot be changed; shapes refuse it in init(). */
 
 NeighborView GranularSystem::without_shapes(const NeighborView &all)
 {
-  if (!reason_for_lists_of_host().empty()) return all;
+  if (!neighbor_source.reason_for_host().empty()) return all;
   std::vector<std::array<int, 2>> pairs;
   const int *type = atom->type;
-  const NeighborView rest = neighbors.take_out([&](int i, int j) {
+  const NeighborView rest = neighbor_source.take_out([&](int i, int j) {
     const bool its = shaped->is_shaped(type[i]) || shaped->is_shaped(type[j]);
     if (its) pairs.push_back({i, j});
     return its;
@@ -122,9 +111,9 @@ void GranularSystem::find_weightless()
 {
   const int *mask = atom->mask, bits = gravity ? gravity->group_bits() : 1;
   if (bits & 1)    // the group all
-    pipeline->set_weightless(nullptr);
+    contact_pipeline->set_weightless(nullptr);
   else
-    pipeline->set_weightless([=](int i) { return !(mask[i] & bits); });
+    contact_pipeline->set_weightless([=](int i) { return !(mask[i] & bits); });
 }
 
 }    // namespace Talus

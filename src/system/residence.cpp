@@ -73,7 +73,7 @@ std::string GranularSystem::find_reason_for_host(bool pairs_computed)
     const int mask = modify->get_fix_mask(fix);
     const std::string its = reason_of_fix(fix, mask);
     if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
-    if ((mask & END_OF_STEP) == 0 || fix == store) continue;
+    if ((mask & END_OF_STEP) == 0 || fix == contact_store) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "): looks at particles at the end of every step: a larger Nevery";
@@ -93,7 +93,8 @@ std::string GranularSystem::reason_of_fix(Fix *fix, int mask)
 
 bool GranularSystem::acts_within_steps(const Fix *fix, int mask) const
 {
-  if (fix == store || std::strcmp(fix->style, "OMP") == 0 || utils::strmatch(fix->style, "^freeze"))
+  if (fix == contact_store || std::strcmp(fix->style, "OMP") == 0 ||
+      utils::strmatch(fix->style, "^freeze"))
     return false;
   constexpr int in_every_step =
       INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
@@ -152,13 +153,14 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
 {
   if (residence() == Residence::HOST) return nullptr;
   if (next_residence == Residence::HOST || !proxies || proxies->is_checking()) {
-    if (!sent.empty()) pipeline->show_state(sent, atom->x[0], atom->v[0], atom->omega[0]);
-    if (pipeline->keeps_changes()) pipeline->show_changes(sent, store->all_changes());
+    if (!sent.empty()) contact_pipeline->show_state(sent, atom->x[0], atom->v[0], atom->omega[0]);
+    if (contact_pipeline->keeps_changes())
+      contact_pipeline->show_changes(sent, contact_store->all_changes());
     return nullptr;
   }
   if (!packer_knows_plan) packer.set_plan(proxies->plan(), slot_of_atom());
   packer_knows_plan = true;
-  packer.set_state(pipeline->records(), present_box(*domain));
+  packer.set_state(contact_pipeline->records(), present_box(*domain));
   proxies_are_in_records = true;
   return &packer;
 }
@@ -166,14 +168,15 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
 void GranularSystem::return_to_host(bool with_forces)
 {
   if (residence() == Residence::HOST) return;
-  const bool between_steps = with_forces && !pipeline->is_moving();
+  const bool between_steps = with_forces && !contact_pipeline->is_moving();
   const bool any = atom->nlocal > 0;
-  pipeline->complete_move();
+  contact_pipeline->complete_move();
   movers.leave_records();
-  if (pipeline->keeps_changes()) pipeline->write_changes(store->all_changes());
-  pipeline->return_state(any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr,
-                         any ? atom->omega[0] : nullptr, any && with_forces ? atom->f[0] : nullptr,
-                         any && with_forces ? atom->torque[0] : nullptr);
+  if (contact_pipeline->keeps_changes())
+    contact_pipeline->write_changes(contact_store->all_changes());
+  contact_pipeline->return_state(
+      any ? atom->x[0] : nullptr, any ? atom->v[0] : nullptr, any ? atom->omega[0] : nullptr,
+      any && with_forces ? atom->f[0] : nullptr, any && with_forces ? atom->torque[0] : nullptr);
   if (between_steps) complete_step();
 }
 

@@ -33,19 +33,19 @@ namespace Talus {
 void GranularSystem::advance(const RecordStep &step)
 {
   if (!movers.give(step)) return;
-  if (!pipeline->can_move()) {
+  if (!contact_pipeline->can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
-    pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, sent,
-                              then && atom->nlocal ? then[0] : nullptr);
+    contact_pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, sent,
+                                      then && atom->nlocal ? then[0] : nullptr);
   }
   update_gravity();
-  pipeline->advance(movers.steps());
+  contact_pipeline->advance(movers.steps());
   moved_in_records = update->ntimestep;
 }
 
 void GranularSystem::update_gravity()
 {
-  pipeline->set_gravity(gravity ? gravity->acceleration() : nullptr);
+  contact_pipeline->set_gravity(gravity ? gravity->acceleration() : nullptr);
 }
 
 /* On the way through the records, or from the arrays: these are up to date after all other moves,
@@ -56,8 +56,8 @@ double GranularSystem::moved_since_rebuild()
   if (!neighbor->dist_check || neighbor->includegroup) return HUGE_VAL;
   const bigint now = update->ntimestep;
   if (moved_in_records == now && neighbor->ago > 0) {
-    pipeline->complete_move();
-    return pipeline->travel().moved;
+    contact_pipeline->complete_move();
+    return contact_pipeline->travel().moved;
   }
   if (farthest.step == now && neighbor->ago > 0 && !update->setupflag) return farthest.moved;
   farthest = {now, moved_in_arrays()};
@@ -87,25 +87,25 @@ double GranularSystem::moved_in_arrays() const
 
 void GranularSystem::compute_contacts(const std::function<void(const ReportedContact &)> *report)
 {
-  if (!pipeline->has_pairs() || pipeline->num_particles() != atom->nlocal + atom->nghost) {
+  if (!contact_pipeline->has_pairs() ||
+      contact_pipeline->num_particles() != atom->nlocal + atom->nghost) {
     finish_proxies();
     renumber_pairs();    // as after `run pre no`
   }
 
   // a set-up is a step of no duration, or none
   const bool setting_up = update->setupflag != 0;
-  const bool limits = style.limits_at_setup && !pipeline->law_table().second_order();
+  const bool limits = style.limits_at_setup && !contact_pipeline->law_table().second_order();
   ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, report,
                    energies.begin_step(setting_up)};
-  behind_run.reset();
-  kept.reset();
+  run_contacts.forget();
   step.lag = movers.lag();
   step.read = residence() == Residence::HOST;
   step.read_ghosts = !proxies_are_in_records;
   step.deliver = next_residence == Residence::HOST;
   proxies_are_in_records = false;
   find_changes(step);
-  if (pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
+  if (contact_pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   update_gravity();
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
@@ -117,32 +117,42 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
 
   compute_around_proxies(step);
   if (step.deliver && !step.read && atom->nlocal)
-    pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
-  if (step.deliver && pipeline->keeps_changes()) {
-    if (!step.read) pipeline->write_changes(store->all_changes());
-    store->remember_velocities(movers.groups_with_changes());
+    contact_pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
+  if (step.deliver && contact_pipeline->keeps_changes()) {
+    if (!step.read) contact_pipeline->write_changes(contact_store->all_changes());
+    contact_store->remember_velocities(movers.groups_with_changes());
   }
   if (shaped) shaped->compute_contacts(step);
-  store->pairs_are_current();
+  contact_store->pairs_are_current();
   if (!setting_up) return;
-  time_step.judge_start(book, *pipeline);
+  time_step.judge_start(book, *contact_pipeline);
   monitors.look(RunMonitor::Moment::SETUP);
+}
+
+ChangeRecord *GranularSystem::velocity_changes()
+{
+  return contact_store ? contact_store->all_changes() : nullptr;
+}
+
+bool GranularSystem::needs_changes() const
+{
+  return movers.order() == 2 || energies.is_asked() || large_bodies.account();
 }
 
 /* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
 
 void GranularSystem::find_changes(ContactStep &step)
 {
-  if (const bool needed = needs_changes(); needed != pipeline->keeps_changes()) {
-    pipeline->keep_changes(needed);
-    store->keep_changes(needed);
+  if (const bool needed = needs_changes(); needed != contact_pipeline->keeps_changes()) {
+    contact_pipeline->keep_changes(needed);
+    contact_store->keep_changes(needed);
   }
-  if (!pipeline->keeps_changes()) return;
+  if (!contact_pipeline->keeps_changes()) return;
   const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
   if (moved_in_arrays && !update->setupflag)
-    store->follow_velocities(movers.groups_with_changes(), shaped);
+    contact_store->follow_velocities(movers.groups_with_changes(), shaped);
   step.weight_of_changes = weight_of_changes(update->setupflag != 0);
-  if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(store);
+  if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(contact_store);
 }
 
 /* The same steps on all ranks, and after a restart. */
@@ -150,8 +160,8 @@ void GranularSystem::find_changes(ContactStep &step)
 float GranularSystem::weight_of_changes(bool setting_up) const
 {
   constexpr int every = 4;
-  if (!pipeline->keeps_changes()) return 0.0F;
-  if (setting_up || pipeline->law_table().second_order()) return 1.0F;
+  if (!contact_pipeline->keeps_changes()) return 0.0F;
+  if (setting_up || contact_pipeline->law_table().second_order()) return 1.0F;
   return energies.is_asked() && update->ntimestep % every == 0 ? every : 0.0F;
 }
 
@@ -159,19 +169,19 @@ float GranularSystem::weight_of_changes(bool setting_up) const
 
 void GranularSystem::compute_around_proxies(ContactStep &step)
 {
-  if (!pipeline->in_two_phases()) {
+  if (!contact_pipeline->in_two_phases()) {
     finish_proxies();
-    pipeline->compute(view(), step);
+    contact_pipeline->compute(view(), step);
     return;
   }
   ProxyUpdates *proxies = exchange_switch.direct();
   const std::function<void()> progress = [proxies] { proxies->progress(); };
   if (proxies && proxies->pending() && proxies->may_progress_beside(comm->nthreads))
     step.meanwhile = &progress;
-  pipeline->compute_early(view(), step);
+  contact_pipeline->compute_early(view(), step);
   step.meanwhile = nullptr;
   finish_proxies();
-  pipeline->compute_late(view(), step);
+  contact_pipeline->compute_late(view(), step);
 }
 
 /* What was done before counts as pair time, the rest as communication. */
@@ -196,8 +206,8 @@ ParticleView GranularSystem::view() const
           effective_masses.override_or_null(),
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
-          pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
-          store->all_changes()};
+          contact_pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
+          contact_store->all_changes()};
 }
 
 }    // namespace Talus

@@ -1,0 +1,81 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The contacts of the last step, for outputs: of particles with each other, with large bodies and
+// with walls. In a run they are found when somebody asks. Behind a run pairs and states stay as
+// they are until the next set-up, for those who observe contacts (see contact_observer.h); what a
+// command changes in between is noticed, and is an error where contacts depend on it.
+
+#ifndef TALUS_SYSTEM_RUN_CONTACTS_H
+#define TALUS_SYSTEM_RUN_CONTACTS_H
+
+#include "contact/contact_pipeline.h"
+#include "laws/contact_energy.h"
+
+#include "pointers.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace Talus {
+
+class GranularSystem;
+
+class RunContacts : protected LAMMPS_NS::Pointers {
+ public:
+  RunContacts(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) :
+      Pointers(lmp), system(its_system)
+  {
+  }
+
+  /// visit(contact) for those on this rank, those with a ghost as well. Behind a run only as long as
+  /// someone observes them.
+  using VisitContact = ContactPipeline::VisitContact;
+  void for_each(Ask ask, const VisitContact &visit) const;
+  /// Of those that two ranks know, or one twice, only one is.
+  bool is_of_this_rank(const SurveyedContact &one) const;
+  /// In a run; behind it, if someone observes them.
+  bool are_known() const;
+  /// Pairs of particles that touch on this rank; those that another one has as well count half.
+  double count() const;
+  /// Pairs that may touch; the same.
+  double count_candidates() const;
+  /// Of the pairs that touch on this rank.
+  DeepestContact deepest() const;
+  /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
+  /// do not touch.
+  std::optional<RememberedValues> remembered_of(int i, int j) const;
+
+  // ---- by the system
+
+  /// New ones are being computed, or the pair style is going.
+  void forget();
+  /// A run has ended: until the next one contacts are those of now, for those who observe them.
+  void end_run();
+  /// LAMMPS is initialized: the last moment at which those of the last run can be found, for
+  /// commands such as write_restart then send particles to other ranks.
+  void keep();
+
+ private:
+  /// A contact of the last run, whose particles may have other places by now.
+  struct KeptContact {
+    SurveyedContact contact;
+    std::int64_t tag[2];    ///< of its particles
+  };
+  std::uint64_t digest_of_state() const;
+  void require_those_of_last_run() const;
+  void visit_all(Ask ask, const VisitContact &visit) const;
+  int present_index(const KeptContact &one, int end) const;
+  SurveyedContact at_present(const KeptContact &one) const;
+
+  GranularSystem &system;
+  /// Behind a run whose contacts are observed: digest of the state then; and contacts that have been
+  /// kept because particles may have changed places since, with the number of particles then.
+  std::optional<std::uint64_t> behind_run;
+  std::optional<std::vector<KeptContact>> kept;
+  std::int64_t kept_of = 0;
+};
+
+}    // namespace Talus
+
+#endif
