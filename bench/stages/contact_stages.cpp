@@ -187,22 +187,9 @@ struct OnFloor {
     frame.origin = plane.reference_point();
     find();
   }
-  BodyParticleView view()
+  ParticleState view()
   {
-    const ParticleView v = p.bed.view();
-    return {p.bed.owned,
-            v.x,
-            v.v,
-            v.omega,
-            v.radius,
-            v.mass,
-            nullptr,
-            p.bed.type.data(),
-            v.f,
-            v.torque,
-            nullptr,
-            &p.records,
-            p.order.slot_of_atom.data()};
+    return {p.bed.owned, p.bed.view(), p.bed.type.data(), &p.records, p.order.slot_of_atom.data()};
   }
   void find() { contacts.find_candidates(plane, frame, view(), mask.data(), 1, skin); }
   BodyLoad compute()

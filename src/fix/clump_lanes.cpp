@@ -4,7 +4,8 @@
 
 using namespace LAMMPS_NS;
 
-void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &records)
+void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &records,
+                      const int *slot_of_atom)
 {
   groups.assign((table.size() + lanes - 1) / lanes, Group{});
   rows.clear();
@@ -16,7 +17,7 @@ void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &rec
     for (int c = group.first_clump; c < group.end_clump; c++)
       most = std::max(most, table.first[c + 1] - table.first[c]);
     group.first_row = static_cast<int>(rows.size());
-    for (int m = 0; m < most; m++) make_row(table, records, group, m);
+    for (int m = 0; m < most; m++) make_row(table, records, slot_of_atom, group, m);
     group.end_row = static_cast<int>(rows.size());
     for (int k = 0; k < lanes; k++)    // lanes without a clump
       group.number[Group::MASS][k] = group.number[Group::TURN][k] = 1.0;
@@ -25,7 +26,7 @@ void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &rec
 }
 
 void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords &records,
-                          const Group &group, int m)
+                          const int *slot_of_atom, const Group &group, int m)
 {
   Row row{};
   int usual = 0;
@@ -33,10 +34,11 @@ void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords 
     const double place[3] = {sphere.place.x, sphere.place.y, sphere.place.z};
     for (int d = 0; d < 3; d++) row.number[Row::PLACE + d][k] = place[d];
     if (!sphere.owned) return;
-    row.slot[k] = sphere.slot;
-    row.number[Row::RADIUS][k] = records.position[sphere.slot].c[3];
-    row.number[Row::INVERSE_RADIUS][k] = records.omega(sphere.slot).c[3];
-    row.number[Row::INVERSE_MASS][k] = records.velocity(sphere.slot).c[3];
+    const int slot = slot_of_atom[sphere.atom];
+    row.slot[k] = slot;
+    row.number[Row::RADIUS][k] = records.position[slot].c[3];
+    row.number[Row::INVERSE_RADIUS][k] = records.omega(slot).c[3];
+    row.number[Row::INVERSE_MASS][k] = records.velocity(slot).c[3];
     if (sphere.wrapped) row.wrapped |= 1U << k;
     if (row.number[Row::INVERSE_MASS][k] > 0.0) usual++;
   });

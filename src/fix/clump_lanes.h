@@ -38,8 +38,9 @@ class ClumpLanes {
   bool are_current() const { return current; }
   void forget() { current = false; }
 
-  // places of spheres, whose slots are known, and room for the states of the clumps, to be set
-  void make(const ClumpTable &table, const Talus::ParticleRecords &records);
+  // places of spheres, and room for the states of the clumps, to be set; slots are those of the records
+  void make(const ClumpTable &table, const Talus::ParticleRecords &records,
+            const int *slot_of_atom);
   void set(int clump, const Talus::ClumpState<double> &state);
   Talus::ClumpState<double> get(int clump) const;
   int num_groups() const { return static_cast<int>(groups.size()); }
@@ -113,7 +114,7 @@ class ClumpLanes {
   struct Row {
     enum { PLACE, RADIUS = 3, INVERSE_RADIUS, INVERSE_MASS };
     alignas(64) double number[6][lanes];
-    int slot[lanes];
+    int slot[lanes];     // of owned spheres
     unsigned wrapped;    // bits of the lanes whose spheres are in another period than their centers
     bool usual;
 
@@ -125,8 +126,8 @@ class ClumpLanes {
   Talus::AlignedVector<Group> groups;
   Talus::AlignedVector<Row> rows;
 
-  void make_row(const ClumpTable &table, const Talus::ParticleRecords &records, const Group &group,
-                int m);
+  void make_row(const ClumpTable &table, const Talus::ParticleRecords &records,
+                const int *slot_of_atom, const Group &group, int m);
 
   // visit(k, sphere) for the m-th sphere of each clump
   template <class Visit>
@@ -155,9 +156,8 @@ class ClumpLanes {
   {
     Sums sum{};
     for (int r = group.first_row; r < group.end_row; r++) {
-      const Sums its = rows[r].usual
-                           ? loads_of(records, rows[r])
-                           : loads_one_by_one(table, records, group, r - group.first_row, row);
+      const Sums its = rows[r].usual ? loads_of(records, rows[r])
+                                     : loads_one_by_one(table, records, group, r, row);
       sum.force = sum.force + its.force;
       sum.torque =
           sum.torque + (cross(state.axes.to_space(rows[r].place()), its.force) + its.torque);
@@ -192,18 +192,19 @@ class ClumpLanes {
   }
 
   template <class RowOfSphere>
-  static Sums loads_one_by_one(const ClumpTable &table, const Talus::ParticleRecords &records,
-                               const Group &group, int m, RowOfSphere row)
+  Sums loads_one_by_one(const ClumpTable &table, const Talus::ParticleRecords &records,
+                        const Group &group, int r, RowOfSphere row) const
   {
     Talus::Record f[lanes] = {}, t[lanes] = {};
-    for_each_sphere(table, group, m, [&](int k, const ClumpSphere &sphere) {
+    for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
+      const int slot = rows[r].slot[k];
       if (!sphere.owned) {
         const double *its = row(sphere);
         std::copy(its, its + 3, f[k].c);
         std::copy(its + 3, its + 6, t[k].c);
-      } else if (records.velocity(sphere.slot).c[3] > 0.0) {    // not frozen
-        f[k] = records.load[2L * sphere.slot];
-        store(t[k], records.torque(sphere.slot));
+      } else if (records.velocity(slot).c[3] > 0.0) {    // not frozen
+        f[k] = records.load[2L * slot];
+        store(t[k], records.torque(slot));
       }
     });
     return {three(f), three(t)};
@@ -244,7 +245,7 @@ class ClumpLanes {
         for (int k = 0; k < lanes; k++) put(k, row.slot[k]);
       else
         for_each_sphere(table, group, m, [&](int k, const ClumpSphere &sphere) {
-          if (sphere.owned) put(k, sphere.slot);
+          if (sphere.owned) put(k, row.slot[k]);
         });
     }
   }

@@ -25,7 +25,6 @@ struct ClumpSphere {
   Talus::Vector3<double> place;    // relative to the center of mass, along the principal axes
   tagint tag;
   int atom;
-  int slot;          // of an owned sphere, once records are in use
   bool owned;        // by this rank: its state is set here
   bool wrapped;      // box holds periods other than 0
   int periods[3];    // between the sphere and the center of mass as it is counted

@@ -31,14 +31,11 @@ class FixFreezeTalus : public FixFreeze, public Talus::SystemFix {
   {
   }
   void post_constructor() override { restore_style(this, "freeze"); }
-  void post_force(int vflag) override
-  {
-    if (system->residence() == Talus::Residence::HOST) FixFreeze::post_force(vflag);
-  }
+  void post_force(int) override { system->complete_step_of(*this); }
 
   // SystemFix
   std::string needs_host_arrays() override { return ""; }
-  void complete_step() override { post_force(0); }
+  void complete_step() override { FixFreeze::post_force(0); }
 
  private:
   std::shared_ptr<Talus::GranularSystem> system;

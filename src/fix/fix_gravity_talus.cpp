@@ -13,7 +13,6 @@
 #include "variable.h"
 
 using namespace LAMMPS_NS;
-using Talus::Residence;
 
 FixGravityTalus::FixGravityTalus(LAMMPS *lmp, int narg, char **arg) :
     FixGravity(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
@@ -115,7 +114,13 @@ void FixGravityTalus::evaluate()
 void FixGravityTalus::post_force(int vflag)
 {
   if (!reason.empty()) return FixGravity::post_force(vflag);
-  if (system->residence() == Residence::RECORDS) return;
+  system->complete_step_of(*this);
+}
+
+/* The sums have begun with the weights: frozen particles have none in them. */
+
+void FixGravityTalus::complete_step()
+{
   const double *g = acceleration();
   if (!g) return;
 
@@ -129,9 +134,4 @@ void FixGravityTalus::post_force(int vflag)
     if (!(atom->mask[i] & frozenbits)) continue;
     for (int d = 0; d < 3; d++) atom->f[i][d] += m * g[d];
   }
-}
-
-void FixGravityTalus::complete_step()
-{
-  post_force(0);
 }

@@ -2,8 +2,6 @@
 
 #include "fix_nve_sphere_symplectic.h"
 
-#include "sphere_kicks.h"
-
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -181,11 +179,7 @@ bigint FixNVESphereSymplectic::count_members(const std::function<bool(int)> &con
 void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
-  const Talus::RecordStep step = step_of(start.next_kick(dt), dt);
-  if (system->residence() == Talus::Residence::RECORDS)
-    system->advance(step);
-  else
-    kick_spheres(lmp, igroup, step, frozenbits, true, system->velocity_changes());
+  system->advance(this, step_of(start.next_kick(dt), dt), frozenbits);
   if (rotates) rotate(dt);
 }
 

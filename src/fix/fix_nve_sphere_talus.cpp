@@ -3,14 +3,13 @@
 #include "fix_nve_sphere_talus.h"
 
 #include "plain_style.h"
-#include "sphere_kicks.h"
+#include "system/sphere_kicks.h"
 
 #include "force.h"
 #include "group.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
-using Talus::Residence;
 
 FixNVESphereTalus::FixNVESphereTalus(LAMMPS *lmp, int narg, char **arg) :
     FixNVESphere(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
@@ -54,25 +53,19 @@ Talus::RecordStep FixNVESphereTalus::half_step() const
 
 void FixNVESphereTalus::initial_integrate(int vflag)
 {
-  if (!reason.empty())
-    FixNVESphere::initial_integrate(vflag);
-  else if (system->residence() == Residence::RECORDS)
-    system->advance(half_step());
-  else
-    kick_spheres(lmp, igroup, half_step(), 0, true);
+  if (!reason.empty()) return FixNVESphere::initial_integrate(vflag);
+  system->advance(this, half_step());
 }
 
 /* Put off while particles stay in the records. */
 
 void FixNVESphereTalus::final_integrate()
 {
-  if (!reason.empty())
-    FixNVESphere::final_integrate();
-  else if (system->residence() == Residence::HOST)
-    kick_spheres(lmp, igroup, half_step(), 0, false);
+  if (!reason.empty()) return FixNVESphere::final_integrate();
+  system->complete_step_of(*this);
 }
 
 void FixNVESphereTalus::complete_step()
 {
-  final_integrate();
+  kick_spheres(lmp, igroup, half_step(), 0, false);
 }

@@ -142,7 +142,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
   const double dt = update->dt, kick_time = start.next_kick(dt), time = kick_time * force_unit();
   if (start.is_half()) extrapolation = start.lag() / kick_time;
   way_back = its_order == 2 ? start.lag() : 0.0;
-  look_at_storage();
+  look_at_particles();
   share_loads();
   const double *g = gravity.acceleration();
   const Kick kick{time, {time * g[0], time * g[1], time * g[2]}, 1.0};
@@ -155,7 +155,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
     return s.sphere_motion();
   };
   if (moves_in_lanes()) {
-    move_in_records(motion);
+    move_in_lanes(motion);
   } else {
     take_from_lanes();
     for_each_clump([&](int clump, Body &b) {
@@ -165,7 +165,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
       place_spheres(clump, s, its, b, Get::PLACES_AND_VELOCITIES, kick);
     });
   }
-  if (in_records_now()) system->advance(record_step(time));
+  system->advance(this, record_step(time));
 }
 
 Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const ClumpState &state) const
@@ -180,7 +180,12 @@ Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const Clum
 
 void FixRigidSmallSymplectic::final_integrate()
 {
-  if (system->residence() == Talus::Residence::HOST) take_from_lanes();
+  system->complete_step_of(*this);
+}
+
+void FixRigidSmallSymplectic::complete_step()
+{
+  take_from_lanes();
 }
 
 /* ---------------------------------------------------------------------- */

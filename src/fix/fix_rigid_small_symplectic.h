@@ -61,6 +61,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   int order() const override { return its_order; }
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }
+  void complete_step() override;
 
  protected:
   std::string find_reason() override;

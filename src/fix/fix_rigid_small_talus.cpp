@@ -17,7 +17,6 @@
 
 using namespace LAMMPS_NS;
 using ClumpState = Talus::ClumpState<double>;
-using Talus::Residence;
 using Vector = Talus::Vector3<double>;
 
 namespace {
@@ -149,36 +148,14 @@ void FixRigidSmallTalus::put_state(const ClumpState &s, Body &b)
   put(s.axes.z, b.ez_space);
 }
 
-void FixRigidSmallTalus::look_at_storage()
-{
-  in_records = system->residence() == Residence::RECORDS;
-  records = &system->records();
-  if (in_records) records->extrapolation = extrapolation;
-  if (in_records && !slots_known) find_slots();
-}
-
-/* A frozen sphere has infinite mass in the records, whose forces are not cleared. */
-
 FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpState &state) const
 {
   Loads sum{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
-    Vector f{0.0, 0.0, 0.0}, t = f;
-    if (!s->owned) {
-      const double *row = row_of(*s);
-      f = vector_of(row);
-      t = vector_of(row + 3);
-    } else if (!in_records) {
-      f = vector_of(atom->f[s->atom]);
-      t = vector_of(atom->torque[s->atom]);
-    } else if (records->velocity(s->slot).c[3] > 0.0) {
-      f = vector_of(records->load[2L * s->slot].c);
-      Talus::Record turn;
-      store(turn, records->torque(s->slot));
-      t = vector_of(turn.c);
-    }
-    sum.force = sum.force + f;
-    sum.torque = sum.torque + (cross(state.axes.to_space(s->place), f) + t);
+    const double *row = s->owned ? nullptr : row_of(*s);
+    const Loads its = row ? Loads{vector_of(row), vector_of(row + 3)} : particles.load(s->atom);
+    sum.force = sum.force + its.force;
+    sum.torque = sum.torque + (cross(state.axes.to_space(s->place), its.force) + its.torque);
   }
   if (domain->dimension == 2) sum.force.z = sum.torque.x = sum.torque.y = 0.0;
   return sum;
@@ -197,17 +174,17 @@ Vector FixRigidSmallTalus::shift_of(const ClumpSphere &s) const
 }
 
 /* ----------------------------------------------------------------------
-   in the records
+   eight clumps at a time
 ------------------------------------------------------------------------- */
 
 bool FixRigidSmallTalus::moves_in_lanes() const
 {
-  return in_records && !evflag && domain->dimension == 3;
+  return particles.records() && !evflag && domain->dimension == 3;
 }
 
 void FixRigidSmallTalus::fill_lanes()
 {
-  lanes.make(table, *records);
+  lanes.make(table, *particles.records(), particles.order());
   for (int c = 0; c < table.size(); c++) lanes.set(c, state_of(body[table.body[c]]));
 }
 
@@ -218,21 +195,19 @@ void FixRigidSmallTalus::take_from_lanes()
   lanes.forget();
 }
 
+void FixRigidSmallTalus::leave_records()
+{
+  take_from_lanes();
+  kick_is_due = false;    // complete_step() gives it, or the step is over without it
+}
+
 /* ----------------------------------------------------------------------
    one clump after another
 ------------------------------------------------------------------------- */
 
 FixRigidSmallTalus::SphereVelocity FixRigidSmallTalus::velocity_of(const ClumpSphere &s) const
 {
-  if (in_records)
-    return {vector_of(records->velocity(s.slot).c), vector_of(records->omega(s.slot).c)};
-  return {vector_of(atom->v[s.atom]), vector_of(atom->omega[s.atom])};
-}
-
-Talus::ChangeRecord *FixRigidSmallTalus::changes_of_spheres() const
-{
-  if (in_records) return records->keeps_changes() ? records->change.data() : nullptr;
-  return keeps_changes() ? system->velocity_changes() : nullptr;
+  return {particles.velocity(s.atom), particles.angular_velocity(s.atom)};
 }
 
 /* With the bits of ParticleRecords::keep_change(). */
@@ -256,14 +231,11 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
 {
   const bool moves = what == Get::PLACES_AND_VELOCITIES;
   const bool tallies = evflag && kick.share > 0.0;
-  Talus::ChangeRecord *const changes = moves ? changes_of_spheres() : nullptr;
   const bool flat = domain->dimension == 2;
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
     if (!s->owned) continue;
     const int i = s->atom;
-    double *x = in_records ? records->position[s->slot].c : atom->x[i];
-    double *v = in_records ? records->motion[2L * s->slot].c : atom->v[i];
-    double *w = in_records ? records->motion[2L * s->slot + 1].c : atom->omega[i];
+    double *const x = particles.x(i), *const v = particles.v(i), *const w = particles.w(i);
     const Vector x_old = vector_of(x);
     const SphereVelocity old = velocity_of(*s);
     const Vector arm = state.axes.to_space(s->place);
@@ -275,14 +247,12 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
       if (flat) v[2] = 0.0;
       put(motion.omega, w);
     }
-    if (changes)
-      keep_change(changes[in_records ? s->slot : i], *s,
-                  before ? before[s - table.begin(clump)] : old);
+    if (Talus::ChangeRecord *its = moves ? particles.change(i) : nullptr)
+      keep_change(*its, *s, before ? before[s - table.begin(clump)] : old);
     if (!tallies) continue;
 
-    const double *f = in_records ? records->load[2L * s->slot].c : atom->f[i];
     const Vector change = vector_of(v) - old.v - vector_of(kick.fall);
-    const Vector holds = (atom->rmass[i] / kick.time) * change - vector_of(f);
+    const Vector holds = (atom->rmass[i] / kick.time) * change - particles.force(i);
     const Vector at = x_old + shift, part = kick.share * holds;
     double virial_of[6] = {at.x * part.x, at.y * part.y, at.z * part.z,
                            at.x * part.y, at.x * part.z, at.y * part.z};
@@ -301,7 +271,8 @@ void FixRigidSmallTalus::setup(int vflag)
 {
   if (!reason.empty()) return FixRigidSmall::setup(vflag);
   v_init(vflag);
-  look_at_storage();
+  kick_is_due = false;
+  look_at_particles();
   share_loads();
   for_each_clump([&](int clump, Body &b) {
     ClumpState s = state_of(b);
@@ -319,10 +290,10 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
 {
   if (!reason.empty()) return FixRigidSmall::initial_integrate(vflag);
   v_init(vflag);
-  look_at_storage();
-  if (in_records) share_loads();
+  look_at_particles();
+  if (kick_is_due) share_loads();
   if (moves_in_lanes())
-    move_in_records([this](auto &s, auto loads) {
+    move_in_lanes([this](auto &s, auto loads) {
       if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);
       s.kick(dtf, loads.force, loads.torque);
@@ -330,8 +301,9 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
       return s.sphere_motion();
     });
   else
-    begin_step(in_records);
-  if (in_records) system->advance(record_step(dtf));
+    begin_step();
+  kick_is_due = false;
+  system->advance(this, record_step(dtf));
 }
 
 Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
@@ -341,9 +313,9 @@ Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
   return step;
 }
 
-/* In the records the last step is completed first. */
+/* The last step is completed first, if that has been put off. */
 
-void FixRigidSmallTalus::begin_step(bool completes)
+void FixRigidSmallTalus::begin_step()
 {
   take_from_lanes();
   const Kick no_share{dtf, {0.0, 0.0, 0.0}, 0.0}, kick{dtf, {0.0, 0.0, 0.0}, 0.5};
@@ -351,7 +323,7 @@ void FixRigidSmallTalus::begin_step(bool completes)
     ClumpState s = state_of(b);
     Loads loads{vector_of(b.fcm), vector_of(b.torque)};
     std::vector<SphereVelocity> before;
-    if (completes) {
+    if (kick_is_due) {
       loads = loads_on(clump, s);
       if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);
@@ -375,8 +347,13 @@ void FixRigidSmallTalus::begin_step(bool completes)
 void FixRigidSmallTalus::final_integrate()
 {
   if (!reason.empty()) return FixRigidSmall::final_integrate();
-  if (system->residence() == Residence::RECORDS) return;
-  look_at_storage();
+  kick_is_due = true;
+  system->complete_step_of(*this);
+}
+
+void FixRigidSmallTalus::complete_step()
+{
+  look_at_particles();
   take_from_lanes();
   share_loads();
   for_each_clump([&](int clump, Body &b) {
@@ -390,9 +367,5 @@ void FixRigidSmallTalus::final_integrate()
     put_state(s, b);
     place_spheres(clump, s, s.sphere_motion(), b, Get::VELOCITIES, {dtf, {0.0, 0.0, 0.0}, 0.5});
   });
-}
-
-void FixRigidSmallTalus::complete_step()
-{
-  final_integrate();
+  kick_is_due = false;
 }

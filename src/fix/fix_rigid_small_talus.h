@@ -69,7 +69,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
   void complete_step() override;
-  void leave_records() override { take_from_lanes(); }
+  void leave_records() override;
 
  protected:
   std::shared_ptr<Talus::GranularSystem> system;
@@ -88,27 +88,27 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
     double fall[3];
     double share;
   };
-  struct Loads {
-    Talus::Vector3<double> force, torque;    // torque about the center of mass
-  };
+  using Loads = Talus::ParticleState::Load;    // torque about the center of mass
   // ranks tell each other the forces on spheres of clumps that they share; collective
   void share_loads();
   // motion(state, loads), which returns that of the spheres, for all clumps of this rank at the
-  // same time, in the records, where its spheres then get their places: eight clumps at a time
-  template <class Motion> void move_in_records(Motion motion)
+  // same time, if moves_in_lanes(); its spheres then get their places: eight clumps at a time
+  template <class Motion> void move_in_lanes(Motion motion)
   {
+    Talus::ParticleRecords &records = *particles.records();
+    records.extrapolation = extrapolation;
     if (!lanes.are_current()) fill_lanes();
     Talus::in_ranges(lanes.num_groups(), threads(), [&](int, int begin, int end) {
       for (int g = begin; g < end; g++)
         lanes.move(
-            table, *records, g, motion, [this](const ClumpSphere &s) { return row_of(s); },
+            table, records, g, motion, [this](const ClumpSphere &s) { return row_of(s); },
             [this](const ClumpSphere &s) {
               const Talus::Vector3<double> its = shift_of(s);
               return Talus::Record{{its.x, its.y, its.z, 0.0}};
             });
     });
   }
-  // motions in the records are possible and no more is asked for than they give
+  // of clumps whose spheres are in the records, where no more is asked for than such motions give
   bool moves_in_lanes() const;
   // what clumps did in the records since the bodies of the stock class were up to date
   void take_from_lanes();
@@ -141,10 +141,9 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   double extrapolation;
   // for GranularSystem::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
-  // before the first of these in a step, once `extrapolation` is known
-  void look_at_storage();
+  // before the first of these in a step: where its particles are
+  void look_at_particles() { particles = system->particles(); }
   double force_unit() const;
-  bool in_records_now() const { return in_records; }
 
  private:
   enum class Message { STOCK, MEMBERS, STATES, LOADS };
@@ -156,18 +155,14 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   std::vector<tagint> ghost_clump;    // of ghosts: the body's ID, 0 if in none
   std::vector<double> ghost_rows;     // of ghosts: rows of what was sent last
   int row_size = 0;
-  bool slots_known = false;
   bool restored = false;        // from a restart file, and no run since
   bool states_known = false;    // the set-up has found clumps as the last run has left them
 
-  // where spheres are in this step
-  bool in_records = false;
-  Talus::ParticleRecords *records = nullptr;
+  Talus::ParticleState particles;    // see look_at_particles()
+  bool kick_is_due = false;          // the one that ends the last step has been put off
 
   int threads() const;
   SphereVelocity velocity_of(const ClumpSphere &sphere) const;    // owned
-  // by slot or by atom, as spheres are; nullptr: they are not kept
-  Talus::ChangeRecord *changes_of_spheres() const;
   void keep_change(Talus::ChangeRecord &change, const ClumpSphere &sphere,
                    const SphereVelocity &old) const;
   std::string reason_of_spheres() const;
@@ -178,7 +173,6 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   const double *row_of(const ClumpSphere &sphere) const;
 
   void make_table();
-  void find_slots();
   void fill_lanes();
   Talus::Vector3<double> shift_of(const ClumpSphere &sphere) const;
   void restore_bodies();
@@ -189,7 +183,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool keeps_states();
   bool is_kept(int clump) const;
 
-  void begin_step(bool completes);
+  void begin_step();
   template <class Real> Talus::Vector3<Real> weight(Real mass) const
   {
     const Talus::Vector3<double> g{gvec[0], gvec[1], gvec[2]};

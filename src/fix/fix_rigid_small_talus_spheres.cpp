@@ -40,13 +40,10 @@ void FixRigidSmallTalus::write_row(int i, double *row) const
     std::copy(displace[i], displace[i] + 3, row + 1);
   } else if (message == Message::STATES) {
     write_state_row(i, row);
-  } else if (in_records) {
-    const int slot = system->slot_of_atom()[i];
-    std::fill_n(row, size_loads, 0.0);
-    if (records->velocity(slot).c[3] > 0.0) records->write_forces(slot, row, row + 3);
   } else {
-    std::copy(atom->f[i], atom->f[i] + 3, row);
-    std::copy(atom->torque[i], atom->torque[i] + 3, row + 3);
+    const auto [f, t] = particles.load(i);
+    const double its[size_loads] = {f.x, f.y, f.z, t.x, t.y, t.z};
+    std::copy(its, its + size_loads, row);
   }
 }
 
@@ -120,7 +117,6 @@ void FixRigidSmallTalus::share_loads()
 
 void FixRigidSmallTalus::make_table()
 {
-  slots_known = false;
   ghost_clump.assign(atom->nghost, 0);
   exchange_rows(Message::MEMBERS, size_members);
 
@@ -143,7 +139,7 @@ void FixRigidSmallTalus::make_table()
     const int owner = atom->map(clump_of(i));
     const int b = owned ? atom2body[i] : owner >= 0 ? bodyown[owner] : -1;
     if (b < 0 || clump_of_body[b] < 0) continue;
-    ClumpSphere s{{}, atom->tag[i], i, -1, owned, false, {0, 0, 0}};
+    ClumpSphere s{{}, atom->tag[i], i, owned, false, {0, 0, 0}};
     const double *place = owned ? displace[i] : row_of(s) + 1;
     s.place = {place[0], place[1], place[2]};
     const imageint image = owned ? xcmimage[i] : 0;
@@ -180,13 +176,6 @@ void FixRigidSmallTalus::make_table()
                "Fix {} {}: a clump has spheres that are farther from each other than ghosts reach: "
                "use 'comm_modify mode single'",
                style, id);
-}
-
-void FixRigidSmallTalus::find_slots()
-{
-  const int *slot_of_atom = system->slot_of_atom();
-  for (ClumpSphere &s : table.spheres) s.slot = slot_of_atom[s.atom];
-  slots_known = true;
 }
 
 void FixRigidSmallTalus::pre_neighbor()

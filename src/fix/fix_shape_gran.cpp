@@ -157,7 +157,6 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
-  list_lent();
   pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
   for (auto &[body, its] : walls)
     if (its.points) list_particles(*body, *its.points);
@@ -174,22 +173,19 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
 
 /* ---- a step ---- */
 
+std::string FixShapeGran::needs_host_arrays()
+{
+  if (!system->pipeline().keeps_spins())
+    return "it turns particles and the contacts between them have no friction";
+  if (system->account().is_asked())
+    return "the energies of contacts of particles with a shape are asked for";
+  return "";
+}
+
 ShapedView FixShapeGran::view() const
 {
   if (atom->nlocal + atom->nghost == 0) return {};
-  return {atom->nlocal,
-          atom->nlocal + atom->nghost,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          system->masses().override_or_null(),
-          atom->type,
-          quat[0],
-          atom->f[0],
-          atom->torque[0],
-          system->velocity_changes()};
+  return {system->particles(), atom->nlocal + atom->nghost, quat[0]};
 }
 
 /* The direct exchange brings them with positions, a rebuild with its ghosts. */
@@ -207,11 +203,8 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
 {
   require_set_up();
   send_orientations();
-  const bool in_records = system->residence() == Residence::RECORDS;
-  if (in_records) show_lent();
   pairs.compute(view(), system->law_table(),
                 {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
-  if (in_records) take_forces();
   if (step.advance) memories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
@@ -232,7 +225,7 @@ FixShapeGran::Wall &FixShapeGran::wall_of(LargeBody &body)
   return its;
 }
 
-BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double *virial)
+BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step)
 {
   Wall &its = wall_of(body);
   if (!its.points) {
@@ -240,12 +233,7 @@ BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step, double 
     list_particles(body, *its.points);
   }
   if (step.advance) memories_are_current = false;
-  const bool in_records = system->residence() == Residence::RECORDS;
-  if (in_records) show_forces();
-  const BodyLoad load = its.points->compute(*its.surfaces, body.present_frame(), view(),
-                                            body.law_table(), step, virial);
-  if (in_records) take_forces();
-  return load;
+  return its.points->compute(*its.surfaces, body.present_frame(), view(), body.law_table(), step);
 }
 
 /* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */
@@ -266,32 +254,33 @@ bool FixShapeGran::moves_particle(int i) const
 /* Half of what the kick gives to velocities: of omega not what free rotation changes, for this is
    exact at the positions on both sides of a step. */
 
-void FixShapeGran::keep_change(ChangeRecord &change, int i, const Loads &loads) const
+void FixShapeGran::keep_change(ChangeRecord &change, int i, const Load &load) const
 {
   const double half = 0.5 * update->dt * force->ftm2v;
-  const Vector3<double> v = (half / atom->rmass[i]) * loads.force;
+  const Vector3<double> v = (half / atom->rmass[i]) * load.force;
   const Vector3<double> omega =
       table.of(atom->type[i])
           ->rotation()
-          .omega_of(quaternion(quat[i]), (half * atom->radius[i]) * loads.torque);
+          .omega_of(quaternion(quat[i]), (half * atom->radius[i]) * load.torque);
   change = {{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F,
              static_cast<float>(omega.x), static_cast<float>(omega.y), static_cast<float>(omega.z),
              0.0F}};
 }
 
-/* Moves the rows of one particle, wherever they are. */
-
-void FixShapeGran::move(int i, const Loads &loads, double *x, double *v, double *w)
+void FixShapeGran::move(const ParticleState &particles, int i)
 {
+  const Load load = particles.load(i);
+  if (ChangeRecord *change = particles.change(i)) keep_change(*change, i, load);
+  double *const x = particles.x(i), *const v = particles.v(i), *const w = particles.w(i);
   const double dt = update->dt, kick = dt * force->ftm2v / atom->rmass[i];
-  const double f[3] = {loads.force.x, loads.force.y, loads.force.z};
+  const double f[3] = {load.force.x, load.force.y, load.force.z};
   for (int d = 0; d < 3; d++) {
     v[d] += kick * f[d];
     x[d] += dt * v[d];
   }
   Eigen::Quaterniond q = quaternion(quat[i]);
   Vector3<double> omega = row(w);
-  table.of(atom->type[i])->rotation().advance(q, omega, force->ftm2v * loads.torque, dt);
+  table.of(atom->type[i])->rotation().advance(q, omega, force->ftm2v * load.torque, dt);
   put(q, quat[i]);
   w[0] = omega.x;
   w[1] = omega.y;
@@ -300,14 +289,12 @@ void FixShapeGran::move(int i, const Loads &loads, double *x, double *v, double 
 
 void FixShapeGran::initial_integrate(int /*vflag*/)
 {
-  if (system->residence() == Residence::RECORDS) return advance_in_records();
-  ChangeRecord *changes = system->velocity_changes();
+  const ParticleState particles = system->particles();
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
-    for (int i = begin; i < end; i++) {
-      if (!moves_particle(i)) continue;
-      const Loads loads{row(atom->f[i]), row(atom->torque[i])};
-      if (changes) keep_change(changes[i], i, loads);
-      move(i, loads, atom->x[i], atom->v[i], atom->omega[i]);
-    }
+    for (int i = begin; i < end; i++)
+      if (moves_particle(i)) move(particles, i);
   });
+  RecordStep step{update->dt, update->dt * force->ftm2v, {0.0, 0.0, 0.0}, 0.4};
+  step.extrapolation = 0.5;
+  system->advance(this, step);
 }

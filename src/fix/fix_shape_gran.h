@@ -101,8 +101,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double *const *orientations() const override { return quat; }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
-  Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step,
-                             double *virial) override;
+  Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step) override;
   bool keeps_change_of(int i) const override { return moves_particle(i); }
   void for_each_contact_of_pairs(Talus::Ask ask, const VisitContact &visit) const override;
   void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
@@ -118,11 +117,9 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void orient_new(int first, int last);
   Talus::ShapedView view() const;
   void set_maxexchange();
-  struct Loads {
-    Talus::Vector3<double> force, torque;
-  };
-  void keep_change(Talus::ChangeRecord &change, int i, const Loads &loads) const;
-  void move(int i, const Loads &loads, double *x, double *v, double *w);
+  using Load = Talus::ParticleState::Load;
+  void keep_change(Talus::ChangeRecord &change, int i, const Load &load) const;
+  void move(const Talus::ParticleState &particles, int i);
   void send_orientations();
   void list_particles(const Talus::LargeBody &body, Talus::WallPoints &points);
   static std::int64_t name_of(const Talus::LargeBody &body);
@@ -156,15 +153,6 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   Talus::PointMemories memories;
   bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
-
-  // fix_shape_gran_records.cpp: steps in the records
-  void list_lent();
-  void show_lent();
-  void show_forces();
-  void take_forces();
-  void advance_in_records();
-  std::vector<int> lent;    ///< own particles and partners, whose rows show the present step
-  int lent_owned = 0;       ///< the first of these
 
   std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
   std::vector<double> image_values;

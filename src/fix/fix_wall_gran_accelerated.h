@@ -123,10 +123,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   }
   bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
   /// Forces by particle are kept for output; steps in the records have no output.
-  bool keeps_contacts() const
-  {
-    return this->peratom_flag && system->residence() == Residence::HOST;
-  }
+  bool keeps_contacts() const { return this->peratom_flag && system->particles().is_shown(); }
   bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
   /// The temperature of the wall in this step, if it conducts heat.
@@ -135,9 +132,9 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (this->heat_flag && this->tstr)
       this->Twall = this->input->variable->compute_equal(this->tvar);
   }
-  double temperature_difference(const WallParticles &particles, int i) const
+  double temperature_difference(int i) const
   {
-    return this->heat_flag ? this->Twall - particles.temperature(i) : 0.0;
+    return this->heat_flag ? this->Twall - this->atom->temperature[i] : 0.0;
   }
 
   /// Begins a step of a batch, or a survey.
@@ -157,7 +154,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (accounts) account = system->account().part_of_step();
   }
 
-  void deliver(WallBatch &batch, const WallParticles &particles)
+  void deliver(WallBatch &batch, const ParticleState &particles)
   {
     if (survey) {
       batch.survey(survey->ask, survey->visit);
@@ -165,8 +162,9 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     }
     const bool keeps = keeps_contacts();
     batch.compute([&](const WallBatch::Result &its) {
-      particles.add(its.atom, its.force, its.torque);
-      if (this->heat_flag) particles.add_heat(its.atom, its.heat_flow);
+      const auto vector = [](const double *row) { return Vector3<double>{row[0], row[1], row[2]}; };
+      particles.add(its.atom, vector(its.force), vector(its.torque));
+      if (this->heat_flag) this->atom->heatflow[its.atom] += its.heat_flow;
       if (keeps) keep_contact(its);
     });
   }

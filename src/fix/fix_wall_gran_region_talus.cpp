@@ -46,10 +46,9 @@ int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
 /* A particle that is not asked for keeps its histories, as in LAMMPS, if it is not in the region,
    and has none if it is. */
 
-void FixWallGranRegionTalus::clear_history(int i)
+void FixWallGranRegionTalus::clear_history(int i, const ParticleState &particles)
 {
-  const double *x = WallParticles(*system, *atom).position(i);
-  if (use_history && ncontact[i] && is_inside(x)) ncontact[i] = 0;
+  if (use_history && ncontact[i] && is_inside(particles.x(i))) ncontact[i] = 0;
 }
 
 /* One thread: a region keeps the contacts that it finds. */
@@ -60,7 +59,7 @@ void FixWallGranRegionTalus::find_candidates(double moved)
     candidates.list_all(atom->nlocal, [this](int i) { return is_member(i); });
     return;
   }
-  const WallParticles particles(*system, *atom);
+  const ParticleState particles = system->particles();
   listed_poses = parts.poses();
   listed_box = AxisBox();
   std::vector<int> others;
@@ -71,7 +70,7 @@ void FixWallGranRegionTalus::find_candidates(double moved)
         atom->nlocal, neighbor->skin, moved, 1,
         [&](int i, double margin) {
           if (!is_member(i)) return false;
-          const double *x = particles.position(i);
+          const double *x = particles.x(i);
           const double radius = particles.radius(i);
           const double reach = radius + model->pulloff_distance(radius, 0.0) + margin;
           listed_box.add(x);
@@ -83,7 +82,7 @@ void FixWallGranRegionTalus::find_candidates(double moved)
         });
   }
   listed_box.widen(2.0 * largest);
-  for (const int i : others) clear_history(i);
+  for (const int i : others) clear_history(i, particles);
 }
 
 void FixWallGranRegionTalus::begin_step()
@@ -117,18 +116,19 @@ void FixWallGranRegionTalus::survey_contacts()
 void FixWallGranRegionTalus::add_contacts_of_candidates()
 {
   begin(batch);
-  const WallParticles particles(*system, *atom);
+  const ParticleState particles = system->particles();
   constexpr int ahead = 8;
   for (int c = 0; c < candidates.size(); c++) {
-    if (c + ahead < candidates.size()) particles.prefetch(candidates.atoms[c + ahead]);
+    if (c + ahead < candidates.size())
+      particles.prefetch_position(particles.place(candidates.atoms[c + ahead]));
     add_contacts_of(candidates.atoms[c], particles);
   }
   deliver(batch, particles);
 }
 
-void FixWallGranRegionTalus::add_contacts_of(int i, const WallParticles &particles)
+void FixWallGranRegionTalus::add_contacts_of(int i, const ParticleState &particles)
 {
-  const double *x = particles.position(i);
+  const double *x = particles.x(i);
   const double radius = particles.radius(i);
   if (!is_inside(x)) return;
   const double reach = radius + model->pulloff_distance(radius, 0.0);
@@ -180,7 +180,7 @@ void FixWallGranRegionTalus::find_wall_velocity(const double *position, int ic)
   region->velocity_contact_shape(velocity, point);
 }
 
-void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &particles)
+void FixWallGranRegionTalus::add_contact(int i, int ic, const ParticleState &particles)
 {
   const Region::Contact &contact = region->contact[ic];
   double *history = use_history ? history_many[i][c2r[ic]] : nullptr;
@@ -194,10 +194,10 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const WallParticles &par
   }
   if (beyond) history[0] = 1;
 
-  if (dynamic) find_wall_velocity(particles.position(i), ic);
+  if (dynamic) find_wall_velocity(particles.x(i), ic);
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
   batch.add({i, separation, contact.r, radius, system->masses().of_body(i), contact.radius,
-             particles.velocity(i), velocity, particles.omega(i),
-             temperature_difference(particles, i), history, contact.iwall, particles.change(i)});
+             particles.v(i), velocity, particles.w(i), temperature_difference(i), history,
+             contact.iwall, particles.change(i)});
   if (batch.is_full()) deliver(batch, particles);
 }

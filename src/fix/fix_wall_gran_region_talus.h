@@ -34,10 +34,10 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void find_candidates(double moved);
   void begin_step();
   void add_contacts_of_candidates();
-  void add_contacts_of(int i, const Talus::WallParticles &particles);
-  void add_contact(int i, int ic, const Talus::WallParticles &particles);
+  void add_contacts_of(int i, const Talus::ParticleState &particles);
+  void add_contact(int i, int ic, const Talus::ParticleState &particles);
   void find_wall_velocity(const double *position, int ic);
-  void clear_history(int i);
+  void clear_history(int i, const Talus::ParticleState &particles);
   bool match_history(int i, int nc);
 
   bool dynamic = false;        // the region moves or changes its shape

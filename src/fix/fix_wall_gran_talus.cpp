@@ -114,14 +114,14 @@ void FixWallGranTalus::find_candidates(double moved)
     candidates.list_all(atom->nlocal, [this](int i) { return is_member(i); });
     return;
   }
-  const WallParticles particles(*system, *atom);
+  const ParticleState particles = system->particles();
   const bool beyond = touches_beyond_contact();
   candidates.list(
       atom->nlocal, neighbor->skin, moved, comm->nthreads,
       [&](int i, double margin) {
         if (!is_member(i)) return false;
         if (beyond && history_one[i][0] != 0.0) return true;
-        return !(distance(particles.position(i)) >= particles.radius(i) + margin);
+        return !(distance(particles.x(i)) >= particles.radius(i) + margin);
       },
       [&](int i) {
         if (is_member(i)) clear_history(i);
@@ -138,7 +138,7 @@ void FixWallGranTalus::add_contacts()
   if (keeps_contacts()) clear_stored_contacts();
   find_wall_temperature();
   begin_account();
-  const WallParticles particles(*system, *atom);
+  const ParticleState particles = system->particles();
   const int threads =
       std::clamp(candidates.size() / worth_a_thread, 1, static_cast<int>(batches.size()));
   ranges.assign(threads, {0, 0});
@@ -154,7 +154,7 @@ void FixWallGranTalus::add_contacts()
 void FixWallGranTalus::survey_contacts()
 {
   place();
-  const WallParticles particles(*system, *atom);
+  const ParticleState particles = system->particles();
   for (std::size_t t = 0; t < ranges.size(); t++) {
     if (ranges[t].first == ranges[t].second) continue;
     begin(batches[t]);
@@ -162,16 +162,16 @@ void FixWallGranTalus::survey_contacts()
   }
 }
 
-void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &particles, int begin,
+void FixWallGranTalus::add_contacts_of(WallBatch &batch, const ParticleState &particles, int begin,
                                        int end)
 {
   const bool beyond = touches_beyond_contact();
   constexpr int ahead = 8;
   for (int c = begin; c < end; c++) {
-    if (c + ahead < end) particles.prefetch(candidates.atoms[c + ahead]);
+    if (c + ahead < end) particles.prefetch_position(particles.place(candidates.atoms[c + ahead]));
     const int i = candidates.atoms[c];
     const double radius = particles.radius(i);
-    const Gap g = gap(particles.position(i), radius);
+    const Gap g = gap(particles.x(i), radius);
     const double squared = g.d[0] * g.d[0] + g.d[1] * g.d[1] + g.d[2] * g.d[2];
     double touch = radius;
     if (beyond && history_one[i][0] != 0.0) touch += wall_law.reach(radius, g.radius);
@@ -183,9 +183,8 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const WallParticles &pa
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
     batch.add({i, g.d, std::sqrt(squared), radius, system->masses().of_body(i), g.radius,
-               particles.velocity(i), velocity, particles.omega(i),
-               temperature_difference(particles, i), use_history ? history_one[i] : nullptr, g.part,
-               particles.change(i)});
+               particles.v(i), velocity, particles.w(i), temperature_difference(i),
+               use_history ? history_one[i] : nullptr, g.part, particles.change(i)});
     if (batch.is_full()) deliver(batch, particles);
   }
   deliver(batch, particles);

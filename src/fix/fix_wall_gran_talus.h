@@ -52,7 +52,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
   void place();
   void find_candidates(double moved);
   void clear_history(int i);
-  void add_contacts_of(Talus::WallBatch &batch, const Talus::WallParticles &particles, int begin,
+  void add_contacts_of(Talus::WallBatch &batch, const Talus::ParticleState &particles, int begin,
                        int end);
 
   std::vector<Talus::WallBatch> batches;      // by thread

@@ -1,79 +1,15 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The owned particles that may touch a wall of LAMMPS in the next steps, and their state where it
-// lives in a step: in the arrays of LAMMPS or in the records.
+// The owned particles that may touch a wall of LAMMPS in the next steps.
 
 #ifndef TALUS_FIX_WALL_CANDIDATES_H
 #define TALUS_FIX_WALL_CANDIDATES_H
 
 #include "base/in_parallel.h"
-#include "system/granular_system.h"
-
-#include "atom.h"
 
 #include <vector>
 
 namespace Talus {
-
-/// State of owned particles by host's index, and what forces are added to. Made anew in each step,
-/// after the forces between particles.
-class WallParticles {
- public:
-  WallParticles(GranularSystem &system, LAMMPS_NS::Atom &atom) :
-      atom(atom), records(system.residence() == Residence::RECORDS ? &system.records() : nullptr),
-      slot_of_atom(system.slot_of_atom()), changes(system.velocity_changes())
-  {
-  }
-
-  const double *position(int i) const { return records ? records->position[slot(i)].c : atom.x[i]; }
-  double radius(int i) const { return records ? records->position[slot(i)].c[3] : atom.radius[i]; }
-  double *velocity(int i) const { return records ? motion(i)[0].c : atom.v[i]; }
-  double *omega(int i) const { return records ? motion(i)[1].c : atom.omega[i]; }
-  /// Adds to the sums of one particle; by one thread for each.
-  void add(int i, const double *force, const double *torque) const
-  {
-    double *f, *t;
-    if (records) {
-      records->settle_torque(static_cast<int>(slot(i)));
-      f = records->load[2 * slot(i)].c;
-      t = records->load[2 * slot(i) + 1].c;
-    } else {
-      f = atom.f[i];
-      t = atom.torque[i];
-    }
-    for (int d = 0; d < 3; d++) {
-      f[d] += force[d];
-      t[d] += torque[d];
-    }
-  }
-  /// See GranularSystem::velocity_changes(); nullptr if they are not kept.
-  const ChangeRecord *change(int i) const
-  {
-    if (records) return records->keeps_changes() ? &records->change[slot(i)] : nullptr;
-    return changes ? changes + i : nullptr;
-  }
-  double temperature(int i) const { return atom.temperature[i]; }
-  void add_heat(int i, double power) const { atom.heatflow[i] += power; }
-  /// Calls what is needed of one particle into the cache; a hint.
-  void prefetch(int i) const
-  {
-    if (records) {
-      __builtin_prefetch(&records->position[slot(i)]);
-    } else {
-      __builtin_prefetch(atom.x[i]);
-      __builtin_prefetch(atom.radius + i);
-    }
-  }
-
- private:
-  LAMMPS_NS::Atom &atom;
-  ParticleRecords *records;
-  const int *slot_of_atom;
-  const ChangeRecord *changes;
-
-  std::size_t slot(int i) const { return static_cast<std::size_t>(slot_of_atom[i]); }
-  Record *motion(int i) const { return &records->motion[2 * slot(i)]; }
-};
 
 /// A list of particles that holds all that may touch until particles and wall together have gone
 /// further than the margin it was made with.

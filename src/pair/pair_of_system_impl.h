@@ -82,9 +82,10 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.inverse_distance = 1.0 / r;
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
-  if (const Talus::ChangeRecord *changes = system->velocity_changes()) {
+  const Talus::ParticleState particles = system->particles();
+  if (const Talus::ChangeRecord *change = particles.change(i)) {
     s.lag = system->integrators().lag();
-    Talus::set_changes(s, changes[i], changes[j], ri, rj);
+    Talus::set_changes(s, *change, *particles.change(j), ri, rj);
   }
   if (atom->temperature_flag)
     s.temperature_difference = atom->temperature[j] - atom->temperature[i];

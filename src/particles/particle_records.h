@@ -25,13 +25,13 @@ namespace Talus {
 
 /// The host's arrays: rows of three doubles, owned particles first, then ghosts.
 struct ParticleView {
-  const double *x, *v, *omega;    ///< omega may be nullptr in a scene without friction
+  double *x, *v, *omega;    ///< omega may be nullptr in a scene without friction
   const double *radius, *mass;
   const double
       *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass (infinity: frozen)
   double *f, *torque;    ///< added to; torque may be nullptr like omega
-  double *heat_flow = nullptr;             ///< added to, if given: scalars, of owned particles
-  const ChangeRecord *change = nullptr;    ///< see ParticleRecords::change; if these are kept
+  double *heat_flow = nullptr;       ///< added to, if given: scalars, of owned particles
+  ChangeRecord *change = nullptr;    ///< see ParticleRecords::change; if these are kept
 };
 
 /// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),

@@ -16,13 +16,13 @@ constexpr int pairs_of_chunk = 32;
 void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
                             const std::vector<std::int64_t> &tag, const LawTable &laws)
 {
-  owned = view.owned;
+  owned = view.owned();
   list.clear();
   for (const auto &[a, b] : pairs) {
     if (tag[a] == tag[b]) continue;
     const bool in_order = tag[a] < tag[b];
     const int first = in_order ? a : b, second = in_order ? b : a;
-    const int of_first = view.type[first], of_second = view.type[second];
+    const int of_first = view.type(first), of_second = view.type(second);
     list.push_back({first,
                     second,
                     laws.row(of_first, of_second),
@@ -128,10 +128,10 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
     for (int n = begin; n < end; n++) {
       const int i = used[n];
       Solid &its = solids[i];
-      const ParticleShape *shape = shapes.of(view.type[i]);
+      const ParticleShape *shape = shapes.of(view.type(i));
       its.shape = shape ? &shape->shape() : nullptr;
-      its.around.radius = view.radius[i];
-      its.pose.position = view.row(view.x, i);
+      its.around.radius = view.radius(i);
+      its.pose.position = view.position(i);
       if (shape) its.pose = shape->pose(its.pose.position, view.turn(i));
     }
   });
@@ -225,13 +225,7 @@ void ShapedPairs::add_to_particles(const ShapedView &view, int threads) const
         force = sides[s].second ? force - its.force : force + its.force;
         torque = torque + (sides[s].second ? its.torque_second : its.torque_first);
       }
-      double *f = view.f + 3L * particles[n], *t = view.torque + 3L * particles[n];
-      f[0] += force.x;
-      f[1] += force.y;
-      f[2] += force.z;
-      t[0] += torque.x;
-      t[1] += torque.y;
-      t[2] += torque.z;
+      view.add(particles[n], force, torque);
     }
   });
 }

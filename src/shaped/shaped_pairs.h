@@ -81,7 +81,6 @@ class ShapedPairs {
 
   bool is_empty() const { return list.empty(); }
   /// Host's indices of all particles that have pairs, ascending.
-  const std::vector<int> &members() const { return used; }
   /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
   double count_contacts() const;
   double count_points() const;

@@ -4,27 +4,22 @@
 #define TALUS_SHAPED_SHAPED_VIEW_H
 
 #include "base/linear_algebra.h"
-#include "particles/change_record.h"
+#include "particles/particle_state.h"
 
 namespace Talus {
 
-/// The host's arrays, of owned particles and then ghosts, as contacts with shapes see them: rows of
-/// three doubles, of four for orientations (w x y z, zero of spheres). Forces and torques of owned
-/// particles are added to.
-struct ShapedView {
-  int owned, total;
-  const double *x, *v, *omega;
-  const double *radius, *mass;
-  const double *mass_override;    ///< nullptr, or per particle: > 0 replaces its mass
-  const int *type;                ///< counts from 1
-  const double *orientation;
-  double *f, *torque;
-  const ChangeRecord *change = nullptr;    ///< nullptr, or of all, see ParticleRecords::change
-
-  static Vector3<double> row(const double *of, int i)
+/// Owned particles and then ghosts, as contacts with shapes see them, with `orientation` in rows of
+/// four (w x y z, zero of spheres) by the host's index. Forces and torques are added to owned ones.
+struct ShapedView : ParticleState {
+  ShapedView() = default;
+  ShapedView(const ParticleState &particles, int owned_and_ghosts, const double *orientations) :
+      ParticleState(particles), total(owned_and_ghosts), orientation(orientations)
   {
-    return {of[3L * i], of[3L * i + 1], of[3L * i + 2]};
   }
+
+  int total = 0;
+  const double *orientation = nullptr;
+
   Eigen::Quaterniond turn(int i) const
   {
     const double *q = orientation + 4L * i;
@@ -33,20 +28,17 @@ struct ShapedView {
   /// Of the point `place` of a particle.
   Vector3<double> velocity_at(int i, const Vector3<double> &place) const
   {
-    return row(v, i) + cross(row(omega, i), place - row(x, i));
+    return velocity(i) + cross(angular_velocity(i), place - position(i));
   }
   /// What that velocity lacks of the one at the time of the positions; 0 if changes are not kept.
   Vector3<double> change_at(int i, const Vector3<double> &place) const
   {
-    if (!change) return {0.0, 0.0, 0.0};
-    const float *c = change[i].c;
-    const double per_radius = 1.0 / radius[i];
+    const ChangeRecord *its = change(i);
+    if (!its) return {0.0, 0.0, 0.0};
+    const float *c = its->c;
+    const double per_radius = 1.0 / radius(i);
     const Vector3<double> turn{per_radius * c[4], per_radius * c[5], per_radius * c[6]};
-    return Vector3<double>{c[0], c[1], c[2]} + cross(turn, place - row(x, i));
-  }
-  double inverse_mass(int i) const
-  {
-    return 1.0 / (mass_override && mass_override[i] > 0.0 ? mass_override[i] : mass[i]);
+    return Vector3<double>{c[0], c[1], c[2]} + cross(turn, place - position(i));
   }
 };
 

@@ -47,12 +47,11 @@ void WallPoints::save(PointMemories &to) const
 }
 
 BodyLoad WallPoints::compute(const BodySurfaces &surfaces, const BodyFrame &frame,
-                             const ShapedView &view, const LawTable &laws, const BodyStep &step,
-                             double *virial)
+                             const ShapedView &view, const LawTable &laws, const BodyStep &step)
 {
   while (static_cast<int>(batches.size()) < step.threads)
     batches.push_back(std::make_unique<PointBatch>());
-  const Task task{surfaces, frame, view, laws, step, virial};
+  const Task task{surfaces, frame, view, laws, step};
   in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
     for (int c = begin; c < end; c++) {
       Chunk &chunk = chunks[c];
@@ -88,12 +87,12 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const ShapedView &view = task.view;
   const BodyFrame &frame = task.frame;
   const int i = particles[n];
-  const ParticleShape &particle = *shapes.of(view.type[i]);
-  const Vector3<double> center = view.row(view.x, i), seen = frame.point_to_body(center);
+  const ParticleShape &particle = *shapes.of(view.type(i));
+  const Vector3<double> center = view.position(i), seen = frame.point_to_body(center);
   Pose pose = particle.pose(seen, view.turn(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
-  const int row = task.laws.row(view.type[i], view.type[i]);
-  const BodySurfaces::Particle seen_particle{view.type[i], particle.shape(), pose,
+  const int row = task.laws.row(view.type(i), view.type(i));
+  const BodySurfaces::Particle seen_particle{view.type(i), particle.shape(), pose,
                                              task.laws.force_exponent(row)};
   for (int w = 0; w < task.surfaces.size(); w++) {
     if (!task.surfaces.touch(w, seen_particle, chunk.found)) continue;
@@ -159,14 +158,8 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
     const int i = particles[chunk.of_point[k]];
     const Vector3<double> force = frame.to_space(point.force),
                           place = frame.point_to_space(point.place);
-    const Vector3<double> arm = place - view.row(view.x, i), torque = cross(arm, force);
-    double *f = view.f + 3L * i, *t = view.torque + 3L * i;
-    f[0] += force.x;
-    f[1] += force.y;
-    f[2] += force.z;
-    t[0] += torque.x;
-    t[1] += torque.y;
-    t[2] += torque.z;
+    const Vector3<double> arm = place - view.position(i), torque = cross(arm, force);
+    view.add(i, force, torque);
     const Vector3<double> on_body = -cross(place - about, force);
     chunk.load.add({-force, on_body, 1.0});
     if (task.step.exact) chunk.exact.add(-force, on_body);
@@ -176,8 +169,8 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
       const Vector3<double> shear = -(point.force - pressed * n), slip = v - dot(v, n) * n;
       chunk.touched.push_back({point.part, pressed, -point.force, shear, dot(shear, slip)});
     }
-    if (!task.virial) continue;
-    double *const virial = task.virial + 6L * i;
+    if (!task.step.virial) continue;
+    double *const virial = task.step.virial + 6L * i;
     virial[0] -= arm.x * force.x;
     virial[1] -= arm.y * force.y;
     virial[2] -= arm.z * force.z;
@@ -199,7 +192,7 @@ void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view
       found.i = particles[chunk.of_point[k]];
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);
-      found.arm[0] = frame.point_to_space(point.place) - view.row(view.x, found.i);
+      found.arm[0] = frame.point_to_space(point.place) - view.position(found.i);
       found.torque[0] = cross(found.arm[0], found.force);
       visit(found);
     }

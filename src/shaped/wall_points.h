@@ -36,10 +36,9 @@ class WallPoints {
   void restore(const PointMemories &from);
   void save(PointMemories &to) const;
 
-  /// Adds forces and torques; returns what the body bears. `virial`: nullptr, or six for each
-  /// particle, added to.
+  /// Adds forces and torques; returns what the body bears.
   BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,
-                   const LawTable &laws, const BodyStep &step, double *virial);
+                   const LawTable &laws, const BodyStep &step);
   /// visit(contact) for each point of the last compute(), with what it remembers now; its large
   /// body has no number. Positions of particles and body are still those of that step.
   using VisitContact = std::function<void(const SurveyedContact &)>;
@@ -63,7 +62,6 @@ class WallPoints {
     const ShapedView &view;
     const LawTable &laws;
     const BodyStep &step;
-    double *virial;
   };
 
   void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;

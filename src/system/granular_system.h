@@ -20,6 +20,7 @@
 #include "exchange/exchange_plan.h"
 #include "exchange/record_packer.h"
 #include "material/law_book.h"
+#include "particles/particle_state.h"
 #include "system/contact_monitor.h"
 #include "system/contact_range.h"
 #include "system/effective_masses.h"
@@ -107,10 +108,13 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- one step
 
-  /// Moves the owned particles of an integrator's group in the records, at the latest while the
-  /// next compute_contacts() goes on. Called by all integrators of the run in their order, only if
-  /// residence() is RECORDS.
-  void advance(const RecordStep &step);
+  /// Moves the owned particles of an integrator's group, unless it places them itself: at the latest
+  /// while the next compute_contacts() goes on. Called by all integrators of the run in their order.
+  /// Members of the groups with these bits do not fall.
+  void advance(const LAMMPS_NS::Fix *integrator, const RecordStep &step, int frozen_groups = 0);
+  /// Lets a fix do its part of a step in the arrays of the host: now, or when the particles come
+  /// back.
+  void complete_step_of(SystemFix &fix);
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// How far the particles went in the last step, if it was made in the records.
@@ -119,9 +123,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
   const Integrators &integrators() const { return movers; }
-  /// Where integrators keep the changes of velocities of particles in the arrays of the host,
-  /// nullptr if they are not needed; see ParticleRecords::change.
-  ChangeRecord *velocity_changes();
   /// Second order does, and the work of contacts.
   bool needs_changes() const;
 
@@ -135,6 +136,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   // ---- residence
 
+  /// The particles where they are now, for forces other than those between particles, and for those
+  /// who move them.
+  ParticleState particles();
   Residence residence() const
   {
     return contact_pipeline->holds_state() ? Residence::RECORDS : Residence::HOST;
@@ -159,10 +163,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void return_to_host(bool with_forces);
   /// The same at the end of a run, however it ends.
   void end_run();
-  /// In the records: for forces other than those between particles, in the order of slots.
-  ParticleRecords &records() { return contact_pipeline->records(); }
-  const int *slot_of_atom() const { return contact_pipeline->particle_order().slot_of_atom.data(); }
-
   // ---- particles that are not spheres
 
   /// In the constructor of the fix that has them, and in its destructor. false: there is one

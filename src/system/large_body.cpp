@@ -111,7 +111,7 @@ void LargeBody::clear_frozen()
 void LargeBody::list_particles()
 {
   masses.update();
-  const BodyParticleView particles = view();
+  const ParticleState particles = view();
   const int *mask = mask_of_spheres();
   if (its_shape->wants_focus()) its_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
@@ -124,7 +124,7 @@ void LargeBody::list_particles()
 
 /* Particles with a shape may be asked for anywhere: which are near is found in every step. */
 
-Eigen::AlignedBox3d LargeBody::bounds_of_focus(const BodyParticleView &particles, const int *mask)
+Eigen::AlignedBox3d LargeBody::bounds_of_focus(const ParticleState &particles, const int *mask)
 {
   constexpr double everywhere = 1.0e100;
   if (system.shapes())
@@ -147,24 +147,11 @@ const int *LargeBody::mask_of_spheres()
 
 /* ---------------------------------------------------------------------- */
 
-BodyParticleView LargeBody::view() const
+ParticleState LargeBody::view() const
 {
-  if (atom->nlocal == 0) return {};
-  const bool in_records = system.residence() == Residence::RECORDS;
-  return {atom->nlocal,
-          atom->x[0],
-          atom->v[0],
-          atom->omega[0],
-          atom->radius,
-          atom->rmass,
-          masses.override_or_null(),
-          atom->type,
-          atom->f[0],
-          atom->torque[0],
-          nullptr,
-          in_records ? &system.records() : nullptr,
-          in_records ? system.slot_of_atom() : nullptr,
-          system.velocity_changes()};
+  ParticleState its = system.particles();
+  its.replace_masses(masses.override_or_null());
+  return its;
 }
 
 std::string LargeBody::needs_host_arrays() const
@@ -208,11 +195,10 @@ void LargeBody::compute(bool advance, double *virial)
       seen_between.join(findings_now());
       list_particles();
     }
-    BodyParticleView particles = view();
-    particles.virial = virial;
-    const BodyStep step = step_of(advance);
-    mine = contacts.compute(*its_shape, *frame, particles, step);
-    if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step, virial));
+    BodyStep step = step_of(advance);
+    step.virial = virial;
+    mine = contacts.compute(*its_shape, *frame, view(), step);
+    if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step));
   }
   joined = reduced = total_is_known = false;
   has_forces = true;

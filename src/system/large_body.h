@@ -133,10 +133,10 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   ContactCoefficients coefficients_of(int type);
 
  private:
-  BodyParticleView view() const;
+  ParticleState view() const;
   BodyStep step_of(bool advance);
   const int *mask_of_spheres();
-  Eigen::AlignedBox3d bounds_of_focus(const BodyParticleView &particles, const int *mask);
+  Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
   void find_frozen();
   void clear_frozen();

@@ -158,7 +158,8 @@ ProxyPacker *GranularSystem::packer_of_records(const ProxyUpdates *proxies)
       contact_pipeline->show_changes(sent, contact_store->all_changes());
     return nullptr;
   }
-  if (!packer_knows_plan) packer.set_plan(proxies->plan(), slot_of_atom());
+  if (!packer_knows_plan)
+    packer.set_plan(proxies->plan(), contact_pipeline->particle_order().slot_of_atom.data());
   packer_knows_plan = true;
   packer.set_state(contact_pipeline->records(), present_box(*domain));
   proxies_are_in_records = true;

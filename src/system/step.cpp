@@ -12,6 +12,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/sphere_kicks.h"
 #include "system/system_shapes.h"
 
 #include "base/in_parallel.h"
@@ -30,8 +31,15 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::advance(const RecordStep &step)
+void GranularSystem::advance(const Fix *integrator, const RecordStep &step, int frozen_groups)
 {
+  if (!contact_pipeline->holds_state()) {
+    const SystemFix &its = *SystemFix::of(integrator);
+    ChangeRecord *const changes = its.keeps_changes() ? particles().changes() : nullptr;
+    if (!its.places_particles())
+      kick_spheres(lmp, integrator->igroup, step, frozen_groups, true, changes);
+    return;
+  }
   if (!movers.give(step)) return;
   if (!contact_pipeline->can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
@@ -41,6 +49,11 @@ void GranularSystem::advance(const RecordStep &step)
   update_gravity();
   contact_pipeline->advance(movers.steps());
   moved_in_records = update->ntimestep;
+}
+
+void GranularSystem::complete_step_of(SystemFix &fix)
+{
+  if (!contact_pipeline->holds_state()) fix.complete_step();
 }
 
 void GranularSystem::update_gravity()
@@ -129,9 +142,11 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   monitors.look(RunMonitor::Moment::SETUP);
 }
 
-ChangeRecord *GranularSystem::velocity_changes()
+ParticleState GranularSystem::particles()
 {
-  return contact_store ? contact_store->all_changes() : nullptr;
+  if (!contact_pipeline->holds_state()) return {atom->nlocal, view(), atom->type};
+  return {atom->nlocal, view(), atom->type, &contact_pipeline->records(),
+          contact_pipeline->particle_order().slot_of_atom.data()};
 }
 
 bool GranularSystem::needs_changes() const
@@ -207,7 +222,7 @@ ParticleView GranularSystem::view() const
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
           contact_pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
-          contact_store->all_changes()};
+          contact_store ? contact_store->all_changes() : nullptr};
 }
 
 }    // namespace Talus

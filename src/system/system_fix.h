@@ -64,16 +64,16 @@ class SystemFix {
   /// That moves particles, as its command says: of the time step, 1 or 2.
   virtual int order() const { return 1; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
-  /// GranularSystem::velocity_changes(). In the records they are kept for all.
+  /// ParticleState::change(). In the records they are kept for all.
   virtual bool keeps_changes() const { return false; }
   /// Of order 2: the time by which velocities are behind positions.
   virtual double lag() const { return 0.0; }
   /// Time of the kick that the next forces give, over the time step; between two steps.
   virtual double next_kick_in_steps() const { return 1.0; }
 
-  /// Particles have come back to the arrays of LAMMPS after a step in the records, with the forces
-  /// of contacts, bodies and weights: does what is missing of its part of that step. Those that
-  /// integrate are called last.
+  /// Its part of a step that others can see only in the arrays of LAMMPS, with the forces of
+  /// contacts, bodies and weights. Called by GranularSystem::complete_step_of() in a step that LAMMPS
+  /// looks at; and when particles come back from a step in the records, those that integrate last.
   virtual void complete_step() {}
 
  protected:

@@ -3,8 +3,7 @@
 // Particles that are not spheres, as GranularSystem knows them: fix shape/gran. They are particles
 // of the host like all others, with the radius of the sphere around their shape, so that neighbors,
 // ghosts and the order of sums are found as always. Pairs with a shape are taken out of the
-// neighbor list at a rebuild, and computed by the fix after those of spheres. In steps in the
-// records it copies what concerns it to the arrays of the host, and forces back.
+// neighbor list at a rebuild, and computed by the fix after those of spheres.
 
 #ifndef TALUS_SYSTEM_SYSTEM_SHAPES_H
 #define TALUS_SYSTEM_SYSTEM_SHAPES_H
@@ -52,11 +51,11 @@ class SystemShapes : public SystemFix {
   virtual void compute_contacts(const ContactStep &step) = 0;
 
   /// Adds the forces between owned particles with a shape and a large body; returns what the body
-  /// bears. `virial`: as for LargeBody::compute().
-  virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step, double *virial) = 0;
+  /// bears.
+  virtual BodyLoad touch_body(LargeBody &body, const BodyStep &step) = 0;
 
   /// Its integrator has written the change of velocities of particle i in this step, see
-  /// GranularSystem::velocity_changes().
+  /// ParticleState::change().
   virtual bool keeps_change_of(int i) const = 0;
 
   /// visit(contact) for each contact point of the last step on this rank: of two particles, and of

@@ -58,18 +58,13 @@ class BodyContactsTest : public testing::TestWithParam<int> {
 
   void find() { contacts.find_candidates(*shape, frame, view(), mask.data(), 1, skin, threads()); }
 
-  BodyParticleView view()
+  ParticleState view()
   {
     return {p.size(),
-            p.x[0].data(),
-            p.v[0].data(),
-            p.omega[0].data(),
-            p.radius.data(),
-            p.mass.data(),
-            p.mass_override.data(),
-            p.type.data(),
-            force.empty() ? nullptr : force[0].data(),
-            torque.empty() ? nullptr : torque[0].data()};
+            {p.x[0].data(), p.v[0].data(), p.omega[0].data(), p.radius.data(), p.mass.data(),
+             p.mass_override.data(), force.empty() ? nullptr : force[0].data(),
+             torque.empty() ? nullptr : torque[0].data()},
+            p.type.data()};
   }
 
   /// The contact of particle i as the twin wants it: with a resting, infinitely large and heavy
@@ -263,8 +258,7 @@ TEST_P(BodyContactsTest, OnlyMembersOfTheGroupAreTouched)
 TEST_P(BodyContactsTest, NoParticlesNoLoad)
 {
   p = random_packing(0, random);
-  const BodyParticleView nothing{0,       nullptr, nullptr, nullptr, nullptr,
-                                 nullptr, nullptr, nullptr, nullptr, nullptr};
+  const ParticleState nothing;
   contacts.find_candidates(*shape, frame, nothing, nullptr, 1, skin);
   const BodyLoad load = contacts.compute(*shape, frame, nothing, step_of(true));
   EXPECT_EQ(load.contacts, 0.0);

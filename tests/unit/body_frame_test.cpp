@@ -74,10 +74,12 @@ class Scene {
     }
   }
 
-  BodyParticleView view()
+  ParticleState view()
   {
-    return {p.size(),      p.x[0].data(), p.v[0].data(), p.omega[0].data(), p.radius.data(),
-            p.mass.data(), nullptr,       p.type.data(), force[0].data(),   torque[0].data()};
+    return {p.size(),
+            {p.x[0].data(), p.v[0].data(), p.omega[0].data(), p.radius.data(), p.mass.data(),
+             nullptr, force[0].data(), torque[0].data()},
+            p.type.data()};
   }
 
   void step(bool list)

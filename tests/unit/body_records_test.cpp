@@ -89,22 +89,10 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
             p.mass.data(), p.mass_override.data(), force[0].data(),   torque[0].data()};
   }
 
-  BodyParticleView view(bool of_records)
+  ParticleState view(bool of_records)
   {
-    const ParticleView h = host();
-    return {p.size(),
-            h.x,
-            h.v,
-            h.omega,
-            h.radius,
-            h.mass,
-            h.mass_override,
-            p.type.data(),
-            h.f,
-            h.torque,
-            nullptr,
-            of_records ? &records : nullptr,
-            of_records ? order.slot_of_atom.data() : nullptr};
+    if (!of_records) return {p.size(), host(), p.type.data()};
+    return {p.size(), host(), p.type.data(), &records, order.slot_of_atom.data()};
   }
 
   /// New lists, as after a rebuild: slots change.
@@ -164,7 +152,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
   BodyLoad add_in_ranges(Body &body, BodyStep step)
   {
     step.threads = 3;
-    const BodyParticleView of_records = view(true);
+    const ParticleState of_records = view(true);
     EXPECT_TRUE(body.in_records.begin_static(*body.shape, body.frame, of_records, step));
     const int a = random.below(p.size()), b = random.below(p.size());
     const int ends[] = {0, std::min(a, b), std::max(a, b), p.size()};
@@ -228,7 +216,7 @@ TEST_P(BodyRecordsTest, WhatIsNoStaticWallIsNotBegun)
   BodyStep step;
   step.dt = dt;
   Body &body = bodies[0];
-  const BodyParticleView in_records = view(true), in_arrays = view(false);
+  const ParticleState in_records = view(true), in_arrays = view(false);
   BodyContacts &contacts = body.in_records;
   EXPECT_TRUE(contacts.begin_static(*body.shape, body.frame, in_records, step));
   EXPECT_FALSE(contacts.begin_static(*body.shape, body.frame, in_arrays, step));

@@ -41,9 +41,10 @@ Digest digest_of(int threads, int &contacts_found)
   contacts.history.grow(p.size());
   const std::vector<int> mask(p.size(), 1);
   std::vector<slow::Vector> force(p.size()), torque(p.size());
-  const BodyParticleView view{p.size(),        p.x[0].data(),   p.v[0].data(), p.omega[0].data(),
-                              p.radius.data(), p.mass.data(),   nullptr,       p.type.data(),
-                              force[0].data(), torque[0].data()};
+  const ParticleState view{p.size(),
+                           {p.x[0].data(), p.v[0].data(), p.omega[0].data(), p.radius.data(),
+                            p.mass.data(), nullptr, force[0].data(), torque[0].data()},
+                           p.type.data()};
   Digest digest;
   for (int step = 0; step < 12; step++) {
     if (step % 4 == 0) contacts.find_candidates(plane, frame, view, mask.data(), 1, 0.3, threads);

@@ -238,7 +238,7 @@ TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
 // Masses may be replaced or not, and angular velocities are not looked at where nothing needs them.
 TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
 {
-  const double x[] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0}, v[] = {1.0, 2.0, 0.0, 0.0, 0.0, 0.0};
+  double x[] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0}, v[] = {1.0, 2.0, 0.0, 0.0, 0.0, 0.0};
   const double radius[] = {1.0, 1.0}, mass[] = {2.0, 2.0};
   const LawTable laws = single_law({named::Normal::HOOKE, named::Tangential::NONE}, false);
   ContactPipeline pipeline;

@@ -129,9 +129,9 @@ class Roller {
   static constexpr double radius = 0.05, mass = 1.0, skin = 0.02;
 
  private:
-  BodyParticleView view()
+  ParticleState view()
   {
-    return {1, &x.x, &v.x, &w.x, &size, &weight, nullptr, &type, &f.x, &t.x};
+    return {1, {&x.x, &v.x, &w.x, &size, &weight, nullptr, &f.x, &t.x}, &type};
   }
 
   BodyContacts contacts;

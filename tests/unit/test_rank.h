@@ -191,8 +191,8 @@ class TestRank {
       std::fill(copy.begin() + width * owned, copy.end(), std::nan(""));
       return copy;
     };
-    const std::vector<double> x = spoiled(view.x, 3), v = spoiled(view.v, 3),
-                              omega = spoiled(view.omega, 3);
+    std::vector<double> x = spoiled(view.x, 3), v = spoiled(view.v, 3),
+                        omega = spoiled(view.omega, 3);
     Talus::ParticleView early = view;
     early.x = x.data();
     early.v = v.data();

@@ -88,19 +88,8 @@ void BodyBatch::look_at_eight(std::size_t first, int low, int high)
 
 void BodyBatch::load_spheres(const int *index, int low, int high)
 {
-  if (task->view.records) {
-    const Record *const positions = task->view.records->position.data();
-    const EightRows state = to_lanes(
-        [=](int k) -> const Record & { return positions[index[std::clamp(k, low, high - 1)]]; });
-    for (int d = 0; d < 3; d++) store(spheres.center[d], state.number[d]);
-    store(spheres.radius, state.number[3]);
-    return;
-  }
-  for (int k = 0; k < width; k++) {
-    const int i = index[std::clamp(k, low, high - 1)];
-    for (int d = 0; d < 3; d++) spheres.center[d][k] = task->view.x[3L * i + d];
-    spheres.radius[k] = task->view.radius[i];
-  }
+  task->view.spheres_at([=](int k) { return index[std::clamp(k, low, high - 1)]; }, spheres.center,
+                        spheres.radius);
 }
 
 const EightSpheres &BodyBatch::spheres_in_body()
@@ -219,7 +208,7 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
 {
   prefetch_parts(c, last);
   if (task->laws.law_index(task->row_of(c)) != law_index) return;
-  const BodyParticleView &view = task->view;
+  const ParticleState &view = task->view;
   const int i = task->index[c];
   const Vector3<double> place_now = view.position_at(i), x = task->frame.point_to_body(place_now);
   const double r = view.radius_at(i);
@@ -246,7 +235,7 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
 
 void BodyBatch::prefetch_parts(std::size_t c, std::size_t last) const
 {
-  const BodyParticleView &view = task->view;
+  const ParticleState &view = task->view;
   view.prefetch_position(task->index[c + position_ahead]);
   if (c + list_ahead >= last) return;
   task->candidates.prefetch_list(c + list_ahead, view.radius_at(task->index[c + list_ahead]));
@@ -292,12 +281,9 @@ void BodyBatch::flush()
   if (task->account) account();
   if (task->record_parts) record_parts();
   if (task->frame.turned) turn_to_space();
-  if (task->view.records)
-    add_to_records();
-  else
-    add_to_arrays();
+  add_to_particles();
   add_load();
-  if (task->view.virial) add_virials();
+  if (task->virial) add_virials();
   touching += filled;
   filled = 0;
 }

@@ -14,12 +14,12 @@
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
 #include "body/contact/body_load.h"
-#include "body/contact/body_particle_view.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
+#include "particles/particle_state.h"
 
 #include <cstdint>
 #include <functional>
@@ -40,7 +40,7 @@ struct BodyTask {
   const LargeBodyShape &shape;
   const LawTable &laws;
   const BodyFrame &frame;
-  const BodyParticleView &view;
+  const ParticleState &view;
   const BodyCandidates &candidates;
   const int
       *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
@@ -51,6 +51,7 @@ struct BodyTask {
   bool exact;      ///< sum the load without rounding as well
   bool record_parts;
   const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
+  double *virial;                ///< see BodyStep
   /// nullptr, or is called with each contact, by one thread, instead of adding forces.
   const std::function<void(const SurveyedContact &)> *survey;
   Ask ask = Ask::ALL;
@@ -65,7 +66,7 @@ struct BodyTask {
   int row_of(std::size_t c) const
   {
     if (laws.uniform()) return 0;
-    const int type = view.type[candidates.atom(c)];
+    const int type = view.type(candidates.atom(c));
     return laws.row(type, type);
   }
 };
@@ -110,13 +111,8 @@ class BodyBatch {
   void record_parts();
 
   // lanes
-  struct Motion {
-    Vector3<Vec8> velocity, omega;
-    Vec8 inverse_mass, inverse_radius;
-  };
+  using Motion = ParticleState::Motion;
   void gather();
-  Motion motion_in_records(const int *index, int k) const;
-  Motion motion_in_arrays(const int *index, int k) const;
   void gather_changes(const int *index, int k);
   void see_changes_from_body(int k);
   void see_from_body(Motion &m, int k);
@@ -135,8 +131,7 @@ class BodyBatch {
   void keep_histories();
   void turn_to_space();
   EightRows torques(int k) const;
-  void add_to_records();
-  void add_to_arrays();
+  void add_to_particles();
   void add_load();
   void add_virials();
   void sum_up();

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What laws read of particles, from records or the host's arrays to lanes; and forces, torques and
-// histories from lanes to where they are kept.
+// What laws read of particles, to lanes; and forces, torques and histories from lanes to where they
+// are kept.
 
 #include "body/contact/body_batch.h"
 
@@ -29,17 +29,6 @@ inline EightRows rows_of(const Vector3<Vec8> &v, Vec8 fourth)
   return {{v.x, v.y, v.z, fourth}};
 }
 
-inline Vector3<Vec8> vector_of(const EightRows &rows)
-{
-  return {rows.number[0], rows.number[1], rows.number[2]};
-}
-
-/// A force record whose particle has a settled torque, see ParticleRecords::settle_torque().
-inline Vec4 settled(Vec4 force)
-{
-  return shuffle<0, 1, 2, 4>(force, four(1.0, 1.0, 1.0, 1.0));
-}
-
 inline double sum_of(Vec8 lane)
 {
   double sum = 0.0;
@@ -60,7 +49,8 @@ void BodyBatch::gather()
   for (int k = 0; k < end; k += lanes) {
     int index[lanes];
     for (int q = 0; q < lanes; q++) index[q] = task->index[candidate_of_lane[k + q]];
-    Motion m = task->view.records ? motion_in_records(index, k) : motion_in_arrays(index, k);
+    Motion m = task->view.motion_at([&](int q) { return index[q]; }, load8(&radius[k]),
+                                    law.has_friction());
     const bool second_order = law.tangential().second_order;
     if (second_order || task->account) gather_changes(index, k);
     if (frame.moves) {
@@ -177,8 +167,7 @@ void BodyBatch::see_changes_from_body(int k)
 
 void BodyBatch::gather_changes(const int *index, int k)
 {
-  const ParticleRecords *const records = task->view.records;
-  const ChangeRecord *const change = records ? records->change.data() : task->view.change;
+  const ChangeRecord *const change = task->view.changes();
   for (int half = 0; half < lanes; half += 4) {
     Float8 row[4];
     for (int q = 0; q < 4; q++) row[q] = change ? load8(change[index[half + q]]) : Float8{};
@@ -204,36 +193,6 @@ void BodyBatch::set_turn(int lane, const Vector3<double> &normal, const Vector3<
   batch.turn[0][lane] = turn.x;
   batch.turn[1][lane] = turn.y;
   batch.turn[2][lane] = turn.z;
-}
-
-BodyBatch::Motion BodyBatch::motion_in_records(const int *index, int k) const
-{
-  const ParticleRecords &records = *task->view.records;
-  const EightRows velocity =
-      to_lanes([&](int q) -> const Record & { return records.velocity(index[q]); });
-  if (!law.has_friction())
-    return {vector_of(velocity), Vector3<Vec8>{}, velocity.number[3],
-            splat<Vec8>(1.0) / load8(&radius[k])};
-  const EightRows omega =
-      to_lanes([&](int q) -> const Record & { return records.omega(index[q]); });
-  return {vector_of(velocity), vector_of(omega), velocity.number[3], omega.number[3]};
-}
-
-BodyBatch::Motion BodyBatch::motion_in_arrays(const int *index, int k) const
-{
-  const BodyParticleView &view = task->view;
-  const bool turns = law.has_friction();
-  alignas(64) double velocity[3][lanes], omega[3][lanes] = {}, inverse_mass[lanes];
-  for (int q = 0; q < lanes; q++) {
-    const long row = 3L * index[q];
-    for (int d = 0; d < 3; d++) velocity[d][q] = view.v[row + d];
-    for (int d = 0; d < 3 && turns; d++) omega[d][q] = view.omega[row + d];
-    inverse_mass[q] = view.inverse_mass_in_arrays(index[q]);
-  }
-  return {{load8(velocity[0]), load8(velocity[1]), load8(velocity[2])},
-          {load8(omega[0]), load8(omega[1]), load8(omega[2])},
-          load8(inverse_mass),
-          splat<Vec8>(1.0) / load8(&radius[k])};
 }
 
 void BodyBatch::gather_histories(int k)
@@ -305,38 +264,14 @@ EightRows BodyBatch::torques(int k) const
   return rows_of(torque, Vec8{});
 }
 
-/* The mark of settle_torque() is set together with the force: a record that is read whole right
-   after one number of it was written is late. */
-
-void BodyBatch::add_to_records()
-{
-  ParticleRecords &records = *task->view.records;
-  const bool turns = law.has_friction();
-  for (int k = 0; k < filled; k += lanes) {
-    Record force[lanes], torque[lanes];
-    to_rows(rows_of(vector_at(batch.force, k), Vec8{}), force);
-    if (turns) to_rows(torques(k), torque);
-    for (int q = 0; q < std::min(lanes, filled - k); q++) {
-      const int slot = task->index[candidate_of_lane[k + q]];
-      Record *const load = &records.load[records.stride * slot];
-      const Vec4 sum = load4(load[0]) + load4(force[q]);
-      if (turns) store(load[1], records.torque(slot) + load4(torque[q]));
-      store(load[0], turns ? settled(sum) : sum);
-    }
-  }
-}
-
-void BodyBatch::add_to_arrays()
+void BodyBatch::add_to_particles()
 {
   const bool turns = law.has_friction();
   for (int k = 0; k < filled; k += lanes) {
-    Record torque[lanes];
-    if (turns) to_rows(torques(k), torque);
-    for (int q = 0; q < std::min(lanes, filled - k); q++) {
-      const long row = 3L * task->index[candidate_of_lane[k + q]];
-      for (int d = 0; d < 3; d++) task->view.f[row + d] += batch.force[d][k + q];
-      for (int d = 0; d < 3 && turns; d++) task->view.torque[row + d] += torque[q].c[d];
-    }
+    const EightRows force = rows_of(vector_at(batch.force, k), Vec8{}),
+                    torque = turns ? torques(k) : EightRows{};
+    task->view.add_at([&](int q) { return task->index[candidate_of_lane[k + q]]; },
+                      std::min(lanes, filled - k), force, turns ? &torque : nullptr);
   }
 }
 
@@ -374,7 +309,7 @@ void BodyBatch::add_virials()
     const Vector3<double> f{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
     const Vector3<double> b{r * batch.normal[0][lane], r * batch.normal[1][lane],
                             r * batch.normal[2][lane]};
-    double *const v = task->view.virial + 6L * task->candidates.atom(candidate_of_lane[lane]);
+    double *const v = task->virial + 6L * task->candidates.atom(candidate_of_lane[lane]);
     v[0] += b.x * f.x;
     v[1] += b.y * f.y;
     v[2] += b.z * f.z;

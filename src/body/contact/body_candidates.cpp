@@ -21,14 +21,14 @@ constexpr double near = 1.01;    // of the radius: parts within it are probably 
 struct BodyCandidates::Search {
   const LargeBodyShape &shape;
   const BodyFrame &frame;
-  const BodyParticleView &view;
+  const ParticleState &view;
   const int *mask;
   int group;
   double margin;
 
   bool wants(int i) const { return mask[i] & group; }
   Vector3<double> place(int i) const { return frame.point_to_body(view.position(i)); }
-  double reach(int i) const { return view.radius_of(i) + margin; }
+  double reach(int i) const { return view.radius(i) + margin; }
   /// From the reference point; asked for only if the body moves.
   double farthest(const Vector3<double> &x, double reach) const
   {
@@ -37,7 +37,7 @@ struct BodyCandidates::Search {
 };
 
 void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
-                          const BodyParticleView &view, const int *mask, int group, double skin,
+                          const ParticleState &view, const int *mask, int group, double skin,
                           double beyond, int threads)
 {
   particles.clear();
@@ -64,7 +64,7 @@ void BodyCandidates::list_near(const Search &search, int threads)
     double farthest = 0.0;
   };
   std::vector<Found> found(threads);
-  in_ranges(search.view.owned, threads, [&](int t, int begin, int end) {
+  in_ranges(search.view.owned(), threads, [&](int t, int begin, int end) {
     Found its;
     for (int i = begin; i < end; i++) {
       if (!search.wants(i)) continue;
@@ -84,7 +84,7 @@ void BodyCandidates::list_near(const Search &search, int threads)
 void BodyCandidates::list_with_parts(const Search &search)
 {
   const std::size_t most = search.shape.most_contacts();
-  for (int i = 0; i < search.view.owned; i++) {
+  for (int i = 0; i < search.view.owned(); i++) {
     if (!search.wants(i)) continue;
     const Vector3<double> x = search.place(i);
     const double reach = search.reach(i);
@@ -140,15 +140,15 @@ void BodyCandidates::prefetch_parts(std::size_t c, double radius, const LargeBod
 }
 
 Eigen::AlignedBox3d BodyCandidates::bounds_of_search(const BodyFrame &frame,
-                                                     const BodyParticleView &view, const int *mask,
+                                                     const ParticleState &view, const int *mask,
                                                      int group, double skin, double beyond)
 {
   Eigen::AlignedBox3d box;
   double largest = 0.0;
-  for (int i = 0; i < view.owned; i++) {
+  for (int i = 0; i < view.owned(); i++) {
     if (!(mask[i] & group)) continue;
     box.extend(to_eigen(frame.point_to_body(view.position(i))));
-    largest = std::max(largest, view.radius_of(i));
+    largest = std::max(largest, view.radius(i));
   }
   if (box.isEmpty()) return box;
   // listed with the margin of list(); they go half a skin, the body what it may until it is stale

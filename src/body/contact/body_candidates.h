@@ -7,9 +7,9 @@
 #define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 
 #include "base/linear_algebra.h"
-#include "body/contact/body_particle_view.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
+#include "particles/particle_state.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +21,7 @@ class BodyCandidates {
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far; contacts that have begun last until there is a gap of
   /// `beyond`. `threads` are used for shapes that are thread_safe() and touch at one point at most.
-  void list(const LargeBodyShape &shape, const BodyFrame &frame, const BodyParticleView &view,
+  void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
             const int *mask, int group, double skin, double beyond, int threads);
 
   /// The body has moved so far that particles must be listed anew.
@@ -29,7 +29,7 @@ class BodyCandidates {
 
   /// The box, in the frame of the body, around all that list() may ask the shape for until the next
   /// call; empty without particles.
-  static Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const BodyParticleView &view,
+  static Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const ParticleState &view,
                                               const int *mask, int group, double skin,
                                               double beyond);
 

@@ -40,7 +40,7 @@ void BodyContacts::change_order(int order, const int *type,
 }
 
 void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
-                                   const BodyParticleView &view, const int *mask, int group,
+                                   const ParticleState &view, const int *mask, int group,
                                    double skin, int threads)
 {
   index.clear();
@@ -48,34 +48,32 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   if (with_history) history.follow(candidates.atoms(), candidates.room());
 }
 
-double BodyContacts::largest_reach(const BodyParticleView &view, const int *mask, int group) const
+double BodyContacts::largest_reach(const ParticleState &view, const int *mask, int group) const
 {
   double largest = 0.0;
   if (!laws.lasts_beyond_contact()) return largest;
-  for (int i = 0; i < view.owned; i++)
+  for (int i = 0; i < view.owned(); i++)
     if (mask[i] & group)
-      largest =
-          std::max(largest, laws.reach(laws.row(view.type[i], view.type[i]), view.radius_of(i)));
+      largest = std::max(largest, laws.reach(laws.row(view.type(i), view.type(i)), view.radius(i)));
   return largest;
 }
 
 /* Where a step goes through the records, it does so from their beginning to their end. */
 
-void BodyContacts::index_candidates(const LargeBodyShape &shape, const BodyParticleView &view)
+void BodyContacts::index_candidates(const LargeBodyShape &shape, const ParticleState &view)
 {
-  const bool of_records = view.records != nullptr;
-  if (candidates.size() == 0 || (!index.empty() && index_of_records == of_records)) return;
-  const bool sorted =
-      of_records && shape.most_contacts() == 1 && candidates.sort_by_slot(view.slot_of_atom);
+  const int *const order = view.order();
+  if (candidates.size() == 0 || (!index.empty() && order_of_index == order)) return;
+  const bool sorted = order && shape.most_contacts() == 1 && candidates.sort_by_slot(order);
   if (sorted && with_history) history.follow(candidates.atoms(), candidates.room());
-  index_of_records = of_records;
+  order_of_index = order;
   index.clear();
-  for (const int i : candidates.atoms()) index.push_back(view.index_of(i));
+  for (const int i : candidates.atoms()) index.push_back(view.place(i));
   index.resize(index.size() + BodyTask::spare, index.back());
 }
 
 BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &frame,
-                               const BodyParticleView &view, const BodyStep &step)
+                               const ParticleState &view, const BodyStep &step)
 {
   return {shape,
           laws,
@@ -90,6 +88,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.exact != nullptr,
           step.touched != nullptr,
           step.account,
+          step.virial,
           nullptr,
           Ask::ALL,
           with_history,
@@ -109,7 +108,7 @@ std::size_t BodyContacts::first_of(int thread, int threads) const
 }
 
 BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &frame,
-                               const BodyParticleView &view, const BodyStep &step)
+                               const ParticleState &view, const BodyStep &step)
 {
   const bool many = step.threads > 1 && shape.thread_safe();
   const int threads = many ? step.threads : 1;
@@ -134,10 +133,10 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
 }
 
 bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &frame,
-                                const BodyParticleView &view, const BodyStep &step)
+                                const ParticleState &view, const BodyStep &step)
 {
-  const bool is_plain = !step.exact && !step.touched && !view.virial;
-  if (shape.most_contacts() > 1 || !view.records || frame.moves || !is_plain) return false;
+  const bool is_plain = !step.exact && !step.touched && !step.virial;
+  if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
   index_candidates(shape, view);
   start_batches(step.threads);
   in_pieces = {&shape, &frame, view, step};
@@ -171,7 +170,7 @@ EnergyByCause BodyContacts::static_work() const
 /* Contacts are found where they have been found before, so that their histories stay. */
 
 void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                                    const BodyParticleView &view, double dt, Ask ask,
+                                    const ParticleState &view, double dt, Ask ask,
                                     const VisitContact &visit)
 {
   index_candidates(shape, view);
@@ -185,7 +184,7 @@ void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame
 }
 
 BodyFindings BodyContacts::look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
-                                            const BodyParticleView &view, int threads) const
+                                            const ParticleState &view, int threads) const
 {
   if (!shape.thread_safe()) threads = 1;
   std::vector<BodyFindings> found(threads);
@@ -198,7 +197,7 @@ BodyFindings BodyContacts::look_for_trouble(const LargeBodyShape &shape, const B
 }
 
 BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
-                                       const BodyParticleView &view, std::size_t begin,
+                                       const ParticleState &view, std::size_t begin,
                                        std::size_t end) const
 {
   BodyFindings most;
@@ -207,7 +206,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
   for (std::size_t c = begin; c < end; c++) {
     const int i = candidates.atom(c);
     const Vector3<double> place = view.position(i), x = frame.point_to_body(place);
-    const double radius = view.radius_of(i);
+    const double radius = view.radius(i);
     bool may_touch = true;
     const NearParts near =
         several ? candidates.parts_near(c, x, radius, may_touch) : NearParts{nullptr, nullptr};

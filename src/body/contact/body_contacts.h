@@ -28,6 +28,7 @@ struct BodyStep {
   WorkAccount *account = nullptr;                 ///< receives the work, if it advances
   ExactLoad *exact = nullptr;                     ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
+  double *virial = nullptr;    ///< added to, six for each owned particle: xx yy zz xy xz yz
 };
 
 /// What a run warns of, among the particles of this rank that are near the body. Of equal values
@@ -60,11 +61,11 @@ class BodyContacts {
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
-                       const BodyParticleView &view, const int *mask, int group, double skin,
+                       const ParticleState &view, const int *mask, int group, double skin,
                        int threads = 1);
 
   /// How far contacts of these particles last beyond zero overlap at most (length).
-  double largest_reach(const BodyParticleView &view, const int *mask, int group) const;
+  double largest_reach(const ParticleState &view, const int *mask, int group) const;
 
   /// The body has moved so far that particles must be listed anew.
   bool is_stale(const BodyFrame &frame, double skin) const
@@ -75,19 +76,19 @@ class BodyContacts {
   /// `threads` are used for shapes that are thread_safe(). To be called also before particles are
   /// listed anew, so that nothing passes unseen in between.
   BodyFindings look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
-                                const BodyParticleView &view, int threads = 1) const;
+                                const ParticleState &view, int threads = 1) const;
 
   /// Adds the contact forces to the particles and returns their reaction. The slots of particles in
   /// the records may change only before find_candidates(), as they do at a rebuild.
-  BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame,
-                   const BodyParticleView &view, const BodyStep &step);
+  BodyLoad compute(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
+                   const BodyStep &step);
 
   /// The same for a static wall and particles in the records, piece by piece: begin_static() says
   /// whether it can be done so, and then keeps the references of its arguments; add_to_slots(), by
   /// up to `step.threads` threads, deals with the particles of the slots begin ... end-1, which
   /// together must be all; static_load() is the reaction of all that have been dealt with.
-  bool begin_static(const LargeBodyShape &shape, const BodyFrame &frame,
-                    const BodyParticleView &view, const BodyStep &step);
+  bool begin_static(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
+                    const BodyStep &step);
   void add_to_slots(int thread, int begin, int end);
   BodyLoad static_load() const;
   /// Of the same, for step.account.
@@ -96,8 +97,7 @@ class BodyContacts {
   /// Every contact, once forces have been computed: visit(contact). `dt`: of the step.
   using VisitContact = std::function<void(const SurveyedContact &)>;
   void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                        const BodyParticleView &view, double dt, Ask ask,
-                        const VisitContact &visit);
+                        const ParticleState &view, double dt, Ask ask, const VisitContact &visit);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.
@@ -111,26 +111,26 @@ class BodyContacts {
   BodyHistory history;
 
  private:
-  BodyTask task_of(const LargeBodyShape &shape, const BodyFrame &frame,
-                   const BodyParticleView &view, const BodyStep &step);
-  void index_candidates(const LargeBodyShape &shape, const BodyParticleView &view);
+  BodyTask task_of(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
+                   const BodyStep &step);
+  void index_candidates(const LargeBodyShape &shape, const ParticleState &view);
   void start_batches(int threads);
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
-                           const BodyParticleView &view, std::size_t begin, std::size_t end) const;
+                           const ParticleState &view, std::size_t begin, std::size_t end) const;
 
   LawTable laws;
   bool with_history = false, with_impact = false;
   BodyCandidates candidates;
-  std::vector<int> index;           // of candidates in the view, and some more; empty: not known
-  bool index_of_records = false;    // of the last view
+  std::vector<int> index;                 // places of candidates, and some more; empty: not known
+  const int *order_of_index = nullptr;    // that of the particles when they were found
 
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
 
   struct StaticStep {
     const LargeBodyShape *shape = nullptr;
     const BodyFrame *frame = nullptr;
-    BodyParticleView view{};
+    ParticleState view{};
     BodyStep step;
   };
   StaticStep in_pieces;    // of the last begin_static()

@@ -1,12 +1,13 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
 
-#include "sphere_kicks.h"
+#include "system/sphere_kicks.h"
+
+#include "particles/kick_and_drift.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "group.h"
 #include "lammps.h"
-#include "particles/kick_and_drift.h"
 
 using namespace LAMMPS_NS;
 

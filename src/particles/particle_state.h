@@ -1,0 +1,264 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The state of the particles of a rank and the sums of their forces, wherever they live in a step:
+// in the arrays of the host, or in the records while nobody outside looks at them. Who computes
+// contacts with bodies, walls and shapes, or moves clumps, reads and writes particles here and does
+// not ask which it is.
+//
+// A particle has the host's index i; where it is stored it has a place, that index or its slot.
+// Loops that go through many particles keep places, and read eight of them at a time.
+//
+// Made anew for each use, by GranularSystem::particles(); valid until the particles go elsewhere:
+// when forces between particles are computed, or they return to the host. Units are those of the
+// host.
+
+#ifndef TALUS_PARTICLES_PARTICLE_STATE_H
+#define TALUS_PARTICLES_PARTICLE_STATE_H
+
+#include "base/lanes.h"
+#include "base/vector3.h"
+#include "particles/particle_records.h"
+
+#include <cstddef>
+
+namespace Talus {
+
+class ParticleState {
+ public:
+  /// Of no particles.
+  ParticleState() = default;
+  /// In the arrays; `type` counts from 1. With `records` there, of owned particles and ghosts, with
+  /// the slot of each.
+  ParticleState(int owned, const ParticleView &arrays, const int *type,
+                ParticleRecords *records = nullptr, const int *slot_of_atom = nullptr) :
+      num_owned(owned),
+      host(arrays), types(type), in_records(records), slots(slot_of_atom)
+  {
+  }
+
+  int owned() const { return num_owned; }
+  int type(int i) const { return types[i]; }
+  /// In the arrays, other masses for some particles, see ParticleView; in the records they are those
+  /// of the last step.
+  void replace_masses(const double *mass_override) { host.mass_override = mass_override; }
+
+  /// Where particles are in the arrays of the host, as in all steps that it looks at.
+  bool is_shown() const { return !in_records; }
+  /// Where they live, for code that moves many in its own way; nullptr: in the arrays.
+  ParticleRecords *records() const { return in_records; }
+  /// Slots by the host's index, in whose order a step goes through the particles; nullptr: in none.
+  const int *order() const { return in_records ? slots : nullptr; }
+
+  // ---- by the host's index
+
+  int place(int i) const { return in_records ? slots[i] : i; }
+  Vector3<double> position(int i) const { return vector(x(i)); }
+  double radius(int i) const { return radius_at(place(i)); }
+  Vector3<double> velocity(int i) const { return vector(v(i)); }
+  /// 0 in a scene without torques.
+  Vector3<double> angular_velocity(int i) const
+  {
+    return keeps_spins() ? vector(w(i)) : Vector3<double>{0.0, 0.0, 0.0};
+  }
+  /// As contacts feel it; 0 of frozen particles.
+  double inverse_mass(int i) const
+  {
+    return in_records ? in_records->velocity(slots[i]).c[3] : inverse_mass_in_arrays(i);
+  }
+
+  /// Rows of three: position, velocity, angular velocity (only where there are torques); to be moved
+  /// by integrators.
+  double *x(int i) const { return row_at(place(i)); }
+  double *v(int i) const
+  {
+    return in_records ? in_records->motion[in_records->stride * slots[i]].c : host.v + 3L * i;
+  }
+  double *w(int i) const
+  {
+    return in_records ? in_records->motion[2 * slot(i) + 1].c : host.omega + 3L * i;
+  }
+  /// Of its velocities, see ParticleRecords::change; nullptr if they are not kept.
+  ChangeRecord *change(int i) const
+  {
+    ChangeRecord *const all = changes();
+    return all ? all + place(i) : nullptr;
+  }
+
+  struct Load {
+    Vector3<double> force, torque;
+  };
+  /// The sums, where there are torques, as integrators see them: those of a frozen particle are not
+  /// cleared in the records.
+  Load load(int i) const
+  {
+    if (!in_records) return {vector(host.f + 3L * i), vector(host.torque + 3L * i)};
+    if (!(in_records->velocity(slots[i]).c[3] > 0.0)) return {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    Record torque;
+    store(torque, in_records->torque(slots[i]));
+    return {vector(in_records->load[2 * slot(i)].c), vector(torque.c)};
+  }
+  /// The sum of forces, of any particle.
+  Vector3<double> force(int i) const
+  {
+    return vector(in_records ? in_records->load[in_records->stride * slots[i]].c : host.f + 3L * i);
+  }
+  /// Adds to the sums of one particle, where there are torques; by one thread for each.
+  void add(int i, const Vector3<double> &force, const Vector3<double> &torque) const
+  {
+    if (in_records) in_records->settle_torque(slots[i]);
+    double *const f = in_records ? in_records->load[2 * slot(i)].c : host.f + 3L * i;
+    double *const t = in_records ? in_records->load[2 * slot(i) + 1].c : host.torque + 3L * i;
+    f[0] += force.x;
+    f[1] += force.y;
+    f[2] += force.z;
+    t[0] += torque.x;
+    t[1] += torque.y;
+    t[2] += torque.z;
+  }
+
+  // ---- by place
+
+  Vector3<double> position_at(int place) const { return vector(row_at(place)); }
+  double radius_at(int place) const
+  {
+    return in_records ? in_records->position[place].c[3] : host.radius[place];
+  }
+
+  /// Calls a position and radius into the cache; a hint.
+  void prefetch_position(int place) const
+  {
+    if (in_records) {
+      __builtin_prefetch(in_records->position.data() + place);
+    } else {
+      __builtin_prefetch(host.x + 3L * place);
+      __builtin_prefetch(host.radius + place);
+    }
+  }
+  /// What a contact reads and adds to, once its position is known; the same.
+  void prefetch_for_contact(int place) const
+  {
+    if (in_records) {
+      in_records->prefetch_for_contact(place);
+    } else {
+      for (const double *rows : {host.v, host.omega}) __builtin_prefetch(rows + 3L * place);
+      for (const double *rows : {host.f, host.torque}) __builtin_prefetch(rows + 3L * place, 1);
+      __builtin_prefetch(host.mass + place);
+    }
+  }
+
+  // ---- by place, eight at a time: lane k is the particle at place(k)
+
+  template <class Place>
+  TALUS_INLINE void spheres_at(Place place, double (&center)[3][lanes],
+                               double (&radii)[lanes]) const;
+  struct Motion {
+    Vector3<Vec8> velocity, omega;
+    Vec8 inverse_mass, inverse_radius;
+  };
+  /// `radii`: of these particles; without torques omega is 0.
+  template <class Place>
+  TALUS_INLINE Motion motion_at(Place place, Vec8 radii, bool with_torques) const;
+  /// Changes of velocities by place, as change().
+  ChangeRecord *changes() const
+  {
+    if (!in_records) return host.change;
+    return in_records->keeps_changes() ? in_records->change.data() : nullptr;
+  }
+  /// Adds to the sums of the first `count` of these particles, one after another: some may be the
+  /// same. `torques`: nullptr where there are none.
+  template <class Place>
+  TALUS_INLINE void add_at(Place place, int count, const EightRows &forces,
+                           const EightRows *torques) const;
+
+ private:
+  static Vector3<double> vector(const double *row) { return {row[0], row[1], row[2]}; }
+  std::size_t slot(int i) const { return static_cast<std::size_t>(slots[i]); }
+  bool keeps_spins() const { return !in_records || in_records->stride == 2; }
+  double *row_at(int place) const
+  {
+    return in_records ? in_records->position[place].c : host.x + 3L * place;
+  }
+  double inverse_mass_in_arrays(int i) const
+  {
+    const bool replaced = host.mass_override && host.mass_override[i] > 0.0;
+    return 1.0 / (replaced ? host.mass_override[i] : host.mass[i]);
+  }
+
+  int num_owned = 0;
+  ParticleView host{};
+  const int *types = nullptr;
+  ParticleRecords *in_records = nullptr;
+  const int *slots = nullptr;
+};
+
+template <class Place>
+TALUS_INLINE void ParticleState::spheres_at(Place place, double (&center)[3][lanes],
+                                            double (&radii)[lanes]) const
+{
+  if (in_records) {
+    const Record *const positions = in_records->position.data();
+    const EightRows its = to_lanes([=](int k) -> const Record & { return positions[place(k)]; });
+    for (int d = 0; d < 3; d++) store(center[d], its.number[d]);
+    store(radii, its.number[3]);
+    return;
+  }
+  for (int k = 0; k < lanes; k++) {
+    const int i = place(k);
+    for (int d = 0; d < 3; d++) center[d][k] = host.x[3L * i + d];
+    radii[k] = host.radius[i];
+  }
+}
+
+template <class Place>
+TALUS_INLINE ParticleState::Motion ParticleState::motion_at(Place place, Vec8 radii,
+                                                            bool with_torques) const
+{
+  if (in_records) {
+    const EightRows v =
+        to_lanes([&](int k) -> const Record & { return in_records->velocity(place(k)); });
+    const Vector3<Vec8> velocity{v.number[0], v.number[1], v.number[2]};
+    if (!with_torques) return {velocity, Vector3<Vec8>{}, v.number[3], splat<Vec8>(1.0) / radii};
+    const EightRows w =
+        to_lanes([&](int k) -> const Record & { return in_records->omega(place(k)); });
+    return {velocity, {w.number[0], w.number[1], w.number[2]}, v.number[3], w.number[3]};
+  }
+  alignas(64) double velocity[3][lanes], omega[3][lanes] = {}, inverse_mass[lanes];
+  for (int k = 0; k < lanes; k++) {
+    const int i = place(k);
+    for (int d = 0; d < 3; d++) velocity[d][k] = host.v[3L * i + d];
+    for (int d = 0; d < 3 && with_torques; d++) omega[d][k] = host.omega[3L * i + d];
+    inverse_mass[k] = inverse_mass_in_arrays(i);
+  }
+  return {{load8(velocity[0]), load8(velocity[1]), load8(velocity[2])},
+          {load8(omega[0]), load8(omega[1]), load8(omega[2])},
+          load8(inverse_mass),
+          splat<Vec8>(1.0) / radii};
+}
+
+/* The mark of settle_torque() is set together with the force: a record that is read whole right
+   after one number of it was written is late. */
+
+template <class Place>
+TALUS_INLINE void ParticleState::add_at(Place place, int count, const EightRows &forces,
+                                        const EightRows *torques) const
+{
+  Record force[lanes], torque[lanes];
+  to_rows(forces, force);
+  if (torques) to_rows(*torques, torque);
+  for (int k = 0; k < count; k++) {
+    const int at = place(k);
+    if (in_records) {
+      Record *const sums = &in_records->load[in_records->stride * at];
+      const Vec4 sum = load4(sums[0]) + load4(force[k]);
+      if (torques) store(sums[1], in_records->torque(at) + load4(torque[k]));
+      store(sums[0], torques ? shuffle<0, 1, 2, 4>(sum, four(1.0, 1.0, 1.0, 1.0)) : sum);
+    } else {
+      for (int d = 0; d < 3; d++) host.f[3L * at + d] += force[k].c[d];
+      for (int d = 0; d < 3 && torques; d++) host.torque[3L * at + d] += torque[k].c[d];
+    }
+  }
+}
+
+}    // namespace Talus
+
+#endif
