@@ -21,7 +21,7 @@ FixGravityTalus::FixGravityTalus(LAMMPS *lmp, int narg, char **arg) :
 
 FixGravityTalus::~FixGravityTalus()
 {
-  system->drop_gravity(this);
+  system->weights().drop(this);
 }
 
 void FixGravityTalus::post_constructor()
@@ -45,7 +45,7 @@ std::string FixGravityTalus::find_reason()
   if (group->dynamic[igroup]) return "its group is dynamic";
   for (const std::string &its : {reason_of_variables(), reason_of_fixes_before()})
     if (!its.empty()) return its;
-  return system->take_gravity(this);
+  return system->weights().take(this);
 }
 
 std::string FixGravityTalus::reason_of_variables() const

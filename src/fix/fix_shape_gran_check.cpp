@@ -32,7 +32,7 @@ void FixShapeGran::check_scene()
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes "
                "nve/sphere/symplectic and rigid/small/symplectic");
-  if (!system->accelerates_pairs())
+  if (!system->pair_style_is_alone())
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
                "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",

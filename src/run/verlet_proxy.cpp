@@ -46,7 +46,7 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 
 std::string VerletProxy::reason_for_stock() const
 {
-  if (!system->accelerates_pairs()) return system->reason_of_pair_style();
+  if (!system->pair_style_is_alone()) return system->reason_of_pair_style();
   return pair_compute_flag ? "" : "'pair_modify compute no' is set";
 }
 
@@ -60,7 +60,7 @@ void VerletProxy::setup(int flag)
 {
   if (makes_own_steps() && !lists) lists.emplace(lmp);
   decide_on_overlap();
-  system->report_styles(pair_compute_flag);
+  system->steps_in_records().report(pair_compute_flag);
   Verlet::setup(flag);
   if (lists) lists->list_is_new();
 }
@@ -107,7 +107,7 @@ void VerletProxy::run(int n)
   // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
   struct End {
     GranularSystem &system;
-    ~End() { system.end_run(); }
+    ~End() { system.return_to_host(); }
   } at_the_end{*system};
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
@@ -144,11 +144,11 @@ void VerletProxy::step()
   const bool anew = lists->decide([this] { return system->moved_since_rebuild(); });
   if (anew) rebuild();
   // the host's forces are not read in a step after which particles stay in the records
-  const bool to_host = system->choose_residence(now, eflag || vflag) == Residence::HOST;
+  const bool to_host = system->begin_forces(now, eflag || vflag);
   if (!anew)
     system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
-  const bool in_records = system->residence() == Residence::RECORDS;
+  const bool in_records = system->pipeline().holds_state();
   if (!in_records) lists->ask(nullptr);
   timer->stamp(Timer::COMM);
 
@@ -156,9 +156,9 @@ void VerletProxy::step()
     force_clear();
     timer->stamp();
   }
-  compute_forces();
+  compute_forces(to_host);
   if (in_records) {
-    const RecordTravel travel = system->travel();
+    const RecordTravel travel = system->pipeline().travel();
     lists->ask(&travel);
   }
 
@@ -178,15 +178,12 @@ void VerletProxy::step()
 
 void VerletProxy::bring_back()
 {
-  if (system->residence() == Residence::HOST) return;
-  system->return_to_host(true);
-  comm->forward_comm();
+  if (system->return_to_host()) comm->forward_comm();
 }
 
 void VerletProxy::rebuild()
 {
-  system->return_to_host(false);
-  system->forget_plan();
+  system->begin_rebuild();
   timer->stamp(Timer::COMM);
   if (modify->n_pre_exchange) {
     modify->pre_exchange();
@@ -220,7 +217,7 @@ void VerletProxy::rebuild()
 
 /* Pairs come first: some bonded styles add to what the pair style has tallied. */
 
-void VerletProxy::compute_forces()
+void VerletProxy::compute_forces(bool to_host)
 {
   if (modify->n_pre_force) {
     modify->pre_force(vflag);
@@ -249,7 +246,7 @@ void VerletProxy::compute_forces()
     timer->stamp(Timer::MODIFY);
   }
   // forces in the records are complete, and those of the host not up to date
-  if (reverses && system->residence() == Residence::HOST) {
+  if (reverses && to_host) {
     comm->reverse_comm();
     timer->stamp(Timer::COMM);
   }

@@ -36,13 +36,13 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
  private:
   enum class Overlap { AUTOMATIC, YES, NO };
 
-  bool makes_own_steps() const { return system->accelerates_pairs() && pair_compute_flag; }
+  bool makes_own_steps() const { return system->pair_style_is_alone() && pair_compute_flag; }
   void decide_on_overlap();
   bool others_act_on_ghosts() const;
   void step();
   void bring_back();
   void rebuild();
-  void compute_forces();
+  void compute_forces(bool to_host);
 
   std::optional<Talus::RebuildCheck> lists;    ///< of the first run with steps of its own
   std::shared_ptr<Talus::GranularSystem> system;

@@ -123,7 +123,7 @@ void FixContactStore::setup_pre_exchange()
 {
   // a run style of the host cannot do so
   const bool its_own = Talus::SystemRunStyle::of(update->integrate) != nullptr;
-  if (system && update->whichflag == 1 && !its_own) system->report_styles(true);
+  if (system && update->whichflag == 1 && !its_own) system->steps_in_records().report(true);
   if (system) system->release_pairs();
   take_over_sorting();
   sort_particles();

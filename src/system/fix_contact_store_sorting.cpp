@@ -30,7 +30,7 @@ using namespace LAMMPS_NS;
 void FixContactStore::take_over_sorting()
 {
   if (host_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
-  if (atom->molecular != Atom::ATOMIC || !system || !system->accelerates_pairs()) return;
+  if (atom->molecular != Atom::ATOMIC || !system || !system->pair_style_is_alone()) return;
   host_sorts_every = atom->sortfreq;
   atom->sortfreq = 0;    // until post_run()
 }

@@ -12,7 +12,6 @@
 #include "error.h"
 #include "force.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "pair.h"
 #include "update.h"
 
@@ -47,7 +46,8 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
     contact_range(lmp, book), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
-    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp), report(lmp)
+    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
+    proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers)
 {
   contact_pipeline.emplace();
 }
@@ -101,7 +101,7 @@ bool GranularSystem::pair_style_is_alone() const
 
 std::string GranularSystem::reason_of_pair_style() const
 {
-  if (accelerates_pairs()) return "";
+  if (pair_style_is_alone()) return "";
   return has_pair_style() ? "the pair style is hybrid" : "the pair style is not accelerated";
 }
 
@@ -109,7 +109,7 @@ void GranularSystem::init_pair_style()
 {
   run_contacts.keep();
   neighbor_source.init(pair);
-  gravity = nullptr;    // its init() comes later
+  gravity.forget();
   effective_masses.find_fixes();
   contact_range.find(effective_masses.frozen_groups(), shaped);
   contact_range.require_sizes(style.name);
@@ -171,19 +171,6 @@ std::string GranularSystem::reason_against_history()
   return contact_range.small_period();
 }
 
-std::string GranularSystem::take_gravity(SystemGravity *field)
-{
-  if (!accelerates_pairs()) return reason_of_pair_style();
-  if (!pair->compute_flag) return "'pair_modify compute no' is set";
-  if (effective_masses.unit() != 1.0)
-    return "the unit of force is not that of mass times acceleration";
-  if (neighbor->includegroup || atom->firstgroupname)
-    return "neighbor lists or particles are restricted to a group";
-  if (gravity && gravity != field) return "another fix gravity comes before it";
-  gravity = field;
-  return "";
-}
-
 bool GranularSystem::take_shapes(SystemShapes *its)
 {
   if (shaped) return false;
@@ -194,11 +181,6 @@ bool GranularSystem::take_shapes(SystemShapes *its)
 void GranularSystem::drop_shapes(const SystemShapes *its)
 {
   if (shaped == its) shaped = nullptr;
-}
-
-void GranularSystem::drop_gravity(const SystemGravity *field)
-{
-  if (gravity == field) gravity = nullptr;
 }
 
 }    // namespace Talus

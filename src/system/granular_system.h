@@ -1,14 +1,15 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The one owner of what Talus knows of a LAMMPS instance: contact laws, particles in canonical
-// order, pairs, contacts with their history, and the question where the state of the particles
-// lives. The commands (pair style, fixes, computes, communication, run style) hold a reference and
-// call it; they do not know each other.
+// The one owner of what Talus knows of a LAMMPS instance. It makes a step and a rebuild, and gives
+// out its parts, each with one job: laws, masses, large bodies, integrators, the account of
+// energies, contacts for outputs, and so on. The commands (pair style, fixes, computes,
+// communication, run style) hold a reference and talk to the part that they mean; they do not know
+// each other.
 //
 //   granular_system.cpp   life, the pair style, laws
 //   step.cpp              one step, from the move to the forces
 //   rebuild.cpp           from old neighbor lists to new ones
-//   residence.cpp         which steps are made in the records
+//   residence.cpp         where the particles are
 //
 // A step is made in the arrays of the host, or, if only Talus looks at the particles in it, in the
 // records of the contacts (see contact/contact_pipeline.h), with the same bits.
@@ -17,8 +18,6 @@
 #define TALUS_SYSTEM_GRANULAR_SYSTEM_H
 
 #include "contact/contact_pipeline.h"
-#include "exchange/exchange_plan.h"
-#include "exchange/record_packer.h"
 #include "material/law_book.h"
 #include "particles/particle_state.h"
 #include "system/contact_monitor.h"
@@ -29,12 +28,14 @@
 #include "system/integrators.h"
 #include "system/large_bodies.h"
 #include "system/neighbor_source.h"
+#include "system/proxy_states.h"
 #include "system/proxy_updates.h"
 #include "system/run_contacts.h"
 #include "system/run_monitor.h"
-#include "system/style_report.h"
+#include "system/steps_in_records.h"
 #include "system/system_fix.h"
 #include "system/time_step_monitor.h"
+#include "system/weights.h"
 
 #include "lmptype.h"
 #include "pointers.h"
@@ -55,9 +56,6 @@ namespace Talus {
 
 class SystemShapes;
 
-/// Where positions, velocities and forces of the owned particles are up to date.
-enum class Residence { HOST, RECORDS };
-
 class GranularSystem : protected LAMMPS_NS::Pointers {
  public:
   /// The system of a LAMMPS instance: made when it is first asked for, and gone with the last
@@ -67,7 +65,40 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   GranularSystem(const GranularSystem &) = delete;
   GranularSystem &operator=(const GranularSystem &) = delete;
 
-  // ---- the pair style and its laws
+  // ---- parts
+
+  /// Laws between all types, as the script gives them; and with their coefficients as the kernels
+  /// have them.
+  Talus::LawBook &laws() { return book; }
+  const LawTable &law_table();
+  /// After init_pair_style(): at which distances particles touch.
+  const ContactRange &range() const { return contact_range; }
+  /// That contacts feel.
+  LAMMPS_NS::EffectiveMasses &masses() { return effective_masses; }
+  /// Where pairs that may touch are found.
+  const LAMMPS_NS::NeighborSource &neighbors() const { return neighbor_source; }
+  /// Contacts between particles as they are computed.
+  const ContactPipeline &pipeline() const { return *contact_pipeline; }
+  /// What particles carry along of their contacts; nullptr before the first init_pair_style().
+  LAMMPS_NS::FixContactStore *store() const { return contact_store; }
+  LargeBodies &bodies() { return large_bodies; }
+  const Integrators &integrators() const { return movers; }
+  Weights &weights() { return gravity; }
+  EnergyAccount &account() { return energies; }
+  /// Of the last step, for outputs.
+  const RunContacts &contacts() const { return run_contacts; }
+  /// What a run warns about; registered by all who check something.
+  LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
+  ExchangeSwitch &exchange() { return exchange_switch; }
+  StepsInRecords &steps_in_records() { return record_steps; }
+
+  /// Particles that are not spheres, nullptr: all are. The fix that has them takes the place in its
+  /// constructor and drops it in its destructor. false: there is one already.
+  SystemShapes *shapes() const { return shaped; }
+  bool take_shapes(SystemShapes *its);
+  void drop_shapes(const SystemShapes *its);
+
+  // ---- the pair style
 
   /// What the system does as a pair style wants it.
   struct StyleTraits {
@@ -85,92 +116,54 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool has_pair_style() const { return pair != nullptr; }
   /// Of the pair style that is attached, or the last one.
   const std::string &style_name() const { return style.name; }
-  /// The pair style is not part of hybrid: nothing else computes pairs.
-  bool pair_style_is_alone() const;
   /// In its init_style().
   void init_pair_style();
   /// The same, before it, collective: "", or why contacts cannot have a history here.
   std::string reason_against_history();
-  /// In this run all pairs are computed here. Valid after init() of the host.
-  bool accelerates_pairs() const { return pair_style_is_alone(); }
+  /// All pairs are computed here: it is not part of hybrid. Valid after init() of the host.
+  bool pair_style_is_alone() const;
   /// "" if so, else why not, for people.
   std::string reason_of_pair_style() const;
-  /// Where pairs that may touch are found.
-  const LAMMPS_NS::NeighborSource &neighbors() const { return neighbor_source; }
-  /// After init_pair_style().
-  const ContactRange &range() const { return contact_range; }
-  /// Between all types, as the script gives them.
-  Talus::LawBook &laws() { return book; }
-  /// Laws and coefficients as the kernels have them.
-  const LawTable &law_table();
-  /// Masses that contacts feel.
-  LAMMPS_NS::EffectiveMasses &masses() { return effective_masses; }
+  double memory_usage() const
+  {
+    return contact_pipeline->memory_usage() + neighbor_source.memory_usage();
+  }
 
-  // ---- one step
+  // ---- a step
 
   /// Moves the owned particles of an integrator's group, unless it places them itself: at the latest
   /// while the next compute_contacts() goes on. Called by all integrators of the run in their order.
   /// Members of the groups with these bits do not fall.
   void advance(const LAMMPS_NS::Fix *integrator, const RecordStep &step, int frozen_groups = 0);
-  /// Lets a fix do its part of a step in the arrays of the host: now, or when the particles come
-  /// back.
-  void complete_step_of(SystemFix &fix);
-  /// The forces of all contacts between particles. `report`, if given, is called for each of them.
-  void compute_contacts(const std::function<void(const ReportedContact &)> *report);
-  /// How far the particles went in the last step, if it was made in the records.
-  RecordTravel travel() const { return contact_pipeline->travel(); }
   /// After particles have moved: largest distance of an owned particle from where it was when
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
-  const Integrators &integrators() const { return movers; }
-  /// Second order does, and the work of contacts.
+  /// The forces of all contacts between particles. `report`, if given, is called for each of them.
+  void compute_contacts(const std::function<void(const ReportedContact &)> *report);
+  /// Changes of velocities are kept: for second order, and for the work of contacts.
   bool needs_changes() const;
 
-  // ---- gravity
-
-  /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with
-  /// the weights. Returns "", or why the fix has to add them itself.
-  std::string take_gravity(SystemGravity *field);
-  /// The fix is going.
-  void drop_gravity(const SystemGravity *field);
-
-  // ---- residence
+  // ---- where particles live
 
   /// The particles where they are now, for forces other than those between particles, and for those
   /// who move them.
   ParticleState particles();
-  Residence residence() const
-  {
-    return contact_pipeline->holds_state() ? Residence::RECORDS : Residence::HOST;
-  }
-  /// At the start of a run, after setup: finds out whether it may have steps in the records.
-  /// Collective; `pairs_computed`: the run style calls the pair style.
+  /// Lets a fix do its part of a step in the arrays of the host: now, or when the particles come
+  /// back.
+  void complete_step_of(SystemFix &fix);
+  /// At the start of a run, after set-up. Collective; `pairs_computed`: the run style calls the pair
+  /// style.
   void start_run(bool pairs_computed);
-  /// Before setup: prints which styles are accelerated, if that has changed. Collective;
-  /// `pairs_computed` as in start_run().
-  void report_styles(bool pairs_computed);
-  /// A fix of the host reads or changes particles in every step.
-  bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask) const;
-  /// Before the forces of a step are computed: where the particles will be after it. `tallied`:
-  /// energies or virials are asked for in it.
-  Residence choose_residence(LAMMPS_NS::bigint step, bool tallied);
-  /// Updates the proxies, after choose_residence(); pending on return if `overlap`.
+  /// Before the forces of a step are computed: whether its particles will be in the arrays of the
+  /// host after it, which then receive forces. `tallied`: energies or virials are asked for in it.
+  bool begin_forces(LAMMPS_NS::bigint step, bool tallied);
+  /// Updates the proxies, after begin_forces(); pending on return if `overlap`.
   void update_proxies(bool overlap);
-  /// The exchange plan is a new one.
-  void forget_plan() { sent_is_known = packer_knows_plan = false; }
-  /// Brings the particles back to the arrays of the host, if they are in the records, on request
-  /// with the forces that will move them in the next step.
-  void return_to_host(bool with_forces);
-  /// The same at the end of a run, however it ends.
-  void end_run();
-  // ---- particles that are not spheres
-
-  /// In the constructor of the fix that has them, and in its destructor. false: there is one
-  /// already.
-  bool take_shapes(SystemShapes *its);
-  void drop_shapes(const SystemShapes *its);
-  /// nullptr: all particles are spheres.
-  SystemShapes *shapes() const { return shaped; }
+  /// New neighbor lists are due: the particles come back to the arrays of the host.
+  void begin_rebuild();
+  /// The same between two steps, or at the end of a run, however it ends: with the forces that will
+  /// move them in the next step. Returns whether they were in the records.
+  bool return_to_host();
 
   // ---- rebuild: called by FixContactStore, in this order
 
@@ -183,37 +176,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// A run has ended, and what belongs to particles has been put aside.
   void end_contacts_of_run();
 
-  // ---- energies and contacts
-
-  EnergyAccount &account() { return energies; }
-  const RunContacts &contacts() const { return run_contacts; }
-
-  /// What a run warns about; registered by all who check something.
-  LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
-
-  // ---- questions
-
-  /// Contacts between particles as they are computed.
-  const ContactPipeline &pipeline() const { return *contact_pipeline; }
-  /// What particles carry along of their contacts; nullptr before the first init_pair_style().
-  LAMMPS_NS::FixContactStore *store() const { return contact_store; }
-  ExchangeSwitch &exchange() { return exchange_switch; }
-
-  LargeBodies &bodies() { return large_bodies; }
-
-  double memory_usage() const
-  {
-    return contact_pipeline->memory_usage() + neighbor_source.memory_usage();
-  }
-
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();
 
   ParticleView view() const;
-  void update_gravity();
-  void find_weightless();
   void change_order_of_histories();
   NeighborView without_shapes(const NeighborView &all);
   void complete_step();
@@ -221,13 +189,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void find_changes(ContactStep &step);
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
-  void finish_proxies();
-
-  std::string find_reason_for_host(bool pairs_computed);
-  std::string reason_of_fix(LAMMPS_NS::Fix *fix, int mask);
-  bool is_looked_at(LAMMPS_NS::bigint step) const;
-  void find_sent_particles(const ProxyUpdates *proxies);
-  ProxyPacker *packer_of_records(const ProxyUpdates *proxies);
+  void leave_records(bool with_forces);
 
   // the pair style
   LAMMPS_NS::Pair *pair = nullptr;
@@ -251,22 +213,17 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   RunContacts run_contacts;
 
   ExchangeSwitch exchange_switch;
-  StyleReport report;
+  ProxyStates proxies;
 
-  // residence
-  std::string host_reason = "no run yet";
-  Residence next_residence = Residence::HOST;
-  std::vector<LAMMPS_NS::Fix *> at_end_of_step;
-  SystemGravity *gravity = nullptr;
   SystemShapes *shaped = nullptr;
+  Weights gravity;
+  StepsInRecords record_steps;
+  bool stays_in_records = false;              // after this step
   LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there
   struct {
     LAMMPS_NS::bigint step = -1;
     double moved = 0.0;
-  } farthest;               // answer of moved_since_rebuild()
-  std::vector<int> sent;    // host's indices of owned particles that are proxies elsewhere
-  bool sent_is_known = false, packer_knows_plan = false, proxies_are_in_records = false;
-  RecordPacker packer;
+  } farthest;    // answer of moved_since_rebuild()
 };
 
 }    // namespace Talus

@@ -55,8 +55,8 @@ void GranularSystem::renumber_pairs()
   contact_pipeline->release();
   const int nall = atom->nlocal + atom->nghost;
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
-  const ProxyUpdates *proxies = exchange_switch.direct();
-  contact_pipeline->set_work(comm->nthreads, proxies && proxies->overlaps());
+  const ProxyUpdates *direct = exchange_switch.direct();
+  contact_pipeline->set_work(comm->nthreads, direct && direct->overlaps());
   try {
     NeighborView found = neighbor_source.find(pair->list, contact_range.largest_reach());
     if (shaped) found = without_shapes(found);
@@ -72,7 +72,7 @@ void GranularSystem::renumber_pairs()
                "rank: use more machines",
                style.name, atom->nlocal, atom->nghost);
   }
-  find_weightless();
+  gravity.find_weightless(*contact_pipeline);
   contact_store->pairs_are_numbered(contact_pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
   contact_pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
@@ -105,15 +105,6 @@ NeighborView GranularSystem::without_shapes(const NeighborView &all)
   });
   shaped->set_pairs(std::move(pairs));
   return rest;
-}
-
-void GranularSystem::find_weightless()
-{
-  const int *mask = atom->mask, bits = gravity ? gravity->group_bits() : 1;
-  if (bits & 1)    // the group all
-    contact_pipeline->set_weightless(nullptr);
-  else
-    contact_pipeline->set_weightless([=](int i) { return !(mask[i] & bits); });
 }
 
 }    // namespace Talus

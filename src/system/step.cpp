@@ -3,7 +3,7 @@
 // One step, as the run style makes it (the order is that of the Verlet loop of LAMMPS):
 //
 //   advance()             the integrator moves the particles
-//   choose_residence()    may they be in the records after this step?
+//   begin_forces()        may they be in the records after this step?
 //   update_proxies()      messages leave; with overlap they are on their way during
 //   compute_contacts()    forces between particles, and of bodies that join, in canonical order
 //
@@ -22,7 +22,6 @@
 #include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "timer.h"
 #include "update.h"
 
 #include <cmath>
@@ -43,22 +42,12 @@ void GranularSystem::advance(const Fix *integrator, const RecordStep &step, int 
   if (!movers.give(step)) return;
   if (!contact_pipeline->can_move()) {
     double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
-    contact_pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, sent,
+    contact_pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, proxies.sent(),
                                       then && atom->nlocal ? then[0] : nullptr);
   }
-  update_gravity();
+  gravity.begin_step(*contact_pipeline);
   contact_pipeline->advance(movers.steps());
   moved_in_records = update->ntimestep;
-}
-
-void GranularSystem::complete_step_of(SystemFix &fix)
-{
-  if (!contact_pipeline->holds_state()) fix.complete_step();
-}
-
-void GranularSystem::update_gravity()
-{
-  contact_pipeline->set_gravity(gravity ? gravity->acceleration() : nullptr);
 }
 
 /* On the way through the records, or from the arrays: these are up to date after all other moves,
@@ -102,7 +91,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
 {
   if (!contact_pipeline->has_pairs() ||
       contact_pipeline->num_particles() != atom->nlocal + atom->nghost) {
-    finish_proxies();
+    proxies.finish();
     renumber_pairs();    // as after `run pre no`
   }
 
@@ -113,14 +102,13 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
                    energies.begin_step(setting_up)};
   run_contacts.forget();
   step.lag = movers.lag();
-  step.read = residence() == Residence::HOST;
-  step.read_ghosts = !proxies_are_in_records;
-  step.deliver = next_residence == Residence::HOST;
-  proxies_are_in_records = false;
+  step.read = !contact_pipeline->holds_state();
+  step.read_ghosts = !proxies.take_arrived_in_records();
+  step.deliver = !stays_in_records;
   find_changes(step);
   if (contact_pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
-  update_gravity();
+  gravity.begin_step(*contact_pipeline);
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
     large_bodies.add_to_slots(thread, begin, end);
   };
@@ -140,13 +128,6 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   if (!setting_up) return;
   time_step.judge_start(book, *contact_pipeline);
   monitors.look(RunMonitor::Moment::SETUP);
-}
-
-ParticleState GranularSystem::particles()
-{
-  if (!contact_pipeline->holds_state()) return {atom->nlocal, view(), atom->type};
-  return {atom->nlocal, view(), atom->type, &contact_pipeline->records(),
-          contact_pipeline->particle_order().slot_of_atom.data()};
 }
 
 bool GranularSystem::needs_changes() const
@@ -185,29 +166,18 @@ float GranularSystem::weight_of_changes(bool setting_up) const
 void GranularSystem::compute_around_proxies(ContactStep &step)
 {
   if (!contact_pipeline->in_two_phases()) {
-    finish_proxies();
+    proxies.finish();
     contact_pipeline->compute(view(), step);
     return;
   }
-  ProxyUpdates *proxies = exchange_switch.direct();
-  const std::function<void()> progress = [proxies] { proxies->progress(); };
-  if (proxies && proxies->pending() && proxies->may_progress_beside(comm->nthreads))
+  ProxyUpdates *direct = exchange_switch.direct();
+  const std::function<void()> progress = [direct] { direct->progress(); };
+  if (direct && direct->pending() && direct->may_progress_beside(comm->nthreads))
     step.meanwhile = &progress;
   contact_pipeline->compute_early(view(), step);
   step.meanwhile = nullptr;
-  finish_proxies();
+  proxies.finish();
   contact_pipeline->compute_late(view(), step);
-}
-
-/* What was done before counts as pair time, the rest as communication. */
-
-void GranularSystem::finish_proxies()
-{
-  ProxyUpdates *proxies = exchange_switch.direct();
-  if (!proxies || !proxies->pending()) return;
-  timer->stamp(Timer::PAIR);
-  proxies->finish();
-  timer->stamp(Timer::COMM);
 }
 
 ParticleView GranularSystem::view() const

@@ -77,7 +77,7 @@ std::string StyleReport::text(const GranularSystem &system,
   const auto *ours = SystemPair::of(force->pair);
   const std::string pair = ours ? ours->plain_style() : force->pair ? force->pair_style : "none";
   return "Talus " TALUS_VERSION "\nTalus: styles of this run\n" +
-         line("pair " + pair, pair_is(system)) + lines_of_fixes(system) +
+         line("pair " + pair, pair_is(system)) + lines_of_fixes() +
          line(std::string("run ") + update->integrate_style, run_style_is()) +
          line("steps without output", reason_for_host.empty()
                                           ? "in the records"
@@ -97,12 +97,12 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
 /* A fix of the host that does not act on particles within a step, such as fix pour or fix print,
    keeps none from being in the records: it needs no line. */
 
-std::string StyleReport::lines_of_fixes(const GranularSystem &system) const
+std::string StyleReport::lines_of_fixes() const
 {
   std::string lines;
   for (Fix *fix : modify->get_fix_list()) {
     const auto *ours = SystemFix::of(fix);
-    const bool acts = ours || system.acts_within_steps(fix, modify->get_fix_mask(fix));
+    const bool acts = ours || acts_within_steps(fix, modify->get_fix_mask(fix));
     if (is_internal(fix) || !acts) continue;
     lines += line(std::string("fix ") + fix->id + " " + fix->style,
                   how(ours ? ours->reason_for_stock() : why_stock(*modify->fix_map, fix->style)));

@@ -26,7 +26,7 @@ class StyleReport : protected LAMMPS_NS::Pointers {
  private:
   bool concerns(const GranularSystem &system) const;
   std::string text(const GranularSystem &system, const std::string &reason_for_host) const;
-  std::string lines_of_fixes(const GranularSystem &system) const;
+  std::string lines_of_fixes() const;
   std::string pair_is(const GranularSystem &system) const;
   std::string run_style_is() const;
 

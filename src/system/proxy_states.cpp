@@ -1,0 +1,78 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/proxy_states.h"
+
+#include "system/exchange_switch.h"
+#include "system/present_box.h"
+#include "system/proxy_updates.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "timer.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+const std::vector<int> &ProxyStates::sent()
+{
+  if (sent_is_known) return sent_particles;
+  sent_particles.clear();
+  if (const ProxyUpdates *proxies = exchange.direct()) {
+    sent_particles = proxies->plan().self().send_index;
+    for (const ExchangeNeighbor &n : proxies->plan().neighbors())
+      sent_particles.insert(sent_particles.end(), n.send_index.begin(), n.send_index.end());
+  }
+  std::sort(sent_particles.begin(), sent_particles.end());
+  sent_particles.erase(std::unique(sent_particles.begin(), sent_particles.end()),
+                       sent_particles.end());
+  sent_is_known = true;
+  return sent_particles;
+}
+
+/* Where states go through the arrays of the host, these have to show the particles that are sent: a
+   step that is looked at may show its ghosts. */
+
+void ProxyStates::update(bool overlap, ContactPipeline &owners, bool stay, ChangeRecord *changes)
+{
+  ProxyUpdates *proxies = exchange.direct();
+  in_records = owners.holds_state() && stay && proxies && !proxies->is_checking();
+  if (owners.holds_state() && !in_records) {
+    if (!sent().empty()) owners.show_state(sent(), atom->x[0], atom->v[0], atom->omega[0]);
+    if (owners.keeps_changes()) owners.show_changes(sent(), changes);
+  }
+  if (!proxies || !proxies->has_plan() || !(overlap || in_records)) {
+    comm->forward_comm();    // complete at its end
+    return;
+  }
+  proxies->begin(in_records ? packer_of_records(owners) : nullptr);
+  if (overlap)
+    proxies->counters().overlapped++;
+  else
+    proxies->finish();
+}
+
+ProxyPacker *ProxyStates::packer_of_records(ContactPipeline &owners)
+{
+  if (!packer_knows_plan)
+    packer.set_plan(exchange.direct()->plan(), owners.particle_order().slot_of_atom.data());
+  packer_knows_plan = true;
+  packer.set_state(owners.records(), present_box(*domain));
+  return &packer;
+}
+
+/* What was done before counts as pair time, the rest as communication. */
+
+void ProxyStates::finish()
+{
+  ProxyUpdates *proxies = exchange.direct();
+  if (!proxies || !proxies->pending()) return;
+  timer->stamp(Timer::PAIR);
+  proxies->finish();
+  timer->stamp(Timer::COMM);
+}
+
+}    // namespace Talus

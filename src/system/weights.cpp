@@ -1,0 +1,48 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/weights.h"
+
+#include "system/granular_system.h"
+
+#include "atom.h"
+#include "force.h"
+#include "neighbor.h"
+#include "pair.h"
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+std::string Weights::take(SystemGravity *its)
+{
+  if (!system.pair_style_is_alone()) return system.reason_of_pair_style();
+  if (!force->pair->compute_flag) return "'pair_modify compute no' is set";
+  if (system.masses().unit() != 1.0)
+    return "the unit of force is not that of mass times acceleration";
+  if (neighbor->includegroup || atom->firstgroupname)
+    return "neighbor lists or particles are restricted to a group";
+  if (field && field != its) return "another fix gravity comes before it";
+  field = its;
+  return "";
+}
+
+void Weights::drop(const SystemGravity *its)
+{
+  if (field == its) field = nullptr;
+}
+
+void Weights::begin_step(ContactPipeline &particles)
+{
+  particles.set_gravity(field ? field->acceleration() : nullptr);
+}
+
+void Weights::find_weightless(ContactPipeline &particles) const
+{
+  const int *mask = atom->mask, bits = field ? field->group_bits() : 1;
+  if (bits & 1)    // the group all
+    particles.set_weightless(nullptr);
+  else
+    particles.set_weightless([=](int i) { return !(mask[i] & bits); });
+}
+
+}    // namespace Talus
