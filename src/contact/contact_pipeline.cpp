@@ -167,8 +167,12 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }
-  if (step.deliver)
-    in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+  if (!step.deliver) return;
+  in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+  if (step.read) return;
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++) write_state(a, host);
+  });
 }
 
 SlotChoice ContactPipeline::of_thread(const std::vector<int> &slots, int thread) const

@@ -95,8 +95,9 @@ class ContactPipeline {
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
   /// them: until a compute() that delivers, the host's arrays need not be up to date. Code that
   /// adds other forces does so in records(). With `read` false, owned particles are taken as they
-  /// are in the records: allowed if the last compute() did not deliver, and usual after advance();
-  /// and with `read_ghosts` false as well, ghosts too, if their state has been brought there.
+  /// are in the records, and their state is written to the host's arrays in a compute() that
+  /// delivers: allowed if the last compute() did not deliver, and usual after advance(); and with
+  /// `read_ghosts` false as well, ghosts too, if their state has been brought there.
   void compute(const ParticleView &host, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
   /// are neither read nor written; then those with a ghost.
@@ -124,21 +125,15 @@ class ContactPipeline {
   void complete_move();
   /// How far they went, after compute() or complete_move().
   RecordTravel travel() const;
-  /// Ends holds_state(): completes an advance() and writes positions, velocities and angular
-  /// velocities of all owned particles to the host's arrays, and sets its forces and torques to
-  /// those in the records, if given.
-  void return_state(double *x, double *v, double *omega, double *f, double *torque);
-  /// After a compute() that has delivered: only the state.
-  void write_state(double *x, double *v, double *omega) const;
-  /// Positions, velocities and angular velocities of some owned particles, for those who only read
-  /// them.
-  void show_state(const std::vector<int> &atoms, double *x, double *v, double *omega) const;
+  /// Ends holds_state(): completes an advance() and writes the state of all owned particles to the
+  /// host's arrays: positions, velocities, angular velocities and the changes of velocities that are
+  /// kept. With forces those and torques are set to the ones in the records.
+  void return_state(const ParticleView &host, bool with_forces);
+  /// The state of some owned particles, for those who only read it.
+  void show_state(const std::vector<int> &atoms, const ParticleView &host) const;
   /// Whether changes of velocities are kept from now on, see ParticleRecords::keep_changes().
   void keep_changes(bool yes);
-  /// The same of the changes of velocities, if they are kept: of all owned particles, or some.
   bool keeps_changes() const { return with_changes; }
-  void write_changes(ChangeRecord *changes) const;
-  void show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const;
 
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.
@@ -187,6 +182,7 @@ class ContactPipeline {
   void make_room();
   void start_step();
   void end_step(const ParticleView &host, const ContactStep &step);
+  void write_state(int atom, const ParticleView &host) const;
   void find_shared();
   void run_phase(const ParticleView &host, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);

@@ -97,51 +97,36 @@ void ContactPipeline::complete_move()
   move_pending = false;
 }
 
-void ContactPipeline::return_state(double *x, double *v, double *omega, double *f, double *torque)
+void ContactPipeline::return_state(const ParticleView &host, bool with_forces)
 {
   complete_move();
   in_records = false;
-  write_state(x, v, omega);
-  if (f)
-    in_ranges(order.owned, [&](int begin, int end) {
-      for (int a = begin; a < end; a++)
-        particles.write_forces(order.slot_of_atom[a], f + 3L * a, torque + 3L * a);
-    });
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++) {
+      write_state(a, host);
+      if (with_forces)
+        particles.write_forces(order.slot_of_atom[a], host.f + 3L * a, host.torque + 3L * a);
+    }
+  });
 }
 
-void ContactPipeline::write_state(double *x, double *v, double *omega) const
+void ContactPipeline::write_state(int atom, const ParticleView &host) const
 {
-  in_ranges(order.owned, [&](int begin, int end) {
-    for (int a = begin; a < end; a++)
-      particles.write_state(order.slot_of_atom[a], x + 3L * a, v + 3L * a, omega + 3L * a);
-  });
+  const std::int64_t row = 3L * atom;
+  const int slot = order.slot_of_atom[atom];
+  particles.write_state(slot, host.x + row, host.v + row, host.omega + row);
+  if (with_changes && host.change) host.change[atom] = particles.change[slot];
+}
+
+void ContactPipeline::show_state(const std::vector<int> &atoms, const ParticleView &host) const
+{
+  for (const int a : atoms) write_state(a, host);
 }
 
 void ContactPipeline::keep_changes(bool yes)
 {
   with_changes = yes;
   if (particles.has_room()) particles.keep_changes(yes);
-}
-
-void ContactPipeline::write_changes(ChangeRecord *changes) const
-{
-  in_ranges(order.owned, [&](int begin, int end) {
-    for (int a = begin; a < end; a++) changes[a] = particles.change[order.slot_of_atom[a]];
-  });
-}
-
-void ContactPipeline::show_changes(const std::vector<int> &atoms, ChangeRecord *changes) const
-{
-  for (const int a : atoms) changes[a] = particles.change[order.slot_of_atom[a]];
-}
-
-void ContactPipeline::show_state(const std::vector<int> &atoms, double *x, double *v,
-                                 double *omega) const
-{
-  for (const int atom : atoms) {
-    const std::int64_t a = 3L * atom;
-    particles.write_state(order.slot_of_atom[atom], x + a, v + a, omega + a);
-  }
 }
 
 }    // namespace Talus

@@ -7,9 +7,8 @@
 // each other.
 //
 //   granular_system.cpp   life, the pair style, laws
-//   step.cpp              one step, from the move to the forces
+//   step.cpp              one step, from the move to the forces, and where the particles are
 //   rebuild.cpp           from old neighbor lists to new ones
-//   residence.cpp         where the particles are
 //
 // A step is made in the arrays of the host, or, if only Talus looks at the particles in it, in the
 // records of the contacts (see contact/contact_pipeline.h), with the same bits.

@@ -6,7 +6,6 @@
 #include "system/present_box.h"
 #include "system/proxy_updates.h"
 
-#include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "timer.h"
@@ -36,31 +35,30 @@ const std::vector<int> &ProxyStates::sent()
 /* Where states go through the arrays of the host, these have to show the particles that are sent: a
    step that is looked at may show its ghosts. */
 
-void ProxyStates::update(bool overlap, ContactPipeline &owners, bool stay, ChangeRecord *changes)
+void ProxyStates::update(bool overlap, ContactPipeline &particles, const ParticleView &host,
+                         bool stay)
 {
   ProxyUpdates *proxies = exchange.direct();
-  in_records = owners.holds_state() && stay && proxies && !proxies->is_checking();
-  if (owners.holds_state() && !in_records) {
-    if (!sent().empty()) owners.show_state(sent(), atom->x[0], atom->v[0], atom->omega[0]);
-    if (owners.keeps_changes()) owners.show_changes(sent(), changes);
-  }
+  const bool from_records = particles.holds_state();
+  in_records = from_records && stay && proxies && !proxies->is_checking();
+  if (from_records && !in_records) particles.show_state(sent(), host);
   if (!proxies || !proxies->has_plan() || !(overlap || in_records)) {
     comm->forward_comm();    // complete at its end
     return;
   }
-  proxies->begin(in_records ? packer_of_records(owners) : nullptr);
+  proxies->begin(in_records ? packer_of_records(particles) : nullptr);
   if (overlap)
     proxies->counters().overlapped++;
   else
     proxies->finish();
 }
 
-ProxyPacker *ProxyStates::packer_of_records(ContactPipeline &owners)
+ProxyPacker *ProxyStates::packer_of_records(ContactPipeline &particles)
 {
   if (!packer_knows_plan)
-    packer.set_plan(exchange.direct()->plan(), owners.particle_order().slot_of_atom.data());
+    packer.set_plan(exchange.direct()->plan(), particles.particle_order().slot_of_atom.data());
   packer_knows_plan = true;
-  packer.set_state(owners.records(), present_box(*domain));
+  packer.set_state(particles.records(), present_box(*domain));
   return &packer;
 }
 

@@ -9,7 +9,6 @@
 
 #include "contact/contact_pipeline.h"
 #include "exchange/record_packer.h"
-#include "particles/change_record.h"
 
 #include "pointers.h"
 
@@ -34,17 +33,16 @@ class ProxyStates : protected LAMMPS_NS::Pointers {
   /// Host's indices of owned particles that are proxies elsewhere, ascending, of the present plan.
   const std::vector<int> &sent();
 
-  /// Updates all proxies; pending on return if `overlap`. `owners`: the particles, which `stay` in the
-  /// records, or do not, when forces are computed; `changes`: rows of the host for their changes.
-  /// Collective.
-  void update(bool overlap, ContactPipeline &owners, bool stay, ChangeRecord *changes);
+  /// Updates all proxies of these particles; pending on return if `overlap`. `stay`: if they are in
+  /// the records, they will be after the step. Collective.
+  void update(bool overlap, ContactPipeline &particles, const ParticleView &host, bool stay);
   /// Waits for those that are under way.
   void finish();
   /// Those of the last update() have come to the records. Asked once.
   bool take_arrived_in_records() { return std::exchange(in_records, false); }
 
  private:
-  ProxyPacker *packer_of_records(ContactPipeline &owners);
+  ProxyPacker *packer_of_records(ContactPipeline &particles);
 
   const ExchangeSwitch &exchange;
   std::vector<int> sent_particles;

@@ -7,7 +7,10 @@
 //   update_proxies()      messages leave; with overlap they are on their way during
 //   compute_contacts()    forces between particles, and of bodies that join, in canonical order
 //
-// In the arrays of the host the integrator moves them itself, and proxies are those of the host.
+// In the arrays of the host particles are moved at once, and proxies are those of the host. In the
+// records steps are made that StepsInRecords tells. The particles come back to the arrays for every
+// step with output, a fix of the host at its end or new neighbor lists, and at the end of a run, also
+// of one that ends in an error.
 
 #include "system/granular_system.h"
 
@@ -23,12 +26,21 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
+#include "utils.h"
 
 #include <cmath>
 
 using namespace LAMMPS_NS;
 
 namespace Talus {
+
+void GranularSystem::start_run(bool pairs_computed)
+{
+  proxies.forget_plan();
+  moved_in_records = farthest.step = -1;    // reset_timestep may bring a step back
+  record_steps.start_run(pairs_computed);
+  large_bodies.start_run();
+}
 
 void GranularSystem::advance(const Fix *integrator, const RecordStep &step, int frozen_groups)
 {
@@ -87,6 +99,17 @@ double GranularSystem::moved_in_arrays() const
   return std::sqrt(most);
 }
 
+bool GranularSystem::begin_forces(bigint step, bool tallied)
+{
+  stays_in_records = record_steps.include(step, tallied);
+  return !stays_in_records;
+}
+
+void GranularSystem::update_proxies(bool overlap)
+{
+  proxies.update(overlap, *contact_pipeline, view(), stays_in_records);
+}
+
 void GranularSystem::compute_contacts(const std::function<void(const ReportedContact &)> *report)
 {
   if (!contact_pipeline->has_pairs() ||
@@ -117,12 +140,8 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
     step.add_more = &add_bodies;
 
   compute_around_proxies(step);
-  if (step.deliver && !step.read && atom->nlocal)
-    contact_pipeline->write_state(atom->x[0], atom->v[0], atom->omega[0]);
-  if (step.deliver && contact_pipeline->keeps_changes()) {
-    if (!step.read) contact_pipeline->write_changes(contact_store->all_changes());
+  if (step.deliver && contact_pipeline->keeps_changes())
     contact_store->remember_velocities(movers.groups_with_changes());
-  }
   if (shaped) shaped->compute_contacts(step);
   contact_store->pairs_are_current();
   if (!setting_up) return;
@@ -180,6 +199,17 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
   contact_pipeline->compute_late(view(), step);
 }
 
+/* ----------------------------------------------------------------------
+   where the particles are
+------------------------------------------------------------------------- */
+
+ParticleState GranularSystem::particles()
+{
+  if (!contact_pipeline->holds_state()) return {atom->nlocal, view(), atom->type};
+  return {atom->nlocal, view(), atom->type, &contact_pipeline->records(),
+          contact_pipeline->particle_order().slot_of_atom.data()};
+}
+
 ParticleView GranularSystem::view() const
 {
   const bool any = atom->nlocal + atom->nghost > 0;
@@ -193,6 +223,47 @@ ParticleView GranularSystem::view() const
           any ? atom->torque[0] : nullptr,
           contact_pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
           contact_store ? contact_store->all_changes() : nullptr};
+}
+
+void GranularSystem::complete_step_of(SystemFix &fix)
+{
+  if (!contact_pipeline->holds_state()) fix.complete_step();
+}
+
+bool GranularSystem::return_to_host()
+{
+  stays_in_records = false;
+  if (!contact_pipeline->holds_state()) return false;
+  const bool between_steps = !contact_pipeline->is_moving();
+  leave_records(true);
+  if (between_steps) complete_step();
+  return true;
+}
+
+void GranularSystem::begin_rebuild()
+{
+  leave_records(false);
+  proxies.forget_plan();
+}
+
+void GranularSystem::leave_records(bool with_forces)
+{
+  if (!contact_pipeline->holds_state()) return;
+  contact_pipeline->complete_move();
+  movers.leave_records();
+  contact_pipeline->return_state(view(), with_forces);
+}
+
+/* Fix freeze of LAMMPS does not know of the records. */
+
+void GranularSystem::complete_step()
+{
+  for (const bool integrating : {false, true})
+    for (Fix *fix : modify->get_fix_list()) {
+      auto *ours = SystemFix::of(fix);
+      if (ours && ours->integrates() == integrating) ours->complete_step();
+      if (!ours && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
+    }
 }
 
 }    // namespace Talus

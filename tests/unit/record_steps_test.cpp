@@ -173,7 +173,7 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     else if (n > 0)
       host.step([this](int i) { return moves(i); });
     if (held) {    // what is sent is there before forces are computed
-      fast.show_state(sent, host.x.data(), host.v.data(), host.omega.data());
+      fast.show_state(sent, host.view());
       for (const int i : sent)
         for (int k = 3 * i; k < 3 * i + 3; k++) ASSERT_EQ(host.x[k], twin.x[k]);
     }
@@ -182,7 +182,6 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     step.read = !held;
     step.deliver = in(n);
     compute(fast, host, step);
-    if (held && in(n)) fast.write_state(host.x.data(), host.v.data(), host.omega.data());
     if (in(n)) {
       ASSERT_TRUE(same_state(host, twin)) << n;
       ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
@@ -204,9 +203,7 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
       advance();
       twin.step([this](int i) { return moves(i); });
     }
-    fast.return_state(host.x.data(), host.v.data(), host.omega.data(),
-                      in_the_middle ? nullptr : host.f.data(),
-                      in_the_middle ? nullptr : host.torque.data());
+    fast.return_state(host.view(), !in_the_middle);
     EXPECT_FALSE(fast.holds_state());
     EXPECT_TRUE(same_state(host, twin));
     if (!in_the_middle) {
@@ -260,7 +257,6 @@ TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
       host.spoil();
       continue;
     }
-    if (held) fast.write_state(host.x.data(), host.v.data(), host.omega.data());
     end_step(host);
     ASSERT_TRUE(same_state(host, twin)) << n;
     ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
@@ -296,7 +292,7 @@ TEST_P(RecordStepsInTwoPhases, ReturnTheStateBetweenThem)
   twin.step([this](int i) { return moves(i); });
   keep.read = false;
   fast.compute_early(host.view(), keep);    // then an error comes
-  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), nullptr, nullptr);
+  fast.return_state(host.view(), false);
   EXPECT_TRUE(same_state(host, twin));
 }
 
@@ -342,7 +338,7 @@ TEST_P(RecordSteps, TakeTorquesOfOthers)
   }
   advance();
   twin.step([this](int i) { return moves(i); });
-  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), nullptr, nullptr);
+  fast.return_state(host.view(), false);
   EXPECT_TRUE(same_state(host, twin));
 }
 
@@ -368,8 +364,7 @@ TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
     for (int d = 0; d < 3; d++) ASSERT_EQ(sums[i].c[d], twin.f[3 * i + d]) << i;
     twin.f[3 * i + 2] += 0.5;
   }
-  fast.return_state(host.x.data(), host.v.data(), host.omega.data(), host.f.data(),
-                    host.torque.data());
+  fast.return_state(host.view(), true);
   EXPECT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque));
 }
 
