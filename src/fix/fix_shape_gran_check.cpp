@@ -143,14 +143,25 @@ void FixShapeGran::check_computes()
                    compute->id, compute->style, one.instead);
 }
 
+/* Collective: what a rank says alone may be lost when the others are aborted. */
+
 void FixShapeGran::require_no_other_integrator() const
 {
+  if (!other_integrators) return;
+  bigint mine[2] = {MAXBIGINT, 0}, first = 0;    // ID and type
   for (int i = 0; i < atom->nlocal; i++)
-    if (is_shaped(atom->type[i]) && (atom->mask[i] & other_integrators))
-      error->one(FLERR, Error::NOLASTLINE,
-                 "Fix shape/gran: particle {} of type {} has a shape and belongs to the group of "
-                 "another fix that moves particles: give that fix a group of spheres only",
-                 atom->tag[i], atom->type[i]);
+    if (is_shaped(atom->type[i]) && (atom->mask[i] & other_integrators) && atom->tag[i] < mine[0]) {
+      mine[0] = atom->tag[i];
+      mine[1] = atom->type[i];
+    }
+  MPI_Allreduce(mine, &first, 1, MPI_LMP_BIGINT, MPI_MIN, world);
+  if (first == MAXBIGINT) return;
+  bigint type = mine[0] == first ? mine[1] : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &type, 1, MPI_LMP_BIGINT, MPI_MAX, world);
+  error->all(FLERR, Error::NOLASTLINE,
+             "Fix shape/gran: particle {} of type {} has a shape and belongs to the group of "
+             "another fix that moves particles: give that fix a group of spheres only",
+             first, type);
 }
 
 /* Called in a step: a run without set-up knows neither the pairs nor the ghosts of shapes. */
