@@ -262,7 +262,7 @@ Talus::ContactScene scene_of(const Talus::LawTable &laws)
   scene.laws = laws;
   scene.with_friction = laws.has_friction();
   scene.with_history = laws.has_history();
-  scene.with_impact = laws.has_impact();
+  scene.history_records = laws.history_records();
   scene.with_resistance = laws.has_resistance();
   return scene;
 }

@@ -182,7 +182,7 @@ struct OnFloor {
   explicit OnFloor(const benchmark::State &state) : p(prepared(state)), mask(p.bed.size(), 1)
   {
     contacts.set_laws(p.scene.laws);
-    contacts.history.keep(false, p.scene.laws.has_impact());
+    contacts.history.keep(false);
     contacts.history.grow(p.bed.owned);
     frame.origin = plane.reference_point();
     find();

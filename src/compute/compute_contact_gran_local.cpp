@@ -38,6 +38,11 @@ double tangential_force(const Row &r)
   return length_of(rest);
 }
 
+template <int place> double history_value(const Row &r)
+{
+  return r.history[place];
+}
+
 struct Column {
   const char *word;
   double (*value)(const Row &);
@@ -71,14 +76,26 @@ constexpr Column known[] = {
     {"ty", [](const Row &r) { return r.torque[1]; }},
     {"tz", [](const Row &r) { return r.torque[2]; }},
     {"eng", [](const Row &r) { return r.energy; }},
-    {"h1", [](const Row &r) { return r.history[0]; }},
-    {"h2", [](const Row &r) { return r.history[1]; }},
-    {"h3", [](const Row &r) { return r.history[2]; }},
-    {"h4", [](const Row &r) { return r.history[3]; }},
-    {"h5", [](const Row &r) { return r.history[4]; }},
-    {"h6", [](const Row &r) { return r.history[5]; }},
-    {"h7", [](const Row &r) { return r.history[6]; }},
-    {"h8", [](const Row &r) { return r.history[7]; }},
+    {"h1", history_value<0>},
+    {"h2", history_value<1>},
+    {"h3", history_value<2>},
+    {"h4", history_value<3>},
+    {"h5", history_value<4>},
+    {"h6", history_value<5>},
+    {"h7", history_value<6>},
+    {"h8", history_value<7>},
+    {"h9", history_value<8>},
+    {"h10", history_value<9>},
+    {"h11", history_value<10>},
+    {"h12", history_value<11>},
+    {"h13", history_value<12>},
+    {"h14", history_value<13>},
+    {"h15", history_value<14>},
+    {"h16", history_value<15>},
+    {"h17", history_value<16>},
+    {"h18", history_value<17>},
+    {"h19", history_value<18>},
+    {"h20", history_value<19>},
 };
 
 std::string known_words()
@@ -152,7 +169,7 @@ ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedConta
   put(center, row.x[0]);
   put(point - one.arm[!swapped], row.x[1]);
   put(point, row.point);
-  for (int k = 0; k < 8; k++) row.history[k] = (k < 3 ? sign : 1.0) * one.memory.value[k];
+  row.history = swapped ? Talus::mirrored(one.memory) : one.memory;
   return row;
 }
 

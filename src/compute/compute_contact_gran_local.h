@@ -29,7 +29,8 @@ class ComputeContactGranLocal : public Compute, private Talus::ContactObserver {
   struct Row {
     double id[2], body, part;
     double x[2][3];    ///< center of the first, and of the second or the point of the body
-    double point[3], normal[3], overlap, force[3], torque[3], history[8], energy;
+    double point[3], normal[3], overlap, force[3], torque[3], energy;
+    Talus::HistoryValues history;
   };
 
  private:

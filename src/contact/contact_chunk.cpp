@@ -42,11 +42,11 @@ void ContactChunk::change_order(int order, const std::function<const ContactLaw 
 {
   const std::int64_t count = history.is_kept() ? pairs.num_pairs() : 0;
   for (std::int64_t n = 0; n < count; n++)
-    if (history.touches(n))
-      change_history(history.record(n), history.with_impacts() ? &history.impact(n) : nullptr,
-                     [&](auto &values) {
-                       Talus::change_order(law(pairs.first[n], pairs.second[n]), order, values);
-                     });
+    if (history.touches(n)) {
+      HistoryValues values = history.values(n);
+      Talus::change_order(law(pairs.first[n], pairs.second[n]), order, values);
+      history.set_values(n, values);
+    }
 }
 
 void ContactChunk::forget_contacts()
@@ -157,13 +157,12 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
     gather<friction, history_kept, true>(step, end);
   else
     gather<friction, history_kept, false>(step, end);
-  if (scene.with_impact) gather_impacts(end);
+  if (scene.history_records > 1) gather_further_histories(scene, end);
   finish_geometry(end, friction);
   if (scene.with_twisting) gather_for_twisting(step, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);
-  if (history_kept && step.advance) keep_history(end);
-  if (scene.with_impact && step.advance) keep_impacts(end);
+  if (history_kept && step.advance) keep_history(scene, end);
   transpose_results<friction>(end, scene);
   if (pairs.weighted()) apply_weights(end);
   if (!pairs.is_late()) {

@@ -37,7 +37,8 @@ struct ReportedContact {
 /// What all chunks of a rank share.
 struct ContactScene {
   LawTable laws;
-  bool with_friction = false, with_history = false, with_impact = false;
+  bool with_friction = false, with_history = false;
+  int history_records = 0;         ///< of each contact, see HistoryRows
   bool with_twisting = false;      ///< twisting torques arise
   bool with_resistance = false;    ///< of rolling or twisting
   bool with_heat = false;          ///< is conducted
@@ -144,14 +145,11 @@ class ContactChunk {
   void give_lane(std::uint32_t contact, int position, int lane);
   template <bool friction, bool history_kept, bool changes> void gather(const Step &step, int end);
   void gather_for_twisting(const Step &step, int end, bool resistance);
-  void gather_impacts(int end);
+  void gather_further_histories(const ContactScene &scene, int end);
   void gather_temperatures(const double *temperature, int end);
   void finish_geometry(int end, bool radii_known);
   void run_kernels(const Step &step);
-  void keep_history(int end);
-  void keep_impacts(int end);
-  void to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth, int end,
-                    Record *records);
+  void keep_history(const ContactScene &scene, int end);
   template <bool friction> void transpose_results(int end, const ContactScene &scene);
   void apply_weights(int end);
   template <bool friction, bool one_law, bool weights>

@@ -85,13 +85,16 @@ void ContactChunk::gather(const Step &step, int end)
   }
 }
 
-void ContactChunk::gather_impacts(int end)
+void ContactChunk::gather_further_histories(const ContactScene &scene, int end)
 {
-  const auto impact = [this](int lane) { return load4(history.impact(pair_of_lane[lane])); };
-  for (int k = 0; k < end; k += 4) {
-    Vec4 row[4];
-    for (int q = 0; q < 4; q++) row[q] = impact(k + q);
-    to_lanes(row, batch.history + 4, batch.history[7], k);
+  const std::uint32_t *place = history.all_places();
+  for (int n = 1; n < scene.history_records; n++) {
+    const Record *h = history.all_records(n);
+    for (int k = 0; k < end; k += 4) {
+      Vec4 row[4];
+      for (int q = 0; q < 4; q++) row[q] = load4(h[place[pair_of_lane[k + q]]]);
+      to_lanes(row, batch.history + 4L * n, batch.history[4 * n + 3], k);
+    }
   }
 }
 
@@ -174,23 +177,15 @@ void ContactChunk::gather_for_twisting(const Step &step, int end, bool resistanc
 
 /* Copies of a contact hold the same result, so writing them twice does no harm. */
 
-void ContactChunk::keep_history(int end)
-{
-  to_histories(batch.history, batch.history[3], end, history.all_records());
-}
-
-void ContactChunk::keep_impacts(int end)
-{
-  to_histories(batch.history + 4, batch.history[7], end, history.all_impacts());
-}
-
-void ContactChunk::to_histories(const double (*lanes_of)[ContactBatch::width], const double *fourth,
-                                int end, Record *records)
+void ContactChunk::keep_history(const ContactScene &scene, int end)
 {
   const std::uint32_t *place = history.all_places();
-  for (int k = 0; k < end; k += 4)
-    to_rows(lanes_of, fourth, k,
-            [=](int q) -> Record & { return records[place[pair_of_lane[k + q]]]; });
+  for (int n = 0; n < scene.history_records; n++) {
+    Record *h = history.all_records(n);
+    for (int k = 0; k < end; k += 4)
+      to_rows(batch.history + 4L * n, batch.history[4 * n + 3], k,
+              [=](int q) -> Record & { return h[place[pair_of_lane[k + q]]]; });
+  }
 }
 
 template <bool friction> void ContactChunk::transpose_results(int end, const ContactScene &scene)

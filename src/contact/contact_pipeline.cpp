@@ -11,7 +11,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.laws = table;
   scene.with_friction = table.has_friction();
   scene.with_history = table.has_history();
-  scene.with_impact = table.has_impact();
+  scene.history_records = table.history_records();
   scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
   scene.with_heat = table.conducts_heat();
@@ -300,23 +300,13 @@ ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
   return {pair < 0 ? nullptr : &chunk, pair};
 }
 
-RememberedValues remembered_values(const Record &history, const Record &impact)
-{
-  RememberedValues all;
-  std::copy_n(history.c, 4, all.value);
-  std::copy_n(impact.c, 4, all.value + 4);
-  return all;
-}
-
-std::optional<RememberedValues> ContactPipeline::remembered_of(int i, int j) const
+std::optional<HistoryValues> ContactPipeline::history_of(int i, int j) const
 {
   const Place place = place_of(i, j);
   if (!place.chunk || !place.chunk->history.touches(place.pair)) return std::nullopt;
   const bool in_order = order.slot_of_atom[i] < order.slot_of_atom[j];
-  const ContactHistory &history = place.chunk->history;
-  const Record &stored = history.record(place.pair);
-  return remembered_values(in_order ? stored : mirrored(stored),
-                           history.with_impacts() ? history.impact(place.pair) : no_history);
+  const HistoryValues stored = place.chunk->history.values(place.pair);
+  return in_order ? stored : mirrored(stored);
 }
 
 double ContactPipeline::memory_usage() const

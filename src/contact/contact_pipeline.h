@@ -35,9 +35,6 @@ struct DeepestContact {
   bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
 };
 
-/// Both records of a contact by place, see ContactBatch::history.
-RememberedValues remembered_values(const Record &history, const Record &impact);
-
 class ContactPipeline {
  public:
   ContactPipeline() = default;
@@ -137,7 +134,7 @@ class ContactPipeline {
 
   /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
   /// not touch, or in a scene without history.
-  std::optional<RememberedValues> remembered_of(int i, int j) const;
+  std::optional<HistoryValues> history_of(int i, int j) const;
 
   /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
   /// count half, so that the sums over all ranks are the numbers of pairs.

@@ -75,11 +75,8 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
   s.circle = circle_of_intersection(ri, rj, s.overlap);
 
-  RememberedValues memory;
-  if (scene.with_history && chunk.history.touches(pair))
-    memory =
-        remembered_values(chunk.history.record(pair),
-                          chunk.history.with_impacts() ? chunk.history.impact(pair) : no_history);
+  HistoryValues memory{};
+  if (scene.with_history && chunk.history.touches(pair)) memory = chunk.history.values(pair);
   SurveyedContact found;
   found.i = order.atom_of_slot[i];
   found.j = order.atom_of_slot[j];

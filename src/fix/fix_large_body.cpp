@@ -27,8 +27,8 @@ using namespace Talus;
 /* ---------------------------------------------------------------------- */
 
 FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->bodies().add(this)), motion(lmp),
-    side(lmp), monitor(lmp)
+    Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), body(system->bodies().add(this)),
+    motion(lmp), side(lmp), monitor(lmp)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix large/body requires atom attributes radius, rmass, omega and torque: "
@@ -170,7 +170,8 @@ void FixLargeBody::follow_region()
 
 void FixLargeBody::post_integrate()
 {
-  motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{}, system->integrators().lag());
+  motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{},
+                 system->integrators().lag());
 }
 
 void FixLargeBody::setup_post_neighbor()

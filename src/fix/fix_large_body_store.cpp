@@ -18,8 +18,9 @@ using namespace Talus;
 namespace {
 
 // Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -4.0;
+constexpr double restart_version = -5.0;
 constexpr int size_head = 3;
+constexpr int restart_header = 2;    // of a particle: number of doubles, ID
 
 }    // namespace
 
@@ -28,7 +29,7 @@ void FixLargeBody::keep_history()
   if (!body.keeps_history()) return;
   restart_peratom = 1;
   create_attribute = 1;
-  maxexchange = BodyHistory::max_packed;
+  maxexchange = body.history().max_packed();
   FixLargeBody::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -109,9 +110,10 @@ void FixLargeBody::restart(char *buf)
 
 int FixLargeBody::pack_restart(int i, double *buf)
 {
-  buf[0] = size_restart(i);
-  pack_exchange(i, buf + 1);
-  return static_cast<int>(buf[0]);
+  const int size = restart_header + pack_exchange(i, buf + restart_header);
+  buf[0] = size;
+  buf[1] = ubuf(atom->tag[i]).d;
+  return size;
 }
 
 void FixLargeBody::unpack_restart(int i, int nth)
@@ -119,15 +121,21 @@ void FixLargeBody::unpack_restart(int i, int nth)
   double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  unpack_exchange(i, extra + m + 1);
+  if (ubuf(extra[m + 1]).i != atom->tag[i])
+    error->one(FLERR,
+               "Fix large/body {}: particles were deleted or renumbered between read_restart and "
+               "this command, so that contact history cannot be assigned: define the fix right "
+               "after read_restart",
+               id);
+  unpack_exchange(i, extra + m + restart_header);
 }
 
 int FixLargeBody::size_restart(int i)
 {
-  return 1 + body.history().size_packed(i);
+  return restart_header + body.history().size_packed(i);
 }
 
 int FixLargeBody::maxsize_restart()
 {
-  return 1 + BodyHistory::max_packed;
+  return restart_header + body.history().max_packed();
 }

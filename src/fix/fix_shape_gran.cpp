@@ -7,6 +7,7 @@
 #include "fix/particle_shapes.h"
 #include "shaped/shape_list.h"
 #include "system/command_words.h"
+#include "system/fix_contact_store.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -30,7 +31,7 @@ using namespace Talus;
 
 FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), system(GranularSystem::of(lmp)), table(collisions_of_shapes()),
-    pairs(table)
+    pairs(table), exchange(world)
 {
   time_integrate = 1;
   dynamic_group_allow = 0;
@@ -44,9 +45,9 @@ FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extscalar = extvector = 1;
   maxexchange_dynamic = 1;
+  histories.keep(point_history_size);
   set_maxexchange();
-  comm_border = 4;
-  comm_forward = block_size;
+  comm_border = comm_forward = 4;
 
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "Fix shape/gran requires atom attributes radius, rmass, omega and torque: "
@@ -122,22 +123,32 @@ void FixShapeGran::orient_new(int first, int last)
 
 /* ---- a rebuild ---- */
 
-void FixShapeGran::keep_memories()
+void FixShapeGran::keep_histories()
 {
-  if (memories_are_current) return;
-  memories.clear_all();
-  pairs.save(memories);
+  if (histories_are_current) return;
+  histories.clear();
+  if (domain->xperiodic || domain->yperiodic || domain->zperiodic) {
+    ShapedPairs::Messages messages;
+    const HistoryStore &store = system->store()->histories();
+    pairs.save_in_periodic_box(
+        histories, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); },
+        messages);
+    exchange.run(messages, 0,
+                 [this](const std::vector<double> &m) { pairs.receive(m, histories); });
+  } else {
+    pairs.save(histories);
+  }
   for (auto &[body, its] : walls)
-    if (its.points) its.points->save(memories);
-  memories_are_current = true;
+    if (its.points) its.points->save(histories);
+  histories_are_current = true;
   set_maxexchange();
 }
 
 void FixShapeGran::set_maxexchange()
 {
-  int mine = memories.longest(quat ? atom->nlocal : 0), most = 0;
+  int mine = histories.largest_packed(quat ? atom->nlocal : 0), most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
-  maxexchange = 4 + 1 + PointMemory::size * most;
+  maxexchange = 4 + most;
 }
 
 /* Of particles that have come since: owned ones and their ghosts. */
@@ -154,10 +165,9 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
 {
   require_set_up();
   const int nall = atom->nlocal + atom->nghost;
-  send_memories_to_ghosts();
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
-  pairs.restore([this](int i) -> const std::vector<PointMemory> & { return memories.of(i); });
+  pairs.restore(histories);
   for (auto &[body, its] : walls)
     if (its.points) list_particles(*body, *its.points);
 }
@@ -168,7 +178,7 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
   for (int i = 0; i < atom->nlocal; i++)
     if (is_shaped(atom->type[i]) && (atom->mask[i] & body.group_bits())) particles.push_back(i);
   points.set_particles(particles);
-  points.restore(memories);
+  points.restore(histories);
 }
 
 /* ---- a step ---- */
@@ -194,7 +204,6 @@ void FixShapeGran::send_orientations()
 {
   const ProxyUpdates *direct = system->exchange().direct();
   if (direct && direct->has_plan() && !orientations_were_set) return;
-  message = Message::ORIENTATIONS;
   comm->forward_comm(this, 4);
   orientations_were_set = false;
 }
@@ -205,7 +214,7 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
   send_orientations();
   pairs.compute(view(), system->law_table(),
                 {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
-  if (step.advance) memories_are_current = false;
+  if (step.advance) histories_are_current = false;
   if (!step.report) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
     const double *a = atom->x[i], *b = atom->x[j];
@@ -232,7 +241,7 @@ BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step)
     its.points = std::make_unique<WallPoints>(table, name_of(body));
     list_particles(body, *its.points);
   }
-  if (step.advance) memories_are_current = false;
+  if (step.advance) histories_are_current = false;
   return its.points->compute(*its.surfaces, body.present_frame(), view(), body.law_table(), step);
 }
 

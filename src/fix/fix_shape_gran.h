@@ -31,8 +31,9 @@ FixStyle(shape/gran,FixShapeGran);
 #ifndef LMP_FIX_SHAPE_GRAN_H
 #define LMP_FIX_SHAPE_GRAN_H
 
+#include "exchange/sparse_exchange.h"
 #include "fix.h"
-#include "shaped/point_memory.h"
+#include "history/contact_lists.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
 #include "shaped/wall_points.h"
@@ -97,7 +98,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   }
   double volume_of(int type) const override { return table.of(type)->shape().volume(); }
   const Talus::ParticleShape *shape_of(int type) const override { return table.of(type); }
-  void keep_memories() override;
+  void keep_histories() override;
   double *const *orientations() const override { return quat; }
   void set_pairs(std::vector<std::array<int, 2>> pairs) override;
   void compute_contacts(const Talus::ContactStep &step) override;
@@ -151,23 +152,14 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   bool is_set_up = false;                ///< setup_pre_neighbor() has been called
   int other_integrators = 0;             ///< bits of groups that other fixes move
 
-  Talus::PointMemories memories;
-  bool memories_are_current = true;    ///< they hold all that contacts of owned particles remember
+  Talus::ContactLists histories;        ///< of contact points, while there are none
+  bool histories_are_current = true;    ///< they hold all that contacts of owned particles remember
+  Talus::SparseExchange exchange;
 
   std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
   std::vector<double> image_values;
   std::vector<double *> image_rows;
   std::vector<int> image_kinds;
-
-  // fix_shape_gran_store.cpp
-  void send_memories_to_ghosts();
-  static constexpr int block_size = 32;    ///< doubles of a piece of a list
-  enum class Message { ORIENTATIONS, SIZES, MEMORIES };
-  Message message = Message::ORIENTATIONS;
-  int size_of_piece(int i) const;
-  int sent = 0;                              ///< doubles of each list that are at the ghosts
-  std::vector<int> sizes;                    ///< of the lists; 0 of particles that remember nothing
-  std::vector<std::vector<double>> lists;    ///< of memories, on their way to ghosts
 };
 
 }    // namespace LAMMPS_NS

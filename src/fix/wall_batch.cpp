@@ -101,9 +101,9 @@ void WallBatch::add_to_account()
 void WallBatch::survey(Ask ask, const std::function<void(const SurveyedContact &)> &visit)
 {
   for (int k = 0; k < filled; k++) {
-    RememberedValues memory;
+    HistoryValues memory{};
     for (std::size_t n = 0; histories[k] && n < law->places.size(); n++)
-      if (law->places[n] >= 0) memory.value[law->places[n]] = histories[k][n];
+      if (law->places[n] >= 0) memory[law->places[n]] = histories[k][n];
     const ContactState<double> state = state_of_lane(batch, k);
     SurveyedContact found;
     found.i = atoms[k];

@@ -3,7 +3,6 @@
 #include "history/contact_history.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace Talus {
 
@@ -13,29 +12,28 @@ namespace Talus {
 void ContactHistory::fetch(const PairList &pairs, const HistoryStore &store)
 {
   const std::int64_t n = store.empty() ? 0 : pairs.num_pairs();
-  impact_kept = store.keeps_impacts();
+  rows.keep(store.num_records());
   renew(places, pairs.num_pairs());
   touching.assign((pairs.num_pairs() + 7) / 8, 0);
   vacant.clear();
   // addresses for all, that nothing has to move later; only what is written takes memory
-  renew(records, pairs.num_pairs());
-  renew(impacts, impact_kept ? pairs.num_pairs() : 0);
+  rows.renew(pairs.num_pairs());
   std::uint32_t found = 0;
   for (std::int64_t block = 0; block < n; block += 8) {
     unsigned bits = 0;
     for (std::int64_t c = block; c < std::min(block + 8, n); c++) {
       const FoundHistory its = store.find(pairs.first[c], pairs.second[c]);
-      std::memcpy(&records[found], its.history, sizeof(Record));
-      if (!its.by_a) records[found] = mirrored(records[found]);
-      if (impact_kept) std::memcpy(&impacts[found], its.impact, sizeof(Record));
+      const Record &first = its.rows->record(its.row);
+      rows.record(found) = its.by_a ? first : mirrored(first);
+      for (int k = 1; k < rows.records(); k++)
+        rows.record(found, k) = k < its.rows->records() ? its.rows->record(its.row, k) : Record{};
       places[c] = found;
       found += its.known;
       bits |= static_cast<unsigned>(its.known) << (c - block);
     }
     touching[block / 8] = static_cast<std::uint8_t>(bits);
   }
-  records.resize(found);
-  impacts.resize(impact_kept ? found : 0);
+  rows.resize(found);
 }
 
 void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool keeps_its_own)
@@ -46,8 +44,8 @@ void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool kee
   const auto is_ghost = [&](int slot) { return !order.is_owned(order.atom_of_slot[slot]); };
   to.first_row = n ? pairs.second[0] : 0;
   to.rows.assign(n ? pairs.second[n - 1] - to.first_row + 2 : 1, 0);
-  renew(to.first, records.size() + SlotContacts::ahead);
-  renew(to.place, records.size() + SlotContacts::ahead);
+  renew(to.first, rows.size() + SlotContacts::ahead);
+  renew(to.place, rows.size() + SlotContacts::ahead);
   to.with_ghost.clear();
   std::uint32_t count = 0;
   for (std::size_t block = 0; block < touching.size(); block++) {
@@ -69,27 +67,23 @@ void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool kee
   std::fill(to.first.begin() + count, to.first.end(), -1);
   std::fill(to.place.begin() + count, to.place.end(), 0);
   if (keeps_its_own) {
-    to.records = records;
-    to.impacts = impacts;
+    to.histories = rows;
     return;
   }
-  to.records.swap(records);
-  to.impacts.swap(impacts);
+  to.histories.swap(rows);
   std::fill(touching.begin(), touching.end(), 0);
 }
 
 void ContactHistory::begin(std::int64_t pair)
 {
   if (vacant.empty()) {
-    places[pair] = static_cast<std::uint32_t>(records.size());
-    records.push_back(Record{});
-    if (impact_kept) impacts.push_back(Record{});
+    places[pair] = static_cast<std::uint32_t>(rows.size());
+    rows.add();
     return;
   }
   places[pair] = vacant.back();
   vacant.pop_back();
-  record(pair) = Record{};
-  if (impact_kept) impact(pair) = Record{};
+  rows.set_zero(places[pair]);
 }
 
 void ContactHistory::change(std::int64_t block, unsigned bits)
@@ -108,9 +102,9 @@ void ContactHistory::release()
 
 double ContactHistory::memory_usage() const
 {
-  return static_cast<double>((records.capacity() + impacts.capacity()) * sizeof(Record) +
-                             (places.capacity() + vacant.capacity()) * sizeof(std::uint32_t) +
-                             touching.capacity());
+  return static_cast<double>((places.capacity() + vacant.capacity()) * sizeof(std::uint32_t) +
+                             touching.capacity()) +
+         rows.memory_usage();
 }
 
 }    // namespace Talus

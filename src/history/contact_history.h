@@ -1,17 +1,15 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contact history of the candidate pairs during a run: one record for each pair that touches, seen
-// from the first particle of the pair; and a second one, the impact of the contact, in scenes with
-// a law that needs it. Half of the candidates or more do not touch: the records stand side by side
-// in the order in which the contacts were found, so nearly in that of the pairs, and each pair
-// knows its place.
+// Contact history of the candidate pairs during a run: a row of numbers (see HistoryRows) for each
+// pair that touches, seen from the first particle of the pair. Half of the candidates or more do
+// not touch: the rows stand side by side in the order in which the contacts were found, so nearly
+// in that of the pairs, and each pair knows its place.
 
 #ifndef TALUS_HISTORY_CONTACT_HISTORY_H
 #define TALUS_HISTORY_CONTACT_HISTORY_H
 
 #include "history/history_store.h"
 #include "neighbors/pair_list.h"
-#include "particles/record.h"
 
 #include <cstdint>
 #include <vector>
@@ -44,16 +42,19 @@ class ContactHistory {
   bool is_kept() const { return !touching.empty(); }
   bool touches(std::int64_t pair) const { return touching[pair / 8] >> (pair % 8) & 1U; }
   /// Of a pair that touches.
-  Record &record(std::int64_t pair) { return records[places[pair]]; }
-  const Record &record(std::int64_t pair) const { return records[places[pair]]; }
-  Record &impact(std::int64_t pair) { return impacts[places[pair]]; }
-  const Record &impact(std::int64_t pair) const { return impacts[places[pair]]; }
-  bool with_impacts() const { return impact_kept; }
+  Record &record(std::int64_t pair, int k = 0) { return rows.record(places[pair], k); }
+  const Record &record(std::int64_t pair, int k = 0) const { return rows.record(places[pair], k); }
+  HistoryValues values(std::int64_t pair) const { return rows.values(places[pair]); }
+  void set_values(std::int64_t pair, const HistoryValues &values)
+  {
+    rows.read(places[pair], values.data());
+  }
+  /// Of each pair.
+  int num_records() const { return rows.records(); }
 
-  /// Where the record of a pair that touches stands in all_records(), by pair.
+  /// Where the numbers of a pair that touches stand in all_records(k), by pair.
   const std::uint32_t *all_places() const { return places.data(); }
-  Record *all_records() { return records.data(); }
-  Record *all_impacts() { return impacts.data(); }
+  Record *all_records(int k = 0) { return rows.all(k); }
 
   double memory_usage() const;
 
@@ -61,11 +62,10 @@ class ContactHistory {
   void begin(std::int64_t pair);
   void change(std::int64_t block, unsigned bits);
 
-  bool impact_kept = false;
-  AlignedVector<std::uint8_t> touching;      // one bit for each pair
-  AlignedVector<std::uint32_t> places;       // by pair, valid if it touches
-  AlignedVector<Record> records, impacts;    // by place
-  AlignedVector<std::uint32_t> vacant;       // places of pairs that have separated
+  AlignedVector<std::uint8_t> touching;    // one bit for each pair
+  AlignedVector<std::uint32_t> places;     // by pair, valid if it touches
+  HistoryRows rows;                        // by place
+  AlignedVector<std::uint32_t> vacant;     // places of pairs that have separated
 };
 
 }    // namespace Talus

@@ -8,6 +8,12 @@
 
 namespace Talus {
 
+void HistoryStore::keep(int records)
+{
+  lists.keep(4 * records);
+  named.keep(records);
+}
+
 void HistoryStore::begin(const WorkPartition &partition, Scope of)
 {
   filled = true;
@@ -49,38 +55,35 @@ void HistoryStore::name_contacts(const ParticleOrder &last)
         touched_image[of_ghost ? c.second : c.first] = 1;
       }
       if (scope.periodic && of_ghost) continue;
-      const Record &history = its.records[c.place],
-                   &impact = its.impacts.empty() ? no_history : its.impacts[c.place];
-      named.insert(last.tag[first], last.tag[second], history, impact);
+      const HistoryValues history = its.histories.values(c.place);
+      named.insert(last.tag[first], last.tag[second], history);
       if (scope.periodic && owner != me)
-        add_message(owner, last.tag[first], last.tag[second], history, impact);
+        add_message(owner, last.tag[first], last.tag[second], history);
     }
 }
 
 /* Both names, as the bits of doubles, and the history as the first sees it. */
 
 void HistoryStore::add_message(int rank, std::int64_t first, std::int64_t second,
-                               const Record &history, const Record &impact)
+                               const HistoryValues &history)
 {
   std::vector<double> &to = messages[rank];
   const std::int64_t names[2] = {first, second};
   const std::size_t begin = to.size();
   to.resize(begin + 2);
   std::memcpy(&to[begin], names, sizeof names);
-  to.insert(to.end(), history.c, history.c + 4);
-  if (with_impacts) to.insert(to.end(), impact.c, impact.c + 4);
+  to.insert(to.end(), history.begin(), history.begin() + lists.values());
 }
 
 void HistoryStore::receive(const std::vector<double> &message)
 {
-  const std::size_t stride = 2 + values();
+  const std::size_t stride = 2 + lists.values();
   for (std::size_t n = 0; n < message.size(); n += stride) {
     std::int64_t names[2];
     std::memcpy(names, &message[n], sizeof names);
-    Record history, impact = no_history;
-    std::copy_n(&message[n + 2], 4, history.c);
-    if (with_impacts) std::copy_n(&message[n + 6], 4, impact.c);
-    named.insert(names[0], names[1], history, impact);
+    HistoryValues history{};
+    std::copy_n(&message[n + 2], lists.values(), history.data());
+    named.insert(names[0], names[1], history);
   }
 }
 
@@ -134,17 +137,18 @@ void HistoryStore::clear()
 {
   filled = false;
   order = nullptr;
-  if (!list_begin.empty()) std::fill(list_of.begin(), list_of.end(), -1);
-  list_begin.clear();
   lists.clear();
   named.clear();
   touched_image.clear();
   messages.clear();
   most_partners = 0;
   if (memory_usage() < worth_giving_back) return;
+  const int records = num_records(), particles = static_cast<int>(origins.size());
   chunks = {};
   named = {};
-  release(lists);
+  lists = {};
+  lists.grow(particles);
+  keep(records);
   release(followers);
   release(followers_begin);
   release(name_of_slot);
@@ -155,16 +159,14 @@ void HistoryStore::clear()
 double HistoryStore::memory_usage() const
 {
   double bytes = static_cast<double>(
-      sizeof(Origin) * origins.capacity() +
-      sizeof(std::int32_t) * (owners.capacity() + list_of.capacity()) +
-      sizeof(double) * lists.capacity() +
-      sizeof(std::int64_t) * (list_begin.capacity() + name_of_slot.capacity()) +
-      touched_image.capacity() + sizeof(std::uint32_t) * followers_begin.capacity() +
+      sizeof(Origin) * origins.capacity() + sizeof(std::int32_t) * owners.capacity() +
+      sizeof(std::int64_t) * name_of_slot.capacity() + touched_image.capacity() +
+      sizeof(std::uint32_t) * followers_begin.capacity() +
       sizeof(int) * (followers.capacity() + slot_then.capacity()));
   for (const SlotContacts &its : chunks) bytes += its.memory_usage();
   for (const auto &message : messages)
     bytes += static_cast<double>(sizeof(double) * message.second.capacity());
-  return bytes + named.memory_usage() + work.memory_usage();
+  return bytes + lists.memory_usage() + named.memory_usage() + work.memory_usage();
 }
 
 }    // namespace Talus

@@ -23,6 +23,7 @@
 #ifndef TALUS_HISTORY_HISTORY_STORE_H
 #define TALUS_HISTORY_HISTORY_STORE_H
 
+#include "history/contact_lists.h"
 #include "history/named_contacts.h"
 #include "history/slot_contacts.h"
 #include "neighbors/work_partition.h"
@@ -37,11 +38,11 @@ namespace Talus {
 
 class HistoryStore {
  public:
-  explicit HistoryStore(int this_rank = 0) : me(this_rank) {}
+  explicit HistoryStore(int this_rank = 0) : me(this_rank) { keep(HistoryRows::most_records); }
 
-  /// Impact records are kept as well, from now on.
-  void keep_impacts(bool yes) { with_impacts = yes; }
-  bool keeps_impacts() const { return with_impacts; }
+  /// Records of each contact from now on, see HistoryRows::keep().
+  void keep(int records);
+  int num_records() const { return lists.values() / 4; }
 
   // ---- what particles carry along, by host's index ---------------------------------------------
 
@@ -67,7 +68,7 @@ class HistoryStore {
   // ---- out of the last lists -------------------------------------------------------------------
 
   struct Scope {
-    bool particles_may_leave;    ///< without it pack() and largest_list() know of nothing
+    bool particles_may_leave;    ///< without it pack() and largest_count() know of nothing
     bool periodic;               ///< the first particle decides, see above
   };
   void begin(const WorkPartition &work, Scope scope);
@@ -87,19 +88,28 @@ class HistoryStore {
 
   // ---- particles under way ---------------------------------------------------------------------
 
-  /// An owned particle with its contacts as a list of doubles, for a message to its new rank.
-  /// Returns their number.
+  /// An owned particle with its contacts as a list (see ContactLists), for a message to its new
+  /// rank. Returns the number of doubles.
   int pack(int atom, double *buffer);
   int unpack(int atom, const double *buffer);
-  /// The same without the origin, for a restart file. Lists of either kind can be read whether
-  /// impacts are kept or not.
+  /// The same without the origin, for a restart file.
   int pack_list(int atom, double *buffer);
   int unpack_list(int atom, const double *buffer);
   /// Upper limits: of one list and of all (doubles).
   int list_size(int atom) const;
-  int largest_list(int owned) const;
-  /// The name of a particle out of a restart file.
-  void set_name(int atom, std::int64_t name) { origins[atom] = {name, -1, -1}; }
+  int largest_list(int owned) const { return lists.size_of_list(largest_count(owned)); }
+  /// The most contacts that one of the owned particles may have.
+  int largest_count(int owned) const;
+  /// The name of a particle out of a restart file, which has no contacts yet.
+  void set_name(int atom, std::int64_t name);
+
+  /// The same, one by one: the partner and what the particle remembers of it.
+  struct Contact {
+    std::int64_t partner;
+    HistoryValues history;
+  };
+  std::vector<Contact> contacts_of(int atom);
+  void add(int atom, const Contact &one);
 
   // ---- into the new lists ----------------------------------------------------------------------
 
@@ -130,19 +140,15 @@ class HistoryStore {
   template <class Visit> void for_each_partner(int slot, Visit visit);
   void name_contacts(const ParticleOrder &order);
   void name_lists(int owned);
-  void add_message(int rank, std::int64_t first, std::int64_t second, const Record &history,
-                   const Record &impact);
+  void add_message(int rank, std::int64_t first, std::int64_t second, const HistoryValues &history);
   int plain_slot(int atom) const;
-  int values() const { return with_impacts ? 8 : 4; }
+  template <class Visit> void for_each_contact_of_slot(int slot, Visit visit);
 
   int me;
-  bool with_impacts = false;
 
   // by host's index
   std::vector<Origin> origins;
-  std::vector<std::int32_t> list_of;    // of owned ones that brought their contacts: which; or -1
-  AlignedVector<double> lists;          // one after the other
-  std::vector<std::int64_t> list_begin;
+  ContactLists lists;                  // of owned ones that brought their contacts
   std::vector<std::int32_t> owners;    // by ghost
 
   // contacts of the last lists, by the slots of then
@@ -170,11 +176,10 @@ class HistoryStore {
 inline FoundHistory HistoryStore::find_in(int c, int a, int b) const
 {
   const SlotContacts &its = chunks[c];
-  if (its.records.empty()) return {};
+  if (its.histories.empty()) return {};
   const std::int64_t place = its.find(std::min(a, b), std::max(a, b)),
                      readable = place & ~(place >> 63);
-  return {place >= 0, a < b, its.records.data() + readable,
-          its.impacts.empty() ? &no_history : its.impacts.data() + readable};
+  return {place >= 0, a < b, &its.histories, static_cast<std::size_t>(readable)};
 }
 
 inline FoundHistory HistoryStore::find_by_slots(int a, int b) const

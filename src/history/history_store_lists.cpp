@@ -1,15 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What particles carry along, and their contacts as lists for messages and restart files:
-//
-//   number of contacts, values of each (4: the history record; 8: and the impact record)
-//   for each contact: the name of the partner, as the bits of a double, and the values as the
-//     particle sees them
+// What particles carry along, and their contacts as lists for messages and restart files.
 
 #include "history/history_store.h"
 
 #include "base/in_parallel.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -17,34 +14,26 @@ namespace Talus {
 
 namespace {
 
-constexpr int list_header = 2;
-
 static_assert(sizeof(HistoryStore::Origin) == HistoryStore::size_origin * sizeof(double));
-static_assert(sizeof(std::int64_t) == sizeof(double), "names travel as the bits of a double");
-
-int size_of_list(const double *list)
-{
-  return list_header + static_cast<int>(list[0]) * (1 + static_cast<int>(list[1]));
-}
 
 }    // namespace
 
 void HistoryStore::resize(int capacity)
 {
   origins.resize(capacity);
-  list_of.resize(capacity, -1);
+  lists.grow(capacity);
 }
 
 void HistoryStore::copy(int from, int to)
 {
   origins[to] = origins[from];
-  list_of[to] = list_of[from];
+  lists.copy(from, to);
 }
 
 void HistoryStore::forget(int atom)
 {
   origins[atom] = {};
-  list_of[atom] = -1;
+  lists.forget(atom);
 }
 
 void HistoryStore::set_ghost(int owned, int atom, const Origin &origin, int owner)
@@ -172,34 +161,31 @@ int HistoryStore::unpack(int atom, const double *buffer)
   return size_origin + unpack_list(atom, buffer + size_origin);
 }
 
+/* Of a contact with a ghost whose first particle sees none, nothing is known. */
+
+template <class Visit> void HistoryStore::for_each_contact_of_slot(int slot, Visit visit)
+{
+  for_each_partner(slot, [&](int other) {
+    const std::int64_t name = name_of_slot[other];
+    const FoundHistory found =
+        name > 0 ? find_by_slots(slot, other) : named.find(name_of_slot[slot], -name);
+    if (found.known) visit(std::abs(name), found.seen_by_a());
+  });
+}
+
 int HistoryStore::pack_list(int atom, double *buffer)
 {
-  const bool here = was_here(origins[atom]) && scope.particles_may_leave;
-  if (!here && list_of[atom] >= 0) {
-    // names are bit patterns: copied as memory, never as numbers
-    const double *list = &lists[list_begin[list_of[atom]]];
-    std::memcpy(buffer, list, sizeof(double) * size_of_list(list));
-    return size_of_list(list);
-  }
+  if (!was_here(origins[atom]) || !scope.particles_may_leave) return lists.pack(atom, buffer);
   int count = 0;
-  double *to = buffer + list_header;
-  if (here) {
-    const int slot = origins[atom].slot;
-    for_each_partner(slot, [&](int other) {
-      const std::int64_t name = name_of_slot[other];
-      const FoundHistory found =
-          name > 0 ? find_by_slots(slot, other) : named.find(name_of_slot[slot], -name);
-      if (!found.known) return;    // its first particle sees no contact
-      const std::int64_t partner = std::abs(name);
-      const Record seen = found.seen_by_a();
-      std::memcpy(to++, &partner, sizeof partner);
-      to = std::copy_n(seen.c, 4, to);
-      if (with_impacts) to = std::copy_n(found.impact->c, 4, to);
-      count++;
-    });
-  }
+  double *to = buffer + ContactLists::size_head;
+  for_each_contact_of_slot(
+      origins[atom].slot, [&](std::int64_t partner, const HistoryValues &history) {
+        ContactLists::write_name(partner, 0, to);
+        to = std::copy_n(history.begin(), lists.values(), to + ContactLists::size_name);
+        count++;
+      });
   buffer[0] = count;
-  buffer[1] = values();
+  buffer[1] = lists.values();
   return static_cast<int>(to - buffer);
 }
 
@@ -207,34 +193,51 @@ int HistoryStore::pack_list(int atom, double *buffer)
 
 int HistoryStore::unpack_list(int atom, const double *buffer)
 {
-  const int size = size_of_list(buffer);
-  list_of[atom] = -1;
-  if (buffer[0] == 0.0 || was_here(origins[atom])) return size;
-  list_of[atom] = static_cast<int>(list_begin.size());
-  list_begin.push_back(static_cast<std::int64_t>(lists.size()));
-  const std::size_t needed = lists.size() + size;
-  if (needed > lists.capacity()) lists.reserve(needed + needed / 8);    // not twice
-  lists.resize(needed);
-  std::memcpy(&lists[list_begin.back()], buffer, sizeof(double) * size);
+  const int size = lists.unpack(atom, buffer);
+  if (was_here(origins[atom])) lists.forget(atom);
   return size;
+}
+
+std::vector<HistoryStore::Contact> HistoryStore::contacts_of(int atom)
+{
+  std::vector<Contact> found;
+  if (was_here(origins[atom]) && scope.particles_may_leave)
+    for_each_contact_of_slot(origins[atom].slot,
+                             [&](std::int64_t partner, const HistoryValues &history) {
+                               found.push_back({partner, history});
+                             });
+  else
+    lists.for_each(atom, [&](const ContactLists::Contact &its) {
+      found.push_back({its.partner, {}});
+      std::copy_n(its.value, lists.values(), found.back().history.begin());
+    });
+  return found;
+}
+
+void HistoryStore::add(int atom, const Contact &one)
+{
+  std::copy_n(one.history.begin(), lists.values(), lists.add(atom, one.partner));
+}
+
+void HistoryStore::set_name(int atom, std::int64_t name)
+{
+  origins[atom] = {name, -1, -1};
+  lists.forget(atom);
 }
 
 int HistoryStore::list_size(int atom) const
 {
   const Origin &o = origins[atom];
-  if (was_here(o) && scope.particles_may_leave) {
-    const std::uint32_t *begin = &followers_begin[o.slot];
-    const int contacts =
-        row_size(o.slot) + static_cast<int>(followers_listed ? begin[1] - begin[0] : begin[2]);
-    return list_header + contacts * (1 + values());
-  }
-  return list_of[atom] < 0 ? list_header : size_of_list(&lists[list_begin[list_of[atom]]]);
+  if (!was_here(o) || !scope.particles_may_leave) return lists.packed_size(atom);
+  const std::uint32_t *begin = &followers_begin[o.slot];
+  return lists.size_of_list(row_size(o.slot) +
+                            static_cast<int>(followers_listed ? begin[1] - begin[0] : begin[2]));
 }
 
-int HistoryStore::largest_list(int owned) const
+int HistoryStore::largest_count(int owned) const
 {
-  int largest = list_header + (filled ? most_partners * (1 + values()) : 0);
-  for (int i = 0; !lists.empty() && i < owned; i++) largest = std::max(largest, list_size(i));
+  int largest = filled ? most_partners : 0;
+  for (int i = 0; !lists.empty() && i < owned; i++) largest = std::max(largest, lists.count(i));
   return largest;
 }
 
@@ -243,18 +246,12 @@ int HistoryStore::largest_list(int owned) const
 void HistoryStore::name_lists(int owned)
 {
   for (int i = 0; !lists.empty() && i < owned; i++) {
-    if (list_of[i] < 0 || was_here(origins[i])) continue;
-    const double *list = &lists[list_begin[list_of[i]]];
-    const int contacts = static_cast<int>(list[0]), each = static_cast<int>(list[1]);
-    const double *entry = list + list_header;
-    for (int n = 0; n < contacts; n++, entry += 1 + each) {
-      std::int64_t partner;
-      std::memcpy(&partner, entry, sizeof partner);
-      Record history, impact = no_history;
-      std::copy_n(entry + 1, 4, history.c);
-      if (each == 8) std::copy_n(entry + 5, 4, impact.c);
-      named.insert(origins[i].name, partner, history, impact);
-    }
+    if (was_here(origins[i])) continue;
+    lists.for_each(i, [&](const ContactLists::Contact &its) {
+      HistoryValues history{};
+      std::copy_n(its.value, lists.values(), history.begin());
+      named.insert(origins[i].name, its.partner, history);
+    });
   }
 }
 

@@ -11,7 +11,6 @@ void NamedContacts::clear()
   if (empty()) return;
   keys.clear();
   histories.clear();
-  impacts.clear();
   std::fill(cells.begin(), cells.end(), 0);
 }
 
@@ -19,7 +18,6 @@ void NamedContacts::reserve(std::size_t contacts)
 {
   keys.reserve(contacts);
   histories.reserve(contacts);
-  impacts.reserve(contacts);
   if (2 * contacts > cells.size()) grow(contacts);
 }
 
@@ -47,22 +45,17 @@ void NamedContacts::grow(std::size_t contacts)
     cells[cell_of(keys[n])] = static_cast<std::uint32_t>(n + 1);
 }
 
-void NamedContacts::insert(std::int64_t a, std::int64_t b, const Record &history,
-                           const Record &impact)
+void NamedContacts::insert(std::int64_t a, std::int64_t b, const HistoryValues &history)
 {
   if (2 * (size() + 1) > cells.size()) grow(2 * (size() + 1));
   const Key key = key_of(a, b);
-  const Record seen = a < b ? history : mirrored(history);
   std::uint32_t &cell = cells[cell_of(key)];
-  if (cell) {
-    histories[cell - 1] = seen;
-    impacts[cell - 1] = impact;
-    return;
+  if (!cell) {
+    keys.push_back(key);
+    histories.add();
+    cell = static_cast<std::uint32_t>(size());
   }
-  keys.push_back(key);
-  histories.push_back(seen);
-  impacts.push_back(impact);
-  cell = static_cast<std::uint32_t>(size());
+  histories.read(cell - 1, (a < b ? history : mirrored(history)).data());
 }
 
 FoundHistory NamedContacts::find(std::int64_t a, std::int64_t b) const
@@ -70,14 +63,14 @@ FoundHistory NamedContacts::find(std::int64_t a, std::int64_t b) const
   if (empty()) return {};
   const std::uint32_t n = cells[cell_of(key_of(a, b))];
   if (!n) return {};
-  return {true, a < b, &histories[n - 1], &impacts[n - 1]};
+  return {true, a < b, &histories, n - 1};
 }
 
 double NamedContacts::memory_usage() const
 {
   return static_cast<double>(sizeof(Key) * keys.capacity() +
-                             sizeof(Record) * (histories.capacity() + impacts.capacity()) +
-                             sizeof(std::uint32_t) * cells.capacity());
+                             sizeof(std::uint32_t) * cells.capacity()) +
+         histories.memory_usage();
 }
 
 }    // namespace Talus

@@ -9,7 +9,6 @@
 
 #include "base/aligned_vector.h"
 #include "history/slot_contacts.h"
-#include "particles/record.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,12 +23,14 @@ class NamedContacts {
 
   /// Forgets all. Keeps the memory for the next ones.
   void clear();
+  /// Records of each contact, see HistoryRows::keep().
+  void keep(int records) { histories.keep(records); }
 
   /// Room for so many without a change of the table: optional.
   void reserve(std::size_t contacts);
 
   /// The history as `a` sees it. Takes the place of what is there of this pair.
-  void insert(std::int64_t a, std::int64_t b, const Record &history, const Record &impact);
+  void insert(std::int64_t a, std::int64_t b, const HistoryValues &history);
 
   /// Valid until the next insert() or clear().
   FoundHistory find(std::int64_t a, std::int64_t b) const;
@@ -46,8 +47,8 @@ class NamedContacts {
   void grow(std::size_t contacts);
 
   AlignedVector<Key> keys;
-  AlignedVector<Record> histories, impacts;    // as the lower name sees them
-  AlignedVector<std::uint32_t> cells;          // 1 + index of the contact, 0: free; 2^n of them
+  HistoryRows histories;                 // as the lower name sees them
+  AlignedVector<std::uint32_t> cells;    // 1 + index of the contact, 0: free; 2^n of them
 };
 
 }    // namespace Talus

@@ -9,7 +9,7 @@
 
 #include "base/aligned_vector.h"
 #include "base/simd.h"
-#include "particles/record.h"
+#include "history/history_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +22,11 @@ struct SlotContacts {
   /// row_entries() may be read this far beyond the last one.
   static constexpr std::size_t ahead = 16;
 
-  int first_row = 0;                         ///< second slot of the first row
-  std::vector<std::uint32_t> rows;           ///< begin of each row below, and the end of the last
-  AlignedVector<int> first;                  ///< `ahead` more than there are contacts
-  AlignedVector<std::uint32_t> place;        ///< in the records; the same
-  AlignedVector<Record> records, impacts;    ///< no impacts in scenes without them
+  int first_row = 0;                     ///< second slot of the first row
+  std::vector<std::uint32_t> rows;       ///< begin of each row below, and the end of the last
+  AlignedVector<int> first;              ///< `ahead` more than there are contacts
+  AlignedVector<std::uint32_t> place;    ///< in the histories; the same
+  HistoryRows histories;
 
   struct Contact {
     int first, second;
@@ -81,19 +81,29 @@ inline double SlotContacts::memory_usage() const
 {
   return static_cast<double>(sizeof(std::uint32_t) * (rows.capacity() + place.capacity()) +
                              sizeof(int) * first.capacity() +
-                             sizeof(Record) * (records.capacity() + impacts.capacity()) +
-                             sizeof(Contact) * with_ghost.capacity());
+                             sizeof(Contact) * with_ghost.capacity()) +
+         histories.memory_usage();
 }
 
-/// What is known of a pair of particles a and b. If nothing is, there are records to read all the
-/// same: no branch, since it would be mispredicted.
-inline constexpr Record no_history{};
+/// What is known of a pair of particles a and b. If nothing is, there is a row to read all the same:
+/// no branch, since it would be mispredicted.
 struct FoundHistory {
   bool known = false;
   bool by_a = true;    ///< the history is as `a` sees it, else as `b` does
-  const Record *history = &no_history, *impact = &no_history;
+  const HistoryRows *rows = &none();
+  std::size_t row = 0;
 
-  Record seen_by_a() const { return by_a ? *history : mirrored(*history); }
+  HistoryValues seen_by_a() const { return by_a ? rows->values(row) : mirrored(rows->values(row)); }
+  /// A row of zeros.
+  static const HistoryRows &none()
+  {
+    static const HistoryRows rows = [] {
+      HistoryRows zero;
+      zero.add();
+      return zero;
+    }();
+    return rows;
+  }
 };
 
 }    // namespace Talus

@@ -2,23 +2,21 @@
 
 #include "laws/change_of_order.h"
 
-#include "base/number_pair.h"
+#include "laws/rounding.h"
 #include "laws/second_order_laws.h"
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace Talus {
 
-void change_order(const ContactLaw &law, int order, double (&values)[ContactBatch::history_size])
+void change_order(const ContactLaw &law, int order, HistoryValues &values)
 {
   const ContactLaw second = second_order_law(law);
   const ContactLaw &from = order == 2 ? law : second, &to = order == 2 ? second : law;
   const HistoryLayout was = from.history(), is = to.history();
-  double old[ContactBatch::history_size];
-  std::copy(std::begin(values), std::end(values), old);
-  std::fill(std::begin(values), std::end(values), 0.0);
+  const HistoryValues old = values;
+  values = {};
 
   const auto take = [&](const HistoryPlaces &there, const HistoryPlaces &here, int count) {
     for (int n = 0; n < count; n++) values[here[n]] = old[there[n]];
@@ -30,11 +28,12 @@ void change_order(const ContactLaw &law, int order, double (&values)[ContactBatc
   take(places(was, Stage::TANGENTIAL), spring,
        std::min(from.tangential().odd_history, to.tangential().odd_history));
   if (from.rolling().even_history > 0 && to.rolling().even_history > 0) {
-    take(places(was, Stage::ROLLING), rolls, to.rolling().even_history);
-    values[rolls[0]] = without_flags(values[rolls[0]]);
+    take(places(was, Stage::ROLLING), rolls,
+         std::min(from.rolling().even_history, to.rolling().even_history));
+    values[rolls[0]] = rounded<47>(values[rolls[0]]);
   }
   if (was.keeps_impact && is.keeps_impact) take(was.impact, is.impact, 3);
-  if (order == 2) values[spring[to.tangential().odd_history]] = -unknown_force;
+  if (order == 2) values[spring[to.tangential().odd_history]] = Past::of_order_1;
 }
 
 }    // namespace Talus

@@ -12,9 +12,10 @@
 
 namespace Talus {
 
-/// The history of a contact that touches, `values` by place, see ContactBatch::history. `law`: that
+/// The history of a contact that touches, `values`: all
+/// places, see ContactBatch::history. `law`: that
 /// of order 1; `order`: of the run that begins.
-void change_order(const ContactLaw &law, int order, double (&values)[ContactBatch::history_size]);
+void change_order(const ContactLaw &law, int order, HistoryValues &values);
 
 }    // namespace Talus
 

@@ -7,13 +7,15 @@
 #ifndef TALUS_LAWS_CONTACT_BATCH_H
 #define TALUS_LAWS_CONTACT_BATCH_H
 
+#include "base/history_values.h"
+
 namespace Talus {
 
 /// Lanes that hold no contact may contain anything finite: kernels always run over the full width,
 /// so that every contact is computed by the same vector instructions and no scalar tail exists.
 struct ContactBatch {
   static constexpr int width = 64;
-  static constexpr int history_size = 8;
+  static constexpr int history_size = most_history_values;
 
   // input, see ContactState
   alignas(64) double normal[3][width];
@@ -61,11 +63,6 @@ struct ContactBatch {
 
   /// Puts a harmless contact of overlap zero into every lane. Call once after construction.
   void clear();
-};
-
-/// What a contact remembers, by place.
-struct RememberedValues {
-  double value[ContactBatch::history_size] = {};
 };
 
 }    // namespace Talus

@@ -25,7 +25,7 @@ ContactLanes<double> at_rest(const ContactLaw &law, const ContactCoefficients &r
 }    // namespace
 
 void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
-                    const ContactState<double> &state, double dt, const RememberedValues &memory,
+                    const ContactState<double> &state, double dt, const HistoryValues &memory,
                     Ask ask, SurveyedContact &to)
 {
   const Stage last = ask == Ask::ALL ? Stage::HEAT : Stage::NORMAL;
@@ -34,7 +34,7 @@ void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
   const auto stored = [&](Stage stage) {
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < law[stage].odd_history + law[stage].even_history; n++)
-      values[n] = memory.value[history.of_stage[static_cast<int>(stage)][n]];
+      values[n] = memory[history.of_stage[static_cast<int>(stage)][n]];
     return law[stage].stored(s, law.coefficients(stage, row), values);
   };
   to.force = s.force;

@@ -60,7 +60,7 @@ struct SurveyedContact {
   double overlap = 0.0;        ///< length; negative of contacts that last beyond zero
   Vector3<double> force{};     ///< on the first body
   Vector3<double> moment{}, twisting_torque{};    ///< of spheres, see ContactLanes
-  RememberedValues memory;    ///< the first three of a large body in its own frame
+  HistoryValues memory{};    ///< the first three of a large body in its own frame
   EnergyByCause stored;
   /// By body, 0 of a large one: from its center to the point of contact, in the middle of the
   /// overlap or on the surface of the large body; torque on it about its center, if asked for.
@@ -87,7 +87,7 @@ enum class Ask : bool { ENERGIES, ALL };
 /// Of `memory` after the step: fills in memory, stored energy and, if asked for, force and torques,
 /// in the frame of `state`.
 void survey_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
-                    const ContactState<double> &state, double dt, const RememberedValues &memory,
+                    const ContactState<double> &state, double dt, const HistoryValues &memory,
                     Ask ask, SurveyedContact &to);
 
 /// A vector of one lane of a batch.

@@ -188,7 +188,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
 
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory, Stage last)
+                                    const HistoryValues &memory, Stage last)
 {
   ContactLanes<double> s;
   static_cast<ContactState<double> &>(s) = state;
@@ -203,7 +203,7 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   else
     approach<false>(s);
   const HistoryLayout history = law.history();
-  const double *const kept = memory.value;
+  const double *const kept = memory.data();
   if (history.keeps_impact) {
     const HistoryPlaces &at = history.impact;
     ContactImpact<double> impact{kept[at[0]], kept[at[1]], kept[at[2]]};

@@ -76,7 +76,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
 /// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const RememberedValues &memory = {}, Stage last = Stage::HEAT);
+                                    const HistoryValues &memory = {}, Stage last = Stage::HEAT);
 
 }    // namespace Talus
 

@@ -10,24 +10,22 @@
 namespace Talus {
 namespace {
 
-/// Gives values places: those that change their sign 0 to 2, others 3 to 7. Rolling and twisting
-/// have theirs at the end, whatever the other laws remember: restart files of LAMMPS tell which
-/// they are by that.
+/// Gives values places: those that change their sign 0 to 2, others those from 3 on. Rolling and
+/// twisting have theirs from 4 and 7 on, whatever the other laws remember: restart files of LAMMPS
+/// tell which they are by that.
 class Places {
  public:
   HistoryPlaces take(int num_odd, int num_even, int first_even = 3)
   {
     HistoryPlaces places{};
-    for (int n = 0; n < num_odd; n++) places[n] = take_one(0, 3);
-    for (int n = 0; n < num_even; n++)
-      places[num_odd + n] = take_one(first_even, ContactBatch::history_size);
+    for (int n = 0; n < num_odd; n++) places[n] = take_one(0);
+    for (int n = 0; n < num_even; n++) places[num_odd + n] = take_one(first_even);
     return places;
   }
   static int first_of(Stage stage)
   {
     return stage == Stage::TWISTING ? 7 : stage == Stage::ROLLING ? 4 : 3;
   }
-  bool fit() const { return fits; }
   int size() const
   {
     int size = ContactBatch::history_size;
@@ -36,15 +34,14 @@ class Places {
   }
 
  private:
-  int take_one(int begin, int end)
+  /// There are enough, whichever laws of the stages come together.
+  int take_one(int place)
   {
-    while (begin < end && taken[begin]) begin++;
-    fits = fits && begin < end;
-    if (begin < end) taken[begin] = true;
-    return begin < end ? begin : 0;
+    while (taken[place]) place++;
+    taken[place] = true;
+    return place;
   }
   std::array<bool, ContactBatch::history_size> taken{};
-  bool fits = true;
 };
 
 }    // namespace
@@ -81,7 +78,6 @@ HistoryLayout ContactLaw::history() const
                                 (!tangential().second_order || tangential().has_spring);
   layout.keeps_impact = remembers_spring && reads_impact;
   if (layout.keeps_impact) layout.impact = places.take(0, 3);
-  layout.fits = places.fit();
   layout.size = places.size();
   if (layout.size == 0 && normal().lasts_beyond_contact) layout.size = 1;    // that it touches
   return layout;

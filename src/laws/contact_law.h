@@ -19,8 +19,7 @@ struct HistoryLayout {
   std::array<HistoryPlaces, num_stages> of_stage{};
   HistoryPlaces impact{};    ///< speed, age, and 1 after the first step
   bool keeps_impact = false;
-  bool fits = true;    ///< false: the laws remember more than there are places
-  int size = 0;        ///< places in use: 0, up to 4 or up to 8
+  int size = 0;    ///< places in use
 };
 
 /// Which laws a pair uses; pairs with equal laws share a kernel.
@@ -59,8 +58,8 @@ class ContactLaw {
   }
   /// Something is remembered of a contact.
   bool has_history() const { return history().size > 0; }
-  /// More than four values are: a second record is needed.
-  bool has_impact() const { return history().size > 4; }
+  /// In records of four values.
+  int history_records() const { return (history().size + 3) / 4; }
   /// The effective radius is needed.
   bool needs_radius() const;
   HistoryLayout history() const;

@@ -22,8 +22,6 @@ class Parser {
     while (keyword()) {
     }
     reader.finish();
-    if (!spec.law.history().fits)
-      words.fail(1, "these laws together remember more of a contact than there is room for");
     if (spec.law.num_coefficients() > ContactCoefficients::size)
       words.fail(1, "these laws together have more coefficients than there is room for");
     return spec;

@@ -16,6 +16,7 @@
 #include "laws/normal/jkr.h"
 #include "laws/rolling/none.h"
 #include "laws/rolling/sds.h"
+#include "laws/second_order_laws.h"
 #include "laws/tangential/granular.h"
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
@@ -72,7 +73,7 @@ struct Fused {
                                    const StageInput &in)
   {
     if constexpr (Tangential::second_order) {
-      if (any_at_an_end<Tangential, Real>(b, k, in.places[values_of<Tangential> - 1])) {
+      if (any_at_an_end<Tangential, Real>(b, k, in.places)) {
         for (int n = 0; n < width_of<Real>; n += lanes) compute_ends<accounts>(b, k + n, in);
         return;
       }
@@ -136,6 +137,7 @@ struct Fused {
 /// Laws by their names: what is in their lists is not compiled here once more.
 struct Entry {
   const char *normal, *damping, *tangential, *rolling, *twisting;
+  bool second_order;
   StageFunction function, accounting;
 };
 
@@ -144,8 +146,13 @@ template <class Normal, class Damping, class Tangential, class Rolling = Rolling
 constexpr Entry entry()
 {
   using Its = Fused<Normal, Damping, Tangential, Rolling, Twisting>;
-  return {Normal::name,           Damping::name,  Tangential::name,
-          Rolling::name,          Twisting::name, Its::template run<false>,
+  return {Normal::name,
+          Damping::name,
+          Tangential::name,
+          Rolling::name,
+          Twisting::name,
+          Tangential::second_order,
+          Its::template run<false>,
           Its::template run<true>};
 }
 
@@ -199,7 +206,7 @@ std::vector<ContactLaw> fused_laws()
     its.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, e.tangential));
     its.choose(Stage::ROLLING, find_law(Stage::ROLLING, e.rolling));
     its.choose(Stage::TWISTING, find_law(Stage::TWISTING, e.twisting));
-    laws.push_back(its);
+    laws.push_back(e.second_order ? second_order_law(its) : its);
   }
   return laws;
 }

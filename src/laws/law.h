@@ -88,6 +88,9 @@ struct Law {
   bool
       lasts_beyond_contact;    ///< normal: a contact ends when the bodies have come apart, at reach
   bool second_order;           ///< tangential: reads the changes of velocities, see second_order.h
+  /// Tangential, rolling, twisting: the law that integrators of second order take in its place; nullptr,
+  /// or nullptr is returned: there is none. `adhesive`: after a normal law with adhesion of its own.
+  const Law *(*order_2)(bool adhesive);
   bool like_stock;    ///< normal: slips by the rule of the stock styles unless another is asked for
   /// Why kt (normal) or gt (damping) has to be NULL, or a number.
   const char *takes_no_kt, *takes_no_gt, *needs_gt;

@@ -50,6 +50,9 @@ struct LawBase {
   static constexpr bool lasts_beyond_contact = false, second_order = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
+  /// Tangential, rolling, twisting: what integrators of second order take in its place, nullptr if there
+  /// is nothing; `adhesive`: the normal law has adhesion of its own. See second_order_laws.h.
+  static constexpr std::nullptr_t order_2 = nullptr;
   static constexpr double exponent = 1.0;
 };
 
@@ -277,12 +280,13 @@ TALUS_INLINE void compute_law(const typename L::template Row<Real> &c, ContactLa
     L::template compute<advance>(c, s, history, dt);
 }
 
-/// Whether contacts with a law of second order begin or end among those from lane k on. `stored`:
-/// the last of the numbers that the law remembers.
-template <class L, class Real> TALUS_INLINE bool any_at_an_end(ContactBatch &b, int k, int stored)
+/// Whether contacts with a law of second order begin or end among those from lane k on. `places`: of
+/// its numbers.
+template <class L, class Real>
+TALUS_INLINE bool any_at_an_end(ContactBatch &b, int k, const HistoryPlaces &places)
 {
-  return any(
-      L::at_an_end(Memory<Real>::load(&b.parted[k]), Memory<Real>::load(&b.history[stored][k])));
+  return any(L::at_an_end(Memory<Real>::load(&b.parted[k]),
+                          Memory<Real>::load(&b.history[places[L::first_even]][k])));
 }
 
 template <class L, bool advance, bool ends>
@@ -313,7 +317,7 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
   for (int k = begin; k < end; k += lanes) {
     if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
     if constexpr (L::second_order && advance)
-      if (!any_at_an_end<L, Vec8>(b, k, in.places[history_size_of<L> - 1])) {
+      if (!any_at_an_end<L, Vec8>(b, k, in.places)) {
         run_lanes<L, advance, false>(b, k, c, in);
         continue;
       }
@@ -415,6 +419,7 @@ template <class L> constexpr Law make_law()
   law.lasts_beyond_contact = L::lasts_beyond_contact;
   law.second_order = L::second_order;
   law.like_stock = L::like_stock;
+  law.order_2 = L::order_2;
   law.takes_no_kt = L::takes_no_kt;
   law.takes_no_gt = L::takes_no_gt;
   law.needs_gt = L::needs_gt;

@@ -16,9 +16,8 @@ LawsByStage &list()
 {
   static LawsByStage all = [] {
     LawsByStage by_stage;
-    for (const auto &laws :
-         {normal_laws(), damping_laws(), tangential_laws(), tangential_laws_order_2(),
-          rolling_laws(), twisting_laws(), cohesion_laws(), heat_laws()})
+    for (const auto &laws : {normal_laws(), damping_laws(), tangential_laws(), rolling_laws(),
+                             twisting_laws(), cohesion_laws(), heat_laws()})
       for (const Law *one : laws) by_stage[static_cast<int>(one->stage)].push_back(one);
     return by_stage;
   }();

@@ -2,8 +2,6 @@
 
 #include "laws/second_order_laws.h"
 
-#include "laws/law_list.h"
-
 #include <cmath>
 #include <cstring>
 
@@ -15,22 +13,13 @@ bool is_named(const Law &law, const char *name)
   return std::strcmp(law.name, name) == 0;
 }
 
-/// The law of a stage for integrators of second order, nullptr if it has none. Without a tangential
-/// force there is one, for the normal force; all of multistep have the same, and so has a law of
-/// pair granular whether it is synchronized or classic or not: they differ in how far they are from
-/// the same limit. Normal laws with adhesion have tangential ones of their own.
+/// The law of a stage for integrators of second order, nullptr if there is none. Without a tangential
+/// force there is one, for the normal force.
 const Law *twin_of(const ContactLaw &law, Stage stage)
 {
   const Law &its = law[stage];
-  const bool tangential = stage == Stage::TANGENTIAL;
-  if (!its.acts && !tangential) return &its;
-  constexpr const char *multistep = "multistep";
-  const bool is_multistep = std::strncmp(its.name, multistep, std::strlen(multistep)) == 0;
-  std::string name = is_multistep ? multistep : its.name;
-  for (const char *ending : {" synchronized_verlet", "_classic"})
-    name = name.substr(0, name.find(ending));
-  const char *adhesive = tangential && law.normal().cohesive ? " adhesive" : "";
-  return find_law(stage, name + " order 2" + adhesive);
+  if (!its.acts && stage != Stage::TANGENTIAL) return &its;
+  return its.order_2 ? its.order_2(law.normal().cohesive) : nullptr;
 }
 
 /// All of them have their first coefficient in gn, but for `none`.
@@ -98,14 +87,12 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
            (tangential.lever_arms ? "xt = 0"
                                   : "'tangential multistep kt gt mu slider midpoint' or gt = 0 "
                                     "(in gran/hooke/history: dampflag 0)");
-  if (!second_order_law(law).history().fits)
-    return "remembers more than there is room for, an impact, a spring and a rotation that is "
-           "held: leave 'rolling' and 'spinning' out, or use hertz/material";
   return "";
 }
 
 ContactLaw second_order_law(ContactLaw law)
 {
+  if (law.tangential().second_order) return law;
   const ContactLaw its = law;
   for (const Stage stage : {Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING})
     if (const Law *twin = twin_of(its, stage)) law.choose(stage, twin);

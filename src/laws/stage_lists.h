@@ -16,8 +16,6 @@ struct Law;
 std::vector<const Law *> normal_laws();
 std::vector<const Law *> damping_laws();
 std::vector<const Law *> tangential_laws();
-/// What integrators of second order take in the place of the above; no words choose them.
-std::vector<const Law *> tangential_laws_order_2();
 std::vector<const Law *> rolling_laws();
 std::vector<const Law *> twisting_laws();
 std::vector<const Law *> cohesion_laws();

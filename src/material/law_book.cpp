@@ -125,7 +125,7 @@ std::string LawBook::describe(const LawTable &table) const
   std::string spared;
   if (!table.has_resistance())
     spared += ", torques of resistance (no rolling or spinning resistance)";
-  if (!table.has_impact()) spared += ", impact velocity and age of contacts (no law reads them)";
+  if (!table.keeps_impact()) spared += ", impact velocity and age of contacts (no law reads them)";
   if (!table.has_history()) spared += ", contact history (no law with a spring)";
   if (!table.has_friction()) spared += ", angular velocities and torques (no friction)";
   if (table.uniform()) spared += ", coefficients by type (one set for all)";

@@ -62,9 +62,16 @@ bool LawTable::has_history() const
   return any([](const ContactLaw &law) { return law.has_history(); });
 }
 
-bool LawTable::has_impact() const
+int LawTable::history_records() const
 {
-  return any([](const ContactLaw &law) { return law.has_impact(); });
+  int most = 0;
+  for (const ContactLaw &law : distinct) most = std::max(most, law.history_records());
+  return most;
+}
+
+bool LawTable::keeps_impact() const
+{
+  return any([](const ContactLaw &law) { return law.history().keeps_impact; });
 }
 
 bool LawTable::has_resistance() const

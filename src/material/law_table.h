@@ -49,7 +49,10 @@ class LawTable {
   /// Spins are read. They are wherever something is remembered: contacts without are the fast ones.
   bool has_friction() const;
   bool has_history() const;
-  bool has_impact() const;
+  /// Records of four numbers of each contact, of the law that needs most; 0 without history.
+  int history_records() const;
+  /// Impact speeds and ages are kept.
+  bool keeps_impact() const;
   bool has_resistance() const;
   /// Torques that are not the moment of a force on both surfaces.
   bool has_twisting_torques() const;

@@ -62,11 +62,11 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   const Talus::LawTable &laws = system->law_table();
   const double ri = atom->radius[i], rj = atom->radius[j];
-  const auto remembered = system->contacts().remembered_of(i, j);
+  const auto remembered = system->contacts().history_of(i, j);
   const int row_of_types = laws.row(itype, jtype);
   const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
   const bool ended = remembered && laws.law(row_of_types).tangential().second_order &&
-                     Talus::has_just_ended(remembered->value[3], false);
+                     Talus::has_just_ended((*remembered)[3], false);
   if ((rsq >= touch * touch && !ended) || rsq == 0.0) return {};
 
   const double r = std::sqrt(rsq);
@@ -92,7 +92,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
                                           s, this->update->dt,
-                                          remembered.value_or(Talus::RememberedValues{})),
+                                          remembered.value_or(Talus::HistoryValues{})),
                     r, ri, rj};
 }
 

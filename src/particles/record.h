@@ -6,8 +6,8 @@
 //   position record  { x, y, z, r }                      length
 //   velocity record  { vx, vy, vz, 1/m }                 velocity, 1/mass
 //   omega record      { wx, wy, wz, 1/r }                 1/time, 1/length
-//   history record   { dx, dy, dz, at limit }            length, 0 or 1; see TangentialHistory
-//   impact record     { speed, age, begun, unused }       see ContactImpact
+//   history record   { ... }                             see HistoryLayout: of most laws the first
+//                                                        one is dx, dy, dz (length), at limit
 //   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::add_torque()
 //   moment           { x, y, z, unused }
 //   twisting torque  { x, y, z, heat flow }              of scenes that conduct heat
@@ -19,8 +19,6 @@
 #define TALUS_PARTICLES_RECORD_H
 
 #include "base/simd.h"
-
-#include <algorithm>
 
 namespace Talus {
 
@@ -45,18 +43,6 @@ TALUS_INLINE void stream(Record &record, Vec4 value)
 inline Record mirrored(const Record &history)
 {
   return {{-history.c[0], -history.c[1], -history.c[2], history.c[3]}};
-}
-
-/// change(double (&)[8]): the values of a contact by place, those of the impact record behind those of
-/// the history, or zeros if there is none.
-template <class Change> void change_history(Record &history, Record *impact, const Change &change)
-{
-  double values[8] = {};
-  std::copy_n(history.c, 4, values);
-  if (impact) std::copy_n(impact->c, 4, values + 4);
-  change(values);
-  std::copy_n(values, 4, history.c);
-  if (impact) std::copy_n(values + 4, 4, impact->c);
 }
 
 }    // namespace Talus

@@ -52,8 +52,8 @@ void PointBatch::gather(const PointContact &point, int lane)
   batch.inverse_radius[lane] = point.inverse_radius;
   batch.coefficients[lane] = point.row;
   if (task->account) put(batch.velocity_change, point.velocity_change);
-  for (int k = 0; k < ContactBatch::history_size && remembers; k++)
-    batch.history[k][lane] = point.memory.value[k];
+  for (int k = 0; k < point_history_size && remembers; k++)
+    batch.history[k][lane] = point.history[k];
 }
 
 /* Lanes behind the last point hold older ones: computed, not used. */
@@ -78,8 +78,7 @@ void PointBatch::hand_out(PointContact &point, int lane) const
       w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
   if (task->account) point.work = w * work_of_lane(batch, lane);
   if (task->advance && remembers)
-    for (int k = 0; k < ContactBatch::history_size; k++)
-      point.memory.value[k] = batch.history[k][lane];
+    for (int k = 0; k < point_history_size; k++) point.history[k] = batch.history[k][lane];
 }
 
 SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &laws, double dt,
@@ -94,8 +93,9 @@ SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &la
   SurveyedContact found;
   found.normal = point.normal;
   found.overlap = point.overlap;
-  survey_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, point.memory, ask,
-                 found);
+  HistoryValues history{};
+  std::copy(point.history.begin(), point.history.end(), history.begin());
+  survey_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, history, ask, found);
   found.force = point.weight * found.force;
   found.moment = found.twisting_torque = {0.0, 0.0, 0.0};
   found.stored.normal *= point.energy;

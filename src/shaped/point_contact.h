@@ -4,11 +4,17 @@
 #define TALUS_SHAPED_POINT_CONTACT_H
 
 #include "base/vector3.h"
+#include "history/contact_lists.h"
 #include "laws/contact_energy.h"
 
+#include <array>
 #include <cstdint>
 
 namespace Talus {
+
+/// What a point remembers, see HistoryValues: its laws have no resistance, and are of order 1.
+inline constexpr int point_history_size = 8;
+using PointHistory = std::array<double, point_history_size>;
 
 /// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
 /// way through the laws.
@@ -27,12 +33,19 @@ struct PointContact {
   /// If work is accounted for: what `velocity` lacks of that at the time of the positions.
   Vector3<double> velocity_change;
 
-  RememberedValues memory;    ///< in and out
+  PointHistory history;    ///< in and out
 
   // results, with the weight
   Vector3<double> force;    ///< on the first body, at `place`
   EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
+
+/// Adds what a point remembers to the list of a particle, whose numbers are point_history_size.
+/// false: it remembers nothing, as points of laws without history: one that is not found there
+/// begins with zeros.
+bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to);
+/// A point that is only remembered, out of such a list.
+PointContact remembered_point(const ContactLists::Contact &one);
 
 }    // namespace Talus
 

@@ -5,11 +5,13 @@
 #include "base/in_parallel.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace Talus {
 namespace {
 
 constexpr int pairs_of_chunk = 32;
+constexpr std::size_t size_message = 2 + 1 + point_history_size;    // IDs, name, history
 
 }    // namespace
 
@@ -26,7 +28,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
     list.push_back({first,
                     second,
                     laws.row(of_first, of_second),
-                    tag[second],
+                    {tag[first], tag[second]},
                     shapes.collision(of_first, of_second),
                     {}});
   }
@@ -80,31 +82,76 @@ void ShapedPairs::set_sides(const ShapedView &view, const std::vector<std::int64
 
 /* Points that are only remembered: the narrow phase will find them again, or drop them. */
 
-void ShapedPairs::restore(const std::function<const std::vector<PointMemory> &(int)> &memory_of)
+void ShapedPairs::restore(const ContactLists &from)
 {
   for (Chunk &chunk : chunks) {
     chunk.points.clear();
     chunk.pair_of_point.clear();
-    for (int p = chunk.begin; p < chunk.end; p++)
-      for (const PointMemory &one : memory_of(list[p].first)) {
-        if (one.partner != list[p].partner) continue;
-        PointContact point{};
-        point.name = one.name;
-        point.memory = one.memory;
-        chunk.points.push_back(point);
+    for (int p = chunk.begin; p < chunk.end; p++) {
+      const Pair &pair = list[p];
+      const bool of_first = pair.first < owned;
+      from.for_each(of_first ? pair.first : pair.second, [&](const ContactLists::Contact &one) {
+        if (one.partner != pair.tag[of_first ? 1 : 0]) return;
+        chunk.points.push_back(remembered_point(one));
         chunk.pair_of_point.push_back(p);
-      }
+      });
+    }
   }
 }
 
-void ShapedPairs::save(PointMemories &to) const
+template <class Visit> void ShapedPairs::for_each_point_of_pair(Visit visit) const
 {
   for (const Chunk &chunk : chunks)
-    for (std::size_t n = 0; n < chunk.points.size(); n++) {
-      const int p = chunk.pair_of_point[n];
-      if (list[p].first < owned)
-        to.add(list[p].first, {list[p].partner, chunk.points[n].name, chunk.points[n].memory});
+    for (std::size_t n = 0; n < chunk.points.size(); n++)
+      visit(list[chunk.pair_of_point[n]], chunk.points[n]);
+}
+
+void ShapedPairs::save(ContactLists &to) const
+{
+  for_each_point_of_pair([&](const Pair &pair, const PointContact &point) {
+    if (pair.first < owned) keep_history(point, pair.first, pair.tag[1], to);
+    if (pair.second < owned) keep_history(point, pair.second, pair.tag[0], to);
+  });
+}
+
+void ShapedPairs::save_in_periodic_box(ContactLists &to, int this_rank,
+                                       const std::function<int(int)> &owner_of,
+                                       Messages &messages) const
+{
+  messages.clear();
+  for_each_point_of_pair([&](const Pair &pair, const PointContact &point) {
+    if (pair.first >= owned || !keep_history(point, pair.first, pair.tag[1], to)) return;
+    if (pair.second < owned) {
+      keep_history(point, pair.second, pair.tag[0], to);
+      return;
     }
+    std::vector<double> &message = messages[owner_of(pair.second)];
+    const std::size_t begin = message.size();
+    message.resize(begin + size_message);
+    std::memcpy(&message[begin], pair.tag, sizeof pair.tag);
+    std::memcpy(&message[begin + 2], &point.name, sizeof point.name);
+    std::copy(point.history.begin(), point.history.end(), &message[begin + 3]);
+  });
+  const auto images = messages.find(this_rank);
+  if (images == messages.end()) return;
+  receive(images->second, to);
+  messages.erase(images);
+}
+
+void ShapedPairs::receive(const std::vector<double> &message, ContactLists &to) const
+{
+  std::map<std::array<std::int64_t, 2>, int> second_of;
+  for (const Pair &pair : list)
+    if (pair.first >= owned) second_of[{pair.tag[0], pair.tag[1]}] = pair.second;
+  for (std::size_t n = 0; n < message.size(); n += size_message) {
+    std::array<std::int64_t, 2> tags{};
+    PointContact point{};
+    std::memcpy(tags.data(), &message[n], sizeof tags);
+    std::memcpy(&point.name, &message[n + 2], sizeof point.name);
+    std::copy_n(&message[n + 3], point_history_size, point.history.begin());
+    if (const auto found = second_of.find(tags); found != second_of.end())
+      keep_history(point, found->second, tags[0], to);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -182,9 +229,9 @@ void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, cons
     if (change != 0.0)
       point.velocity_change =
           change * (view.change_at(i, one.position) - view.change_at(j, one.position));
-    point.memory = RememberedValues{};
+    point.history = {};
     for (std::size_t n = known; n < old; n++)
-      if (chunk.before[n].name == one.name) point.memory = chunk.before[n].memory;
+      if (chunk.before[n].name == one.name) point.history = chunk.before[n].history;
     chunk.points.push_back(point);
     chunk.pair_of_point.push_back(p);
   }

@@ -14,8 +14,8 @@
 #ifndef TALUS_SHAPED_SHAPED_PAIRS_H
 #define TALUS_SHAPED_SHAPED_PAIRS_H
 
+#include "history/contact_lists.h"
 #include "shaped/point_batch.h"
-#include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"
 #include "shaped/solid.h"
@@ -23,6 +23,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -36,10 +37,18 @@ class ShapedPairs {
   /// remember is nothing until restore(). Pairs of a particle with its own image are left out.
   void set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
                  const std::vector<std::int64_t> &tag, const LawTable &laws);
-  /// memory_of(i): the list of particle i, owned or ghost; each pair finds its points there.
-  void restore(const std::function<const std::vector<PointMemory> &(int)> &memory_of);
-  /// Adds what points remember to the lists of those particles that are first and owned.
-  void save(PointMemories &to) const;
+  /// Each pair finds its points in the list of one of its particles that is owned.
+  void restore(const ContactLists &from);
+  /// Adds what points remember to the lists of all owned particles: as the first one sees it, named by
+  /// ID of the partner and feature. Where periodic borders are, the ranks on both sides know a
+  /// contact from positions that differ by rounding: the rank of the first particle decides, and
+  /// tells the others by messages[rank].
+  using Messages = std::map<int, std::vector<double>>;
+  void save(ContactLists &to) const;
+  void save_in_periodic_box(ContactLists &to, int this_rank,
+                            const std::function<int(int ghost)> &owner_of,
+                            Messages &messages) const;
+  void receive(const std::vector<double> &message, ContactLists &to) const;
 
   struct Step {
     double dt;
@@ -90,9 +99,9 @@ class ShapedPairs {
 
  private:
   struct Pair {
-    int first, second;       ///< host's indices
-    int row;                 ///< of the table of laws
-    std::int64_t partner;    ///< ID of the second
+    int first, second;      ///< host's indices
+    int row;                ///< of the table of laws
+    std::int64_t tag[2];    ///< IDs
     Collisions::Collision collision;
     SeparatingDirection direction{};
   };
@@ -113,6 +122,7 @@ class ShapedPairs {
     CoreOverlap cores{};    ///< deepest since set_pairs()
   };
 
+  template <class Visit> void for_each_point_of_pair(Visit visit) const;
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
   void place_solids(const ShapedView &view, int threads);
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,

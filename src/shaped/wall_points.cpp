@@ -25,25 +25,22 @@ void WallPoints::set_particles(const std::vector<int> &those)
   }
 }
 
-void WallPoints::restore(const PointMemories &from)
+void WallPoints::restore(const ContactLists &from)
 {
   for (Chunk &chunk : chunks)
     for (int n = chunk.begin; n < chunk.end; n++)
-      for (const PointMemory &one : from.of(particles[n])) {
-        if (one.partner != name) continue;
-        PointContact point{};
-        point.name = one.name;
-        point.memory = one.memory;
-        chunk.points.push_back(point);
+      from.for_each(particles[n], [&](const ContactLists::Contact &one) {
+        if (one.partner != name) return;
+        chunk.points.push_back(remembered_point(one));
         chunk.of_point.push_back(n);
-      }
+      });
 }
 
-void WallPoints::save(PointMemories &to) const
+void WallPoints::save(ContactLists &to) const
 {
   for (const Chunk &chunk : chunks)
     for (std::size_t k = 0; k < chunk.points.size(); k++)
-      to.add(particles[chunk.of_point[k]], {name, chunk.points[k].name, chunk.points[k].memory});
+      keep_history(chunk.points[k], particles[chunk.of_point[k]], name, to);
 }
 
 BodyLoad WallPoints::compute(const BodySurfaces &surfaces, const BodyFrame &frame,
@@ -118,9 +115,9 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       }
       point.velocity = v;
       if (task.step.account) point.velocity_change = change_seen(task, i, place);
-      point.memory = RememberedValues{};
+      point.history = {};
       for (std::size_t k = known; k < old; k++)
-        if (chunk.before[k].name == point.name) point.memory = chunk.before[k].memory;
+        if (chunk.before[k].name == point.name) point.history = chunk.before[k].history;
       chunk.points.push_back(point);
       chunk.of_point.push_back(n);
     }

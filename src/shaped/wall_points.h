@@ -14,7 +14,6 @@
 #include "body/contact/body_contacts.h"
 #include "shaped/body_surfaces.h"
 #include "shaped/point_batch.h"
-#include "shaped/point_memory.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"
 
@@ -33,8 +32,9 @@ class WallPoints {
 
   /// Host's indices of the particles with a shape that the body acts on.
   void set_particles(const std::vector<int> &particles);
-  void restore(const PointMemories &from);
-  void save(PointMemories &to) const;
+  /// From and to the lists of its particles, see point_contact.h.
+  void restore(const ContactLists &from);
+  void save(ContactLists &to) const;
 
   /// Adds forces and torques; returns what the body bears.
   BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,

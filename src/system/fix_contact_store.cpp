@@ -162,6 +162,15 @@ void FixContactStore::pairs_are_current()
   current = true;
 }
 
+/* Histories of the other order are kept as a whole until they have been changed. */
+
+void FixContactStore::keep_histories(int records, int its_order)
+{
+  const int needed = std::max(records, 1);
+  const bool old_ones = order != 0 && order != its_order;
+  store.keep(old_ones ? std::max(needed, store.num_records()) : needed);
+}
+
 void FixContactStore::setup(int)
 {
   require_numbers();

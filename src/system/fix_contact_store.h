@@ -45,8 +45,8 @@ class FixContactStore : public Fix {
 
   /// Called by the system right after creation; it outlives this fix.
   void serve(Talus::GranularSystem *of) { system = of; }
-  /// Impact speed and age of contacts are kept as well.
-  void keep_impacts(bool yes) { store.keep_impacts(yes); }
+  /// Records that the laws of an integrator of this order need of each contact, see HistoryRows.
+  void keep_histories(int records, int its_order);
   /// To be called by the system whenever it has computed forces: its pairs hold the latest
   /// history, and the store need not.
   void pairs_are_current();

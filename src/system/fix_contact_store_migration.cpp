@@ -145,14 +145,13 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 /* ---------------------------------------------------------------------- */
 
 /* What a restart file holds of this fix: for all particles the state below, for each of them the
-   number of doubles, key, name, tag, the list of HistoryStore, and with an integrator of second
+   number of doubles, key, name, tag, the list of contacts, and with an integrator of second
    order the changes of velocities. The version is written as a
    negative number: a file without one begins with the size of cells, which is positive. */
 
 namespace {
 
-// 2: without the order
-constexpr double restart_version = 3.0, oldest_version = 2.0;
+constexpr double restart_version = 4.0;
 enum State { VERSION, INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
 constexpr int restart_header = 4;
 
@@ -175,15 +174,15 @@ void FixContactStore::write_restart(FILE *fp)
 void FixContactStore::restart(char *buf)
 {
   double state[STATE_SIZE] = {};
-  std::memcpy(state, buf, ORDER * sizeof(double));
-  if (state[VERSION] == -restart_version) std::memcpy(state, buf, sizeof state);
-  order = static_cast<int>(state[ORDER]);
-  if (state[VERSION] != -restart_version && state[VERSION] != -oldest_version)
+  std::memcpy(state, buf, sizeof state[VERSION]);
+  if (state[VERSION] != -restart_version)
     error->all(FLERR,
                "Pair style {}: the restart file holds contact history in the format {}, and this "
                "version of Talus reads format {}: continue with the version that wrote it",
                Talus::GranularSystem::of(lmp)->style_name(),
                state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
+  std::memcpy(state, buf, sizeof state);
+  order = static_cast<int>(state[ORDER]);
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
     error->all(

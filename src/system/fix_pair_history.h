@@ -19,6 +19,7 @@
 #ifndef LMP_FIX_PAIR_HISTORY_H
 #define LMP_FIX_PAIR_HISTORY_H
 
+#include "base/history_values.h"
 #include "fix.h"
 
 #include <memory>
@@ -53,12 +54,10 @@ class FixPairHistory : public Fix {
 
  private:
   int stock_entry() const { return 1 + static_cast<int>(place_of_value.size()); }
-  int read_list(int atom);
-  void take_even_values_of(int partner, tagint tag, double *values);
+  void take_even_values_of(int partner, tagint tag, Talus::HistoryValues &values);
 
   std::shared_ptr<Talus::GranularSystem> system;
   std::vector<int> place_of_value;                // of the stock style; -1: not used
-  std::vector<double> list, other;                // of one particle, as HistoryStore has it
   std::unordered_map<tagint, int> read_before;    // particles of a restart file
 };
 

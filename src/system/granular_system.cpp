@@ -145,7 +145,7 @@ void GranularSystem::prepare_laws()
 {
   if (prepared == book.revision()) return;
   const LawTable table = book.table(movers.order());
-  contact_store->keep_impacts(table.has_impact());
+  contact_store->keep_histories(table.history_records(), movers.order());
   contact_pipeline->set_laws(table);
   prepared = book.revision();
 

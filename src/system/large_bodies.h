@@ -24,7 +24,8 @@ class GranularSystem;
 
 class LargeBodies : protected LAMMPS_NS::Pointers {
  public:
-  LargeBodies(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) : Pointers(lmp), system(its_system)
+  LargeBodies(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) :
+      Pointers(lmp), system(its_system)
   {
   }
 

@@ -60,15 +60,11 @@ void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
 void LargeBody::keep_history()
 {
   const bool second_order = system.integrators().order() == 2;
-  const auto any = [this, second_order](bool (ContactLaw::*has)() const) {
-    return std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
-      return (s.law.*has)() || (second_order && (second_order_law(s.law).*has)());
-    });
-  };
-  with_history = any(&ContactLaw::has_history);
+  with_history = std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
+    return s.law.has_history() || (second_order && second_order_law(s.law).has_history());
+  });
   if (with_history)
-    contacts.history.keep(its_shape->most_contacts() > 1, any(&ContactLaw::has_impact),
-                          !its_shape->has_one_normal());
+    contacts.history.keep(its_shape->most_contacts() > 1, !its_shape->has_one_normal());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -85,6 +81,7 @@ void LargeBody::init()
   if (system.integrators().order() == 1) contacts.history.forget_normals();
   if (const FixContactStore *store = system.store(); store && order_of_history == 0)
     order_of_history = store->order_of_histories();    // of a restart file
+  keep_records(order_of_history != 0 && order_of_history != system.integrators().order());
 }
 
 /* A fix freeze that stands before the body in the script has done its work when the body adds its
@@ -120,6 +117,16 @@ void LargeBody::list_particles()
     contacts.change_order(system.integrators().order(), atom->type,
                           [this](int type) -> const ContactLaw & { return specs[type].law; });
   order_of_history = system.integrators().order();
+  keep_records(false);
+}
+
+/* `old_ones`: those of the other order as well, until they have been changed. */
+
+void LargeBody::keep_records(bool old_ones)
+{
+  const int needed = std::max(contacts.law_table().history_records(), 1);
+  contacts.history.keep_records(old_ones ? std::max(needed, contacts.history.num_records())
+                                         : needed);
 }
 
 /* Particles with a shape may be asked for anywhere: which are near is found in every step. */

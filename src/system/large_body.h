@@ -141,6 +141,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void find_frozen();
   void clear_frozen();
   void set_laws();
+  void keep_records(bool old_ones);
   void collect_digits();
 
   const LAMMPS_NS::Fix *fix;

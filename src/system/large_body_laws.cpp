@@ -37,7 +37,6 @@ void LargeBody::set_laws()
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, specs[i].law, coefficients_of(i));
   specs = as_given;
   table.finish();
-  if (table.has_impact()) contacts.history.keep_impacts();
   contacts.set_laws(table);
 }
 

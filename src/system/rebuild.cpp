@@ -31,7 +31,7 @@ void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, b
 {
   if (!pairs_stay) contact_pipeline->release_records();
   contact_pipeline->keep_history(to, scope, pairs_stay);
-  if (shaped) shaped->keep_memories();
+  if (shaped) shaped->keep_histories();
 }
 
 /* Pairs and states stay until the next set-up. */
@@ -89,6 +89,7 @@ void GranularSystem::change_order_of_histories()
   if (before == 0 || before == now) return;
   contact_pipeline->change_order(
       now, [this](int i, int j) -> const ContactLaw & { return book.law(i, j); });
+  contact_store->keep_histories(contact_pipeline->law_table().history_records(), now);
 }
 
 /* What the host has found cannot be changed; shapes refuse it in init(). */

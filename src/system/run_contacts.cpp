@@ -180,12 +180,12 @@ DeepestContact RunContacts::deepest() const
 
 /* Between two runs histories are with the store. */
 
-std::optional<RememberedValues> RunContacts::remembered_of(int i, int j) const
+std::optional<HistoryValues> RunContacts::history_of(int i, int j) const
 {
-  if (update->whichflag != 0) return system.pipeline().remembered_of(i, j);
+  if (update->whichflag != 0) return system.pipeline().history_of(i, j);
   const FoundHistory found = system.store()->histories().find_of_atoms(i, j);
   if (!found.known) return std::nullopt;
-  return remembered_values(found.seen_by_a(), *found.impact);
+  return found.seen_by_a();
 }
 
 }    // namespace Talus

@@ -44,7 +44,7 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   DeepestContact deepest() const;
   /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
   /// do not touch.
-  std::optional<RememberedValues> remembered_of(int i, int j) const;
+  std::optional<HistoryValues> history_of(int i, int j) const;
 
   // ---- by the system
 

@@ -40,7 +40,7 @@ class SystemShapes : public SystemFix {
 
   /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
   /// puts what contacts remember to the particles. Collective.
-  virtual void keep_memories() = 0;
+  virtual void keep_histories() = 0;
   /// Rows of four by host's index, of owned particles and ghosts: orientations, to be sent with
   /// positions in each step.
   virtual double *const *orientations() const = 0;

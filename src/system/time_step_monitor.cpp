@@ -89,7 +89,8 @@ void TimeStepMonitor::judge()
         "others, shapes by their faces, are stable with the damping of their contacts ({:.4g}): "
         "use a smaller one, less damping{}",
         GranularSystem::of(lmp)->style_name(), update->dt / critical.stable, critical.stable,
-        GranularSystem::of(lmp)->integrators().order() > 1 ? " (gt above all), or order 1" : " (gt above all)");
+        GranularSystem::of(lmp)->integrators().order() > 1 ? " (gt above all), or order 1"
+                                                           : " (gt above all)");
   if (comm->me == 0 && too_large)
     error->warning(FLERR,
                    "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; "

@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""What contact points of shapes remember is sent to the ghosts that have some, and to no others: two cubes that rub on each
-other among many spheres cost next to nothing."""
+"""What contact points of shapes remember is kept by both particles, so that nothing has to be sent to ghosts. Where there are
+periodic borders the rank of one tells the other: two cubes that rub on each other among many spheres cost next to nothing."""
 
 import os
 import sys
@@ -13,7 +13,7 @@ from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 EVERY, STEPS = 5, 200
 SCRIPT = """
 units lj
-boundary f f f
+boundary {boundary}
 atom_style sphere
 atom_modify map yes
 newton off
@@ -50,22 +50,27 @@ class ShapeMessages(SceneCase):
                  Sphere((middle + 0.1, middle, middle + 0.495), type=2, diameter=3**0.5, v=(0.1, 0, 0))]
         write_sphere_data(self.path("grains"), ((0, 1.01 * SIDE),) * 3, spheres + cubes)
 
-    def count(self, law):
+    def count(self, law, boundary):
         counts = self.path("counts")
-        log = self.run_lammps(SCRIPT.format(law=law, every=EVERY, steps=STEPS), np=2, env=counting(counts)).log
+        log = self.run_lammps(SCRIPT.format(law=law, boundary=boundary, every=EVERY, steps=STEPS), np=2, env=counting(counts)).log
         self.assertGreater(thermo(log)[-1]["c_stats[2]"], 0)
         return sent(counts, 2)
 
-    def test_spheres_carry_nothing(self):
-        messages, size = self.count(FRICTION)
-        messages_without, size_without = self.count(WITHOUT_HISTORY)
-        rebuilds = STEPS // EVERY
-        more = (messages - messages_without) / rebuilds, (size - size_without) / rebuilds
-        print("messages and bytes more per rebuild with histories:", more)
-        ghosts = 2 * 2 * SIDE**2    # of both ranks, two layers within the skin
-        self.assertGreater(more[1], 0)
-        self.assertLess(more[1], 8 * ghosts + 4000)    # one number of each, and the lists of two cubes
-        self.assertLess(more[0], 16)
+    def more(self, boundary):
+        """Messages and bytes of a rebuild with histories, less those without."""
+        with_histories, without = self.count(FRICTION, boundary), self.count(WITHOUT_HISTORY, boundary)
+        more = tuple((a - b) / (STEPS // EVERY) for a, b in zip(with_histories, without))
+        print(f"messages and bytes more per rebuild with histories, boundary {boundary}: {more}")
+        return more
+
+    def test_both_particles_keep_them(self):
+        self.assertEqual(self.more("f f f"), (0, 0))
+
+    def test_two_cubes_in_a_periodic_box(self):
+        messages, size = self.more("p p p")
+        self.assertGreater(size, 0)
+        self.assertLess(size, 4000)    # the lists of two cubes, none of spheres
+        self.assertLess(messages, 4)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local
 
 LAW = "hertz/material 1e7 0.5 0.3 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"
 WORDS = ("id1 id2 body part x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap force fn ft fx fy fz tx ty tz eng "
-         "h1 h2 h3 h4 h5 h6 h7 h8").split()
+         "h1 h2 h3 h4 h5 h6 h7 h8 h20").split()
 BED = begin(boundary="{boundary}") + f"""
 pair_coeff * * {LAW}
 neighbor 0.002 bin

@@ -96,27 +96,12 @@ class HistoryRestart(SceneCase):
     def test_other_formats_are_refused(self):
         with open(self.path("half"), "rb") as file:
             content = file.read()
-        state = struct.pack("<id", 32, -3.0)    # length and version
+        state = struct.pack("<id", 32, -4.0)    # length and version
         self.assertEqual(content.count(state), 1)
-        for first, found in ((-4.0, 4), (8.0, 1)):    # files of the first format begin with a length
+        for first, found in ((-5.0, 5), (-3.0, 3), (8.0, 1)):    # files of the first format begin with a length
             self.refuse(content.replace(state, struct.pack("<id", 32, first)), REST + "run 0\n",
                         f"the restart file holds contact history in the format {found}, and this version of Talus "
-                        "reads format 3: continue with the version that wrote it")
-
-    def test_files_without_the_order_of_the_integrator_are_read(self):
-        """Format 2."""
-        with open(self.path("half"), "rb") as file:
-            content = file.read()
-        at = content.index(struct.pack("<id", 32, -3.0))
-        self.assertEqual(struct.unpack("<d", content[at + 28:at + 36]), (1.0,))
-        with open(self.path("older"), "wb") as file:
-            file.write(content[:at] + struct.pack("<id", 24, -2.0) + content[at + 12:at + 28] + content[at + 36:])
-        dumps = []
-        for name in "half", "older":
-            self.run_lammps(START + f"read_restart {name}\n" + REST + "run 10\n"
-                            "write_dump all custom end id x y z vx vy vz modify format float %a sort id\n")
-            dumps += read_dump(self.path("end"))
-        self.assert_same_bits(*dumps)
+                        "reads format 4: continue with the version that wrote it")
 
     def test_large_bodies_of_other_versions_are_refused(self):
         body = "fix floor all large/body plane 0 0 0.5 0 0 1 contact hertz 4000.0 40.0 move linear 0 0 0.1\n"

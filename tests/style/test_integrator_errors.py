@@ -113,8 +113,6 @@ REFUSED += [
     (f"pair_style gran/hooke/history 1e4 NULL 0 NULL 0.5 1\npair_coeff * *\n{SECOND}\nrun 0",
      O + "contacts of particles are not those of a pair style of Talus"),
     (f"{PAIR}hertz 1e4 0 rolling 0.1 delayed\n{SECOND}\nrun 0", O + "the contact of types 1 and 1 has resistance.*'delayed'"),
-    (f"{PAIR}hooke/material 1e5 1 0.3 1 tangential mindlin 1e3 0 0.5 rolling 0.1 limit_damping\n{SECOND}\nrun 0",
-     O + "the contact of types 1 and 1 remembers more than there is room for.*leave 'rolling' and 'spinning' out"),
     (f"{PAIR}jkr 1e5 1 0.3 1 tangential mindlin/force NULL 1 0.5\n{SECOND}\nrun 0",
      O + "the contact of types 1 and 1 has the tangential law mindlin/force, which .*: use xt = 0"),
     (f"{PAIR}hertz 1e4 0\n{SECOND}\nfix other right nve/sphere\nrun 0",
@@ -128,10 +126,8 @@ REFUSED += [
 for law, message in (
         ("hertz 1e4 0 rolling 0.1 delayed", "has resistance.*'delayed'"),
         ("hertz 1e4 0 tangential onestep 1e3 0 0.5", "has the tangential law onestep: use .*slider midpoint"),
-        ("hertz 1e4 10 tangential mindlin/force 1e3 1 0.5 limit_damping", "has the tangential law mindlin/force, which .*use xt = 0"),
-        ("hooke/material 1e5 1 0.3 1 limit_damping tangential mindlin 1e3 0 0.5 rolling 0.1",
-         "remembers more than there is room for.*leave 'rolling' and 'spinning' out")):
-    pair = PAIR + ("hertz 1e4 0" if law.startswith("hertz") else "hooke/material 1e5 1 0.3 1 limit_damping")
+        ("hertz 1e4 10 tangential mindlin/force 1e3 1 0.5 limit_damping", "has the tangential law mindlin/force, which .*use xt = 0")):
+    pair = PAIR + "hertz 1e4 0"
     floor = f"fix b all large/body plane 0 0 0 0 0 1 contact {law}"
     for lines in f"{SECOND}\n{floor}", f"{floor}\n{SECOND}":
         REFUSED.append((f"{pair}\n{lines}\nrun 0", O + f"fix large/body b {message}"))

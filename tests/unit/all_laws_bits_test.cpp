@@ -99,9 +99,9 @@ TEST_P(LawBits, QueriesAgreeWithKernels)
     ASSERT_EQ(kernel.moment, triple_of(query.moment)) << title(law);
     ASSERT_EQ(kernel.twisting_torque, triple_of(query.twisting_torque)) << title(law);
     // and leave what is remembered
-    const RememberedValues before = remembered(c);
+    const HistoryValues before = remembered(c);
     for (int n = 0; n < ContactBatch::history_size; n++)
-      ASSERT_EQ(batch.history[n][lane], before.value[n]) << title(law);
+      ASSERT_EQ(batch.history[n][lane], before[n]) << title(law);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "body/contact/body_contacts.h"
 #include "body/shape/plane.h"
 #include "body/shape/rectangle.h"
+#include "histories_of.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -129,8 +130,8 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
       displacement[i] = expected.history;
       sliding[i] = expected.sliding;
       if (contacts.keeps_history()) {
-        const Record h = contacts.history.of_particle(i);
-        const Vector found{h.c[0], h.c[1], h.c[2]};
+        const HistoryValues h = history_of(contacts.history, i);
+        const Vector found{h[0], h[1], h[2]};
         ASSERT_LE(norm(axpy(-1.0, displacement[i], found)), 1e-12 * norm(displacement[i]) + 1e-15);
       }
 
@@ -195,16 +196,15 @@ TEST_P(BodyContactsTest, WithoutAdvanceTheHistoryStays)
 {
   find();
   for (int step = 0; step < 3; step++) compute(true);
-  std::vector<Record> history;
+  std::vector<HistoryValues> history;
   for (int i = 0; i < p.size() && contacts.keeps_history(); i++)
-    history.push_back(contacts.history.of_particle(i));
+    history.push_back(history_of(contacts.history, i));
   const std::vector<Vector> before = force;
   for (int repeat = 0; repeat < 2; repeat++) {
     compute(false);
     EXPECT_EQ(force, before);
     for (int i = 0; i < p.size() && contacts.keeps_history(); i++) {
-      const Record is = contacts.history.of_particle(i);
-      ASSERT_TRUE(std::equal(is.c, is.c + 4, history[i].c));
+      ASSERT_EQ(history_of(contacts.history, i), history[i]);
     }
   }
 }
@@ -214,7 +214,7 @@ TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
   ASSERT_TRUE(contacts.keeps_history());
   find();
   compute(true);
-  const auto has_history = [this](int i) { return contacts.history.of_particle(i).c[0] != 0.0; };
+  const auto has_history = [this](int i) { return history_of(contacts.history, i)[0] != 0.0; };
   std::vector<int> touching;
   for (int i = 0; i < p.size(); i++)
     if (has_history(i)) touching.push_back(i);

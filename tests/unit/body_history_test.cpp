@@ -4,6 +4,7 @@
 // step before one of several continues.
 
 #include "body/contact/body_history.h"
+#include "histories_of.h"
 
 #include <gtest/gtest.h>
 
@@ -21,15 +22,16 @@ using V = Vector3<double>;
 using Packed = std::vector<double>;
 const std::vector<std::uint8_t> no_room;
 
-/// Whether impacts are kept, and whether there may be several contacts.
-class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
+/// How many records are kept of each contact, and whether there may be several contacts.
+class BodyHistoryTest : public testing::TestWithParam<std::tuple<int, bool>> {
  protected:
-  bool impacts() const { return std::get<0>(GetParam()); }
+  int records() const { return std::get<0>(GetParam()); }
   bool several() const { return std::get<1>(GetParam()); }
 
   BodyHistoryTest()
   {
-    history.keep(several(), impacts());
+    history.keep(several());
+    history.keep_records(records());
     history.grow(20);
     follow({3, 17, 5, 11});
     for (int c = 0; c < 4; c++) set(c, 10.0 * (c + 1));
@@ -52,12 +54,19 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
     for (int k = 0; k < (several() ? 2 : 1); k++) {
       const double its = value + 100.0 * k;
       const std::uint32_t slot = history.first_slot(candidate) + k;
-      history.record(slot) = {{its, its + 1.0, its + 2.0, 1.0}};
-      if (impacts()) history.impact(slot) = {{its + 3.0, its + 4.0, 1.0, its + 5.0}};
+      history.begin_step();
+      history.set_values(slot, values(its));
     }
   }
 
-  Packed packed(int particle) const
+  HistoryValues values(double first) const
+  {
+    HistoryValues all{};
+    for (int n = 0; n < 4 * records(); n++) all[n] = first + n;
+    return all;
+  }
+
+  Packed packed(int particle)
   {
     Packed values(history.size_packed(particle), 7.0);
     EXPECT_EQ(history.pack(particle, values.data()), values.size());
@@ -66,18 +75,19 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<bool, bool>> {
 
   Packed expected(double value) const
   {
-    if (value == 0.0) return {0.0};
-    Packed values{several() ? 2.0 : 1.0};
-    for (int k = 0; k < values[0]; k++) {
-      const double its = value + 100.0 * k;
+    const double each = 3.0 + 4.0 * records();
+    if (value == 0.0) return {0.0, each};
+    Packed all{several() ? 2.0 : 1.0, each};
+    for (int k = 0; k < all[0]; k++) {
       const Packed normal =
           several() ? (k ? Packed{1.0, 0.0, 0.0} : Packed{0.0, 0.0, 1.0}) : Packed(3, 0.0);
-      values.insert(values.end(), normal.begin(), normal.end());
-      for (const double a : {its, its + 1.0, its + 2.0, 1.0}) values.push_back(a);
-      for (const double a : {its + 3.0, its + 4.0, 1.0, its + 5.0})
-        values.push_back(impacts() ? a : 0.0);
+      all.resize(all.size() + ContactLists::size_name);
+      ContactLists::write_name(0, k, &all[all.size() - ContactLists::size_name]);
+      all.insert(all.end(), normal.begin(), normal.end());
+      const HistoryValues its = values(value + 100.0 * k);
+      all.insert(all.end(), its.begin(), its.begin() + 4L * records());
     }
-    return values;
+    return all;
   }
 
   BodyHistory history;
@@ -88,8 +98,7 @@ TEST_P(BodyHistoryTest, ParticlesKnowTheirContacts)
   const double value[20] = {0, 0, 0, 10, 0, 30, 0, 0, 0, 0, 0, 40, 0, 0, 0, 0, 0, 20};
   for (int i = 0; i < 20; i++) {
     EXPECT_EQ(packed(i), expected(value[i])) << i;
-    EXPECT_EQ(history.of_particle(i).c[0], value[i]);
-    EXPECT_EQ(history.count(i), expected(value[i])[0]);
+    EXPECT_EQ(history_of(history, i)[0], value[i]);
   }
 }
 
@@ -136,64 +145,62 @@ TEST_P(BodyHistoryTest, NegativeZerosTravel)
 {
   Packed values = packed(3);
   for (double &v : values)
-    if (&v > &values[3]) v = -0.0;    // behind number and normal
+    if (&v > &values[6]) v = -0.0;    // behind head, name and normal
   EXPECT_EQ(history.unpack(9, values.data()), values.size());
   follow({9});
-  EXPECT_TRUE(std::signbit(packed(9)[4]));
-  EXPECT_TRUE(std::signbit(history.of_particle(9).c[1]));
+  EXPECT_TRUE(std::signbit(history_of(history, 9)[1]));
 }
 
 // The GNU C library fills memory that it hands out if it is asked to.
-TEST_P(BodyHistoryTest, ImpactsThatAreKeptLaterAreZero)
+TEST_P(BodyHistoryTest, NumbersThatAreKeptLaterAreZero)
 {
-  if (impacts()) return;
-  const std::size_t slots = several() ? 8 : 4;
 #if defined(M_PERTURB)
   mallopt(M_PERTURB, 0x55);
 #endif
-  history.keep_impacts();
+  history.keep_records(5);
 #if defined(M_PERTURB)
   mallopt(M_PERTURB, 0);
 #endif
-  for (std::size_t s = 0; s < slots; s++)
-    for (const double value : history.impact(s).c) EXPECT_EQ(value, 0.0) << s;
-  EXPECT_EQ(packed(3), expected(10.0));
-  history.keep_impacts();    // of every set-up
+  for (const auto &[particle, first] : {std::pair(3, 10.0), {17, 20.0}, {5, 30.0}, {11, 40.0}})
+    EXPECT_EQ(history_of(history, particle), values(first)) << particle;
+  history.keep_records(records());
   EXPECT_EQ(packed(17), expected(20.0));
 }
 
 TEST_P(BodyHistoryTest, MemoryIsThatOfTheCandidates)
 {
+  follow({3, 17, 5, 11});    // from here on the lists have room for four contacts
   const double few = history.memory_usage();
   history.grow(100000);
   follow({3, 17, 5, 11});
   EXPECT_LE(history.memory_usage(), few + 4.0 * 200000);
 }
 
-INSTANTIATE_TEST_SUITE_P(ImpactsAndSeveral, BodyHistoryTest,
-                         testing::Combine(testing::Bool(), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(RecordsAndSeveral, BodyHistoryTest,
+                         testing::Combine(testing::Values(1, 2, 5), testing::Bool()));
 
 TEST(OneContact, SeparatedOnesAreForgotten)
 {
   BodyHistory history;
-  history.keep(false, true);
+  history.keep(false);
+  history.keep_records(2);
   history.grow(20);
   history.follow({3, 17, 5, 11}, no_room);
   history.set_touching(0, 0xfU, 0xfU);
   for (int c = 0; c < 4; c++) {
     history.record(c).c[0] = c + 1.0;
-    history.impact(c).c[0] = c + 1.0;
+    history.record(c, 1).c[0] = c + 1.0;
   }
   history.set_touching(0, 0xfU, 0xdU);    // the second has gone
-  EXPECT_EQ(history.record(1).c[0] + history.impact(1).c[0], 0.0);
-  EXPECT_EQ(history.count(17), 0);
-  EXPECT_EQ(history.of_particle(3).c[0], 1.0);
+  EXPECT_EQ(history.record(1).c[0] + history.record(1, 1).c[0], 0.0);
+  EXPECT_EQ(history.count(1), 0);
+  EXPECT_EQ(history.record(0).c[0], 1.0);
   history.set_touching(0, 0x3U, 0x1U);    // the others are not asked for
-  EXPECT_EQ(history.of_particle(5).c[0], 3.0);
-  EXPECT_EQ(history.of_particle(11).c[0], 4.0);
+  EXPECT_EQ(history.record(2).c[0], 3.0);
+  EXPECT_EQ(history.record(3).c[0], 4.0);
   EXPECT_EQ(history.touched(0), 0xdU);
   history.set_touching(0, 0xfU, 0x2U);
-  for (const int i : {3, 5, 11}) EXPECT_EQ(history.of_particle(i).c[0], 0.0);
+  for (const int c : {0, 2, 3}) EXPECT_EQ(history.record(c).c[0], 0.0);
   EXPECT_EQ(history.touched(1), 0U);    // there are no such candidates
 }
 
@@ -201,7 +208,7 @@ TEST(OneContact, SeparatedOnesAreForgotten)
 TEST(OneContact, KnowsTheNormalOfTheStepBefore)
 {
   BodyHistory history;
-  history.keep(false, false, true);
+  history.keep(false, true);
   history.grow(20);
   history.follow({3, 17}, no_room);
   history.set_touching(0, 3U, 3U);
@@ -227,7 +234,7 @@ V tilted(double angle)
 TEST(SeveralContacts, AreKnownByTheirNormals)
 {
   BodyHistory history;
-  history.keep(true, false);
+  history.keep(true);
   history.grow(1);
   history.follow({0}, {4});
   SurfaceContact first[3] = {{tilted(0.0), 0.3}, {tilted(0.5), 0.2}, {tilted(1.5), 0.1}};
@@ -255,7 +262,7 @@ TEST(SeveralContacts, AreKnownByTheirNormals)
 TEST(SeveralContacts, BeginWithAnOverlap)
 {
   BodyHistory history;
-  history.keep(true, false);
+  history.keep(true);
   history.grow(1);
   history.follow({0}, {3});
   SurfaceContact first[2] = {{tilted(0.0), -0.01}, {tilted(1.0), 0.2}};
@@ -296,7 +303,7 @@ class Beyond : public BodyHistory::Ends {
 TEST(SeveralContacts, LastForTheStepInWhichTheyEnd)
 {
   BodyHistory history;
-  history.keep(true, false);
+  history.keep(true);
   history.grow(1);
   history.follow({0}, {2});
   SurfaceContact found[LargeBodyShape::max_contacts] = {{tilted(0.0), 0.2}, {tilted(2.0), 0.1}};
@@ -328,7 +335,7 @@ TEST(SeveralContacts, LastForTheStepInWhichTheyEnd)
 TEST(SeveralContacts, RoomIsThatOfTheCandidatesAndOfWhatTheyHave)
 {
   BodyHistory history;
-  history.keep(true, false);
+  history.keep(true);
   history.grow(3);
   history.follow({2, 0}, {1, 3});
   EXPECT_EQ(history.first_slot(1), 1U);

@@ -7,6 +7,7 @@
 #include "body/contact/body_contacts.h"
 #include "body/shape/ball.h"
 #include "body/shape/plane.h"
+#include "histories_of.h"
 #include "packing.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
       body.frame.origin = body.shape->reference_point();
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records}) {
         contacts->set_laws(laws);
-        contacts->history.keep(false, laws.has_impact());
+        contacts->history.keep(false);
         if (laws.has_history()) contacts->history.grow(p.size());
       }
     }
@@ -138,14 +139,11 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
     }
   }
 
-  void expect_same_histories(const Body &body)
+  void expect_same_histories(Body &body)
   {
-    double a[BodyHistory::max_packed], b[BodyHistory::max_packed];
-    for (int i = 0; i < p.size() && laws.has_history(); i++) {
-      const int size = body.in_arrays.history.pack(i, a);
-      ASSERT_EQ(body.in_records.history.pack(i, b), size);
-      for (int n = 0; n < size; n++) ASSERT_EQ(a[n], b[n]) << i << " entry " << n;
-    }
+    for (int i = 0; i < p.size() && laws.has_history(); i++)
+      ASSERT_EQ(histories_of(body.in_arrays.history, i), histories_of(body.in_records.history, i))
+          << i;
   }
 
   /// As threads do it that deal with three ranges of the slots, at the same time.

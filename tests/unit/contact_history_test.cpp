@@ -241,7 +241,7 @@ TEST(ContactHistory, DoesNotComeBackAfterALawWithoutIt)
   rank.compute(p, dt, true);
   Luggage with, without;
   rank.depart(with);
-  EXPECT_EQ(with[0].size(), empty + 1U + 4U);    // name of a partner and history
+  EXPECT_EQ(with[0].size(), empty + 2U + 4U);    // partner, feature and history
   rank.pipeline.set_laws(single_law({named::Normal::HERTZ, named::Tangential::ONESTEP}, true));
   rank.depart(without);
   EXPECT_EQ(without[0].size(), empty);

@@ -98,13 +98,13 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
   for (int n = 0; n < 20000; n++) {
     next();
     const Result kernel = run_in_lane(batch, n % width, law, c, p, true, false);
-    const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
+    const HistoryValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
     const ContactLanes<double> query =
         single_contact(law, row_of(law, p), slow::state_of(c), dt, h);
     const Result other{{query.force.x, query.force.y, query.force.z},
                        {query.moment.x, query.moment.y, query.moment.z},
                        c.history,
-                       h.value[3]};
+                       h[3]};
     ASSERT_TRUE(same_bits(kernel, other)) << n;
   }
 }

@@ -164,7 +164,7 @@ TEST(ContactLaw, ForceAtLimitHasTheLengthOfTheLimit)
     for (int n = 0; n < 20000 && law.has_friction(); n++) {
       const Numbers p = slow::random_coefficients(random, false);
       const Contact c = slow::random_contact(random, law, p);
-      const RememberedValues h{{c.history[0], c.history[1], c.history[2]}};
+      const HistoryValues h{{c.history[0], c.history[1], c.history[2]}};
       const ContactLanes<double> out =
           single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       const double limit = p.mu * std::fabs(out.normal_force);
@@ -185,7 +185,7 @@ TEST(ContactLaw, CoincidentCentersExertNoForce)
       Contact c = slow::random_contact(random, law, p);
       c.normal = {};
       c.overlap = 0.0;
-      const RememberedValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
+      const HistoryValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
       const ContactLanes<double> out =
           single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       ASSERT_EQ(dot(out.force, out.force), 0.0) << slow::title(law);

@@ -379,7 +379,8 @@ TEST(ConvexFuzz, ExchangedBodiesHaveTheSameContacts)
         EXPECT_EQ(p.name, q.name) << trial;
         EXPECT_LT(length(p.position - q.position), 1e-9) << trial;
         // points that share a force lean by its torque over the square of their spread: rounding over the least share
-        EXPECT_LT(length(p.normal + q.normal), std::max(1e-9, 1e-12 / std::fabs(p.weight))) << trial;
+        EXPECT_LT(length(p.normal + q.normal), std::max(1e-9, 1e-12 / std::fabs(p.weight)))
+            << trial;
         EXPECT_NEAR(p.overlap, q.overlap, 1e-10);
         EXPECT_NEAR(p.weight, q.weight, 1e-7);
       }

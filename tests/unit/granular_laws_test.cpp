@@ -29,7 +29,7 @@ struct Drawn {
   ContactSpec spec;
   ContactCoefficients row;
   ContactState<double> state;
-  RememberedValues memory;
+  HistoryValues memory;
 };
 
 const char *one_of(RandomSource &random, std::initializer_list<const char *> names)
@@ -115,15 +115,15 @@ class GranularLaws : public testing::Test {
     if (overlap <= 0.0 && reach == 0.0) return next();
     drawn.state = state_of(r, normal, overlap, v, w, false);
     other = state_of(r, normal, overlap, v, w, true);
-    for (double &value : drawn.memory.value) value = 0.0;
+    for (double &value : drawn.memory) value = 0.0;
     if (random.chance(0.8)) {
       const double scale = random.decade(-7.0, -3.0);
-      for (double &value : drawn.memory.value) value = scale * random.uniform(-1.0, 1.0);
-      drawn.memory.value[3] = std::fabs(drawn.memory.value[3]) * 100.0;
+      for (double &value : drawn.memory) value = scale * random.uniform(-1.0, 1.0);
+      drawn.memory[3] = std::fabs(drawn.memory[3]) * 100.0;
     }
   }
 
-  void put(int lane, const ContactState<double> &s, const RememberedValues &memory)
+  void put(int lane, const ContactState<double> &s, const HistoryValues &memory)
   {
     const auto set = [lane](double(&to)[3][width], const Vector3<double> &v) {
       to[0][lane] = v.x;
@@ -142,13 +142,13 @@ class GranularLaws : public testing::Test {
     batch.arm_loss[lane] = s.arm_loss;
     batch.arm_difference[lane] = s.arm_difference;
     batch.coefficients[lane] = 0;
-    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][lane] = memory.value[n];
+    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][lane] = memory[n];
   }
 
   struct Result {
     double force[3], moment[3], torque[3], history[ContactBatch::history_size];
   };
-  Result run(int lane, const ContactState<double> &s, const RememberedValues &memory, bool uniform,
+  Result run(int lane, const ContactState<double> &s, const HistoryValues &memory, bool uniform,
              bool advance)
   {
     put(lane, s, memory);
@@ -233,8 +233,8 @@ TEST_F(GranularLaws, ForceIsReproducedFromTheStoredHistory)
   for (int n = 0; n < 20000; n++) {
     next();
     const Result before = run(n % width, drawn.state, drawn.memory, true, true);
-    RememberedValues stored;
-    std::memcpy(stored.value, before.history, sizeof stored.value);
+    HistoryValues stored;
+    std::memcpy(stored.data(), before.history, sizeof stored);
     with_history += drawn.spec.law.has_history();
     const Result after = run((n + 3) % width, drawn.state, stored, false, false);
     ASSERT_EQ(std::memcmp(&before, &after, sizeof before), 0)
@@ -249,8 +249,8 @@ TEST_F(GranularLaws, SwappingTheBodiesNegatesForceAndTorqueExactly)
 {
   for (int n = 0; n < 20000; n++) {
     next();
-    RememberedValues mirrored = drawn.memory;
-    for (int d = 0; d < 3; d++) mirrored.value[d] = -mirrored.value[d];
+    HistoryValues mirrored = drawn.memory;
+    for (int d = 0; d < 3; d++) mirrored[d] = -mirrored[d];
     const Result a = run(n % width, drawn.state, drawn.memory, true, true);
     const Result b = run((n + 11) % width, other, mirrored, true, true);
     for (int d = 0; d < 3; d++) {

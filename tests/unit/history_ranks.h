@@ -18,11 +18,6 @@
 
 namespace slow {
 
-/// What is known of a contact.
-struct History {
-  Talus::Record displacement{}, impact{};
-};
-
 /// What is to be in the lists of all ranks: by particle, wherever it is.
 struct World {
   struct Particle {
@@ -38,13 +33,14 @@ struct World {
   };
   std::map<std::pair<int, int>, Pair> pairs;
   /// As the particle with the lower number sees it; of contacts of the last lists.
-  std::map<std::pair<int, int>, History> histories;
+  std::map<std::pair<int, int>, Talus::HistoryValues> histories;
 };
 
 /// How the work of all ranks is divided, and what their lists hold.
 struct Settings {
   int ranks, threads;
-  bool two_phases, periodic, with_impacts;
+  bool two_phases, periodic;
+  int records;    ///< of each contact
 };
 
 /// What a pair style does for the history store: one rank with its numbering of owned particles and
@@ -53,7 +49,7 @@ class Rank {
  public:
   Rank(int which, const Settings &given) : me(which), settings(given), store(which)
   {
-    store.keep_impacts(settings.with_impacts);
+    store.keep(settings.records);
   }
 
   /// What a particle brings along when it comes to this rank.

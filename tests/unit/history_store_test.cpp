@@ -16,14 +16,9 @@
 #include <vector>
 
 using namespace Talus;
-using slow::History, slow::Rank, slow::Settings, slow::World;
+using slow::Rank, slow::Settings, slow::World;
 
 namespace {
-
-bool same(const Record &a, const Record &b)
-{
-  return std::equal(a.c, a.c + 4, b.c);
-}
 
 class Rebuilds : public testing::TestWithParam<Settings> {
  protected:
@@ -75,11 +70,8 @@ class Rebuilds : public testing::TestWithParam<Settings> {
         const bool expected = known != world.histories.end();
         ASSERT_EQ(live.touches(n), expected) << i << " " << j;
         if (!expected) return;
-        const Record &as_lower = known->second.displacement;
-        ASSERT_TRUE(same(live.record(n), i < j ? as_lower : mirrored(as_lower))) << i << " " << j;
-        if (GetParam().with_impacts) {
-          ASSERT_TRUE(same(live.impact(n), known->second.impact));
-        }
+        const HistoryValues &as_lower = known->second;
+        ASSERT_EQ(live.values(n), i < j ? as_lower : mirrored(as_lower)) << i << " " << j;
         found++;
       });
     EXPECT_GT(found, world.histories.empty() ? -1 : 10);
@@ -91,11 +83,8 @@ class Rebuilds : public testing::TestWithParam<Settings> {
     world.histories.clear();
     for (const auto &[ij, pair] : world.pairs) {
       if (!pair.touches) continue;
-      History &h = world.histories[ij];
-      for (int k = 0; k < 4; k++) {
-        h.displacement.c[k] = random.uniform(-1.0, 1.0);
-        h.impact.c[k] = random.uniform(-1.0, 1.0);
-      }
+      HistoryValues &h = world.histories[ij];
+      for (int k = 0; k < 4 * GetParam().records; k++) h[k] = random.uniform(-1.0, 1.0);
     }
     for (Rank &rank : ranks)
       rank.for_each_pair([&](ContactHistory &live, std::int64_t n, int a, int b) {
@@ -103,11 +92,10 @@ class Rebuilds : public testing::TestWithParam<Settings> {
         const World::Pair &pair = world.pairs.at(std::minmax(i, j));
         set_touching(live, n, pair.touches);
         if (!pair.touches) return;
-        History h = world.histories.at(std::minmax(i, j));
+        HistoryValues h = world.histories.at(std::minmax(i, j));
         if (pair.across && !rank.is_owned(a))
-          for (double &value : h.displacement.c) value = std::nextafter(value, 2.0);
-        live.record(n) = i < j ? h.displacement : mirrored(h.displacement);
-        if (live.with_impacts()) live.impact(n) = h.impact;
+          for (double &value : h) value = std::nextafter(value, 2.0);
+        live.set_values(n, i < j ? h : mirrored(h));
       });
   }
 
@@ -212,6 +200,7 @@ TEST_P(Rebuilds, ParticlesPassThroughOtherRanks)
   agree();
   Rank::Luggage all = luggage(false), later;
   HistoryStore between(77);
+  between.keep(GetParam().records);
   between.resize(1);
   for (const auto &[i, buffer] : all) {
     ASSERT_EQ(between.unpack(0, buffer.data()), static_cast<int>(buffer.size()));
@@ -264,24 +253,25 @@ TEST_P(Rebuilds, AContactThatItsFirstSideDoesNotSeeIsNotKept)
 
 INSTANTIATE_TEST_SUITE_P(
     Ranks, Rebuilds,
-    testing::Values(Settings{1, 1, false, false, false}, Settings{1, 1, false, true, false},
-                    Settings{1, 3, false, true, true}, Settings{3, 1, false, false, true},
-                    Settings{3, 1, false, true, false}, Settings{4, 2, false, true, true},
-                    Settings{2, 1, true, true, false}, Settings{3, 2, true, false, true},
-                    Settings{3, 2, true, true, true}),
+    testing::Values(Settings{1, 1, false, false, 1}, Settings{1, 1, false, true, 1},
+                    Settings{1, 3, false, true, 2}, Settings{3, 1, false, false, 5},
+                    Settings{3, 1, false, true, 1}, Settings{4, 2, false, true, 2},
+                    Settings{2, 1, true, true, 1}, Settings{3, 2, true, false, 2},
+                    Settings{3, 2, true, true, 3}),
     [](const auto &info) {
       const Settings &s = info.param;
       return std::to_string(s.ranks) + "_ranks_" + std::to_string(s.threads) + "_threads" +
-             (s.two_phases ? "_two_phases" : "") + (s.periodic ? "_periodic" : "") +
-             (s.with_impacts ? "_impacts" : "");
+             (s.two_phases ? "_two_phases" : "") + (s.periodic ? "_periodic" : "") + "_" +
+             std::to_string(s.records) + "_records";
     });
 
 TEST(NamedContacts, HoldTheLastHistoryOfEachPair)
 {
   RandomSource random(5);
   NamedContacts contacts;
+  contacts.keep(2);
   for (int round = 0; round < 3; round++) {
-    std::map<std::pair<std::int64_t, std::int64_t>, Record> model;
+    std::map<std::pair<std::int64_t, std::int64_t>, HistoryValues> model;
     for (int n = 0; n < 3000; n++) {
       // consecutive names, and some that differ in high bits only
       const auto name = [&] {
@@ -290,8 +280,8 @@ TEST(NamedContacts, HoldTheLastHistoryOfEachPair)
       };
       const std::int64_t a = name(), b = name();
       if (a == b) continue;
-      const Record seen = {{random.uniform(-1.0, 1.0), 2.0, 3.0, 1.0}}, impact = {{1.0 * n}};
-      contacts.insert(a, b, seen, impact);
+      const HistoryValues seen = {{random.uniform(-1.0, 1.0), 2.0, 3.0, 1.0, 1.0 * n}};
+      contacts.insert(a, b, seen);
       model[std::minmax(a, b)] = a < b ? seen : mirrored(seen);
     }
     ASSERT_EQ(contacts.size(), model.size());
@@ -299,8 +289,8 @@ TEST(NamedContacts, HoldTheLastHistoryOfEachPair)
       const FoundHistory one = contacts.find(names.first, names.second),
                          other = contacts.find(names.second, names.first);
       ASSERT_TRUE(one.known && other.known);
-      ASSERT_TRUE(same(one.seen_by_a(), expected));
-      ASSERT_TRUE(same(other.seen_by_a(), mirrored(expected)));
+      ASSERT_EQ(one.seen_by_a(), expected);
+      ASSERT_EQ(other.seen_by_a(), mirrored(expected));
     }
     for (int n = 0; n < 1000; n++) {
       const std::int64_t a = random.below(200) + 1, b = random.below(200) + 1;
@@ -314,18 +304,18 @@ TEST(NamedContacts, HoldTheLastHistoryOfEachPair)
   }
 }
 
-TEST(HistoryStore, TakesTheMemoryOfImpactsOnlyForLawsThatNeedThem)
+// Of a restart file, or of a run with other laws: what both have is kept, the rest is zero.
+TEST(HistoryStore, ReadsListsOfOtherLaws)
 {
-  // a list with impacts, read by a store that keeps none, and the other way round
-  for (const bool written : {false, true})
-    for (const bool read : {false, true}) {
+  for (const int written : {1, 2, 5})
+    for (const int read : {1, 2, 5}) {
       HistoryStore store;
-      store.keep_impacts(read);
+      store.keep(read);
       store.resize(2);
-      std::vector<double> list{1.0, written ? 8.0 : 4.0, 0.0, 1.0, 2.0, 3.0, 1.0};
+      std::vector<double> list{1.0, 4.0 * written, 0.0, 0.0};
       const std::int64_t partner = 20;
       std::memcpy(&list[2], &partner, sizeof partner);
-      if (written) list.insert(list.end(), {5.0, 6.0, 7.0, 0.0});
+      for (int n = 0; n < 4 * written; n++) list.push_back(n + 1.0);
       store.set_name(0, 10);
       store.set_name(1, partner);
       ASSERT_EQ(store.unpack_list(0, list.data()), static_cast<int>(list.size()));
@@ -340,11 +330,10 @@ TEST(HistoryStore, TakesTheMemoryOfImpactsOnlyForLawsThatNeedThem)
       ContactHistory history;
       history.fetch(pairs, store);
       ASSERT_TRUE(history.touches(0));
-      EXPECT_TRUE(same(history.record(0), {{-1.0, -2.0, -3.0, 1.0}}));    // 20 is the first now
-      ASSERT_EQ(history.with_impacts(), read);
-      if (read) {
-        EXPECT_TRUE(same(history.impact(0), written ? Record{{5.0, 6.0, 7.0, 0.0}} : Record{}));
-      }
+      ASSERT_EQ(history.num_records(), read);
+      HistoryValues expected{{-1.0, -2.0, -3.0}};    // 20 is the first now
+      for (int n = 3; n < 4 * std::min(written, read); n++) expected[n] = n + 1.0;
+      EXPECT_EQ(history.values(0), expected) << written << " " << read;
     }
 }
 

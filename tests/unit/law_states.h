@@ -235,7 +235,7 @@ inline Talus::ContactState<double> state_of(const Contact &c)
 }
 
 /// Displacement, sliding; impact speed, age and begun, which the laws keep if they need them.
-inline Talus::RememberedValues remembered(const Contact &c)
+inline Talus::HistoryValues remembered(const Contact &c)
 {
   const auto d = [](Number n) { return static_cast<double>(n); };
   return {{d(-c.history[0]), d(-c.history[1]), d(-c.history[2]), c.sliding ? 1.0 : 0.0,
@@ -254,12 +254,12 @@ inline void put(Lanes &lanes, int lane, const Talus::Vector3<double> &v)
 inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
 {
   const Talus::ContactState<double> s = state_of(c);
-  const Talus::RememberedValues h = remembered(c);
+  const Talus::HistoryValues h = remembered(c);
   put(batch.normal, lane, s.normal);
   put(batch.velocity, lane, s.velocity);
   put(batch.surface_rotation, lane, s.surface_rotation);
   put(batch.relative_omega, lane, s.relative_omega);
-  for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h.value[n];
+  for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h[n];
   for (Lanes *result : {&batch.force, &batch.moment, &batch.twisting_torque})
     put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;

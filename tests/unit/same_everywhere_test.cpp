@@ -24,6 +24,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 using namespace Talus;
@@ -109,7 +110,8 @@ class Laws {
         if (used.has_friction()) digest.add(batch.moment[d][lane]);
         if (used.twists()) digest.add(batch.twisting_torque[d][lane]);
       }
-      for (const auto &value : batch.history) digest.add(value[lane]);
+      const int places = std::max(8, used.history().size);
+      for (int n = 0; n < places; n++) digest.add(batch.history[n][lane]);
       count++;
     }
   }
@@ -122,7 +124,7 @@ class Laws {
 
 TEST(SameEverywhere, Laws)
 {
-  const std::uint64_t expected[] = {0x10e8113eff559a58U, 0xc9559c493f134428U};
+  const std::uint64_t expected[] = {0x10e8113eff559a58U, 0x74f87a82984006d1U};
   for (const bool second : {false, true}) {
     Laws laws(second);
     for (const named::NamedLaw &law : twin::law_pairs()) laws.add(law);

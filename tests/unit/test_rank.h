@@ -32,6 +32,7 @@ class TestRank {
   explicit TestRank(const Talus::LawTable &laws, int rank = 0) : store(rank)
   {
     pipeline.set_laws(laws);
+    store.keep(std::max(laws.history_records(), 1));
   }
 
   bool reports = true;    ///< ask for reports, with which parts take turns
@@ -143,8 +144,8 @@ class TestRank {
       return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
                               particle.begin());
     };
-    const auto h = pipeline.remembered_of(number(i), number(j)).value_or(Talus::RememberedValues{});
-    return {{h.value[0], h.value[1], h.value[2], h.value[3]}};
+    const auto h = pipeline.history_of(number(i), number(j)).value_or(Talus::HistoryValues{});
+    return {{h[0], h[1], h[2], h[3]}};
   }
 
  private:

@@ -302,9 +302,8 @@ void BodyBatch::survey() const
   const BodyFrame &frame = task->frame;
   const bool by_parts = task->shape.most_contacts() > 1;
   for (int lane = 0; lane < filled; lane++) {
-    RememberedValues memory;
-    for (int n = 0; n < ContactBatch::history_size && task->with_history; n++)
-      memory.value[n] = n < 4 || task->with_impact ? batch.history[n][lane] : 0.0;
+    HistoryValues memory{};
+    for (int n = 0; n < 4 * task->history_records; n++) memory[n] = batch.history[n][lane];
     SurveyedContact found;
     found.i = task->candidates.atom(candidate_of_lane[lane]);
     if (by_parts) found.part = part_of_lane[lane];

@@ -55,7 +55,8 @@ struct BodyTask {
   /// nullptr, or is called with each contact, by one thread, instead of adding forces.
   const std::function<void(const SurveyedContact &)> *survey;
   Ask ask = Ask::ALL;
-  bool with_history, with_impact;    ///< of any law
+  bool with_history;      ///< of any law
+  int history_records;    ///< see LawTable
 
   static constexpr int spare = 128;
 

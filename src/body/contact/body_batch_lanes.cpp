@@ -198,12 +198,11 @@ void BodyBatch::set_turn(int lane, const Vector3<double> &normal, const Vector3<
 void BodyBatch::gather_histories(int k)
 {
   const std::uint32_t *const slot = slots() + k;
-  const auto keep = [&](int first, const EightRows &values) {
-    for (int n = 0; n < 4; n++) store(&batch.history[first + n][k], values.number[n]);
-  };
-  keep(0, to_lanes([&](int q) -> const Record & { return task->history.record(slot[q]); }));
-  if (task->with_impact)
-    keep(4, to_lanes([&](int q) -> const Record & { return task->history.impact(slot[q]); }));
+  for (int r = 0; r < task->history_records; r++) {
+    const EightRows values =
+        to_lanes([&](int q) -> const Record & { return task->history.record(slot[q], r); });
+    for (int n = 0; n < 4; n++) store(&batch.history[4 * r + n][k], values.number[n]);
+  }
 }
 
 /* The body is flat on the scale of the contact: the circle in which it cuts the sphere. */
@@ -226,20 +225,15 @@ void BodyBatch::gather_coefficients()
 void BodyBatch::keep_histories()
 {
   const std::uint32_t *const slot = slots();
-  for (int k = 0; k < filled; k += lanes) {
-    Record its[lanes], impact[lanes];
-    const auto values = [&](int first) {
-      EightRows rows;
-      for (int n = 0; n < 4; n++) rows.number[n] = load8(&batch.history[first + n][k]);
-      return rows;
-    };
-    to_rows(values(0), its);
-    if (task->with_impact) to_rows(values(4), impact);
-    for (int q = 0; q < std::min(lanes, filled - k); q++) {
-      task->history.record(slot[k + q]) = its[q];
-      if (task->with_impact) task->history.impact(slot[k + q]) = impact[q];
+  for (int r = 0; r < task->history_records; r++)
+    for (int k = 0; k < filled; k += lanes) {
+      EightRows values;
+      for (int n = 0; n < 4; n++) values.number[n] = load8(&batch.history[4 * r + n][k]);
+      Record of_contact[lanes];
+      to_rows(values, of_contact);
+      for (int q = 0; q < std::min(lanes, filled - k); q++)
+        task->history.record(slot[k + q], r) = of_contact[q];
     }
-  }
 }
 
 /* From here on normals, forces, moments and twisting torques are in the axes of space. */

@@ -20,7 +20,6 @@ void BodyContacts::set_laws(const LawTable &table)
 {
   laws = table;
   with_history = laws.has_history();
-  with_impact = laws.has_impact();
   batches.clear();    // their lanes hold rows of the old table
 }
 
@@ -30,11 +29,11 @@ void BodyContacts::change_order(int order, const int *type,
   if (!with_history) return;
   for (std::size_t c = 0; c < candidates.atoms().size(); c++) {
     const int i = candidates.atoms()[c];
-    for (int k = 0; k < history.count(i); k++) {
+    for (int k = 0; k < history.count(c); k++) {
       const std::size_t slot = history.first_slot(c) + k;
-      change_history(history.record(slot),
-                     history.keeps_impacts() ? &history.impact(slot) : nullptr,
-                     [&](auto &values) { Talus::change_order(law(type[i]), order, values); });
+      HistoryValues values = history.values(slot);
+      Talus::change_order(law(type[i]), order, values);
+      history.set_values(slot, values);
     }
   }
 }
@@ -92,7 +91,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           nullptr,
           Ask::ALL,
           with_history,
-          with_impact};
+          laws.history_records()};
 }
 
 void BodyContacts::start_batches(int threads)
@@ -113,6 +112,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   const bool many = step.threads > 1 && shape.thread_safe();
   const int threads = many ? step.threads : 1;
   index_candidates(shape, view);
+  history.begin_step();
   start_batches(threads);
   const BodyTask task = task_of(shape, frame, view, step);
   in_parallel(threads, threads, [&](int t) {
@@ -138,6 +138,7 @@ bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &fr
   const bool is_plain = !step.exact && !step.touched && !step.virial;
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
   index_candidates(shape, view);
+  history.begin_step();
   start_batches(step.threads);
   in_pieces = {&shape, &frame, view, step};
   return true;

@@ -120,7 +120,7 @@ class BodyContacts {
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
 
   LawTable laws;
-  bool with_history = false, with_impact = false;
+  bool with_history = false;
   BodyCandidates candidates;
   std::vector<int> index;                 // places of candidates, and some more; empty: not known
   const int *order_of_index = nullptr;    // that of the particles when they were found

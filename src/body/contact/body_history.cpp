@@ -7,128 +7,134 @@
 
 namespace Talus {
 
-int BodyHistory::count_of_entry(std::size_t entry) const
+constexpr int size_normal = 3;
+
+int BodyHistory::count(std::size_t candidate) const
 {
-  if (with_several) return counts[entry];
-  if (entry >= num_candidates) return 1;
-  return static_cast<int>(touched(entry / 8) >> entry % 8 & 1U);
+  if (with_several) return counts[candidate];
+  return static_cast<int>(touched(candidate / 8) >> candidate % 8 & 1U);
 }
 
-int BodyHistory::count(int particle) const
+void BodyHistory::set_zero(std::size_t slot)
 {
-  return entry_of[particle] == nowhere ? 0 : count_of_entry(entry_of[particle]);
+  rows.set_zero(slot);
+  if (with_normals) normals[slot] = {0.0, 0.0, 0.0};
 }
 
-Record BodyHistory::of_particle(int particle) const
+void BodyHistory::keep_records(int records)
 {
-  return count(particle) ? records[first_slot(entry_of[particle])] : Record{};
+  rows.keep(records);
+  lists.keep(size_normal + 4 * records);
 }
 
-BodyHistory::Contact BodyHistory::contact_at(std::size_t slot) const
+/* To the lists, while particles still have the indices that the candidates know. */
+
+void BodyHistory::put_aside()
 {
-  return {with_normals ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0}, records[slot],
-          with_impact ? impacts[slot] : Record{}};
+  if (are_listed) return;
+  are_listed = true;
+  lists.clear();
+  for (std::size_t c = 0; c < owners.size(); c++)
+    for (int k = 0; k < count(c); k++) {
+      double *const to = lists.add(owners[c], 0, k);
+      const std::size_t slot = first_slot(c) + k;
+      const Vector3<double> normal = normal_at(slot);
+      to[0] = normal.x;
+      to[1] = normal.y;
+      to[2] = normal.z;
+      rows.write(slot, to + size_normal);
+    }
 }
 
-void BodyHistory::put(std::size_t slot, const Contact &contact)
+void BodyHistory::grow(int num_particles)
 {
-  records[slot] = contact.history;
-  if (with_impact) impacts[slot] = contact.impact;
-  if (with_normals) normals[slot] = contact.normal;
+  lists.grow(num_particles);
 }
 
-void BodyHistory::resize_slots(std::size_t n)
+void BodyHistory::copy(int from, int to)
 {
-  records.resize(n);
-  impacts.resize(with_impact ? n : 0);
-  normals.resize(with_normals ? n : 0);
+  put_aside();
+  lists.copy(from, to);
 }
 
-int BodyHistory::pack(int particle, double *buf) const
+void BodyHistory::forget(int particle)
 {
-  const int number = count(particle);
-  double *to = buf;
-  *to++ = number;
-  for (int k = 0; k < number; k++) {
-    const Contact c = contact_at(first_slot(entry_of[particle]) + k);
-    for (const double component : {c.normal.x, c.normal.y, c.normal.z}) *to++ = component;
-    to = std::copy(c.history.c, c.history.c + 4, to);
-    to = std::copy(c.impact.c, c.impact.c + 4, to);
-  }
-  return static_cast<int>(to - buf);
+  put_aside();
+  lists.forget(particle);
 }
 
-/* Most particles that arrive are far from the body: they get no slot. The file of a restart may
-   hold more contacts than the body can have now. */
+int BodyHistory::pack(int particle, double *buf)
+{
+  put_aside();
+  return lists.pack(particle, buf);
+}
 
 int BodyHistory::unpack(int particle, const double *buf)
 {
-  const int number = static_cast<int>(buf[0]);
-  const int kept = std::min(number, with_several ? LargeBodyShape::max_contacts : 1);
-  entry_of[particle] = nowhere;
-  if (kept) {
-    const std::size_t slot = records.size();
-    entry_of[particle] = static_cast<int>(with_several ? first.size() : slot);
-    if (with_several) {
-      first.push_back(static_cast<std::uint32_t>(slot));
-      counts.push_back(static_cast<std::uint8_t>(kept));
-    }
-    resize_slots(slot + kept);
-    for (int k = 0; k < kept; k++) {
-      const double *c = buf + 1 + k * size_contact;
-      put(slot + k, {{c[0], c[1], c[2]}, {{c[3], c[4], c[5], c[6]}}, {{c[7], c[8], c[9], c[10]}}});
-    }
-  }
-  return 1 + number * size_contact;
+  put_aside();
+  return lists.unpack(particle, buf);
+}
+
+int BodyHistory::size_packed(int particle)
+{
+  put_aside();
+  return lists.packed_size(particle);
 }
 
 void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room)
 {
-  const std::size_t n = candidates.size();
-  std::vector<int> from(n);
-  for (std::size_t c = 0; c < n; c++) from[c] = entry_of[candidates[c]];
-  std::fill(entry_of.begin(), entry_of.end(), nowhere);
-  for (std::size_t c = 0; c < n; c++) entry_of[candidates[c]] = static_cast<int>(c);
-
-  BodyHistory old = std::exchange(*this, BodyHistory{});
-  keep(old.with_several, old.with_impact, old.with_normals);
-  entry_of.swap(old.entry_of);
-  num_candidates = n;
+  put_aside();
+  owners = candidates;
+  const std::size_t n = owners.size();
+  first.clear();
+  counts.clear();
   touching = std::vector<std::atomic<std::uint8_t>>(with_several ? 0 : (n + 7) / 8);
-  const auto old_count = [&](std::size_t c) {
-    return from[c] == nowhere ? 0 : old.count_of_entry(from[c]);
-  };
-  std::size_t slots = 0;
+  std::size_t slots = with_several ? 0 : n;
   for (std::size_t c = 0; c < n && with_several; c++) {
-    counts.push_back(static_cast<std::uint8_t>(old_count(c)));
+    const int number = std::min(lists.count(owners[c]), LargeBodyShape::max_contacts);
+    counts.push_back(static_cast<std::uint8_t>(number));
     first.push_back(static_cast<std::uint32_t>(slots));
     slots += std::max(room[c], counts[c]);
   }
-  resize_slots(with_several ? slots : n);
-  for (std::size_t c = 0; c < n; c++) {
-    const int number = old_count(c);
-    for (int k = 0; k < number; k++)
-      put(first_slot(c) + k, old.contact_at(old.first_slot(from[c]) + k));
-    if (with_several) continue;
-    if (number)
-      touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8));
-    else
-      put(c, Contact{});
-  }
+  rows.clear();
+  rows.resize(slots);
+  normals.resize(with_normals ? slots : 0);
+  for (std::size_t c = 0; c < n; c++) take_back(c);
+  lists.clear();
+  are_listed = false;
+}
+
+/* The file of a restart may hold more contacts than the body can have now. */
+
+void BodyHistory::take_back(std::size_t c)
+{
+  const int most = with_several ? counts[c] : 1;
+  if (!with_several) set_zero(c);
+  int k = 0;
+  lists.for_each(owners[c], [&](const ContactLists::Contact &its) {
+    if (k == most) return;
+    const std::size_t slot = first_slot(c) + k++;
+    if (with_normals) normals[slot] = {its.value[0], its.value[1], its.value[2]};
+    rows.read(slot, its.value + size_normal);
+  });
+  if (!with_several && k)
+    touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8), std::memory_order_relaxed);
 }
 
 void BodyHistory::clear(std::size_t block, unsigned separated)
 {
   for (std::size_t c = 8 * block; separated; c++, separated >>= 1U) {
     if (!(separated & 1U)) continue;
-    records[c] = Record{};
-    if (with_impact) impacts[c] = Record{};
-    if (with_normals) normals[c] = {0.0, 0.0, 0.0};
+    set_zero(c);
   }
 }
 
 /// Contacts of a candidate a step ago.
 struct BodyHistory::Known {
+  struct Contact {
+    Vector3<double> normal;
+    Record history[HistoryRows::most_records];
+  };
   Contact contact[LargeBodyShape::max_contacts];
   int count = 0;
   unsigned continued = 0;
@@ -157,27 +163,29 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
   const std::size_t slot = first[candidate];
   unsigned last = ~0U;    // those that may be without overlap
   for (int k = 0; k < known.count; k++) {
-    known.contact[k] = contact_at(slot + k);
-    if (ends && !ends->lasts(known.contact[k].history)) last &= ~(1U << k);
+    known.contact[k].normal = normals[slot + k];
+    rows.get(slot + k, known.contact[k].history);
+    if (ends && !ends->lasts(known.contact[k].history[0])) last &= ~(1U << k);
   }
   int left = 0;
   const auto go_on = [&](const SurfaceContact &its, int with) {
     found[left] = its;
     if (before) before[left] = with >= 0 ? known.contact[with].normal : Vector3<double>{};
-    Contact now{its.normal, Record{}, Record{}};
+    normals[slot + left] = its.normal;
     if (with >= 0) {
       known.continued |= 1U << with;
-      now.history = known.contact[with].history;
-      now.impact = known.contact[with].impact;
+      rows.set(slot + left, known.contact[with].history);
+    } else {
+      rows.set_zero(slot + left);
     }
-    put(slot + left++, now);
+    left++;
   };
   for (int n = 0; n < count; n++) {
     const bool touches = found[n].overlap > 0.0;
     const int best = known.nearest(found[n].normal, touches ? ~0U : last);
     if (touches || best >= 0) go_on(found[n], best);
   }
-  const std::size_t end = candidate + 1 < first.size() ? first[candidate + 1] : records.size();
+  const std::size_t end = candidate + 1 < first.size() ? first[candidate + 1] : rows.size();
   const int room = std::min(static_cast<int>(end - slot), LargeBodyShape::max_contacts);
   if (ends && (last & ~known.continued & ((1U << known.count) - 1U))) {
     SurfaceContact far[LargeBodyShape::max_contacts];
@@ -194,8 +202,8 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
 double BodyHistory::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(entry_of) + bytes(first) + bytes(counts) + bytes(records) + bytes(impacts) +
-         bytes(normals) + bytes(touching);
+  return bytes(owners) + bytes(first) + bytes(counts) + bytes(normals) + bytes(touching) +
+         lists.memory_usage() + rows.memory_usage();
 }
 
 }    // namespace Talus

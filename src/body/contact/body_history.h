@@ -3,13 +3,13 @@
 // Histories of the contacts of particles with one large body. Few particles are near a body, so
 // only its candidates have room for histories: slots side by side in the order of the candidates,
 // which is that in which a step reads and writes them. A candidate has as many slots as it may have
-// contacts at the same time; where that is one, its slot has its own number. Every particle (host's
-// index) has but a number that leads to its candidate: with it histories follow their particles to
-// other places, ranks and restart files.
+// contacts at the same time; where that is one, its slot has its own number. With the first call
+// that moves a particle (host's index) they go to lists by particle, which follow them to other
+// places, ranks and restart files, until there are new candidates.
 //
 //   particles are renumbered   copy(), forget(), pack(), unpack()
 //   new candidates             follow()
-//   every step                 touching() or continue_contacts(), then record() and impact()
+//   every step                 begin_step(), set_touching() or continue_contacts(), then record()
 //
 // Slots of different candidates may be used by different threads at the same time.
 
@@ -18,7 +18,8 @@
 
 #include "base/aligned_vector.h"
 #include "body/shape/large_body_shape.h"
-#include "particles/record.h"
+#include "history/contact_lists.h"
+#include "history/history_rows.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,51 +32,48 @@ namespace Talus {
 
 class BodyHistory {
  public:
-  /// `several`: a particle may have more than one contact with the body. `impacts`: impact records
-  /// are kept as well, see record.h; `normals`: what replace_normal() asks for, without several.
-  /// Call before anything is stored.
-  void keep(bool several, bool impacts, bool normals = false)
+  BodyHistory() { keep_records(HistoryRows::most_records); }    // laws are not known yet
+
+  /// `several`: a particle may have more than one contact with the body. `normals`: what
+  /// replace_normal() asks for, without several. Call before anything is stored.
+  void keep(bool several, bool normals = false)
   {
     with_several = several;
-    with_impact = impacts;
     with_normals = several || normals;
   }
+  /// Of each contact from now on, see HistoryRows::keep().
+  void keep_records(int records);
 
-  /// Later: laws of second order remember more than those that a body was defined with. Impacts of
-  /// contacts that are stored already are zero.
-  void keep_impacts()
-  {
-    with_impact = true;
-    impacts.resize(records.size(), Record{});
-  }
+  void grow(int num_particles);
+  void copy(int from, int to);
+  void forget(int particle);
 
-  void grow(int num_particles) { entry_of.resize(num_particles, nowhere); }
-  void copy(int from, int to) { entry_of[to] = entry_of[from]; }
-  void forget(int particle) { entry_of[particle] = nowhere; }
-
-  /// For migration and restart: the number of contacts, then of each its normal (if kept),
-  /// history and impact. Return the number of doubles.
-  static constexpr int size_contact = 11;
-  static constexpr int max_packed = 1 + LargeBodyShape::max_contacts * size_contact;
-  int pack(int particle, double *buf) const;
+  /// For migration and restart, see ContactLists: of each contact its normal, zero if it is not
+  /// kept, and its history. Return the number of doubles.
+  int pack(int particle, double *buf);
   int unpack(int particle, const double *buf);
-  int size_packed(int particle) const { return 1 + size_contact * count(particle); }
+  int size_packed(int particle);
+  int max_packed() const { return lists.size_of_list(LargeBodyShape::max_contacts); }
 
   /// From now on slots are those of these particles, in this order; particles that are not among
   /// them have lost theirs. `room`: of each, how many contacts it may have; not asked for without
   /// several().
   void follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room);
 
+  /// Before the histories of candidates change.
+  void begin_step() { are_listed = false; }
+
   bool several() const { return with_several; }
-  bool keeps_impacts() const { return with_impact; }
+  int num_records() const { return rows.records(); }
   /// First slot of a candidate.
   std::uint32_t first_slot(std::size_t candidate) const
   {
     return with_several ? first[candidate] : static_cast<std::uint32_t>(candidate);
   }
   /// Zero where a contact is new.
-  Record &record(std::size_t slot) { return records[slot]; }
-  Record &impact(std::size_t slot) { return impacts[slot]; }
+  Record &record(std::size_t slot, int k = 0) { return rows.record(slot, k); }
+  HistoryValues values(std::size_t slot) const { return rows.values(slot); }
+  void set_values(std::size_t slot, const HistoryValues &values) { rows.read(slot, values.data()); }
 
   /// Without several(): which of the candidates 8 block ... 8 block + 7 touch now, of those whose
   /// bits are set in `asked`. Histories of those that did and do no longer are forgotten.
@@ -101,7 +99,7 @@ class BodyHistory {
   /// new ones. `ends`: of laws of second order, whose contacts last for the step in which they end.
   class Ends {
    public:
-    /// Whether a contact with this history goes on without overlap.
+    /// Whether a contact with this first record of its history goes on without overlap.
     virtual bool lasts(const Record &history) const = 0;
     /// As LargeBodyShape::find_contacts(), also of what is a little further away, with overlaps below
     /// zero. Called only where a contact has ended.
@@ -126,33 +124,31 @@ class BodyHistory {
     if (!with_several) std::fill(normals.begin(), normals.end(), Vector3<double>{0.0, 0.0, 0.0});
   }
 
-  /// Contacts of a particle, and history of the first; zero if it has none.
-  int count(int particle) const;
-  Record of_particle(int particle) const;
+  /// Contacts that a candidate has.
+  int count(std::size_t candidate) const;
 
   double memory_usage() const;
 
  private:
-  static constexpr int nowhere = -1;
-  struct Contact {
-    Vector3<double> normal;
-    Record history, impact;
-  };
-  int count_of_entry(std::size_t entry) const;
-  Contact contact_at(std::size_t slot) const;
   struct Known;
-  void put(std::size_t slot, const Contact &contact);
-  void resize_slots(std::size_t n);
+  Vector3<double> normal_at(std::size_t slot) const
+  {
+    return with_normals ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0};
+  }
+  void set_zero(std::size_t slot);
+  void put_aside();
+  void take_back(std::size_t candidate);
   void clear(std::size_t block, unsigned separated);
 
-  bool with_several = false, with_impact = false, with_normals = false;
-  std::size_t num_candidates = 0;
-  std::vector<int> entry_of;    // by particle: its candidate, or what came since, behind those
-  // by entry, only with several contacts: first slot, contacts
+  bool with_several = false, with_normals = false;
+  ContactLists lists;         // of contacts that have been put aside, or have arrived
+  bool are_listed = true;     // all are
+  std::vector<int> owners;    // of candidates: host's indices
+  // by candidate, only with several contacts: first slot, contacts
   std::vector<std::uint32_t> first;
   std::vector<std::uint8_t> counts;
-  // by slot: history; impact, or empty; normal, or empty
-  AlignedVector<Record> records, impacts;
+  // by slot: history; normal, or empty
+  HistoryRows rows;
   std::vector<Vector3<double>> normals;
   // one bit for each candidate, only with one contact: its record may not be zero
   std::vector<std::atomic<std::uint8_t>> touching;

@@ -18,13 +18,13 @@
 //     one: then the share also brings a contact to rest, so that they do not push each other on.
 //
 // A contact remembers the moment, what others do over `most`, not above `widest`, and whether it
-// moved: in as many doubles as the moment has components.
+// moved.
 
 #ifndef TALUS_LAWS_ROLLING_HELD_ROTATION_H
 #define TALUS_LAWS_ROLLING_HELD_ROTATION_H
 
-#include "base/number_pair.h"
 #include "base/vector3.h"
+#include "laws/rounding.h"
 #include "laws/tangential/set_back.h"
 
 namespace Talus {
@@ -32,43 +32,54 @@ namespace Talus {
 inline constexpr double held_share = 0.15;    ///< 8 of them below 4/3
 inline constexpr double steady_jump = 0.2;    ///< of what others do over `most`
 
-/// Of the last step.
+inline constexpr double widest = 16.0;
+inline constexpr int bits_of_moment = 26;    ///< that are remembered
+
+/// Of the last step. Remembered as moment, what others did, and 0 of a new contact, 1 if it was at
+/// rest, 2 if it moved.
 template <class Real> struct HeldRotation {
+  static constexpr int size = 7;
   Vector3<Real> own, others;    ///< moment; what others did over `most`
-  bool_of<Real> moved;
+  bool_of<Real> moved, known;
 };
 
 /// Of a contact that was not there all numbers are zero.
 template <class Real> TALUS_INLINE HeldRotation<Real> held_rotation(const Real *stored)
 {
-  constexpr double widest = 16.0;
-  const Real zero = splat<Real>(0.0), half = splat<Real>(0.5);
-  const Real x = EvenPair::second(stored[0]);
-  const auto rests = x < zero;
-  const auto known = magnitude(stored[0]) > zero;
-  const Real in_x = select(known, 4.0 * widest * (x - select(rests, -half, half)), zero);
-  return {{EvenPair::first(stored[0]), EvenPair::first(stored[1]), EvenPair::first(stored[2])},
-          {in_x, widest * EvenPair::second(stored[1]), widest * EvenPair::second(stored[2])},
-          x >= zero};
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+  return {{stored[0], stored[1], stored[2]},
+          {stored[3], stored[4], stored[5]},
+          magnitude(stored[6] - one) > zero,
+          stored[6] > zero};
 }
 
-/// The moment as it is remembered; never 0.
+/// The moment as it is remembered; never 0, beside which a share would have no precision.
 template <class Real> TALUS_INLINE Vector3<Real> as_remembered(const Vector3<Real> &moment)
 {
   const Real zero = splat<Real>(0.0), least = splat<Real>(1.0e-200);
-  const auto one = [&](Real a) { return EvenPair::first(select(magnitude(a) > zero, a, least)); };
+  const auto one = [&](Real a) {
+    return rounded<bits_of_moment>(select(magnitude(a) > zero, a, least));
+  };
   return {one(moment.x), one(moment.y), one(moment.z)};
 }
 
 /// its.own: as_remembered().
 template <class Real> TALUS_INLINE void store_held(const HeldRotation<Real> &its, Real *stored)
 {
-  constexpr double widest = 16.0;
-  const Real half = splat<Real>(0.5);
-  const Real in_x = 1.0 / (4.0 * widest) * its.others.x;
-  stored[0] = EvenPair::pair(its.own.x, in_x + select(its.moved, half, -half));
-  stored[1] = EvenPair::pair(its.own.y, 1.0 / widest * its.others.y);
-  stored[2] = EvenPair::pair(its.own.z, 1.0 / widest * its.others.z);
+  const Real half = splat<Real>(0.5), one = splat<Real>(1.0);
+  const Real side = select(its.moved, half, -half);    // with it a share of x from -1 to 1
+  const Real x =
+      rounded_share<bits_of_moment>(1.0 / (4.0 * widest) * its.others.x + side, its.own.x);
+  const auto other = [](Real a, Real own) {
+    return widest * rounded_share<bits_of_moment>(1.0 / widest * a, own);
+  };
+  stored[0] = its.own.x;
+  stored[1] = its.own.y;
+  stored[2] = its.own.z;
+  stored[3] = 4.0 * widest * (x - side);
+  stored[4] = other(its.others.y, its.own.y);
+  stored[5] = other(its.others.z, its.own.z);
+  stored[6] = one + select(its.moved, one, splat<Real>(0.0));
 }
 
 /// Mean moment in the step.
@@ -104,11 +115,11 @@ TALUS_INLINE Vector3<Real> hold_rotation(const Vector3<Real> &w, const Vector3<R
                                          const Vector3<Real> &given, Real most,
                                          HeldRotation<Real> &kept)
 {
-  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), widest = splat<Real>(16.0);
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), most_others = splat<Real>(widest);
   const auto over_most = [&](Real a) {
     const Real ratio = a / select(most > zero, most, one);
-    const Real not_above = select(ratio < widest, ratio, widest);
-    return select(most > zero, select(not_above > -widest, not_above, -widest), zero);
+    const Real not_above = select(ratio < most_others, ratio, most_others);
+    return select(most > zero, select(not_above > -most_others, not_above, -most_others), zero);
   };
   const Vector3<Real> before = kept.own - given, twice = splat<Real>(2.0) * change;
   const Vector3<Real> others = twice + kept.own;

@@ -14,6 +14,7 @@ namespace Talus {
 
 struct HoldingRolling : RollingLaw {
   static constexpr const char *name = "holding", *label = "resistance";
+  static const Law *order_2(bool adhesive);
   static constexpr bool holds = true;
   template <class Real> struct Row {
     Real mu, roll_min;

@@ -15,9 +15,9 @@
 namespace Talus {
 
 struct HoldingOrder2 : RollingLaw {
-  static constexpr const char *name = "holding order 2", *label = "resistance";
+  static constexpr const char *name = "holding", *label = "resistance";
   static constexpr bool holds = true;
-  static constexpr int even_history = 3;
+  static constexpr int even_history = HeldRotation<double>::size;
   template <class Real> struct Row {
     Real mu, roll_min;
   };
@@ -43,9 +43,9 @@ struct HoldingOrder2 : RollingLaw {
     if constexpr (advance) {
       kept.own = whole;
       store_held(kept, h);
-      for (int n = 0; n < 3; n++) h[n] = select(s.parted > zero, zero, h[n]);
+      for (int n = 0; n < even_history; n++) h[n] = select(s.parted > zero, zero, h[n]);
     } else
-      whole = select(magnitude(h[0]) > zero, stored, whole);
+      whole = select(kept.known, stored, whole);
     const auto acts = (s.parted <= zero) & (turns > zero) & (c.mu > zero);
     s.moment = select(acts, whole, s.moment);
   }

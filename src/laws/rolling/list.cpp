@@ -13,11 +13,21 @@
 
 namespace Talus {
 
+const Law *HoldingRolling::order_2(bool /*adhesive*/)
+{
+  return &law<HoldingOrder2>;
+}
+
+const Law *SdsRolling::order_2(bool /*adhesive*/)
+{
+  return &law<SdsOrder2>;
+}
+
 std::vector<const Law *> rolling_laws()
 {
   return {
-      &law<RollingNone>, &law<HoldingRolling>, &law<HoldingOrder2>,   &law<DelayedRolling>,
-      &law<SdsRolling>,  &law<SdsOrder2>,      &law<SynchronizedSds>,
+      &law<RollingNone>, &law<HoldingRolling>,  &law<DelayedRolling>,
+      &law<SdsRolling>,  &law<SynchronizedSds>,
   };
 }
 

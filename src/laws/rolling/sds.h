@@ -16,6 +16,7 @@ namespace Talus {
 
 struct SdsRolling : RollingLaw {
   static constexpr const char *name = "sds", *label = "rolling sds";
+  static const Law *order_2(bool adhesive);
   static constexpr bool needs_radius = true;
   static constexpr int even_history = 3;    // v_r is the same for both bodies
   template <class Real> struct Row {

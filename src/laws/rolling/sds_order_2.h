@@ -10,8 +10,8 @@
 #ifndef TALUS_LAWS_ROLLING_SDS_ORDER_2_H
 #define TALUS_LAWS_ROLLING_SDS_ORDER_2_H
 
-#include "base/number_pair.h"
 #include "laws/rolling/sds.h"
+#include "laws/rounding.h"
 #include "laws/tangential/adhesive_contact.h"
 #include "laws/tangential/end_of_contact.h"
 #include "laws/tangential/midpoint.h"
@@ -20,9 +20,9 @@
 namespace Talus {
 
 struct SdsOrder2 : RollingLaw {
-  static constexpr const char *name = "sds order 2", *label = "rolling sds";
+  static constexpr const char *name = "sds", *label = "rolling sds";
   static constexpr bool needs_radius = true;
-  static constexpr int even_history = 3;
+  static constexpr int even_history = 4;    // xi; 1: it slides, 2: the limit is 0
   template <class Real> struct Row {
     Real k, gamma, mu, damping, pull;    // exponent of the overlap; limit at begin over pull_off
   };
@@ -60,15 +60,14 @@ struct SdsOrder2 : RollingLaw {
     const Vector3<Real> u = s.radius * cross(omega + s.omega_change, n);
 
     Vector3<Real> xi{h[0], h[1], h[2]};
-    const Real flags = flags_of(h[0]);    // 1: slides; 2: the limit is 0
-    auto slides = flags > splat<Real>(0.5);
+    auto slides = h[3] >= one;
     if constexpr (advance) {
       const Vector3<Real> q = half_turn(s, dt);
       const Vector3<Real> half_way = s.radius * cross(omega + dot(omega, n) * q, n);
       const Vector3<Real> old_u = splat<Real>(2.0) * half_way - u;
       const Vector3<Real> before = turned_by(q, xi, n), drag = c.gamma * u;
       const auto presses = critical > splat<Real>(no_force);
-      const auto returns = (flags > splat<Real>(1.5)) & presses;
+      const auto returns = (h[3] > one) & presses;
       Real time = splat<Real>(dt);
       if (any(returns))
         time = dt * select(returns, share_since_return(s, c.damping, critical, dt), one);
@@ -96,14 +95,14 @@ struct SdsOrder2 : RollingLaw {
         xi = followed;
       // a pull that ends with a jump is made up for in the step after it, and in a set-up then
       xi = select(parted, select(s.pull_off > zero, before, Vector3<Real>{zero, zero, zero}), xi);
-      const Real least = splat<Real>(1.0e-150);    // zero carries no flags
-      const Real x = without_flags(select(magnitude(xi.x) > least, xi.x, least));
-      h[0] = with_flags(x, select(presses, select(slides, one, zero), splat<Real>(2.0)));
-      slides = flags_of(h[0]) > splat<Real>(0.5);
+      const Real least = splat<Real>(1.0e-150);    // what slides has a direction
+      xi.x = rounded<47>(select(magnitude(xi.x) > least, xi.x, least));
+      h[0] = xi.x;
       h[1] = xi.y;
       h[2] = xi.z;
+      h[3] = select(presses, select(slides, one, zero), splat<Real>(2.0));
+      slides = h[3] >= one;
     }
-    xi = {without_flags(h[0]), h[1], h[2]};
 
     const Real most = c.mu * s.critical_force;
     Vector3<Real> force = c.k * xi + c.gamma * u;

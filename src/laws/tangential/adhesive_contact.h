@@ -19,19 +19,6 @@
 
 namespace Talus {
 
-/// A force of either sign, 1e-100 < |force| < 1e100, as a positive number with the same digits: by
-/// powers of two that leave a gap between those above and below 0.
-template <class Real> TALUS_INLINE Real positive_number(Real force)
-{
-  const Real zero = splat<Real>(0.0);
-  return select(force > zero, 0x1p500 * force, -0x1p-500 * force);
-}
-
-template <class Real> TALUS_INLINE Real force_of_number(Real stored)
-{
-  return select(stored > splat<Real>(1.0), 0x1p-500 * stored, -0x1p500 * stored);
-}
-
 /// r of jkr at overlap 0, over F_p.
 inline constexpr double jkr_begin = 1.0 / 9.0;
 

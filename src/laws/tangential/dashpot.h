@@ -14,6 +14,7 @@ struct Dashpot : FrictionLaw {
   static constexpr const char *name = "dashpot", *label = name;
 
   static void read(LawReader &r) { read_friction(r, false, false); }
+  static const Law *order_2(bool adhesive);
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,

@@ -33,11 +33,18 @@
 
 namespace Talus {
 
-/// Whether a contact without overlap, which remembers `stored` (see second_order.h), lasts for this
-/// step: it has ended on the way here, or, in a set-up, in the last step.
-inline bool has_just_ended(double stored, bool advance)
+/// What a contact of second order remembers of its last step: 0: it was not there; below zero: it was,
+/// -1, less 1 if it began in it, less 2 if it slid; above zero: it ended, 1, and 2 if it slid.
+struct Past {
+  /// It was there in a run with order 1: with which force is not known.
+  static constexpr double of_order_1 = -8.0;
+};
+
+/// Whether a contact without overlap lasts for this step: it has ended on the way here, or, in a
+/// set-up, in the last step.
+inline bool has_just_ended(double past, bool advance)
 {
-  return advance ? stored < 0.0 : stored != 0.0;
+  return advance ? past < 0.0 : past != 0.0;
 }
 
 /// Sets `parted`, and in the place of the overlap that of the last step where the bodies are apart,
@@ -81,11 +88,9 @@ Edge<Real> edge_of(const ContactState<Real> &s, Real overlap, Real v_n, Real oth
   return edge;
 }
 
-/// What stands for a normal force of zero, which is remembered with flags; not above `no_force`.
-inline constexpr double remembered_zero = 1.0e-200, no_force = 2.0e-200;
-/// And for one that is not known, of contacts that come from laws of first order; a number without
-/// flags, below all others that are remembered.
-inline constexpr double unknown_force = 0x1p-950;
+/// Stands for a normal force of zero, so that limits of friction are lengths that a vector can be given;
+/// not above `no_force`.
+inline constexpr double zero_force = 1.0e-200, no_force = 2.0e-200;
 
 /// Where damping ~ overlap^p has held the normal force at 0 which is `force` now, the part of the
 /// step since it began to grow: before, springs were at rest.
@@ -140,7 +145,7 @@ template <class Real> struct EndOfContact {
   bool_of<Real> parted;
   Real normal_force, elastic, adhesive_share;
   Vector3<Real> tangential;
-  Real history[4];
+  Real history[5];
 
   /// A contact without overlap stores nothing, and its force dissipates nothing.
   void replace(ContactLanes<Real> &s, Vector3<Real> &t, Real *h) const
@@ -154,7 +159,7 @@ template <class Real> struct EndOfContact {
     s.adhesive_share = select(parted, adhesive_share, s.adhesive_share);
     s.force = select(parted, normal_force * s.normal, s.force);
     t = select(parted, tangential, t);
-    for (int n = 0; n < 4; n++) h[n] = select(parted, history[n], h[n]);
+    for (int n = 0; n < 5; n++) h[n] = select(parted, history[n], h[n]);
   }
 };
 

@@ -50,6 +50,7 @@ struct GranularFriction : TangentialLaw {
 
 struct LinearNoHistory : GranularFriction {
   static constexpr const char *name = "linear_nohistory", *label = name;
+  static const Law *order_2(bool adhesive);
   static constexpr CoefficientName coefficients[] = {{"kt", Shown::NEVER}, {"xt"}, {"mu"}};
 
   static void read(LawReader &r) { read_granular_friction(r, false, false); }
@@ -166,26 +167,31 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
 
 struct LinearHistory : GranularSpring<Scaled::NO, Kept::DISPLACEMENT, Rescaled::NO> {
   static constexpr const char *name = "linear_history", *label = name;
+  static const Law *order_2(bool adhesive);
   static void read(LawReader &r) { read_granular_friction(r, true, false); }
 };
 
 struct Mindlin : GranularSpring<Scaled::YES, Kept::DISPLACEMENT, Rescaled::NO> {
   static constexpr const char *name = "mindlin", *label = name;
+  static const Law *order_2(bool adhesive);
   static void read(LawReader &r) { read_granular_friction(r, true, true); }
 };
 
 struct MindlinForce : GranularSpring<Scaled::YES, Kept::FORCE, Rescaled::NO> {
   static constexpr const char *name = "mindlin/force", *label = name;
+  static const Law *order_2(bool adhesive);
   static void read(LawReader &r) { read_granular_friction(r, true, true); }
 };
 
 struct MindlinRescale : GranularSpring<Scaled::YES, Kept::DISPLACEMENT, Rescaled::YES> {
   static constexpr const char *name = "mindlin_rescale", *label = name;
+  static const Law *order_2(bool adhesive);
   static void read(LawReader &r) { read_granular_friction(r, true, true); }
 };
 
 struct MindlinRescaleForce : GranularSpring<Scaled::YES, Kept::FORCE, Rescaled::YES> {
   static constexpr const char *name = "mindlin_rescale/force", *label = name;
+  static const Law *order_2(bool adhesive);
   static void read(LawReader &r) { read_granular_friction(r, true, true); }
 };
 
@@ -243,11 +249,13 @@ struct GranularClassic : GranularFriction {
 
 struct LinearHistoryClassic : GranularClassic<Scaled::NO> {
   static constexpr const char *name = "linear_history_classic", *label = name;
+  static const Law *order_2(bool adhesive) { return LinearHistory::order_2(adhesive); }
   static void read(LawReader &r) { read_granular_friction(r, true, false); }
 };
 
 struct MindlinClassic : GranularClassic<Scaled::YES> {
   static constexpr const char *name = "mindlin_classic", *label = name;
+  static const Law *order_2(bool adhesive) { return Mindlin::order_2(adhesive); }
   static void read(LawReader &r) { read_granular_friction(r, true, true); }
 };
 

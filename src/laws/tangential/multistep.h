@@ -37,6 +37,9 @@ template <class Real> inline Vector3<Real> turned(const Vector3<Real> &d, const 
   return select(after > splat<Real>(0.0), square_root(before / after), splat<Real>(0.0)) * flat;
 }
 
+/// The rules differ in how far they are from the same limit for small time steps.
+const Law *multistep_order_2(bool adhesive);
+
 template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   static constexpr const char *name =
       slider     ? midpoint ? "multistep slider midpoint" : "multistep slider"
@@ -45,6 +48,7 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
   static constexpr const char *label = name;
   static constexpr int odd_history = 3, even_history = 1;    // see TangentialHistory
   static constexpr bool has_spring = true, is_midpoint = midpoint;
+  static const Law *order_2(bool adhesive) { return multistep_order_2(adhesive); }
 
   template <class Real>
   static Real stored(const ContactLanes<Real> &s, const Row<Real> & /*c*/, const Real *h)

@@ -14,6 +14,7 @@ struct TangentialNone : TangentialLaw {
   static constexpr bool acts = false;
 
   static void read(LawReader & /*r*/) {}
+  static const Law *order_2(bool adhesive);
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> & /*c*/, ContactLanes<Real> &s,

@@ -17,15 +17,14 @@
 //   * contacts whose normal law has adhesion of its own: see adhesive_contact.h;
 //   * the displacement, and the return of a sliding contact to its limit: see midpoint.h.
 //
-// The fourth number remembered is -F_0, below zero if the contact was there a step ago, with two
-// flags: it began in that step, it slid. So a force can be computed again without advancing. Of a
-// contact that ended in that step it is above zero. See change_of_order.h on contacts that come from
-// a run with order 1.
+// Behind the displacement a contact remembers what it did in the last step (see Past), with which its
+// force can be computed again without advancing, and F_0. See change_of_order.h on contacts that
+// come from a run with order 1.
 
 #ifndef TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 #define TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 
-#include "base/number_pair.h"
+#include "laws/rounding.h"
 #include "laws/tangential/adhesive_contact.h"
 #include "laws/tangential/common.h"
 #include "laws/tangential/edge_errors.h"
@@ -48,17 +47,14 @@ template <class Real> struct LastStep {
   bool_of<Real> began, slid;
 };
 
-/// `adhesive`: the force has either sign, see positive_number().
-template <bool adhesive, class Real> TALUS_INLINE LastStep<Real> last_step(Real stored)
+template <class Real> TALUS_INLINE LastStep<Real> last_step(Real past, Real force)
 {
-  const Real zero = splat<Real>(0.0), flags = flags_of(stored);
-  const bool_of<Real> known = stored < zero;
-  const bool_of<Real> slid = known & (flags > splat<Real>(1.5));
-  const bool_of<Real> began =
-      known & (select(slid, flags - splat<Real>(2.0), flags) > splat<Real>(0.5));
-  Real force = -without_flags(stored);
-  if constexpr (adhesive) force = force_of_number(force);
-  const bool_of<Real> is_given = stored < splat<Real>(-2.0 * unknown_force);
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), two = splat<Real>(2.0);
+  const bool_of<Real> known = past < zero;
+  const bool_of<Real> is_given = known & (past > splat<Real>(Past::of_order_1));
+  const Real flags = -past - one;
+  const bool_of<Real> slid = is_given & (flags >= two);
+  const bool_of<Real> began = is_given & (select(slid, flags - two, flags) >= one);
   return {known, is_given, select(is_given, force, zero), began, slid};
 }
 
@@ -78,20 +74,6 @@ template <> struct SpringOf<void> {
   static constexpr bool scaled = false, of_force = false, rescales = false;
 };
 
-/// What the law is called, without and with a force of adhesion. At namespace scope: inside of its
-/// class a constant cannot be used for another one with every compiler.
-inline constexpr const char *second_order_names[][2] = {
-    {"none order 2", "none order 2 adhesive"},
-    {"multistep order 2", "multistep order 2 adhesive"},
-    {"dashpot order 2", "dashpot order 2 adhesive"},
-    {"tanh order 2", nullptr},
-    {"linear_history order 2", "linear_history order 2 adhesive"},
-    {"linear_nohistory order 2", "linear_nohistory order 2 adhesive"},
-    {"mindlin order 2", "mindlin order 2 adhesive"},
-    {"mindlin/force order 2", "mindlin/force order 2 adhesive"},
-    {"mindlin_rescale order 2", "mindlin_rescale order 2 adhesive"},
-    {"mindlin_rescale/force order 2", "mindlin_rescale/force order 2 adhesive"}};
-
 /// `Granular`: the law of LAMMPS' pair granular that it is, with its kt, xt and lever arms.
 template <Friction kind, class Granular = void, Pull its_pull = Pull::NO>
 struct SecondOrder : FrictionLaw {
@@ -102,15 +84,17 @@ struct SecondOrder : FrictionLaw {
   static constexpr bool rescales = SpringOf<Granular>::rescales;
   static constexpr bool follows_radius = of_force || rescales;
   static constexpr bool adhesive = its_pull == Pull::YES;
-  static constexpr int of_spring = 5 + (of_force ? 1 : 0) + (rescales ? 2 : 0);
-  static constexpr int which = static_cast<int>(kind) + (scaled ? of_spring : granular ? 3 : 0);
-  static constexpr const char *name = second_order_names[which][adhesive ? 1 : 0];
+  static constexpr const char *name = [] {    // of the law that it is
+    if constexpr (granular) return Granular::name;
+    constexpr const char *names[] = {"none", "multistep", "dashpot", Tanh::name};
+    return names[static_cast<int>(kind)];
+  }();
   static constexpr const char *label = [] {
     if constexpr (granular) return Granular::label;
     constexpr const char *labels[] = {nullptr, "multistep slider midpoint", "dashpot", Tanh::label};
     return labels[static_cast<int>(kind)];
   }();
-  static constexpr int odd_history = 3, even_history = 1;
+  static constexpr int odd_history = 3, even_history = 2;
   static constexpr bool second_order = true, lever_arms = granular, needs_radius = scaled;
   static constexpr bool has_spring = kind == Friction::SPRING, is_midpoint = true;
   static constexpr bool stiffens = scaled && !rescales, reads_stiffness = friction && !granular;
@@ -155,11 +139,12 @@ struct SecondOrder : FrictionLaw {
   }
 
   /// Contacts that begin or end in this step; few do. Elsewhere compute<true, false>() is enough,
-  /// with the same bits.
-  template <class Real> TALUS_INLINE static bool_of<Real> at_an_end(Real parted, Real stored)
+  /// with the same bits. `past`: number first_even of its history.
+  static constexpr int first_even = odd_history;
+  template <class Real> TALUS_INLINE static bool_of<Real> at_an_end(Real parted, Real past)
   {
     const Real zero = splat<Real>(0.0);
-    return (stored >= zero) | (parted > zero);
+    return (past >= zero) | (parted > zero);
   }
 
   template <bool advance, bool ends = true, class Real>
@@ -172,7 +157,7 @@ struct SecondOrder : FrictionLaw {
     if constexpr (granular) s.gt = c.xt * s.gn;
     EndOfContact<Real> end;
     if constexpr (ends) end = end_of<advance>(c, s, h, dt);
-    const LastStep<Real> last = last_step<adhesive>(h[3]);
+    const LastStep<Real> last = last_step(h[3], h[4]);
     Real pure = find_normal_force(s, last);
     if constexpr (!advance) pure = select(last.is_given, last.force, pure);
 
@@ -286,8 +271,10 @@ struct SecondOrder : FrictionLaw {
         h[2] = kept.z;
       }
     }
-    if constexpr (advance)
-      h[3] = -remembered(pure, select(begins, one, zero) + select(slides, splat<Real>(2.0), zero));
+    if constexpr (advance) {
+      h[3] = -one - select(begins, one, zero) - select(slides, splat<Real>(2.0), zero);
+      h[4] = pure;
+    }
     if constexpr (ends) end.replace(s, t, h);
     if constexpr (adhesive) add_pull(s);
     if constexpr (lever_arms)
@@ -347,11 +334,6 @@ struct SecondOrder : FrictionLaw {
     return any(at_once) ? select(at_once, jkr_radius_ratio(s, way), ratio) : ratio;
   }
 
-  template <class Real> TALUS_INLINE static Real remembered(Real force, Real flags)
-  {
-    return with_flags(adhesive ? positive_number(force) : force, flags);
-  }
-
   template <class Real> TALUS_INLINE static void add_pull(ContactLanes<Real> &s)
   {
     const Real pull = s.adhesive_share * s.pull_off;
@@ -369,20 +351,16 @@ struct SecondOrder : FrictionLaw {
                                s.surface_rotation + s.rotation_change, s.normal);
   }
 
-  /// Rounded to what is remembered of it, and above zero.
+  /// Rounded as it is remembered; without adhesion above zero.
   template <class Real>
   TALUS_INLINE static Real find_normal_force(const ContactLanes<Real> &s,
                                              const LastStep<Real> &last)
   {
-    const Real one = splat<Real>(1.0), least = splat<Real>(remembered_zero);
+    const Real one = splat<Real>(1.0), least = splat<Real>(zero_force);
     const Real by_others = dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force;
     const Real v = s.normal_velocity + by_others;
     const Real force = (s.elastic - s.gn * v) / (one + s.gn * s.lag * s.inverse_mass);
-    if constexpr (adhesive) {
-      const Real some = splat<Real>(1.0e-100);
-      return without_flags(select(magnitude(force) > some, force, some));
-    }
-    return without_flags(select(force > least, force, least));
+    return rounded<47>(adhesive ? force : select(force > least, force, least));
   }
 
   /// Of friction where the overlap is 0 and the normal force is that of damping, with gn over gt of
@@ -419,7 +397,7 @@ struct SecondOrder : FrictionLaw {
     const Real v = s.normal_velocity;
     EndOfContact<Real> end;
     end.parted = s.parted > zero;
-    const LastStep<Real> last = last_step<adhesive>(-magnitude(h[3]));
+    const LastStep<Real> last = last_step(-magnitude(h[3]), h[4]);
     const Real left_over = s.overlap + s.reach;    // until it ends
     auto ends = end.parted & (left_over > zero) & (h[3] > zero);
     if constexpr (advance) ends = end.parted & (left_over > zero) & (h[3] < zero);
@@ -473,8 +451,9 @@ struct SecondOrder : FrictionLaw {
       end.tangential = select(slid, with_length(limit, within), end.tangential);
     }
     for (int n = 0; n < 3; n++) end.history[n] = select(ends, h[n], zero);
-    const Real flags = select(last.slid, splat<Real>(2.0), zero);
-    end.history[3] = select(ends, remembered(last.force, flags), zero);
+    end.history[3] =
+        select(ends & last.is_given, one + select(last.slid, splat<Real>(2.0), zero), zero);
+    end.history[4] = select(ends, last.force, zero);
     const auto again = (h[3] > zero) & (s.parted <= zero);
     for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
     return end;

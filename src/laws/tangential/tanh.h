@@ -18,6 +18,7 @@ struct Tanh : TangentialLaw {
   };
   static constexpr CoefficientName coefficients[] = {{"mu"}, {"slip_min", Shown::NEVER}};
   static constexpr double default_slip_min = 1.0e-4;    // Chrono's
+  static const Law *order_2(bool adhesive);
 
   static Row<double> mix(const Mixing &m)
   {

@@ -13,11 +13,16 @@
 
 namespace Talus {
 
+const Law *StoppingTwist::order_2(bool /*adhesive*/)
+{
+  return &law<StoppingOrder2>;
+}
+
 std::vector<const Law *> twisting_laws()
 {
   return {
-      &law<TwistingNone>, &law<StoppingTwist>, &law<StoppingOrder2>,
-      &law<DelayedTwist>, &law<MarshallTwist>, &law<SdsTwist>,
+      &law<TwistingNone>,  &law<StoppingTwist>, &law<DelayedTwist>,
+      &law<MarshallTwist>, &law<SdsTwist>,
   };
 }
 

@@ -14,6 +14,7 @@ namespace Talus {
 
 struct StoppingTwist : TwistingLaw {
   static constexpr const char *name = "stopping", *label = "resistance";
+  static const Law *order_2(bool adhesive);
   static constexpr bool needs_radius = true;
   template <class Real> struct Row {
     Real mu, twist_min;

@@ -27,10 +27,10 @@ template <class Real> TALUS_INLINE Real inverse_gyration(const ContactLanes<Real
 }
 
 struct StoppingOrder2 : TwistingLaw {
-  static constexpr const char *name = "stopping order 2", *label = "resistance";
+  static constexpr const char *name = "stopping", *label = "resistance";
   static constexpr bool needs_radius = true;
-  static constexpr int even_history = 1;
-  static constexpr double smooth = 4.0;    ///< rolling over what a step of the torque changes
+  static constexpr int even_history = 3;    // of HeldRotation: along the normal
+  static constexpr double smooth = 4.0;     ///< rolling over what a step of the torque changes
   template <class Real> struct Row {
     Real mu, twist_min;
   };
@@ -56,7 +56,7 @@ struct StoppingOrder2 : TwistingLaw {
     const Real limit = select(size > zero, reach * high / select(size > zero, size, one), zero);
 
     const auto vector = [&](Real a) { return Vector3<Real>{a, zero, zero}; };
-    const Real stored[3] = {h[0], zero, zero};
+    const Real stored[] = {h[0], zero, zero, h[1], zero, zero, h[2]};
     HeldRotation<Real> kept = held_rotation(stored);
     kept.own = turns * kept.own;
     Real found =
@@ -70,11 +70,13 @@ struct StoppingOrder2 : TwistingLaw {
     Vector3<Real> moment = as_remembered(vector(found));
     if constexpr (advance) {
       kept.own = moment;
-      Real next[3];
+      Real next[HeldRotation<Real>::size];
       store_held(kept, next);
       h[0] = select(s.parted > zero, zero, next[0]);
+      h[1] = select(s.parted > zero, zero, next[3]);
+      h[2] = select(s.parted > zero, zero, next[6]);
     } else
-      moment.x = select(magnitude(h[0]) > zero, EvenPair::first(h[0]), moment.x);
+      moment.x = select(kept.known, h[0], moment.x);
     s.twisting_torque = s.twisting_torque - select(acts, moment.x, zero) * s.normal;
   }
 };
