@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The state of the particles of a rank and the sums of their forces, wherever they live in a step:
-// in the arrays of the host, or in the records while nobody outside looks at them. Who computes
-// contacts with bodies, walls and shapes, or moves clumps, reads and writes particles here and does
-// not ask which it is.
+// in the arrays of LAMMPS, or in the records in steps at which nothing outside of Talus reads them.
+// Code that computes contacts with bodies, walls and shapes, or moves clumps, reads and writes
+// particles here and does not ask which it is.
 //
 // A particle has the host's index i; where it is stored it has a place, that index or its slot.
 // Loops that go through many particles keep places, and read eight of them at a time.

@@ -23,10 +23,10 @@ class PointBatch {
   struct Task {
     const LawTable &laws;
     double dt;
-    bool advance;                            ///< false: memories are only read
+    bool advance;                            ///< false: histories are only read
     const WorkAccount *account = nullptr;    ///< given: finds the work of the points
   };
-  /// Forces and memories of all points. What a point yields does not depend on the others.
+  /// Forces and histories of all points. What a point yields does not depend on the others.
   void compute(const Task &task, PointContact *points, std::size_t count);
 
   /// What is asked about a point between steps, as its first body sees it: the numbers that do not

@@ -6,7 +6,7 @@
 //   every step     compute()
 //
 // The first body of a pair is the particle with the lower ID, on all ranks and for ever: so
-// normals, names and memories never change sides. Pairs are computed in chunks, each with its
+// normals, names and histories never change sides. Pairs are computed in chunks, each with its
 // points, by any number of threads; then each particle sums its pairs in ascending ID of the partner, a pair's
 // points in the order of the narrow phase. So forces have the same bits on any number of ranks and
 // threads. A pair across two ranks is computed by both.
@@ -52,7 +52,7 @@ class ShapedPairs {
 
   struct Step {
     double dt;
-    bool advance;    ///< false while a run is set up: memories are only read
+    bool advance;    ///< false while a run is set up: histories are only read
     int threads;
     WorkAccount *account = nullptr;    ///< receives the work
     float weight_of_changes = 0.0F;    ///< see ContactStep

@@ -2,7 +2,7 @@
 //
 // Contacts between the owned particles with a shape and one large body, through the same laws as
 // those of spheres. As there (body/contact/body_batch.h), everything is computed in the frame of
-// the body, where it is at rest and memories turn with it.
+// the body, where it is at rest and histories turn with it.
 //
 //   at a rebuild   save() (if points are current), set_particles(), restore()
 //   every step     compute()

@@ -37,7 +37,7 @@ class EnergyAccount : protected LAMMPS_NS::Pointers {
   /// A pair style begins: nothing has been taken yet.
   void clear() { settled = of_step.sum = EnergyByCause{}; }
   /// Before the contacts of a step are computed, or `again` those of the last one, for the next run.
-  /// Returns where the contacts between particles add theirs, or nullptr if nobody asks.
+  /// Returns where the contacts between particles add theirs, or nullptr if no output needs it.
   WorkAccount *begin_step(bool again);
   /// For the contacts of a large body or wall in a step: an empty sum, and the same particles.
   WorkAccount part_of_step() const;
