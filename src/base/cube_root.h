@@ -7,6 +7,8 @@
 #define TALUS_BASE_CUBE_ROOT_H
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace Talus {
 
@@ -30,15 +32,24 @@ struct ExactProduct {
   }
 };
 
+/// 2^n of a normal number: std::ldexp() takes as long as the iterations.
+inline double power_of_two(int n)
+{
+  const std::uint64_t bits = static_cast<std::uint64_t>(1023 + n) << 52;
+  double power;
+  std::memcpy(&power, &bits, sizeof(power));
+  return power;
+}
+
 /// Cube root of any number, to 0.501 units in the last place. Halley's iteration triples the right
 /// digits; the last step is one of Newton, with a remainder that is exact in its leading part.
 inline double cube_root(double a)
 {
   if (a == 0.0 || !std::isfinite(a)) return a;
   int exponent;
-  const double fraction = std::frexp(std::abs(a), &exponent);          // 0.5 to 1
-  const int third = (exponent + 3 * 400) / 3 - 400;                    // rounded down
-  const double scaled = std::ldexp(fraction, exponent - 3 * third);    // 0.5 to 4
+  const double fraction = std::frexp(std::abs(a), &exponent);             // 0.5 to 1
+  const int third = (exponent + 3 * 400) / 3 - 400;                       // rounded down
+  const double scaled = fraction * power_of_two(exponent - 3 * third);    // 0.5 to 4
   double root = 0.71 + 0.23 * scaled;
   for (int k = 0; k < 3; k++) {
     const double cube = root * root * root;
@@ -47,7 +58,7 @@ inline double cube_root(double a)
   const ExactProduct square(root, root), cube(square.high, root);
   const double remainder = ((scaled - cube.high) - cube.low) - square.low * root;
   root = root + remainder / (3.0 * square.high);
-  return std::copysign(std::ldexp(root, third), a);
+  return std::copysign(root * power_of_two(third), a);
 }
 
 }    // namespace Talus

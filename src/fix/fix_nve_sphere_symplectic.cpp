@@ -2,6 +2,8 @@
 
 #include "fix_nve_sphere_symplectic.h"
 
+#include "base/in_parallel.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -218,31 +220,33 @@ int FixNVESphereSymplectic::nmoving() const
 
 void FixNVESphereSymplectic::rotate(double dt)
 {
-  const int n = nmoving();
+  Talus::in_ranges(nmoving(), comm->nthreads, [this, dt](int, int begin, int end) {
+    for (int i = begin; i < end; i++)
+      if (atom->mask[i] & groupbit) rotate(i, dt);
+  });
+}
 
-#pragma omp parallel for schedule(static) num_threads(comm->nthreads) if (comm->nthreads > 1)
-  for (int i = 0; i < n; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const double *const w = atom->omega[i];
-    const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    if (speed == 0.0) continue;
+void FixNVESphereSymplectic::rotate(int i, double dt)
+{
+  const double *const w = atom->omega[i];
+  const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  if (speed == 0.0) return;
 
-    double axis[3] = {w[0] / speed, w[1] / speed, w[2] / speed};
-    double turn[4], now[4];
-    MathExtra::axisangle_to_quat(axis, dt * speed, turn);
+  double axis[3] = {w[0] / speed, w[1] / speed, w[2] / speed};
+  double turn[4], now[4];
+  MathExtra::axisangle_to_quat(axis, dt * speed, turn);
 
-    if (atom->quat_flag) {
-      double *const quat = atom->quat[i];
-      MathExtra::quatquat(turn, quat, now);
-      MathExtra::qnormalize(now);
-      for (int k = 0; k < 4; k++) quat[k] = now[k];
-    }
-    if (atom->mu_flag && atom->mu[i][3] > 0.0) {
-      double *const mu = atom->mu[i];    // x y z length
-      MathExtra::quatrotvec(turn, mu, now);
-      const double scale = mu[3] / MathExtra::len3(now);
-      for (int k = 0; k < 3; k++) mu[k] = scale * now[k];
-    }
+  if (atom->quat_flag) {
+    double *const quat = atom->quat[i];
+    MathExtra::quatquat(turn, quat, now);
+    MathExtra::qnormalize(now);
+    for (int k = 0; k < 4; k++) quat[k] = now[k];
+  }
+  if (atom->mu_flag && atom->mu[i][3] > 0.0) {
+    double *const mu = atom->mu[i];    // x y z length
+    MathExtra::quatrotvec(turn, mu, now);
+    const double scale = mu[3] / MathExtra::len3(now);
+    for (int k = 0; k < 3; k++) mu[k] = scale * now[k];
   }
 }
 

@@ -91,7 +91,8 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
 
   int nmoving() const;
   Talus::RecordStep step_of(double, double) const;
-  void rotate(double);
+  void rotate(double dt);
+  void rotate(int i, double dt);
 };
 
 }    // namespace LAMMPS_NS

@@ -14,7 +14,8 @@ void FixWallGranRegionTalus::begin_run()
 {
   dynamic = region->dynamic_check();
   bounded = has_distance(*region) && !radii_vary();
-  in_frame = dynamic && bounded && !is_composite(*region);
+  simple = bounded && !is_composite(*region);
+  in_frame = dynamic && simple;
   parts = bounded ? RegionParts(*region) : RegionParts();
 }
 
@@ -33,18 +34,35 @@ double FixWallGranRegionTalus::displacement() const
 
 bool FixWallGranRegionTalus::is_inside(const double *x)
 {
-  return in_frame ? RegionInFrame(*region, parts.poses()[0]).match(x)
-                  : region->match(x[0], x[1], x[2]);
+  return in_frame ? RegionInFrame(*region, turn).match(x) : region->match(x[0], x[1], x[2]);
 }
 
 int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
 {
-  return in_frame ? RegionInFrame(*region, parts.poses()[0]).surface(x, reach)
+  return in_frame ? RegionInFrame(*region, turn).surface(x, reach)
                   : region->surface(x[0], x[1], x[2], reach);
 }
 
-/* A particle that is not asked for keeps its histories, as in LAMMPS, if it is not in the region,
-   and has none if it is. */
+/* Contacts that have begun may last beyond the radius. */
+
+double FixWallGranRegionTalus::reach_of(double radius)
+{
+  return touches_beyond_contact() ? radius + model->pulloff_distance(radius, 0.0) : radius;
+}
+
+/* Which of eight particles may be nearer to the surface than they reach with the margin. */
+
+unsigned FixWallGranRegionTalus::near(const EightSpheres &its, double margin)
+{
+  constexpr double rounding = 1.000001;
+  Vec8 reach = its.radius;
+  if (touches_beyond_contact())
+    reach = for_each_lane(reach, [this](double radius) { return reach_of(radius); });
+  return parts.near(its.position, splat<Vec8>(rounding) * (reach + splat<Vec8>(margin)));
+}
+
+/* A particle that is not near keeps its histories, as in LAMMPS, if it is not in the region, and
+   has none if it is. */
 
 void FixWallGranRegionTalus::clear_history(int i, const ParticleState &particles)
 {
@@ -53,36 +71,31 @@ void FixWallGranRegionTalus::clear_history(int i, const ParticleState &particles
 
 /* One thread: a region keeps the contacts that it finds. */
 
-void FixWallGranRegionTalus::find_candidates(double moved)
+void FixWallGranRegionTalus::find_candidates(double moved, const ParticleState &particles)
 {
   if (!bounded) {
     candidates.list_all(atom->nlocal, [this](int i) { return is_member(i); });
     return;
   }
-  const ParticleState particles = system->particles();
   listed_poses = parts.poses();
-  listed_box = AxisBox();
-  std::vector<int> others;
-  double largest = 0.0;
-  {
-    const ClosedSurface surface(parts);
-    candidates.list(
-        atom->nlocal, neighbor->skin, moved, 1,
-        [&](int i, double margin) {
-          if (!is_member(i)) return false;
-          const double *x = particles.x(i);
-          const double radius = particles.radius(i);
-          const double reach = radius + model->pulloff_distance(radius, 0.0) + margin;
-          listed_box.add(x);
-          largest = std::max(largest, reach);
-          return surface.is_near(x, reach);
-        },
-        [&](int i) {
-          if (is_member(i)) others.push_back(i);
-        });
-  }
-  listed_box.widen(2.0 * largest);
-  for (const int i : others) clear_history(i, particles);
+  LanesOfBox around;
+  Vec8 largest{};
+  candidates.list(
+      atom->nlocal, neighbor->skin, moved, 1,
+      [&](const int *eight, double margin) {
+        const EightSpheres its = eight_spheres(particles, eight);
+        around.add(its.position);
+        largest = larger(largest, its.radius);
+        unsigned members = 0;
+        for (int k = 0; k < lanes; k++) members |= (is_member(eight[k]) ? 1U : 0U) << k;
+        return near(its, margin) & members;
+      },
+      [&](int i) {
+        if (is_member(i)) clear_history(i, particles);
+      });
+  double radius = 0.0;
+  for (int k = 0; k < lanes; k++) radius = std::max(radius, largest[k]);
+  listed_box = AxisBox(around, 2.0 * (reach_of(radius) + neighbor->skin));
 }
 
 void FixWallGranRegionTalus::begin_step()
@@ -91,6 +104,7 @@ void FixWallGranRegionTalus::begin_step()
     region->prematch();
     region->set_velocity();
     parts.place();
+    if (in_frame) turn = RegionTurn(*region);
   }
   std::fill(velocity, velocity + 3, 0.0);
 }
@@ -101,38 +115,49 @@ void FixWallGranRegionTalus::add_contacts()
   find_wall_temperature();
   begin_account();
   const double moved = bounded ? system->moved_since_rebuild() : 0.0;
-  if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved);
+  const ParticleState particles = system->particles();
+  if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved, particles);
   if (keeps_contacts()) clear_stored_contacts();
-  add_contacts_of_candidates();
+  add_contacts_of_candidates(particles);
   system->account().add(batch.work);
 }
 
 void FixWallGranRegionTalus::survey_contacts()
 {
   begin_step();
-  add_contacts_of_candidates();
+  add_contacts_of_candidates(system->particles());
 }
 
-void FixWallGranRegionTalus::add_contacts_of_candidates()
+void FixWallGranRegionTalus::add_contacts_of_candidates(const ParticleState &particles)
 {
   begin(batch);
-  const ParticleState particles = system->particles();
-  constexpr int ahead = 8;
-  for (int c = 0; c < candidates.size(); c++) {
-    if (c + ahead < candidates.size())
-      particles.prefetch_position(particles.place(candidates.atoms[c + ahead]));
-    add_contacts_of(candidates.atoms[c], particles);
+  for (int c = 0; c < candidates.size(); c += lanes) {
+    int eight[lanes];
+    candidates.eight_from(c, eight);
+    const unsigned bits = bounded ? near(eight_spheres(particles, eight), 0.0) : 0xffU;
+    for (int k = 0; k < lanes && c + lanes + k < candidates.size(); k++)
+      particles.prefetch_position(particles.place(candidates.atoms[c + lanes + k]));
+    for (unsigned rest = bits; rest; rest &= rest - 1U)
+      particles.prefetch_for_contact(particles.place(eight[__builtin_ctz(rest)]));
+    for (int k = 0; k < lanes && c + k < candidates.size(); k++)
+      if (bits >> k & 1U)
+        add_contacts_of(eight[k], particles);
+      else
+        clear_history(eight[k], particles);
   }
   deliver(batch, particles);
 }
 
+/* As in LAMMPS, only particles on the inner side are looked at. With a simple region what has
+   contacts is there, unless its center is on the surface. */
+
 void FixWallGranRegionTalus::add_contacts_of(int i, const ParticleState &particles)
 {
   const double *x = particles.x(i);
-  const double radius = particles.radius(i);
-  if (!is_inside(x)) return;
-  const double reach = radius + model->pulloff_distance(radius, 0.0);
-  const int nc = find_contacts(x, reach);
+  if (!simple && !is_inside(x)) return;
+  const int nc = find_contacts(x, reach_of(particles.radius(i)));
+  const bool known = simple && nc > 0 && region->contact[0].r > 0.0;
+  if (simple && !known && !is_inside(x)) return;
   if (nc > tmax) error->one(FLERR, "Too many wallgran/region contacts for one particle");
   if (use_history && !match_history(i, nc)) return;
   for (int ic = 0; ic < nc; ic++) add_contact(i, ic, particles);

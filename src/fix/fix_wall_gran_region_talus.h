@@ -31,9 +31,11 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   double displacement() const;
   bool is_inside(const double *x);
   int find_contacts(const double *x, double reach);
-  void find_candidates(double moved);
+  double reach_of(double radius);
+  unsigned near(const Talus::EightSpheres &its, double margin);
+  void find_candidates(double moved, const Talus::ParticleState &particles);
   void begin_step();
-  void add_contacts_of_candidates();
+  void add_contacts_of_candidates(const Talus::ParticleState &particles);
   void add_contacts_of(int i, const Talus::ParticleState &particles);
   void add_contact(int i, int ic, const Talus::ParticleState &particles);
   void find_wall_velocity(const double *position, int ic);
@@ -42,7 +44,9 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
   bool dynamic = false;        // the region moves or changes its shape
   bool bounded = false;        // distances from it are known
+  bool simple = false;         // and it is not made of others
   bool in_frame = false;       // it is asked in its own frame, see RegionInFrame
+  Talus::RegionTurn turn;      // of this step, then
   Talus::RegionParts parts;    // if it is bounded
   std::vector<Talus::RegionPose> listed_poses;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch

@@ -118,10 +118,15 @@ void FixWallGranTalus::find_candidates(double moved)
   const bool beyond = touches_beyond_contact();
   candidates.list(
       atom->nlocal, neighbor->skin, moved, comm->nthreads,
-      [&](int i, double margin) {
-        if (!is_member(i)) return false;
-        if (beyond && history_one[i][0] != 0.0) return true;
-        return !(distance(particles.x(i)) >= particles.radius(i) + margin);
+      [&](const int *eight, double margin) {
+        unsigned bits = 0;
+        for (int k = 0; k < lanes; k++) {
+          const int i = eight[k];
+          const bool near = (beyond && history_one[i][0] != 0.0) ||
+                            !(distance(particles.x(i)) >= particles.radius(i) + margin);
+          if (is_member(i) && near) bits |= 1U << k;
+        }
+        return bits;
       },
       [&](int i) {
         if (is_member(i)) clear_history(i);

@@ -24,46 +24,78 @@ bool is_composite(const Region &region)
   return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
 }
 
-namespace {
-
-/* Contacts of these lie on the surface, and there is one if it is nearer than the cutoff. Region
-   ellipsoid is none of them: near its inner surface it finds only some. */
-
-bool is_convex(const Region &region)
+void LanesOfBox::add(const Vector3<Vec8> &x)
 {
-  static const char *const styles[] = {"block", "cone", "cylinder", "plane", "prism", "sphere"};
-  return std::any_of(std::begin(styles), std::end(styles),
-                     [&](const char *style) { return std::strcmp(region.style, style) == 0; });
+  lo = {-larger(-lo.x, -x.x), -larger(-lo.y, -x.y), -larger(-lo.z, -x.z)};
+  hi = {larger(hi.x, x.x), larger(hi.y, x.y), larger(hi.z, x.z)};
 }
 
-}    // namespace
-
-void AxisBox::add(const double *x)
+AxisBox::AxisBox(const LanesOfBox &its, double by)
 {
-  for (int d = 0; d < 3; d++) {
-    lo[d] = std::min(lo[d], x[d]);
-    hi[d] = std::max(hi[d], x[d]);
-  }
-}
-
-void AxisBox::widen(double by)
-{
-  for (int d = 0; d < 3; d++) {
-    lo[d] -= by;
-    hi[d] += by;
+  for (int k = 0; k < lanes; k++) {
+    const double low[3] = {its.lo.x[k], its.lo.y[k], its.lo.z[k]},
+                 high[3] = {its.hi.x[k], its.hi.y[k], its.hi.z[k]};
+    for (int d = 0; d < 3; d++) {
+      lo[d] = std::min(lo[d], low[d] - by);
+      hi[d] = std::max(hi[d], high[d] + by);
+    }
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-RegionPose::RegionPose(Region &region)
+RegionTurn::RegionTurn(const Region &region)
 {
-  if (!region.dynamic) return;
-  move_with_region(region, shift);
+  if (region.moveflag) {
+    const double its[3] = {region.dx, region.dy, region.dz};
+    std::copy_n(its, 3, displacement);
+  }
+  if (!region.rotateflag) return;
+  rotates = true;
+  angle = region.theta;
+  cosine = std::cos(angle);
+  sine = std::sin(angle);
+  std::copy_n(point_of_rotation(region), 3, point);
+  std::copy_n(axis_of_rotation(region), 3, axis);
+}
+
+void RegionTurn::move(double (&x)[3]) const
+{
+  if (rotates) rotate(x, sine);
+  for (int d = 0; d < 3; d++) x[d] += displacement[d];
+}
+
+void RegionTurn::move_back(double (&x)[3]) const
+{
+  for (int d = 0; d < 3; d++) x[d] -= displacement[d];
+  if (rotates) rotate(x, -sine);
+}
+
+void RegionTurn::rotate(double (&x)[3], double sine_of_angle) const
+{
+  double along[3], across[3];
+  for (int d = 0; d < 3; d++) x[d] -= point[d];
+  const double length = x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2];
+  for (int d = 0; d < 3; d++) {
+    along[d] = length * axis[d];
+    across[d] = x[d] - along[d];
+  }
+  for (int d = 0; d < 3; d++) {
+    const int e = (d + 1) % 3, f = (d + 2) % 3;
+    const double upright = axis[e] * across[f] - axis[f] * across[e];
+    x[d] = point[d] + along[d] + (across[d] * cosine + upright * sine_of_angle);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+RegionPose::RegionPose(const RegionTurn &turn)
+{
+  turn.move(shift);
   for (int axis = 0; axis < 3; axis++) {
     double x[3] = {0.0, 0.0, 0.0};
     x[axis] = 1.0;
-    move_with_region(region, x);
+    turn.move(x);
     for (int d = 0; d < 3; d++) rotation[d][axis] = x[d] - shift[d];
   }
 }
@@ -81,11 +113,12 @@ void RegionPose::origin_of(const double *x, double *x0) const
     x0[d] = rotation[0][d] * r[0] + rotation[1][d] * r[1] + rotation[2][d] * r[2];
 }
 
-void RegionPose::turn(double *vector) const
+Vector3<double> RegionPose::turned(const Vector3<double> &v) const
 {
-  const double v[3] = {vector[0], vector[1], vector[2]};
-  for (int d = 0; d < 3; d++)
-    vector[d] = rotation[d][0] * v[0] + rotation[d][1] * v[1] + rotation[d][2] * v[2];
+  const auto &r = rotation;
+  return {r[0][0] * v.x + r[0][1] * v.y + r[0][2] * v.z,
+          r[1][0] * v.x + r[1][1] * v.y + r[1][2] * v.z,
+          r[2][0] * v.x + r[2][1] * v.y + r[2][2] * v.z};
 }
 
 /* The displacement is an affine function of the point, so its length is largest in a corner. */
@@ -105,24 +138,12 @@ double RegionPose::largest_displacement(const RegionPose &then, const AxisBox &b
   return largest;
 }
 
-RegionTurn::RegionTurn(const Region &region)
-{
-  if (region.moveflag) {
-    const double its[3] = {region.dx, region.dy, region.dz};
-    std::copy_n(its, 3, displacement);
-  }
-  if (!region.rotateflag) return;
-  angle = region.theta;
-  std::copy_n(point_of_rotation(region), 3, point);
-  std::copy_n(axis_of_rotation(region), 3, axis);
-}
-
 /* ---------------------------------------------------------------------- */
 
 bool has_distance(const Region &region)
 {
   if (region.varshape) return false;
-  if (!is_composite(region)) return is_convex(region);
+  if (!is_composite(region)) return ConvexRegion::includes(region);
   return !region.moveflag && !region.rotateflag &&
          std::all_of(region.reglist, region.reglist + region.nregion,
                      [](const Region *part) { return has_distance(*part); });
@@ -136,11 +157,23 @@ void RegionParts::collect(Region &region)
   }
   simple.push_back(&region);
   pose.emplace_back();
+  shape.emplace_back(region);
 }
 
 void RegionParts::place()
 {
-  for (std::size_t k = 0; k < simple.size(); k++) pose[k] = RegionPose(*simple[k]);
+  for (std::size_t k = 0; k < simple.size(); k++) {
+    if (!simple[k]->dynamic) continue;
+    pose[k] = RegionPose(RegionTurn(*simple[k]));
+    shape[k].place(pose[k]);
+  }
+}
+
+unsigned RegionParts::near(const Vector3<Vec8> &x, Vec8 reach) const
+{
+  unsigned bits = 0;
+  for (const ConvexRegion &part : shape) bits |= part.near(x, reach);
+  return bits;
 }
 
 double RegionParts::largest_displacement(const std::vector<RegionPose> &then,
@@ -202,74 +235,29 @@ RegionAtRest::~RegionAtRest()
 
 bool RegionInFrame::match(const double *x) const
 {
-  double x0[3];
-  pose.origin_of(x, x0);
+  double x0[3] = {x[0], x[1], x[2]};
+  turn.move_back(x0);
   const RegionAtRest at_rest(region);
   return region.match(x0[0], x0[1], x0[2]);
 }
 
+/* LAMMPS turns the point of contact, not the vector from it. */
+
 int RegionInFrame::surface(const double *x, double cutoff) const
 {
-  double x0[3];
-  pose.origin_of(x, x0);
+  double x0[3] = {x[0], x[1], x[2]};
+  turn.move_back(x0);
   const RegionAtRest at_rest(region);
   const int contacts = region.surface(x0[0], x0[1], x0[2], cutoff);
-  for (int n = 0; n < contacts; n++) {
+  for (int n = 0; n < contacts && turn.rotates; n++) {
     Region::Contact &its = region.contact[n];
-    double separation[3] = {its.delx, its.dely, its.delz};
-    pose.turn(separation);
-    its.delx = separation[0];
-    its.dely = separation[1];
-    its.delz = separation[2];
+    double point[3] = {x0[0] - its.delx, x0[1] - its.dely, x0[2] - its.delz};
+    turn.move(point);
+    its.delx = x[0] - point[0];
+    its.dely = x[1] - point[1];
+    its.delz = x[2] - point[2];
   }
   return contacts;
-}
-
-/* ---------------------------------------------------------------------- */
-
-ClosedSurface::ClosedSurface(const RegionParts &its) : parts(its)
-{
-  for (Region *part : parts.regions()) {
-    Settings now{part->interior, part->openflag, part->dynamic, part->rotateflag, {}};
-    std::copy(part->open_faces, part->open_faces + 6, now.open_faces);
-    before.push_back(now);
-    part->openflag = part->dynamic = part->rotateflag = 0;
-    std::fill(part->open_faces, part->open_faces + 6, 0);
-  }
-}
-
-/* From behind, for one may be there twice. */
-
-ClosedSurface::~ClosedSurface()
-{
-  for (std::size_t k = before.size(); k-- > 0;) {
-    Region *part = parts.regions()[k];
-    part->interior = before[k].interior;
-    part->openflag = before[k].openflag;
-    part->dynamic = before[k].dynamic;
-    part->rotateflag = before[k].rotateflag;
-    std::copy(before[k].open_faces, before[k].open_faces + 6, part->open_faces);
-  }
-}
-
-/* A surface point of a union or intersection is one of its parts. Asked beside x: on an axis or in
-   a center regions find no nearest point. */
-
-bool ClosedSurface::is_near(const double *x, double reach) const
-{
-  const double aside[3] = {7.1e-4 * reach, -4.3e-4 * reach, 5.9e-4 * reach};
-  const double beside[3] = {x[0] + aside[0], x[1] + aside[1], x[2] + aside[2]};
-  const double wide = 1.002 * reach;
-  for (std::size_t k = 0; k < before.size(); k++) {
-    double y[3];
-    parts.poses()[k].origin_of(beside, y);
-    Region *part = parts.regions()[k];
-    for (const int interior : {1, 0}) {
-      part->interior = interior;
-      if (part->surface(y[0], y[1], y[2], wide)) return true;
-    }
-  }
-  return false;
 }
 
 }    // namespace Talus

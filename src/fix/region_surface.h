@@ -8,6 +8,8 @@
 #ifndef TALUS_FIX_REGION_SURFACE_H
 #define TALUS_FIX_REGION_SURFACE_H
 
+#include "fix/convex_region.h"
+
 #include <string>
 #include <vector>
 
@@ -18,21 +20,50 @@ class Region;
 
 namespace Talus {
 
+/// Around points that come eight at a time.
+struct LanesOfBox {
+  Vector3<Vec8> lo = in_all_lanes<Vec8>({1.0e300, 1.0e300, 1.0e300}), hi = -lo;
+
+  void add(const Vector3<Vec8> &x);
+};
+
 /// A box with sides along the axes; empty while lo > hi.
 struct AxisBox {
   double lo[3] = {1.0e300, 1.0e300, 1.0e300}, hi[3] = {-1.0e300, -1.0e300, -1.0e300};
 
+  AxisBox() = default;
+  /// Wider than the lanes by a length.
+  AxisBox(const LanesOfBox &its, double by);
   bool is_empty() const { return lo[0] > hi[0]; }
-  void add(const double *x);
-  void widen(double by);
+};
+
+/// How a simple region that moves or turns stands, in the words of its command: x = point + turned
+/// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
+struct RegionTurn {
+  double point[3] = {0.0, 0.0, 0.0}, axis[3] = {0.0, 0.0, 1.0};
+  double displacement[3] = {0.0, 0.0, 0.0}, angle = 0.0;
+  double cosine = 1.0, sine = 0.0;    ///< of the angle
+  bool rotates = false;               ///< has `rotate`
+
+  /// At rest.
+  RegionTurn() = default;
+  /// Now, after Region::prematch().
+  explicit RegionTurn(const LAMMPS_NS::Region &region);
+
+  /// Takes a point of the region at rest to where it is now, and back. The sums are those of
+  /// Region::rotate(), in its order: so results have the bits of LAMMPS.
+  void move(double (&x)[3]) const;
+  void move_back(double (&x)[3]) const;
+
+ private:
+  void rotate(double (&x)[3], double sine_of_angle) const;
 };
 
 /// Where a region is that is moved and turned as a whole: x = rotation x_0 + shift.
 class RegionPose {
  public:
   RegionPose() = default;
-  /// Now, after Region::prematch().
-  explicit RegionPose(LAMMPS_NS::Region &region);
+  explicit RegionPose(const RegionTurn &turn);
 
   /// Largest distance of a point that is inside the box from where the same point of the region was
   /// in the pose `then`.
@@ -41,8 +72,9 @@ class RegionPose {
   /// Where a point of the region is, and which point of the region is at x.
   void place_of(const double *x0, double *x) const;
   void origin_of(const double *x, double *x0) const;
-  /// A vector of the region's frame in that of the simulation box; in place.
-  void turn(double *vector) const;
+  /// A vector of the region's frame in that of the simulation box.
+  Vector3<double> turned(const Vector3<double> &v) const;
+  Vector3<double> displacement() const { return {shift[0], shift[1], shift[2]}; }
 
  private:
   double rotation[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -66,7 +98,9 @@ class RegionParts {
   /// See RegionPose; of all parts, since they had the poses `then`.
   double largest_displacement(const std::vector<RegionPose> &then, const AxisBox &box) const;
 
-  const std::vector<LAMMPS_NS::Region *> &regions() const { return simple; }
+  /// See ConvexRegion; of all parts. A surface point of a union or intersection is one of its parts.
+  unsigned near(const Vector3<Vec8> &x, Vec8 reach) const;
+
   const std::vector<RegionPose> &poses() const { return pose; }
 
  private:
@@ -74,16 +108,7 @@ class RegionParts {
 
   std::vector<LAMMPS_NS::Region *> simple;
   std::vector<RegionPose> pose;
-};
-
-/// How a simple region that moves or turns stands, in the words of its command: x = point + turned
-/// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
-struct RegionTurn {
-  double point[3] = {0.0, 0.0, 0.0}, axis[3] = {0.0, 0.0, 1.0};
-  double displacement[3] = {0.0, 0.0, 0.0}, angle = 0.0;
-
-  /// Now, after Region::prematch().
-  explicit RegionTurn(const LAMMPS_NS::Region &region);
+  std::vector<ConvexRegion> shape;
 };
 
 /// Made of other regions.
@@ -107,12 +132,12 @@ class RegionAtRest {
   const int dynamic, turns;
 };
 
-/// Asks a simple region in its own frame: the pose of a step is computed once, where the host does
-/// it again, with a sine and a cosine, for every question. Answers differ by rounding.
+/// Asks a simple region in its own frame: sine and cosine of a step are computed once, where the host
+/// does it again for every question. Answers have its bits.
 class RegionInFrame {
  public:
-  /// Both must exist as long as this does; `pose` that of the region, after prematch().
-  RegionInFrame(LAMMPS_NS::Region &region, const RegionPose &pose) : region(region), pose(pose) {}
+  /// Both must exist as long as this does; `turn` that of the region, after prematch().
+  RegionInFrame(LAMMPS_NS::Region &region, const RegionTurn &turn) : region(region), turn(turn) {}
 
   /// As Region::match() and Region::surface(): contacts are in region.contact.
   bool match(const double *x) const;
@@ -120,28 +145,7 @@ class RegionInFrame {
 
  private:
   LAMMPS_NS::Region &region;
-  const RegionPose &pose;
-};
-
-/// While it exists, a region that has_distance() is asked for its closed surface in place of its
-/// contacts: open faces count as closed, and both sides are seen.
-class ClosedSurface {
- public:
-  /// Must exist as long as this does.
-  explicit ClosedSurface(const RegionParts &parts);
-  ~ClosedSurface();
-  ClosedSurface(const ClosedSurface &) = delete;
-  ClosedSurface &operator=(const ClosedSurface &) = delete;
-
-  /// Whether the surface may be closer to x than `reach`; true for all that are.
-  bool is_near(const double *x, double reach) const;
-
- private:
-  struct Settings {
-    int interior, openflag, dynamic, rotateflag, open_faces[6];
-  };
-  const RegionParts &parts;
-  std::vector<Settings> before;    // of each part
+  const RegionTurn &turn;
 };
 
 }    // namespace Talus

@@ -9,6 +9,8 @@
 #include "gran_sub_mod.h"
 #include "granular_model.h"
 
+#include <algorithm>
+
 namespace Talus {
 
 void WallLaw::take(const Model &model)
@@ -29,29 +31,54 @@ double WallLaw::reach(double radius, double wall_radius) const
   return reach_of(law(), row(), 1.0 / inverse);
 }
 
+/* No lane may ever hold what is not finite. */
+
+WallBatch::WallBatch()
+{
+  batch.clear();
+  for (int d = 0; d < 3; d++) std::fill(separation[d], separation[d] + ContactBatch::width, 1.0);
+  for (double *lane : {distance, radius, mass, wall_radius})
+    std::fill(lane, lane + ContactBatch::width, 1.0);
+}
+
 void WallBatch::add(const Contact &c)
 {
   const int k = filled++;
   atoms[k] = c.atom;
   parts[k] = c.part;
   histories[k] = c.history;
-  distances[k] = c.distance;
-  radii[k] = c.radius;
+  distance[k] = c.distance;
+  radius[k] = c.radius;
+  mass[k] = c.mass;
+  wall_radius[k] = c.wall_radius;
   for (int d = 0; d < 3; d++) {
-    batch.normal[d][k] = c.separation[d] / c.distance;
+    separation[d][k] = c.separation[d];
     batch.velocity[d][k] = c.velocity[d] - c.wall_velocity[d];
-    batch.surface_rotation[d][k] = c.radius * c.omega[d];
     batch.relative_omega[d][k] = c.omega[d];
   }
-  batch.overlap[k] = c.radius - c.distance;
-  batch.inverse_mass[k] = 1.0 / c.mass;
-  batch.inverse_radius[k] = 1.0 / c.radius;
-  if (c.wall_radius != 0.0) batch.inverse_radius[k] += 1.0 / c.wall_radius;
   batch.temperature_difference[k] = c.temperature_difference;
   if (account) set_change(k, c);
   if (!c.history) return;
   for (std::size_t n = 0; n < law->places.size(); n++)
     if (law->places[n] >= 0) batch.history[law->places[n]][k] = c.history[n];
+}
+
+/* What follows from what was put in, eight at a time. */
+
+void WallBatch::set_lanes(int end)
+{
+  const Vec8 zero{}, one = splat<Vec8>(1.0);
+  for (int k = 0; k < end; k += lanes) {
+    const Vec8 r = load8(&radius[k]), length = load8(&distance[k]), wall = load8(&wall_radius[k]);
+    for (int d = 0; d < 3; d++) {
+      store(&batch.normal[d][k], load8(&separation[d][k]) / length);
+      store(&batch.surface_rotation[d][k], r * load8(&batch.relative_omega[d][k]));
+    }
+    store(&batch.overlap[k], r - length);
+    store(&batch.inverse_mass[k], one / load8(&mass[k]));
+    const Vec8 flat = one / r;
+    store(&batch.inverse_radius[k], select(wall == zero, flat, flat + one / wall));
+  }
 }
 
 /* The velocity of the wall is that of the time of the positions. */
@@ -73,20 +100,38 @@ void WallBatch::run()
 {
   if (!filled) return;
   const int end = (filled + lanes - 1) / lanes * lanes;
+  set_lanes(end);
   run_laws(batch, 0, 0, end, {law->table, dt, true, account});
   for (int k = 0; k < filled; k++)
     for (std::size_t n = 0; histories[k] && n < law->places.size(); n++)
       if (law->places[n] >= 0) histories[k][n] = batch.history[law->places[n]][k];
   if (account) add_to_account();
-  keep_forces();
+  set_torques(end);
+  keep_forces(end);
 }
 
-void WallBatch::keep_forces()
+void WallBatch::set_torques(int end)
 {
   const bool twists = law->law().twists();
-  for (int k = 0; k < filled; k++)
-    last.push_back({atoms[k], lane_of(batch.force, k), lane_of(batch.moment, k),
-                    twists ? lane_of(batch.twisting_torque, k) : Vector3<double>{0.0, 0.0, 0.0}});
+  for (int d = 0; d < 3; d++)
+    for (int k = 0; k < end; k += lanes) {
+      const Vec8 its = -load8(&radius[k]) * load8(&batch.moment[d][k]);
+      store(&torque[d][k], twists ? its + load8(&batch.twisting_torque[d][k]) : its);
+    }
+}
+
+void WallBatch::keep_forces(int end)
+{
+  const std::size_t n = kept / ContactBatch::width;
+  if (n == last.size()) last.emplace_back();
+  LastForces &its = last[n];
+  std::copy_n(atoms, filled, its.atoms);
+  for (int d = 0; d < 3; d++) {
+    std::copy_n(batch.force[d], end, its.force[d]);
+    std::copy_n(batch.moment[d], end, its.moment[d]);
+    if (law->law().twists()) std::copy_n(batch.twisting_torque[d], end, its.twisting_torque[d]);
+  }
+  kept += filled;
 }
 
 void WallBatch::add_to_account()
@@ -98,8 +143,23 @@ void WallBatch::add_to_account()
   }
 }
 
+/* A contact that began behind the step has no forces. */
+
+void WallBatch::find_last(int k, SurveyedContact &found)
+{
+  if (surveyed == kept) return;
+  const LastForces &its = last[surveyed / ContactBatch::width];
+  const int lane = static_cast<int>(surveyed % ContactBatch::width);
+  if (its.atoms[lane] != atoms[k]) return;
+  surveyed++;
+  found.force = lane_of(its.force, lane);
+  found.moment = lane_of(its.moment, lane);
+  if (law->law().twists()) found.twisting_torque = lane_of(its.twisting_torque, lane);
+}
+
 void WallBatch::survey(Ask ask, const std::function<void(const SurveyedContact &)> &visit)
 {
+  set_lanes((filled + lanes - 1) / lanes * lanes);
   for (int k = 0; k < filled; k++) {
     HistoryValues memory{};
     for (std::size_t n = 0; histories[k] && n < law->places.size(); n++)
@@ -111,13 +171,8 @@ void WallBatch::survey(Ask ask, const std::function<void(const SurveyedContact &
     found.normal = state.normal;
     found.overlap = state.overlap;
     survey_contact(law->law(), law->row(), state, dt, memory, ask, found);
-    if (surveyed < last.size() && last[surveyed].atom == atoms[k]) {
-      const LastForce &its = last[surveyed++];
-      found.force = its.force;
-      found.moment = its.moment;
-      found.twisting_torque = its.twisting_torque;
-    }
-    found.set_arms_of_spheres(radii[k], 0.0);
+    find_last(k, found);
+    found.set_arms_of_spheres(radius[k], 0.0);
     visit(found);
   }
   filled = 0;
@@ -130,9 +185,8 @@ WallBatch::Result WallBatch::result(int k) const
   its.heat_flow = law->law().conducts_heat() ? batch.heat_flow[k] : 0.0;
   for (int d = 0; d < 3; d++) {
     its.force[d] = batch.force[d][k];
-    its.torque[d] = -radii[k] * batch.moment[d][k];
-    if (law->law().twists()) its.torque[d] += batch.twisting_torque[d][k];
-    its.separation[d] = distances[k] * batch.normal[d][k];
+    its.torque[d] = torque[d][k];
+    its.separation[d] = separation[d][k];
   }
   return its;
 }

@@ -7,6 +7,7 @@
 #ifndef TALUS_FIX_WALL_BATCH_H
 #define TALUS_FIX_WALL_BATCH_H
 
+#include "base/aligned_vector.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
@@ -48,7 +49,7 @@ class WallBatch {
     const ChangeRecord *change = nullptr;    ///< of the particle's velocities, for an account
   };
 
-  WallBatch() { batch.clear(); }
+  WallBatch();
 
   /// dt is 0 while a run is set up. `account`: nullptr, or asks for the work of the contacts.
   void begin_step(const WallLaw &its, double time_step, const WorkAccount *its_account)
@@ -58,7 +59,7 @@ class WallBatch {
     account = its_account;
     work = EnergyByCause{};
     filled = 0;    // an error may have left some
-    last.clear();
+    kept = 0;
   }
   /// Behind a step, of which the same contacts are added again, for survey().
   void begin_survey(double time_step)
@@ -88,10 +89,13 @@ class WallBatch {
   EnergyByCause work;
 
  private:
+  void set_lanes(int end);
   void run();
   void set_change(int lane, const Contact &contact);
   void add_to_account();
-  void keep_forces();
+  void set_torques(int end);
+  void keep_forces(int end);
+  void find_last(int lane, SurveyedContact &found);
   Result result(int lane) const;
 
   const WallLaw *law = nullptr;
@@ -99,18 +103,23 @@ class WallBatch {
   const WorkAccount *account = nullptr;
   int filled = 0;
 
-  /// Of a contact in the last step. Not all laws of LAMMPS remember what would tell it again.
-  struct LastForce {
-    int atom;
-    Vector3<double> force, moment, twisting_torque;
+  using Lane = double[ContactBatch::width];
+  using Lanes = double[3][ContactBatch::width];
+
+  /// Of contacts of the last step, a batch in each. Not all laws of LAMMPS remember what would tell
+  /// it again.
+  struct LastForces {
+    int atoms[ContactBatch::width];
+    alignas(64) Lanes force, moment, twisting_torque;
   };
-  std::vector<LastForce> last;
-  std::size_t surveyed = 0;    // of them
+  AlignedVector<LastForces> last;
+  std::size_t kept = 0, surveyed = 0;    // contacts
 
   ContactBatch batch;
   int atoms[ContactBatch::width], parts[ContactBatch::width];
   double *histories[ContactBatch::width];
-  double distances[ContactBatch::width], radii[ContactBatch::width];
+  alignas(64) Lanes separation, torque;
+  alignas(64) Lane distance, radius, mass, wall_radius;
 };
 
 }    // namespace Talus

@@ -6,10 +6,28 @@
 #define TALUS_FIX_WALL_CANDIDATES_H
 
 #include "base/in_parallel.h"
+#include "base/lanes.h"
+#include "base/vector3.h"
+#include "particles/particle_state.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace Talus {
+
+/// Centers and radii of eight particles, in lanes.
+struct EightSpheres {
+  Vector3<Vec8> position;
+  Vec8 radius;
+};
+
+/// Of the particles i[0] ... i[7].
+inline EightSpheres eight_spheres(const ParticleState &particles, const int *i)
+{
+  alignas(64) double center[3][lanes], radius[lanes];
+  particles.spheres_at([&](int k) { return particles.place(i[k]); }, center, radius);
+  return {{load8(center[0]), load8(center[1]), load8(center[2])}, load8(radius)};
+}
 
 /// A list of particles that holds all that may touch until particles and wall together have gone
 /// further than the margin it was made with.
@@ -26,20 +44,26 @@ class WallCandidates {
            (!everything && !(moved + moved_then + shifted <= margin));
   }
 
-  /// Those of the owned particles for which near(i, margin) is true; others are handed to far(i).
-  /// `margin`: a little more than the way that particles and wall may go. Both are called by
-  /// `threads` at the same time, each particle once.
+  /// Those of the owned particles that are near; others are handed to far(i). near(eight, margin)
+  /// has a bit for each of eight particles, the last of which may be there several times. `margin`:
+  /// a little more than the way that particles and wall may go. Both are called by `threads` at the
+  /// same time, each particle once.
   template <class Near, class Far>
   void list(int owned, double skin, double moved, int threads, Near near, Far far)
   {
     begin(owned, skin, moved);
     std::vector<std::vector<int>> found(threads);
     in_ranges(owned, threads, [&](int t, int begin, int end) {
-      for (int i = begin; i < end; i++)
-        if (near(i, widened()))
-          found[t].push_back(i);
-        else
-          far(i);
+      for (int first = begin; first < end; first += lanes) {
+        int eight[lanes];
+        for (int k = 0; k < lanes; k++) eight[k] = std::min(first + k, end - 1);
+        const unsigned bits = near(eight, widened());
+        for (int k = 0; k < lanes && first + k < end; k++)
+          if (bits >> k & 1U)
+            found[t].push_back(first + k);
+          else
+            far(first + k);
+      }
     });
     for (const std::vector<int> &some : found) atoms.insert(atoms.end(), some.begin(), some.end());
     touched.assign(atoms.size(), 1);
@@ -56,6 +80,11 @@ class WallCandidates {
   }
 
   int size() const { return static_cast<int>(atoms.size()); }
+  /// Host's indices of candidate c and those behind it, of the last one again where there is none.
+  void eight_from(int c, int (&eight)[lanes]) const
+  {
+    for (int k = 0; k < lanes; k++) eight[k] = atoms[std::min(c + k, size() - 1)];
+  }
   /// Host's indices, ascending.
   std::vector<int> atoms;
   /// Whether each may have a history that is not zero; for the owner.

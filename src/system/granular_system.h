@@ -140,7 +140,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const ReportedContact &)> *report);
   /// Changes of velocities are kept: for second order, and for the work of contacts.
-  bool needs_changes() const;
+  bool needs_changes() const { return needs_changes(movers.order()); }
 
   // ---- where particles live
 
@@ -185,7 +185,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   NeighborView without_shapes(const NeighborView &all);
   void complete_step();
   double moved_in_arrays() const;
-  void find_changes(ContactStep &step);
+  bool needs_changes(int order) const;
+  void find_changes(ContactStep &step, int order);
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
   void leave_records(bool with_forces);
@@ -220,7 +221,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool stays_in_records = false;              // after this step
   LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there
   struct {
-    LAMMPS_NS::bigint step = -1;
+    LAMMPS_NS::bigint step = -1, lists = -1;    // and how often these had been made
     double moved = 0.0;
   } farthest;    // answer of moved_since_rebuild()
 };

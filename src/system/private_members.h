@@ -15,6 +15,12 @@ class CommBrick;
 class FixGravity;
 class NBin;
 class Neighbor;
+class RegBlock;
+class RegCone;
+class RegCylinder;
+class RegPlane;
+class RegPrism;
+class RegSphere;
 class Region;
 class Variable;
 namespace Granular_NS {
@@ -43,15 +49,34 @@ LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 /// `disable` of fix gravity: it computes the field and applies nothing.
 bool is_disabled(const LAMMPS_NS::FixGravity &gravity);
 
-/// Moves a point of a region at rest to where the region is now. Reads its variables.
-void move_with_region(LAMMPS_NS::Region &region, double (&x)[3]);
-
 /// A region that rotates: a point of the axis, and its unit vector.
 const double *point_of_rotation(const LAMMPS_NS::Region &region);
 const double *axis_of_rotation(const LAMMPS_NS::Region &region);
 
 /// Names of the variables that move and rotate a region; nullptr where there is none.
 std::array<const char *, 4> variables_of(const LAMMPS_NS::Region &region);
+
+/// A block or prism at rest: two opposite corners, and unit normals that point inwards, of which
+/// those with an even index belong to faces with the first corner.
+struct CornersOfRegion {
+  double corner[2][3], normal[6][3];
+};
+CornersOfRegion corners_of(const LAMMPS_NS::RegBlock &region);
+CornersOfRegion corners_of(const LAMMPS_NS::RegPrism &region);
+
+/// A cylinder or cone at rest: index of its axis, where this goes through the plane of the next two
+/// axes in ascending order, and radii and places of its ends.
+struct RoundRegion {
+  int axis;
+  double center[2], radius[2], end[2];
+};
+RoundRegion shape_of(const LAMMPS_NS::RegCylinder &region);
+RoundRegion shape_of(const LAMMPS_NS::RegCone &region);
+
+/// A sphere at rest: center and radius. A plane at rest: a point and the unit normal, which points
+/// inwards.
+std::array<double, 4> shape_of(const LAMMPS_NS::RegSphere &region);
+std::array<std::array<double, 3>, 2> shape_of(const LAMMPS_NS::RegPlane &region);
 
 /// Of a variable by its index: "equal", "index" and so on; the formula of one of style equal.
 std::string style_of(LAMMPS_NS::Variable &all, int n);

@@ -4,6 +4,8 @@
 
 #include "particles/kick_and_drift.h"
 
+#include "base/in_parallel.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "group.h"
@@ -27,27 +29,31 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
   const double *const radius = atom->radius;
   const double *const rmass = atom->rmass;
   const int *const mask = atom->mask, groupbit = lmp->group->bitmask[igroup];
-  const int threads = lmp->comm->nthreads;
+  const double dt = step.dt, kick = step.kick, inverse_c = 1.0 / step.inertia;
+  const double extrapolation = step.extrapolation;
+  const double fall[3] = {step.fall[0], step.fall[1], step.fall[2]};
 
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-  for (bigint i = 0; i < n; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
-    const double per_mass = step.kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
-    const double per_inertia =
-        Talus::kick_per_inertia(per_mass, inverse_radius, 1.0 / step.inertia);
-    const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
-    for (int d = 0; d < 3; d++) {
-      const bigint k = 3 * i + d;
-      const double v_old = v[k], omega_old = omega[k];
-      v[k] = Talus::kicked(v[k], per_mass, f[k], falls * step.fall[d]);
-      omega[k] = Talus::turned(omega[k], per_inertia, torque[k]);
-      if (change) {
-        change->c[d] = static_cast<float>(step.extrapolation * (v[k] - v_old));
-        change->c[4 + d] =
-            static_cast<float>(radius[i] * (step.extrapolation * (omega[k] - omega_old)));
+  Talus::in_ranges(n, lmp->comm->nthreads, [=](int, int begin, int end) {
+    for (int i = begin; i < end; i++) {
+      if (!(mask[i] & groupbit)) continue;
+      Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
+      const double per_mass = kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
+      const double per_inertia = Talus::kick_per_inertia(per_mass, inverse_radius, inverse_c);
+      const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
+      for (int d = 0; d < 3; d++) {
+        const bigint k = 3 * static_cast<bigint>(i) + d;
+        const double v_old = v[k], omega_old = omega[k];
+        const double v_new = Talus::kicked(v_old, per_mass, f[k], falls * fall[d]);
+        const double omega_new = Talus::turned(omega_old, per_inertia, torque[k]);
+        v[k] = v_new;
+        omega[k] = omega_new;
+        if (change) {
+          change->c[d] = static_cast<float>(extrapolation * (v_new - v_old));
+          change->c[4 + d] =
+              static_cast<float>(radius[i] * (extrapolation * (omega_new - omega_old)));
+        }
+        if (drifts) x[k] = Talus::drifted(x[k], dt, v_new);
       }
-      if (drifts) x[k] = Talus::drifted(x[k], step.dt, v[k]);
     }
-  }
+  });
 }

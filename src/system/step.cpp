@@ -73,8 +73,9 @@ double GranularSystem::moved_since_rebuild()
     contact_pipeline->complete_move();
     return contact_pipeline->travel().moved;
   }
-  if (farthest.step == now && neighbor->ago > 0 && !update->setupflag) return farthest.moved;
-  farthest = {now, moved_in_arrays()};
+  if (farthest.step == now && farthest.lists == neighbor->ncalls && !update->setupflag)
+    return farthest.moved;
+  farthest = {now, neighbor->ncalls, moved_in_arrays()};
   return farthest.moved;
 }
 
@@ -124,11 +125,13 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, report,
                    energies.begin_step(setting_up)};
   run_contacts.forget();
-  step.lag = movers.lag();
+  const int order =
+      contact_store->order_of_histories();    // that of the run, since pairs were numbered
+  step.lag = order == 2 ? movers.lag() : 0.0;
   step.read = !contact_pipeline->holds_state();
   step.read_ghosts = !proxies.take_arrived_in_records();
   step.deliver = !stays_in_records;
-  find_changes(step);
+  find_changes(step, order);
   if (contact_pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
 
   gravity.begin_step(*contact_pipeline);
@@ -149,16 +152,16 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   monitors.look(RunMonitor::Moment::SETUP);
 }
 
-bool GranularSystem::needs_changes() const
+bool GranularSystem::needs_changes(int order) const
 {
-  return movers.order() == 2 || energies.is_asked() || large_bodies.account();
+  return order == 2 || energies.is_asked() || large_bodies.account();
 }
 
 /* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
 
-void GranularSystem::find_changes(ContactStep &step)
+void GranularSystem::find_changes(ContactStep &step, int order)
 {
-  if (const bool needed = needs_changes(); needed != contact_pipeline->keeps_changes()) {
+  if (const bool needed = needs_changes(order); needed != contact_pipeline->keeps_changes()) {
     contact_pipeline->keep_changes(needed);
     contact_store->keep_changes(needed);
   }
