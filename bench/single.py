@@ -236,9 +236,9 @@ def distance_blocks(distance, ratios):
         return [text + ", measured before and after each run of these rows."]
     rows = []
     for case, values in ratios.items():
-        for name, its in distance.sort(case, values).items():
-            if its:
-                rows.append([case, name, len(its), f"{statistics.median(its):.2f} ({min(its):.2f} to {max(its):.2f})"])
+        for name, times in distance.sort(case, values).items():
+            if times:
+                rows.append([case, name, len(times), f"{statistics.median(times):.2f} ({min(times):.2f} to {max(times):.2f})"])
     return [text + """: measured before and after each run of these rows; near is less than
 twice the shortest time, and in some runs it changed on the way. A machine with cores of its own has one of these times;
 threads send lines to each other all the time, independent runs do not.""",

@@ -18,7 +18,7 @@ STAGES = {
     "collect_pairs": "rebuild: pairs of the neighbor list, sorted",
     "keep_history": "rebuild: displacements put aside, fetched for the new pairs",
     "keep_history_periodic": "rebuild, periodic box: displacements put aside, fetched for the new pairs",
-    "read_particles": "step: records read from the arrays of the host",
+    "read_particles": "step: records read from the arrays of LAMMPS",
     "advance_records": "step: records moved, with the travel since the rebuild",
     "narrow_phase": "step: narrow phase",
     "contacts/hooke_frictionless": "step: contacts, hooke without friction",
@@ -26,12 +26,12 @@ STAGES = {
     "contacts/hertz_onestep": "step: contacts, hertz, onestep friction",
     "contacts/hooke_multistep": "step: contacts, hooke, multistep friction",
     "contacts/hertz_multistep": "step: contacts, hertz, multistep friction",
-    "add_to_host": "step: forces and torques added to the arrays of the host",
+    "add_to_host": "step: forces and torques added to the arrays of LAMMPS",
     "floor_find": "rebuild: which particles may touch a plane",
     "floor_contacts": "step: contacts with a plane, per sphere that touches it",
 }
 
-# how the work is divided: functions of a step and a rebuild, ours and those of the order-dependent twin
+# how the work is divided: functions of a step and a rebuild, ours and those of the order-dependent baseline
 DIVISIONS = {
     "one rank, one thread": (("canonical_step/one_part", "canonical_rebuild/one_part"), ("listed_step/one_part", "listed_rebuild")),
     "one rank, two threads": (("canonical_step/two_threads", "canonical_rebuild/two_threads"),
@@ -76,11 +76,11 @@ def order(bench, series, sizes):
         step, rebuild = (series[name, size] for name in names)
         return paired.Series([a + b / REBUILD for a, b in zip(step.values, rebuild.values)])
     ratios = {}
-    for words, (our_names, twin_names) in DIVISIONS.items():
+    for words, (our_names, baseline_names) in DIVISIONS.items():
         for size in sizes:
-            ours, twin = whole(our_names, size), whole(twin_names, size)
-            ratio = paired.ratio(ours, twin)
-            times = [series[names[n], size].median for n in (0, 1) for names in (our_names, twin_names)]
+            ours, baseline = whole(our_names, size), whole(baseline_names, size)
+            ratio = paired.ratio(ours, baseline)
+            times = [series[names[n], size].median for n in (0, 1) for names in (our_names, baseline_names)]
             rows.append([words, size, *times, str(ratio)])
             section.record(stage="canonical order: " + words, spheres=size, ns=ours.median, ratio=ratio.median,
                            low=ratio.low, high=ratio.high)

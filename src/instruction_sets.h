@@ -42,7 +42,7 @@ inline int find_instruction_set(const char *word)
 
 /// What is wrong with TALUS_ISA=word where `fastest` is the best that all ranks can run; empty if
 /// nothing is.
-inline std::string complaint_about_isa(const std::string &word, int fastest)
+inline std::string problem_of_isa(const std::string &word, int fastest)
 {
   const int asked = find_instruction_set(word.c_str());
   if (0 <= asked && asked <= fastest) return {};

@@ -5,7 +5,7 @@
 // themselves. TALUS_ISA=WORD in the environment of the first rank chooses others.
 //
 // All code of ours, and with it every inline function and template of the C++ library that it
-// uses, is compiled anew for each set and shows no symbol but the one called here. So the linker
+// uses, is compiled again for each set and shows no symbol but the one called here. So the linker
 // has no occasion to give a processor code that was meant for a better one. The laws round alike
 // on all sets (see contact/simd.h).
 //
@@ -91,7 +91,7 @@ extern "C" __attribute__((visibility("default"))) void TALUS_REGISTER(void *lmp,
   const auto *host = static_cast<LAMMPS *>(lmp);
   const int fastest = fastest_of_all(host->world);
   const std::string word = asked_for(host->world);
-  const std::string complaint = word.empty() ? "" : complaint_about_isa(word, fastest);
+  const std::string complaint = word.empty() ? "" : problem_of_isa(word, fastest);
   if (!complaint.empty()) host->error->all(FLERR, "Talus: {}", complaint);
 
   const int chosen = word.empty() ? fastest : find_instruction_set(word.c_str());

@@ -75,8 +75,9 @@ class Cube {
   std::size_t message_from(int rank) const
   {
     const auto &neighbors = plan.neighbors();
-    const auto found = std::find_if(neighbors.begin(), neighbors.end(),
-                                    [rank](const auto &its) { return its.rank == opposite(rank); });
+    const auto found =
+        std::find_if(neighbors.begin(), neighbors.end(),
+                     [rank](const auto &neighbor) { return neighbor.rank == opposite(rank); });
     return found - neighbors.begin();
   }
 
@@ -120,8 +121,8 @@ class Cube {
     std::sort(proxies.begin(), proxies.end());
     const int owned = static_cast<int>(slot_of_atom.size());
     std::vector<ProxyOrigin> origins;
-    for (const auto &[rank, its_index, slot] : proxies) {
-      origins.push_back({rank, its_index, {0, 0, 0}});
+    for (const auto &[rank, owner_index, slot] : proxies) {
+      origins.push_back({rank, owner_index, {0, 0, 0}});
       slot_of_atom.push_back(slot);
     }
     plan.build(rank_towards({}), owned, origins);

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What it costs that every sum is taken in canonical order. The twin takes pairs as the neighbor
-// list gives them, each of them once on a rank, through the same narrow phase, kernels and
+// What it costs that every sum is taken in canonical order. The baseline takes pairs as the
+// neighbor list gives them, each of them once on a rank, through the same narrow phase, kernels and
 // integrator: no keys, no sorting of particles or pairs, and nothing is computed twice for the sake
 // of threads or phases. On two threads, what the second one has added is brought to the sums of the
 // first, particle by particle. On two ranks both compute the pairs between them, as the stock

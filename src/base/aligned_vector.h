@@ -44,18 +44,19 @@ template <class T> struct AlignedAllocator {
 
 template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// Memory that is needed again and again is given back in between only if it is more than this
-/// (bytes): the system zeroes what it hands out anew, which is felt where lists are made often.
-constexpr double worth_giving_back = 16 << 20;
+/// Memory that every rebuild needs is released in between only above this size (bytes): the
+/// operating system has to zero pages that are allocated again, which takes time where lists are
+/// rebuilt often.
+constexpr double release_threshold = 16 << 20;
 
-/// Gives the memory of a vector back.
+/// Releases the memory of a vector.
 template <class Vector> void release(Vector &v)
 {
   Vector().swap(v);
 }
 
-/// Gives a vector `n` elements, the old content being of no interest: old and new storage never
-/// stand side by side, so that rebuilds do not double the peak of memory. A little room is left,
+/// Resizes a vector to `n` elements without keeping its content: the old storage is released before
+/// the new one is allocated, so that rebuilds do not double the peak of memory. Reserves 3 % more,
 /// for counts of pairs that grow from one rebuild to the next.
 template <class Vector> void renew(Vector &v, std::size_t n)
 {

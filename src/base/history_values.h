@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The numbers that a contact remembers, as its first body sees them. The first three (displacements,
-// forces) change their sign if the other body counts as the first. Which law has which: see
-// HistoryLayout (laws/contact_law.h).
+// The history of a contact, with the signs of its first body. The first three values
+// (displacements, forces) change their sign if the other body counts as the first. Which law has
+// which: see HistoryLayout (laws/contact_law.h).
 
 #ifndef TALUS_BASE_HISTORY_VALUES_H
 #define TALUS_BASE_HISTORY_VALUES_H
@@ -14,10 +14,10 @@ namespace Talus {
 /// Room for all laws: a whole number of records of four.
 inline constexpr int most_history_values = 20;
 
-/// Zero behind those that a contact has.
+/// Values beyond those that the laws of a contact have are zero.
 using HistoryValues = std::array<double, most_history_values>;
 
-/// As the other body of the contact sees them.
+/// With the signs of the other body of the contact.
 inline HistoryValues mirrored(HistoryValues values)
 {
   for (int n = 0; n < 3; n++) values[n] = -values[n];

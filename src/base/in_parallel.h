@@ -35,7 +35,8 @@ template <class Stage> void do_alone(int count, Stage &stage)
 /// several threads when all are done: no handler catches exceptions of a thread.
 template <class... Stage> void in_parallel(int count, int threads, Stage... stages)
 {
-  if (threads <= 1) {    // even a team of one would be made anew, and its barriers ask the system
+  if (threads <= 1) {    // even a team of one thread would be created again, and its barriers call
+                         // the system
     (in_parallel_detail::do_alone(count, stages), ...);
     return;
   }

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Between rows of four numbers, as particles and histories are stored, and lanes, as contacts are
-// computed; and choosing among lanes by bits. A row is whatever load4() and store() know, for
-// example a Record.
+// Conversion between rows of four numbers, as particles and histories are stored, and SIMD lanes,
+// one for each contact, as they are computed; and selection of lanes by bits. A row is whatever
+// load4() and store() know, for example a Record.
 
 #ifndef TALUS_BASE_LANES_H
 #define TALUS_BASE_LANES_H

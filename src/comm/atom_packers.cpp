@@ -45,16 +45,16 @@ template <class Steps> void add_steps(const Steps &steps, double *x)
 
 /* ---------------------------------------------------------------------- */
 
-void HostPacker::set(int new_size, bool with_velocity)
+void AtomVecPacker::set(int new_size, bool with_velocity)
 {
   size = new_size;
   velocity = with_velocity;
 }
 
-/* One particle at a time: the host packs several ones array by array, and the receiver must be able
+/* One particle at a time: LAMMPS packs several ones array by array, and the receiver must be able
    to take out single ones. */
 
-void HostPacker::pack(const ExchangeNeighbor &to, double *out)
+void AtomVecPacker::pack(const ExchangeNeighbor &to, double *out)
 {
   int pbc[6] = {0, 0, 0, 0, 0, 0};
   for (int particle : to.send_index) {
@@ -66,10 +66,10 @@ void HostPacker::pack(const ExchangeNeighbor &to, double *out)
   }
 }
 
-/* What the host packs begins with x, so that the shift can be added afterwards: the host itself
+/* What LAMMPS packs begins with x, so that the shift can be added afterwards: LAMMPS itself
    could add only one step. */
 
-void HostPacker::unpack(const ExchangeNeighbor &from, const double *message)
+void AtomVecPacker::unpack(const ExchangeNeighbor &from, const double *message)
 {
   state.resize(size);
   for_each_shifted(from, present_box(*domain), [&](int proxy, int place, const auto &steps) {

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The state of particles in the arrays of the host as the exchange carries it: through the host's
+// The state of particles in the arrays of LAMMPS as the exchange carries it: through LAMMPS'
 // packing for every atom style, or, faster, our own for atom style sphere.
 
 #ifndef TALUS_COMM_ATOM_PACKERS_H
@@ -15,11 +15,11 @@
 namespace Talus {
 
 /// AtomVec::pack_comm() or pack_comm_vel(): whatever the atom style sends in every step.
-class HostPacker : public ProxyPacker, protected LAMMPS_NS::Pointers {
+class AtomVecPacker : public ProxyPacker, protected LAMMPS_NS::Pointers {
  public:
-  explicit HostPacker(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  explicit AtomVecPacker(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// size: numbers per proxy as the host counts them; velocity: the host's ghost_velocity.
+  /// size: numbers per proxy as LAMMPS counts them; velocity: LAMMPS' ghost_velocity.
   void set(int size, bool velocity);
 
   int stride() const override { return size; }
@@ -37,7 +37,7 @@ class SpherePacker : public ProxyPacker, protected LAMMPS_NS::Pointers {
  public:
   explicit SpherePacker(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// Whether the atoms of this simulation can be packed so. Call after the host's init.
+  /// Whether the atoms of this simulation can be packed so. Call after LAMMPS' init.
   bool applies(bool ghost_velocity) const;
 
   int stride() const override { return 9; }

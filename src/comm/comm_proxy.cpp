@@ -20,7 +20,7 @@ using namespace LAMMPS_NS;
 using namespace Talus;
 
 CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
-    CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), host_packer(lmp),
+    CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), atom_vec_packer(lmp),
     sphere_packer(lmp)
 {
   system->exchange().is_made(this, this);
@@ -39,7 +39,7 @@ void CommProxy::init()
   CommBrick::init();
   look_for_unsupported();
   own_packing = sphere_packer.applies(ghost_velocity);
-  host_packer.set(size_forward, ghost_velocity);
+  atom_vec_packer.set(size_forward, ghost_velocity);
 }
 
 /* Not in the command alone: comm_modify and fix deform may come later. */
@@ -47,8 +47,8 @@ void CommProxy::init()
 void CommProxy::look_for_unsupported()
 {
   const std::string problem = system->exchange().unsupported(true);
-  aside = !problem.empty();
-  if (aside && system->exchange().choice() == ExchangeSwitch::Choice::YES)
+  fell_back = !problem.empty();
+  if (fell_back && system->exchange().choice() == ExchangeSwitch::Choice::YES)
     error->all(FLERR, "comm_proxy: {} or 'comm_proxy no'", problem);
 }
 
@@ -67,7 +67,7 @@ void CommProxy::set_proc_grid(int outflag)
 
 void CommProxy::exchange()
 {
-  transfer.abandon();    // the particles are about to be numbered anew
+  transfer.abandon();    // the particles are about to be renumbered
   have_plan = false;
   CommBrick::exchange();
 }
@@ -77,7 +77,7 @@ void CommProxy::borders()
   transfer.abandon();
   have_plan = false;
   CommBrick::borders();
-  if (aside) return;
+  if (fell_back) return;
   derive_plan();
   have_plan = true;
   if (checks) check_owners();
@@ -110,19 +110,19 @@ void CommProxy::finish()
 
 ProxyPacker &CommProxy::choose_packer(ProxyPacker *given)
 {
-  ProxyPacker *its = given;
-  if (!its && own_packing) its = &sphere_packer;
-  if (!its) its = &host_packer;
-  if (!plan_has_orientations || !system->shapes()) return *its;
-  with_orientations.set(*its, system->shapes()->orientations());
+  ProxyPacker *packer = given;
+  if (!packer && own_packing) packer = &sphere_packer;
+  if (!packer) packer = &atom_vec_packer;
+  if (!plan_has_orientations || !system->shapes()) return *packer;
+  with_orientations.set(*packer, system->shapes()->orientations());
   return with_orientations;
 }
 
-/* Of the states in the arrays of the host. */
+/* Of the states in the arrays of LAMMPS. */
 
 int CommProxy::stride() const
 {
-  const int of_state = own_packing ? sphere_packer.stride() : host_packer.stride();
+  const int of_state = own_packing ? sphere_packer.stride() : atom_vec_packer.stride();
   return of_state + (plan_has_orientations ? PackerWithRows::columns : 0);
 }
 
@@ -148,11 +148,11 @@ void CommProxy::derive_plan()
 int CommProxy::largest_stride() const
 {
   constexpr int identity = 2;
-  const int largest = std::max({sphere_packer.stride(), host_packer.stride(), identity});
+  const int largest = std::max({sphere_packer.stride(), atom_vec_packer.stride(), identity});
   return largest + (plan_has_orientations ? PackerWithRows::columns : 0);
 }
 
-/* Runs once through the host's swaps, with the identity of particles instead of their state: what
+/* Runs once through LAMMPS' swaps, with the identity of particles instead of their state: what
    a rank passes on is known to belong to someone else. */
 
 std::vector<ProxyOrigin> CommProxy::trace_origins()

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The host's communication object with a direct exchange: ExchangeSwitch puts it in the place of
+// LAMMPS' communication object with a direct exchange: ExchangeSwitch puts it in the place of
 // the stock CommBrick. doc/comm_proxy.md is the user's page.
 //
-// Migration, borders and all exchanges of single styles stay the host's staged ones, so that the
+// Migration, borders and all exchanges of single styles stay LAMMPS' staged ones, so that the
 // order of ghost particles, and with it every neighbor list, is the stock one. At the end of
 // borders() a plan is derived that goes from owner to proxy without stages; forward_comm(), which
 // runs in every other step, uses it.
@@ -34,7 +34,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   CommProxy(class LAMMPS *, class Comm *old);
   ~CommProxy() override;
 
-  // ---- the host's interface
+  // ---- LAMMPS' interface
 
   void init() override;
   void setup() override;
@@ -60,7 +60,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
 
   // ---- ours
 
-  bool stands_aside() const override { return aside; }
+  bool falls_back() const override { return fell_back; }
 
   /// Whether begin() can be called: after borders() until the next exchange(). The same on all
   /// ranks.
@@ -68,7 +68,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
 
   /// Starts the update of all proxies; the caller ensures that they are not read before
   /// finish(). Collective among neighbors, like forward_comm(). `packer`: if states are not in the
-  /// host's arrays, on all ranks.
+  /// arrays of LAMMPS, on all ranks.
   void begin(Talus::ProxyPacker *packer) override;
 
   /// For the run style, at the start of a run: whether it will call begin().
@@ -94,7 +94,7 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
   /// Of this rank, for one exchange with the present plan.
   double messages_per_exchange() const override;
   double bytes_per_exchange() const override;
-  /// What a proxy's message holds, for people.
+  /// What a proxy's message holds, as text for messages.
   std::string describe_message() const override;
 
  private:
@@ -111,12 +111,12 @@ class CommProxy : public CommBrick, public Talus::ProxyUpdates {
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::ProxyExchange transfer;
-  Talus::HostPacker host_packer;
+  Talus::AtomVecPacker atom_vec_packer;
   Talus::SpherePacker sphere_packer;
   Talus::PackerWithRows with_orientations;
   bool have_plan = false;                ///< the same on all ranks
   bool plan_has_orientations = false;    ///< room for them in its messages
-  bool aside = false;                    ///< in this run, see stands_aside()
+  bool fell_back = false;                ///< in this run, see falls_back()
   bool own_packing = false;              ///< atom style sphere
   bool checks = false;
   bool overlapped_run = false;

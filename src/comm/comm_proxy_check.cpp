@@ -93,7 +93,7 @@ void CommProxy::poison_proxies()
     }
 }
 
-/* The host's staged exchange goes another way and must bring the same. What ours has brought is
+/* LAMMPS' staged exchange goes another way and must bring the same. What ours has brought is
    put back, so that checks change nothing. */
 
 void CommProxy::check_states()

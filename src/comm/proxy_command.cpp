@@ -58,7 +58,7 @@ void ProxyCommand::check(bool value)
 void ProxyCommand::info()
 {
   CommProxy *proxy = current();
-  if (!proxy || proxy->stands_aside()) {
+  if (!proxy || proxy->falls_back()) {
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }

@@ -155,7 +155,7 @@ int ComputeCoarseGrid::get_grid_by_name(const std::string &name, int &dimension)
 
 void *ComputeCoarseGrid::get_grid_by_index(int index)
 {
-  return index == 0 ? sums->host_grid() : nullptr;
+  return index == 0 ? sums->lammps_grid() : nullptr;
 }
 
 int ComputeCoarseGrid::get_griddata_by_name(int grid, const std::string &name, int &columns)
@@ -246,7 +246,7 @@ void ComputeCoarseGrid::add_particles()
 
 void ComputeCoarseGrid::add_contacts()
 {
-  contacts.for_each([&](const SurveyedContact &c) {
+  contacts.for_each([&](const ContactReport &c) {
     const Vector3<double> x = row(atom->x[c.i]), meeting = x + c.arm[0];
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, c.force);
     if (c.j >= 0 && (atom->mask[c.j] & groupbit)) add_branch(meeting - c.arm[1], meeting, -c.force);

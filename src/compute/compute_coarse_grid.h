@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // compute coarse/grid: density, velocity, granular temperature and stress as continuous fields, on
-// a grid of the host, for fix ave/grid and dump grid. doc/compute_coarse_grid.md is the user's page
+// a grid of LAMMPS, for fix ave/grid and dump grid. doc/compute_coarse_grid.md is the user's page
 // and has the equations.
 
 #ifndef LMP_COMPUTE_COARSE_GRID_H

@@ -52,7 +52,7 @@ void ComputeContactGranAtom::compute_peratom()
     array_atom[i][ALL] += 1.0;
     array_atom[i][which] += 1.0;
   };
-  system->contacts().for_each(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+  system->contacts().for_each(Talus::ContactData::ENERGIES, [&](const Talus::ContactReport &one) {
     count(one.i, one.body < 0 ? PARTICLES : BODIES);
     count(one.j, PARTICLES);
   });

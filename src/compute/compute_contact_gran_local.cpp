@@ -14,7 +14,7 @@
 #include <utility>
 
 using namespace LAMMPS_NS;
-using Talus::SurveyedContact;
+using Talus::ContactReport;
 
 namespace {
 
@@ -137,14 +137,14 @@ void ComputeContactGranLocal::init()
     error->all(FLERR, "Compute contact/gran/local requires a pair style of Talus");
 }
 
-bool ComputeContactGranLocal::is_chosen(const SurveyedContact &one) const
+bool ComputeContactGranLocal::is_chosen(const ContactReport &one) const
 {
   if (!(atom->mask[one.i] & groupbit)) return false;
   if (one.j < 0) return true;
   return (atom->mask[one.j] & groupbit) && system->contacts().is_of_this_rank(one);
 }
 
-ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedContact &one) const
+ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const ContactReport &one) const
 {
   const bool with_body = one.body >= 0, swapped = !with_body && atom->tag[one.i] > atom->tag[one.j];
   const int i = swapped ? one.j : one.i;
@@ -169,7 +169,7 @@ ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const SurveyedConta
   put(center, row.x[0]);
   put(point - one.arm[!swapped], row.x[1]);
   put(point, row.point);
-  row.history = swapped ? Talus::mirrored(one.memory) : one.memory;
+  row.history = swapped ? Talus::mirrored(one.history) : one.history;
   return row;
 }
 
@@ -177,7 +177,7 @@ void ComputeContactGranLocal::compute_local()
 {
   invoked_local = update->ntimestep;
   values.clear();
-  system->contacts().for_each(Talus::Ask::ALL, [&](const SurveyedContact &one) {
+  system->contacts().for_each(Talus::ContactData::ALL, [&](const ContactReport &one) {
     if (!is_chosen(one)) return;
     const Row row = row_of(one);
     for (const auto value : columns) values.push_back(value(row));

@@ -35,8 +35,8 @@ class ComputeContactGranLocal : public Compute, private Talus::ContactObserver {
 
  private:
   bool asks_for_work() const override { return false; }
-  bool is_chosen(const Talus::SurveyedContact &one) const;
-  Row row_of(const Talus::SurveyedContact &one) const;
+  bool is_chosen(const Talus::ContactReport &one) const;
+  Row row_of(const Talus::ContactReport &one) const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   std::vector<double (*)(const Row &)> columns;

@@ -70,11 +70,11 @@ void ComputeDissipationGranAtom::setup()
 void ComputeDissipationGranAtom::add_springs(double **to, double sign) const
 {
   const int nlocal = atom->nlocal;
-  system->contacts().for_each(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+  system->contacts().for_each(Talus::ContactData::ENERGIES, [&](const Talus::ContactReport &one) {
     const double share = sign * (one.body < 0 ? 0.5 : 1.0);
     for (const int i : {one.i, one.j}) {
       if (i < 0 || i >= nlocal) continue;
-      to[i][0] += share * one.stored.tearing;
+      to[i][0] += share * one.stored.detaching;
       to[i][1] += share * one.stored.tangential;
       to[i][2] += share * one.stored.resistance;
     }

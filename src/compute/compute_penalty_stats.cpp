@@ -63,13 +63,13 @@ void ComputePenaltyStats::setup()
 {
   if (started) return;
   started = true;
-  before = dissipated(system->account().work(), survey().stored);
+  before = dissipated(system->account().work(), sum_contacts().stored);
 }
 
-ComputePenaltyStats::Survey ComputePenaltyStats::survey() const
+ComputePenaltyStats::ContactSums ComputePenaltyStats::sum_contacts() const
 {
-  Survey found;
-  system->contacts().for_each(Talus::Ask::ENERGIES, [&](const Talus::SurveyedContact &one) {
+  ContactSums found;
+  system->contacts().for_each(Talus::ContactData::ENERGIES, [&](const Talus::ContactReport &one) {
     found.stored += one.share * one.stored;
     found.contacts += one.share;
     if (one.body < 0) return;
@@ -91,7 +91,7 @@ void ComputePenaltyStats::compute_vector()
 {
   invoked_vector = update->ntimestep;
   double mine[SIZE] = {};
-  const Survey found = survey();
+  const ContactSums found = sum_contacts();
   const Talus::EnergyByCause lost = dissipated(system->account().work(), found.stored) - before;
   mine[ELASTIC] = found.stored.total();
   mine[NORMAL] = lost.normal;

@@ -30,13 +30,13 @@ class ComputePenaltyStats : public Compute, private Talus::ContactObserver {
 
  private:
   bool asks_for_work() const override { return true; }
-  /// What the contacts of this rank are asked one by one.
-  struct Survey {
+  /// Sums over the contacts of this rank.
+  struct ContactSums {
     Talus::EnergyByCause stored;
     double contacts = 0.0, deepest_in_body = 0.0;
   };
   double radius_of(int i) const;
-  Survey survey() const;
+  ContactSums sum_contacts() const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   bool started = false;

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Values on a distributed grid of the host, added to by ranks whose particles are near: also to
-// cells that others own. The host's grids talk to fixes only, so this is one, though no script ever
+// Values on a distributed grid of LAMMPS, added to by ranks whose particles are near: also to
+// cells that others own. LAMMPS' grids talk to fixes only, so this is one, though no script ever
 // sees it.
 
 #ifndef TALUS_COMPUTE_GRID_SUM_H
@@ -21,7 +21,7 @@ class GridSum : public Fix {
   GridSum(LAMMPS *lmp, const int (&cells)[3], int values, double reach);
 
   int setmask() override { return 0; }
-  Grid3d *host_grid() const { return grid.get(); }
+  Grid3d *lammps_grid() const { return grid.get(); }
   /// First and last cell of each direction: owned, and those that may be added to.
   const int *owned_lo() const { return in_lo; }
   const int *owned_hi() const { return in_hi; }

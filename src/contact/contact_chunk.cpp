@@ -61,9 +61,9 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   const Step step{how, scene, particles, load, frontier};
   const std::size_t room = pairs.num_pairs() + lanes;    // the narrow phase stores a few ahead
   if (contacts.size() != room) renew(contacts, room);
-  later_reports.clear();
-  reported = 0;
-  its_work = EnergyByCause{};
+  later_tallies.clear();
+  tallied = 0;
+  chunk_work = EnergyByCause{};
   work_left.clear();
   if (step.weight_of_changes == 0.0F)
     for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
@@ -74,7 +74,7 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
     compute_all<true, false>(step);
   else
     compute_all<false, false>(step);
-  if (pairs.is_late()) report_early_before(std::numeric_limits<int>::max(), 0, step);
+  if (pairs.is_late()) tally_early_before(std::numeric_limits<int>::max(), 0, step);
   if (!pairs.foreign.empty()) streams_are_done();
 }
 
@@ -99,7 +99,7 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   };
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
-    if (step.meanwhile && begin % between_calls == 0) (*step.meanwhile)();
+    if (step.progress && begin % between_calls == 0) (*step.progress)();
     prefetch_distant(step.particles, next_distant, end + stretch);
     const int needed = std::min(pairs.second[end - 1] + 1, to_load.end);
     if (needed > to_load.begin) step.load(to_load.begin, needed);
@@ -123,11 +123,11 @@ bool ContactChunk::lasts_beyond_contact(const ContactScene &scene, const Record 
 {
   const int row = row_of_pair(scene, pair);
   const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];
-  const double reach = scene.laws.reach(row, i.c[3], j.c[3]);
-  if (reach == 0.0) return false;
+  const double pulloff_distance = scene.laws.pulloff_distance(row, i.c[3], j.c[3]);
+  if (pulloff_distance == 0.0) return false;
   double squared = 0.0;
   for (int d = 0; d < 3; d++) squared += (i.c[d] - j.c[d]) * (i.c[d] - j.c[d]);
-  const double apart = i.c[3] + j.c[3] + reach;
+  const double apart = i.c[3] + j.c[3] + pulloff_distance;
   return squared < apart * apart;
 }
 
@@ -170,7 +170,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
     if (scene.with_twisting) add_twisting_torques(step.particles, block, count);
   }
   defer(step, block, count);
-  if (step.report) report_block(step, block, count);
+  if (step.tally) tally_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }
 
@@ -232,7 +232,7 @@ void ContactChunk::run_kernels(const Step &step)
     // not written by the kernels of laws that have none
     const ContactLaw &law = laws.distinct_law(range.law);
     if (step.scene.with_friction && !law.has_friction())
-      clear_lanes(batch.moment, range.begin, range.end);
+      clear_lanes(batch.torque_per_radius, range.begin, range.end);
     if (step.scene.with_twisting && !law.twists())
       clear_lanes(batch.twisting_torque, range.begin, range.end);
     if (step.scene.with_heat && !law.conducts_heat())
@@ -246,7 +246,7 @@ void ContactChunk::apply_weights(int end)
     const double weight = pairs.weights[pair_of_lane[k]];
     for (int d = 0; d < 3; d++) {
       force_of_lane[k].c[d] *= weight;
-      moment_of_lane[k].c[d] *= weight;
+      torque_per_radius_of_lane[k].c[d] *= weight;
       twisting_of_lane[k].c[d] *= weight;
     }
   }
@@ -266,8 +266,8 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
   Record *load = particles.load.data();
   int last = second[block[0]];    // may have begun in the last block
   const Record *begun = load + stride * last;
-  Vec4 force = load4(begun[0]), moment{};
-  if constexpr (friction) moment = load4(begun[1]);
+  Vec4 force = load4(begun[0]), torque_per_radius{};
+  if constexpr (friction) torque_per_radius = load4(begun[1]);
 
   for (int n = 0; n < count; n++) {
     const std::uint32_t pair = block[n];
@@ -284,10 +284,10 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
       force = kept_if(same, force) - f;
     store(j[0], force);
     if constexpr (friction) {
-      const Vec4 m = load4(moment_of_lane[lane]);
+      const Vec4 m = load4(torque_per_radius_of_lane[lane]);
       if (kept) store(i[1], load4(i[1]) + m);
-      moment = kept_if(same, moment) + m;
-      store(j[1], moment);
+      torque_per_radius = kept_if(same, torque_per_radius) + m;
+      store(j[1], torque_per_radius);
     }
   }
 }
@@ -331,48 +331,48 @@ void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count
   for (; at_frontier; at_frontier &= at_frontier - 1) {
     const int n = __builtin_ctzll(at_frontier), lane = lane_of_contact[n];
     const std::uint32_t pair = block[n];
-    forces.put(
-        step.frontier.first_place + pairs.frontier_before(pair),
-        pairs.is_foreign(pairs.first[pair]),
-        {load4(force_of_lane[lane]), load4(moment_of_lane[lane]), load4(twisting_of_lane[lane])});
+    forces.put(step.frontier.first_place + pairs.frontier_before(pair),
+               pairs.is_foreign(pairs.first[pair]),
+               {load4(force_of_lane[lane]), load4(torque_per_radius_of_lane[lane]),
+                load4(twisting_of_lane[lane])});
   }
 }
 
 /* In two phases ends of particles with late contacts are reported in the late phase. */
 
-void ContactChunk::report_block(const Step &step, const std::uint32_t *block, int count)
+void ContactChunk::tally_block(const Step &step, const std::uint32_t *block, int count)
 {
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count; n++) {
     const int i = pairs.first[block[n]], j = pairs.second[block[n]];
-    ReportedContact out{order.atom_of_slot[i], order.atom_of_slot[j], true, true, {}, {}};
+    TalliedContact out{order.atom_of_slot[i], order.atom_of_slot[j], true, true, {}, {}};
     for (int d = 0; d < 3; d++) {
       out.force[d] = force_of_lane[lane_of_contact[n]].c[d];
       out.separation[d] = step.particles.position[i].c[d] - step.particles.position[j].c[d];
     }
     if (pairs.is_late()) {
-      report_early_before(j, i, step);
+      tally_early_before(j, i, step);
     } else if (const bool i_later = pairs.has_late(i), j_later = pairs.has_late(j);
                i_later || j_later) {
       out.for_i = i_later;
       out.for_j = j_later;
-      later_reports.push_back({j, i, out});
+      later_tallies.push_back({j, i, out});
       out.for_i = !i_later;
       out.for_j = !j_later;
     }
-    if (out.for_i || out.for_j) (*step.report)(out);
+    if (out.for_i || out.for_j) (*step.tally)(out);
   }
 }
 
 /* Reports what the early chunk has left, of pairs before that one. */
 
-void ContactChunk::report_early_before(int second, int first, const Step &step)
+void ContactChunk::tally_early_before(int second, int first, const Step &step)
 {
-  const std::vector<LaterReport> &left = step.frontier.early->later_reports;
-  for (; reported < left.size(); reported++) {
-    const LaterReport &next = left[reported];
+  const std::vector<LaterTally> &left = step.frontier.early->later_tallies;
+  for (; tallied < left.size(); tallied++) {
+    const LaterTally &next = left[tallied];
     if (std::tie(next.second, next.first) >= std::tie(second, first)) return;
-    (*step.report)(next.contact);
+    (*step.tally)(next.contact);
   }
 }
 
@@ -383,20 +383,20 @@ void ContactChunk::account_block(const Step &step, const std::uint32_t *block, i
 {
   for (const LawRange &range : ranges)
     for (int lane = range.used; lane < range.end; lane++)
-      for (auto &its : batch.work) its[lane] = 0.0;
+      for (auto &work : batch.work) work[lane] = 0.0;
   if (pairs.weighted())
     for (int n = 0; n < count; n++)
-      for (auto &its : batch.work) its[lane_of_contact[n]] *= pairs.weights[block[n]];
+      for (auto &work : batch.work) work[lane_of_contact[n]] *= pairs.weights[block[n]];
   if (!step.account->by_particle.empty()) account_by_particle(step, block, count);
   const ParticleOrder &order = pairs.order();
   for (int n = 0; n < count && order.owned < order.size(); n++) {
     const double share = order.share(pairs.first[block[n]], pairs.second[block[n]]);
-    for (auto &its : batch.work) its[lane_of_contact[n]] *= share;
+    for (auto &work : batch.work) work[lane_of_contact[n]] *= share;
   }
   Vec8 sum[ContactBatch::num_causes] = {};
   for (int k = 0; k < ranges.back().end; k += lanes)
     for (int n = 0; n < ContactBatch::num_causes; n++) sum[n] = sum[n] + load8(&batch.work[n][k]);
-  its_work += EnergyByCause{sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
+  chunk_work += EnergyByCause{sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
 }
 
 /* Of an owned particle, all contacts are computed on its rank: no other one has a part. */
@@ -407,13 +407,13 @@ void ContactChunk::account_by_particle(const Step &step, const std::uint32_t *bl
   for (int n = 0; n < count; n++) {
     const int lane = lane_of_contact[n], first = pairs.first[block[n]];
     const int i = order.atom_of_slot[first], j = order.atom_of_slot[pairs.second[block[n]]];
-    const EnergyByCause its = work_of_lane(batch, lane);
-    if (order.is_owned(j)) add_work(*step.account, j, its, 0.5);
+    const EnergyByCause contact_work = work_of_lane(batch, lane);
+    if (order.is_owned(j)) add_work(*step.account, j, contact_work, 0.5);
     if (!order.is_owned(i)) continue;
     if (pairs.is_foreign(first))
-      work_left.push_back({i, its});
+      work_left.push_back({i, contact_work});
     else
-      add_work(*step.account, i, its, 0.5);
+      add_work(*step.account, i, contact_work, 0.5);
   }
 }
 

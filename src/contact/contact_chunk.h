@@ -24,11 +24,11 @@
 
 namespace Talus {
 
-/// One contact as reported on request: host's indices, force on i, x_i - x_j. Every end of a
-/// contact is reported once, and those of every owned particle in canonical order. Both ends come
-/// at once, unless one of them waits for contacts of the late phase: `for_i` and `for_j` say which
-/// it is.
-struct ReportedContact {
+/// One contact for Pair::ev_tally_xyz(): local indices, force on i, x_i - x_j. Each particle of a
+/// contact is tallied once, and the contacts of an owned particle in canonical order. Both
+/// particles are tallied at once, unless one of them waits for contacts of the late phase: `for_i`
+/// and `for_j` say which.
+struct TalliedContact {
   int i, j;
   bool for_i, for_j;
   double force[3], separation[3];
@@ -53,20 +53,20 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `report`, if given, is called for every contact, not for use by several threads; `account`, if
-/// given, gets the work of all. `meanwhile`, if given, is called now and
-/// then, by the first thread: for messages that need someone to look after them. `add_more`, if
-/// given, adds other forces to the sums of slots begin ... end-1 when all contacts of these are
-/// added: called once by each thread, with its number and range.
+/// `tally`, if given, is called for every contact, by one thread; `account`, if given, receives the
+/// work of all contacts. `progress`, if given, is called now and then by the first thread, for the
+/// progress of MPI messages. `add_other_forces`, if given, adds other forces to the sums of slots
+/// begin ... end-1 after those of their contacts: called once by each thread, with its number and
+/// range.
 struct ContactStep {
   double dt;
   bool advance;
-  const std::function<void(const ReportedContact &)> *report = nullptr;
+  const std::function<void(const TalliedContact &)> *tally = nullptr;
   WorkAccount *account = nullptr;
-  const std::function<void()> *meanwhile = nullptr;
-  const std::function<void(int thread, int begin, int end)> *add_more = nullptr;
+  const std::function<void()> *progress = nullptr;
+  const std::function<void(int thread, int begin, int end)> *add_other_forces = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
-  const double *temperature = nullptr;    ///< by host's index, in scenes that conduct heat
+  const double *temperature = nullptr;    ///< by local index, in scenes that conduct heat
   double lag = 0.0;    ///< time by which velocities are behind positions; for second order
   /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work
   /// alone a few steps may be looked at with the weight of all, the others with 0: a correction that
@@ -76,7 +76,7 @@ struct ContactStep {
 
 class ContactChunk {
  public:
-  /// Makes the state of the slots begin ... end-1 the present one, and clears their sums.
+  /// Loads the present state of the slots begin ... end-1, and clears their sums.
   using Load = std::function<void(int begin, int end)>;
 
   ContactChunk();
@@ -86,8 +86,7 @@ class ContactChunk {
   /// See ContactPipeline::change_order(); `law`: of two slots.
   void change_order(int order, const std::function<const ContactLaw &(int, int)> &law);
 
-  /// Gives the memory of what the last compute() found back: it found nothing, as far as one can
-  /// ask.
+  /// Releases the contacts of the last compute(); queries then find none.
   void forget_contacts();
 
   /// Where the forces of the pairs at the frontier go, and in the late phase the chunk of the same
@@ -118,7 +117,7 @@ class ContactChunk {
 
   /// What the last compute() has found of the work of contacts; those of first particles that other
   /// chunks may deal with at the same time are not in the lists of step.account yet.
-  const EnergyByCause &work() const { return its_work; }
+  const EnergyByCause &work() const { return chunk_work; }
   void add_work_left(const WorkAccount &to) const;
 
   double memory_usage() const;
@@ -159,18 +158,18 @@ class ContactChunk {
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void account_by_particle(const Step &step, const std::uint32_t *contacts, int count);
-  void report_block(const Step &step, const std::uint32_t *contacts, int count);
-  void report_early_before(int second, int first, const Step &step);
+  void tally_block(const Step &step, const std::uint32_t *contacts, int count);
+  void tally_early_before(int second, int first, const Step &step);
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
-  struct LaterReport {
+  struct LaterTally {
     int second, first;
-    ReportedContact contact;
+    TalliedContact contact;
   };
-  std::vector<LaterReport> later_reports;    ///< of ends that have late contacts as well
-  std::size_t reported = 0;                  ///< of those of the early chunk
-  EnergyByCause its_work;
+  std::vector<LaterTally> later_tallies;    ///< of ends that have late contacts as well
+  std::size_t tallied = 0;                  ///< of those of the early chunk
+  EnergyByCause chunk_work;
   struct WorkLeft {
     int atom;
     EnergyByCause work;
@@ -187,7 +186,7 @@ class ContactChunk {
   std::uint32_t pair_of_lane[ContactBatch::width];
   int lane_of_contact[ContactBatch::width];
   AlignedVector<LawRange> ranges;
-  Record force_of_lane[ContactBatch::width], moment_of_lane[ContactBatch::width],
+  Record force_of_lane[ContactBatch::width], torque_per_radius_of_lane[ContactBatch::width],
       twisting_of_lane[ContactBatch::width];
   alignas(64) double first_radius[ContactBatch::width], second_radius[ContactBatch::width];
 };

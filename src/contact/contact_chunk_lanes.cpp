@@ -6,7 +6,7 @@
 #include "contact/contact_chunk.h"
 
 #include "base/lanes.h"
-#include "laws/circle_of_intersection.h"
+#include "laws/intersection_radius.h"
 
 #include <algorithm>
 
@@ -16,8 +16,8 @@ namespace {
 const Vec4 difference_and_sum = four(-1.0, -1.0, -1.0, 1.0), ones = four(1.0, 1.0, 1.0, 1.0);
 using Lane = double[ContactBatch::width];
 
-/// Histories that are called into the cache while others are gathered. They stand nearly in the
-/// order in which they are wanted; beyond the end there is nothing to call, and no harm in it.
+/// Histories that are prefetched while others are gathered; they are stored nearly in the order of
+/// their use. Prefetching beyond the end does no harm.
 constexpr std::size_t histories_ahead = 128;
 
 TALUS_INLINE void prefetch_two_lines(const Record *records)
@@ -153,7 +153,7 @@ void ContactChunk::gather_for_twisting(const Step &step, int end, bool resistanc
                overlap = load8(&batch.overlap[k]), loss = overlap / (ri + rj);
     store(&batch.arm_loss[k], loss);
     store(&batch.arm_difference[k], 0.5 * loss * (rj - ri));
-    if (resistance) store(&batch.circle[k], circle_of_intersection(ri, rj, overlap));
+    if (resistance) store(&batch.intersection_radius[k], intersection_radius_of(ri, rj, overlap));
   }
   if (!resistance) return;
   const auto relative_omega = [&](int lane) {
@@ -196,7 +196,7 @@ template <bool friction> void ContactChunk::transpose_results(int end, const Con
   const double *heat = scene.with_heat ? batch.heat_flow : nullptr;
   for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, nullptr, k, force_of_lane);
-    if constexpr (friction) rows_of(batch.moment, nullptr, k, moment_of_lane);
+    if constexpr (friction) rows_of(batch.torque_per_radius, nullptr, k, torque_per_radius_of_lane);
     if (scene.with_twisting) rows_of(batch.twisting_torque, heat, k, twisting_of_lane);
   }
 }

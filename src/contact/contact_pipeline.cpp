@@ -107,7 +107,7 @@ void ContactPipeline::make_room()
 void ContactPipeline::release_records()
 {
   leave_records();
-  if (memory_usage() < worth_giving_back) return;
+  if (memory_usage() < release_threshold) return;
   particles.release_sums();
   deferred.release();
   Talus::release(held);
@@ -116,7 +116,7 @@ void ContactPipeline::release_records()
 
 void ContactPipeline::release()
 {
-  const bool much = memory_usage() > worth_giving_back;
+  const bool much = memory_usage() > release_threshold;
   release_records();
   pairs_known = false;
   if (much) chunks.clear();
@@ -134,23 +134,23 @@ void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, 
 
 /* ---------------------------------------------------------------------- */
 
-void ContactPipeline::compute(const ParticleView &host, const ContactStep &step)
+void ContactPipeline::compute(const ParticleView &arrays, const ContactStep &step)
 {
   start_step();
-  for (int phase = 0; phase < work.num_phases(); phase++) run_phase(host, step, phase);
-  end_step(host, step);
+  for (int phase = 0; phase < work.num_phases(); phase++) run_phase(arrays, step, phase);
+  end_step(arrays, step);
 }
 
-void ContactPipeline::compute_early(const ParticleView &host, const ContactStep &step)
+void ContactPipeline::compute_early(const ParticleView &arrays, const ContactStep &step)
 {
   start_step();
-  run_phase(host, step, 0);
+  run_phase(arrays, step, 0);
 }
 
-void ContactPipeline::compute_late(const ParticleView &host, const ContactStep &step)
+void ContactPipeline::compute_late(const ParticleView &arrays, const ContactStep &step)
 {
-  run_phase(host, step, 1);
-  end_step(host, step);
+  run_phase(arrays, step, 1);
+  end_step(arrays, step);
 }
 
 void ContactPipeline::start_step()
@@ -159,7 +159,7 @@ void ContactPipeline::start_step()
   deferred.begin_step();
 }
 
-void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step)
+void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &step)
 {
   in_records = !step.deliver;
   for (const ContactChunk &chunk : chunks) {
@@ -168,44 +168,44 @@ void ContactPipeline::end_step(const ParticleView &host, const ContactStep &step
     chunk.add_work_left(*step.account);
   }
   if (!step.deliver) return;
-  in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, host, begin, end); });
+  in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, arrays, begin, end); });
   if (step.read) return;
   in_ranges(order.owned, [&](int begin, int end) {
-    for (int a = begin; a < end; a++) write_state(a, host);
+    for (int a = begin; a < end; a++) write_state(a, arrays);
   });
 }
 
 SlotChoice ContactPipeline::of_thread(const std::vector<int> &slots, int thread) const
 {
-  const SlotRange its = work.range_of_thread(thread);
+  const SlotRange range = work.range_of_thread(thread);
   const auto place = [&](int slot) {
     return static_cast<int>(std::lower_bound(slots.begin(), slots.end(), slot) - slots.begin());
   };
-  return {place(its.begin), place(its.end), slots.data()};
+  return {place(range.begin), place(range.end), slots.data()};
 }
 
 /* Owned particles that several ranges read have to be there before any of these begins: a thread
    loads its own. */
 
-void ContactPipeline::load_shared(const ParticleView &host, const ContactStep &step, int thread)
+void ContactPipeline::load_shared(const ParticleView &arrays, const ContactStep &step, int thread)
 {
-  const SlotRange its = work.range_of_thread(thread);
+  const SlotRange range = work.range_of_thread(thread);
   if (step.read)
-    particles.read(order, host, of_thread(shared_owned, thread));
+    particles.read(order, arrays, of_thread(shared_owned, thread));
   else if (move_pending)
     travels[thread].join(
         particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
   else    // they have not been moved: only the sums are those of the last step
-    particles.clear(its.begin, its.end);
+    particles.clear(range.begin, range.end);
 }
 
 /* In one phase the others are read on the way, if owned particles are. */
 
-void ContactPipeline::load_ghosts(const ParticleView &host, const ContactStep &step, int thread)
+void ContactPipeline::load_ghosts(const ParticleView &arrays, const ContactStep &step, int thread)
 {
   const bool all = work.in_two_phases() || !step.read;
   if (step.read_ghosts)
-    particles.read(order, host, of_thread(all ? ghost_slots : shared_ghosts, thread));
+    particles.read(order, arrays, of_thread(all ? ghost_slots : shared_ghosts, thread));
 }
 
 /* Chunks of other ranges read copies: were it the particle itself, its thread would have to ask
@@ -213,13 +213,13 @@ void ContactPipeline::load_ghosts(const ParticleView &host, const ContactStep &s
 
 void ContactPipeline::copy_states(const std::vector<int> &slots, int first_copy, int thread)
 {
-  const SlotChoice its = of_thread(slots, thread);
-  for (int n = its.begin; n < its.end; n++) particles.copy_state(slots[n], first_copy + n);
+  const SlotChoice choice = of_thread(slots, thread);
+  for (int n = choice.begin; n < choice.end; n++) particles.copy_state(slots[n], first_copy + n);
   streams_are_done();
 }
 
-void ContactPipeline::load(const ParticleView &host, const ContactStep &step, int range, int begin,
-                           int end)
+void ContactPipeline::load(const ParticleView &arrays, const ContactStep &step, int range,
+                           int begin, int end)
 {
   const auto flags = [](const std::vector<unsigned char> &v) {
     return v.empty() ? nullptr : v.data();
@@ -228,7 +228,7 @@ void ContactPipeline::load(const ParticleView &host, const ContactStep &step, in
   slots.next_end = work.range(range).end;
   if (step.read) {
     slots.marked = flags(is_loaded_before);
-    particles.read(order, host, slots);
+    particles.read(order, arrays, slots);
   } else if (move_pending) {
     slots.marked = flags(is_moved_before);
     travels[range].join(particles.advance(move, role, held_or_null(), slots));
@@ -248,36 +248,36 @@ template <class Visit> void ContactPipeline::for_each_chunk_of(int thread, int p
 /* Computes the chunks of one phase. Reports are in the order of the chunks, so these then run one
    after the other. */
 
-void ContactPipeline::run_phase(const ParticleView &host, const ContactStep &step, int phase)
+void ContactPipeline::run_phase(const ParticleView &arrays, const ContactStep &step, int phase)
 {
   const bool first = phase == 0, last = phase + 1 == work.num_phases();
   for (Claim &one : claims) one.taken.store(false, std::memory_order_relaxed);
   const auto prepare = [&](int t) {
     if (first) {
-      load_shared(host, step, t);
+      load_shared(arrays, step, t);
       copy_states(shared_owned, order.size(), t);
     }
     if (!last) return;
-    load_ghosts(host, step, t);
+    load_ghosts(arrays, step, t);
     copy_states(shared_ghosts, order.size() + static_cast<int>(shared_owned.size()), t);
   };
   const auto compute_chunks = [&](int t) {
-    ContactStep its = step;
-    if (t) its.meanwhile = nullptr;
+    ContactStep thread_step = step;
+    if (t) thread_step.progress = nullptr;
     for_each_chunk_of(t, phase, [&](int c) {
       const int range = c % work.num_ranges();
-      chunks[c].compute(scene, particles, its,
-                        [&](int begin, int end) { load(host, step, range, begin, end); },
+      chunks[c].compute(scene, particles, thread_step,
+                        [&](int begin, int end) { load(arrays, step, range, begin, end); },
                         {&deferred, deferred.first_place(c), first ? nullptr : &chunks[range]});
     });
   };
   const auto finish = [&](int t) {
     if (!last) return;
     deferred.add(t, particles);
-    const SlotRange its = work.range_of_thread(t);
-    if (step.add_more) (*step.add_more)(t, its.begin, its.end);
+    const SlotRange range = work.range_of_thread(t);
+    if (step.add_other_forces) (*step.add_other_forces)(t, range.begin, range.end);
   };
-  in_parallel(threads, step.report ? 1 : threads, prepare, compute_chunks, finish);
+  in_parallel(threads, step.tally ? 1 : threads, prepare, compute_chunks, finish);
   move_pending = false;    // all have been moved on the way
 }
 

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The contact forces between the spheres of one rank: narrow phase, kernels, sums in canonical
-// order. Knows nothing of the host: the pair style hands arrays over and adds the result.
+// order. Knows nothing of LAMMPS: the pair style hands arrays over and adds the result.
 //
 //   at a rebuild   keep_history() (if the old pairs are still current), release(),
 //                  set_pairs(), start_pairs()
@@ -28,7 +28,7 @@
 
 namespace Talus {
 
-/// Host's indices of two particles, and their overlap over the smaller radius; 0 without contacts.
+/// Local indices of two particles, and their overlap over the smaller radius; 0 without contacts.
 struct DeepestContact {
   double overlap_ratio = 0.0;
   int i = 0, j = 0;
@@ -48,7 +48,7 @@ class ContactPipeline {
   /// compute_late() will be called instead of compute().
   void set_work(int threads, bool two_phases);
 
-  /// What a rebuild needs besides the neighbors, in the host's numbering of owned particles and
+  /// What a rebuild needs besides the neighbors, in LAMMPS' numbering of owned particles and
   /// ghosts: order and names of particles, one tag for each of them, and their types (not needed if
   /// the laws are uniform).
   struct Particles {
@@ -65,41 +65,43 @@ class ContactPipeline {
   using LawOfTypes = std::function<const ContactLaw &(int, int)>;
   void change_order(int order, const LawOfTypes &law);
 
-  /// Give memory back if it is much, for rebuilds need as much for a while: that of the sums in the
-  /// records, which the next compute() makes anew; the state must be in the host's arrays. And that
-  /// of pairs and histories as well, which are then unknown until set_pairs().
+  /// Release memory above the threshold, since a rebuild needs as much for a while.
+  /// release_records(): the sums in the records, which the next compute() allocates again; the
+  /// state must be in the arrays of LAMMPS. release(): pairs and histories as well, which are then
+  /// unknown until set_pairs().
   void release_records();
   void release();
-  /// Only this: the state must be in the host's arrays, and what prepare_to_move() was told is void.
+  /// Marks the records as not current, and does nothing else: the state must be in the arrays of
+  /// LAMMPS, and prepare_to_move() has to be called again.
   void leave_records() { in_records = prepared = move_pending = false; }
-  /// What counts as much (bytes).
-  void set_worth_giving_back(double bytes) { worth_giving_back = bytes; }
+  /// Blocks of memory above this size are released (bytes).
+  void set_release_threshold(double bytes) { release_threshold = bytes; }
 
-  /// Puts the current history aside. Clears `to` in a scene without history. There are no pairs
-  /// then until set_pairs(), unless they `stay`.
+  /// Moves the current histories to `to`, or clears it if no law has a history. Unless they `stay`,
+  /// there are no pairs then until set_pairs().
   void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool stay);
 
-  /// From the next advance() or compute() on, see ParticleRecords::set_gravity(); and by host's
+  /// From the next advance() or compute() on, see ParticleRecords::set_gravity(); and by local
   /// index who has no weight, asked by all threads after set_pairs(), empty: all have.
   void set_gravity(const double *acceleration) { particles.set_gravity(acceleration); }
   void set_weightless(const std::function<bool(int)> &is_weightless);
-  /// By host's index, after set_pairs(): the masses of particles, where contacts feel those of
+  /// By local index, after set_pairs(): the masses of particles, where contacts feel those of
   /// rigid bodies; nullptr: masses are the particles' own.
   void set_own_masses(const double *of_atom);
 
-  /// Computes all contacts and adds their forces to the host's arrays.
+  /// Computes all contacts and adds their forces to the arrays of LAMMPS.
   ///
   /// With `deliver` false the forces stay in the records, and the state of the owned particles with
-  /// them: until a compute() that delivers, the host's arrays need not be up to date. Code that
+  /// them: until a compute() that delivers, the arrays of LAMMPS need not be up to date. Code that
   /// adds other forces does so in records(). With `read` false, owned particles are taken as they
-  /// are in the records, and their state is written to the host's arrays in a compute() that
+  /// are in the records, and their state is written to the arrays of LAMMPS in a compute() that
   /// delivers: allowed if the last compute() did not deliver, and usual after advance(); and with
   /// `read_ghosts` false as well, ghosts too, if their state has been brought there.
-  void compute(const ParticleView &host, const ContactStep &step);
+  void compute(const ParticleView &arrays, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
   /// are neither read nor written; then those with a ghost.
-  void compute_early(const ParticleView &host, const ContactStep &step);
-  void compute_late(const ParticleView &host, const ContactStep &step);
+  void compute_early(const ParticleView &arrays, const ContactStep &step);
+  void compute_late(const ParticleView &arrays, const ContactStep &step);
 
   /// Particles live in the records since the last compute().
   bool holds_state() const { return in_records; }
@@ -107,7 +109,7 @@ class ContactPipeline {
   const ParticleOrder &particle_order() const { return order; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by host's index: the number of the step that moves a particle, -1 if none does (asked by all
+  /// by local index: the number of the step that moves a particle, -1 if none does (asked by all
   /// threads); whose states are sent away before forces are computed; and where they were when
   /// lists were made, rows of three doubles, nullptr if the travel is not needed.
   void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent,
@@ -123,16 +125,16 @@ class ContactPipeline {
   /// How far they went, after compute() or complete_move().
   RecordTravel travel() const;
   /// Ends holds_state(): completes an advance() and writes the state of all owned particles to the
-  /// host's arrays: positions, velocities, angular velocities and the changes of velocities that are
-  /// kept. With forces those and torques are set to the ones in the records.
-  void return_state(const ParticleView &host, bool with_forces);
-  /// The state of some owned particles, for those who only read it.
-  void show_state(const std::vector<int> &atoms, const ParticleView &host) const;
+  /// arrays of LAMMPS: positions, velocities, angular velocities and the changes of velocities that
+  /// are kept. With forces those and torques are set to the ones in the records.
+  void return_state(const ParticleView &arrays, bool with_forces);
+  /// Copies the state of some owned particles to the arrays, for code that only reads it.
+  void copy_states_to_arrays(const std::vector<int> &atoms, const ParticleView &arrays) const;
   /// Whether changes of velocities are kept from now on, see ParticleRecords::keep_changes().
   void keep_changes(bool yes);
   bool keeps_changes() const { return with_changes; }
 
-  /// What the contact (i, j) in the host's numbering remembers, as i sees it; none if the pair does
+  /// History of the contact of local indices i and j, with the signs of i; none if the pair does
   /// not touch, or in a scene without history.
   std::optional<HistoryValues> history_of(int i, int j) const;
 
@@ -145,8 +147,9 @@ class ContactPipeline {
 
   /// visit(contact) for each contact of the last compute(), with the state that it found and the
   /// history after it, while the pairs are there. `dt`, `lag`: of that step, see ContactStep.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
-  void for_each_contact(double dt, double lag, Ask ask, const VisitContact &visit) const;
+  using VisitContact = std::function<void(const ContactReport &)>;
+  void for_each_contact(double dt, double lag, ContactData requested,
+                        const VisitContact &visit) const;
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
@@ -163,7 +166,7 @@ class ContactPipeline {
   bool in_two_phases() const { return !chunks.empty() && work.in_two_phases(); }
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
-  bool keeps_spins() const { return scene.with_friction; }
+  bool keeps_omega() const { return scene.with_friction; }
   double memory_usage() const;
 
  private:
@@ -172,20 +175,20 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
-  SurveyedContact survey(const ContactChunk &chunk, std::int64_t pair, double dt, double lag,
-                         Ask ask) const;
+  ContactReport report_of(const ContactChunk &chunk, std::int64_t pair, double dt, double lag,
+                          ContactData requested) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void make_room();
   void start_step();
-  void end_step(const ParticleView &host, const ContactStep &step);
-  void write_state(int atom, const ParticleView &host) const;
+  void end_step(const ParticleView &arrays, const ContactStep &step);
+  void write_state(int atom, const ParticleView &arrays) const;
   void find_shared();
-  void run_phase(const ParticleView &host, const ContactStep &step, int phase);
+  void run_phase(const ParticleView &arrays, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);
-  void load_shared(const ParticleView &host, const ContactStep &step, int thread);
-  void load_ghosts(const ParticleView &host, const ContactStep &step, int thread);
-  void load(const ParticleView &host, const ContactStep &step, int range, int begin, int end);
+  void load_shared(const ParticleView &arrays, const ContactStep &step, int thread);
+  void load_ghosts(const ParticleView &arrays, const ContactStep &step, int thread);
+  void load(const ParticleView &arrays, const ContactStep &step, int range, int begin, int end);
   void copy_states(const std::vector<int> &slots, int first_copy, int thread);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
   static void sort_and_unite(std::vector<int> &slots);
@@ -205,7 +208,7 @@ class ContactPipeline {
   template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   ContactScene scene;
-  double worth_giving_back = Talus::worth_giving_back;
+  double release_threshold = Talus::release_threshold;
   bool pairs_known = false;
   int threads = 1;
   int next_threads = 1;

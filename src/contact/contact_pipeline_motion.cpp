@@ -18,10 +18,10 @@ void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
   in_ranges(order.size(), [&](int begin, int end) {
     for (int s = begin; s < end; s++) {
       const int a = order.atom_of_slot[s];
-      const int its = order.is_owned(a) ? mover(a) : -1;
+      const int moved_by = order.is_owned(a) ? mover(a) : -1;
       role[s] = !order.is_owned(a) ? ParticleRecords::GHOST
-                : its < 0          ? ParticleRecords::RESTS
-                                   : ParticleRecords::Role(ParticleRecords::MOVES + its);
+                : moved_by < 0     ? ParticleRecords::RESTS
+                                   : ParticleRecords::Role(ParticleRecords::MOVES + moved_by);
       if (role[s] != ParticleRecords::MOVES) all.store(false, std::memory_order_relaxed);
     }
   });
@@ -73,9 +73,9 @@ void ContactPipeline::set_weightless(const std::function<bool(int)> &is_weightle
 
 void ContactPipeline::set_own_masses(const double *of_atom)
 {
-  std::vector<double> own(of_atom ? order.size() : 0);
-  for (std::size_t s = 0; s < own.size(); s++) own[s] = of_atom[order.atom_of_slot[s]];
-  particles.set_own_masses(std::move(own));
+  std::vector<double> own_mass(of_atom ? order.size() : 0);
+  for (std::size_t s = 0; s < own_mass.size(); s++) own_mass[s] = of_atom[order.atom_of_slot[s]];
+  particles.set_own_masses(std::move(own_mass));
 }
 
 RecordTravel ContactPipeline::travel() const
@@ -97,30 +97,31 @@ void ContactPipeline::complete_move()
   move_pending = false;
 }
 
-void ContactPipeline::return_state(const ParticleView &host, bool with_forces)
+void ContactPipeline::return_state(const ParticleView &arrays, bool with_forces)
 {
   complete_move();
   in_records = false;
   in_ranges(order.owned, [&](int begin, int end) {
     for (int a = begin; a < end; a++) {
-      write_state(a, host);
+      write_state(a, arrays);
       if (with_forces)
-        particles.write_forces(order.slot_of_atom[a], host.f + 3L * a, host.torque + 3L * a);
+        particles.write_forces(order.slot_of_atom[a], arrays.f + 3L * a, arrays.torque + 3L * a);
     }
   });
 }
 
-void ContactPipeline::write_state(int atom, const ParticleView &host) const
+void ContactPipeline::write_state(int atom, const ParticleView &arrays) const
 {
   const std::int64_t row = 3L * atom;
   const int slot = order.slot_of_atom[atom];
-  particles.write_state(slot, host.x + row, host.v + row, host.omega + row);
-  if (with_changes && host.change) host.change[atom] = particles.change[slot];
+  particles.write_state(slot, arrays.x + row, arrays.v + row, arrays.omega + row);
+  if (with_changes && arrays.change) arrays.change[atom] = particles.change[slot];
 }
 
-void ContactPipeline::show_state(const std::vector<int> &atoms, const ParticleView &host) const
+void ContactPipeline::copy_states_to_arrays(const std::vector<int> &atoms,
+                                            const ParticleView &arrays) const
 {
-  for (const int a : atoms) write_state(a, host);
+  for (const int a : atoms) write_state(a, arrays);
 }
 
 void ContactPipeline::keep_changes(bool yes)

@@ -50,15 +50,15 @@ void DeferredForces::make_rows(const ParticleOrder &order, const WorkPartition &
 {
   std::vector<Found> found;
   for (std::size_t c = 0; c < lists.size(); c++) {
-    const PairList &its = *lists[c];
-    const bool reads_range = !its.foreign.empty() && its.foreign.front() < range.end &&
-                             its.foreign.back() >= range.begin;
-    const bool is_within = its.slots().begin < range.end && its.slots().end > range.begin;
+    const PairList &list = *lists[c];
+    const bool reads_range = !list.foreign.empty() && list.foreign.front() < range.end &&
+                             list.foreign.back() >= range.begin;
+    const bool is_within = list.slots().begin < range.end && list.slots().end > range.begin;
     if (!reads_range && !is_within) continue;
-    for (std::size_t n = 0; n < its.frontier().size(); n++) {
-      const int first = its.first[its.frontier()[n]], second = its.second[its.frontier()[n]];
+    for (std::size_t n = 0; n < list.frontier().size(); n++) {
+      const int first = list.first[list.frontier()[n]], second = list.second[list.frontier()[n]];
       for (const int slot : {first, second})
-        if (range.holds(slot) && its.defers(slot) && order.owns_slot(slot))
+        if (range.holds(slot) && list.defers(slot) && order.owns_slot(slot))
           found.push_back({slot, second, first, static_cast<std::uint32_t>(first_of_chunk[c] + n)});
     }
   }
@@ -86,10 +86,10 @@ void DeferredForces::release()
 
 void DeferredForces::add(int thread, ParticleRecords &particles) const
 {
-  const Rows &its = of_thread[thread];
-  const Entry *next = its.entries.data();
-  for (const Row &row : its.rows) {
-    const Entry *end = its.entries.data() + row.end;
+  const Rows &part = of_thread[thread];
+  const Entry *next = part.entries.data();
+  for (const Row &row : part.rows) {
+    const Entry *end = part.entries.data() + row.end;
     if (stride == 2)
       add_row<true>(row, next, end, particles);
     else
@@ -106,18 +106,19 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
                              ParticleRecords &particles) const
 {
   const Vec4 sign_of[2] = {four(1.0, 1.0, 1.0, 0.0), four(-1.0, -1.0, -1.0, 0.0)};
-  constexpr std::size_t its_stride = rotation ? 2 : 1;
-  const auto touches = [this](const Entry &e) { return load[its_stride * e.place].c[3] == step; };
-  Record *sums = &particles.load[its_stride * row.slot];
-  Vec4 force = row.has_all ? particles.weight(row.slot) : load4(sums[0]), moment{};
-  if constexpr (rotation) moment = kept_if(!row.has_all, load4(sums[1]));
+  constexpr std::size_t row_stride = rotation ? 2 : 1;
+  const auto touches = [this](const Entry &e) { return load[row_stride * e.place].c[3] == step; };
+  Record *sums = &particles.load[row_stride * row.slot];
+  Vec4 force = row.has_all ? particles.weight(row.slot) : load4(sums[0]), torque_per_radius{};
+  if constexpr (rotation) torque_per_radius = kept_if(!row.has_all, load4(sums[1]));
   for (const Entry *e = begin; e < end; e++) {
-    const Record *its = &load[its_stride * e->place];
-    force = force + sign_of[e->of_second] * kept_if(touches(*e), load4(its[0]));
-    if constexpr (rotation) moment = moment + kept_if(touches(*e), load4(its[1]));
+    const Record *stored = &load[row_stride * e->place];
+    force = force + sign_of[e->of_second] * kept_if(touches(*e), load4(stored[0]));
+    if constexpr (rotation)
+      torque_per_radius = torque_per_radius + kept_if(touches(*e), load4(stored[1]));
   }
   store(sums[0], force);
-  if constexpr (rotation) store(sums[1], moment);
+  if constexpr (rotation) store(sums[1], torque_per_radius);
   if (twisting_torque.empty()) return;
   const Vec4 all_opposite[2] = {four(1.0, 1.0, 1.0, 1.0),
                                 four(-1.0, -1.0, -1.0, -1.0)};    // with heat
@@ -130,8 +131,8 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
 double DeferredForces::memory_usage() const
 {
   std::size_t bytes = sizeof(Record) * (load.capacity() + twisting_torque.capacity());
-  for (const Rows &its : of_thread)
-    bytes += sizeof(Row) * its.rows.capacity() + sizeof(Entry) * its.entries.capacity();
+  for (const Rows &part : of_thread)
+    bytes += sizeof(Row) * part.rows.capacity() + sizeof(Entry) * part.entries.capacity();
   return static_cast<double>(bytes);
 }
 

@@ -25,11 +25,11 @@
 
 namespace Talus {
 
-/// What a contact adds to its first particle, see record.h; the second one gets the opposite force
-/// and twisting torque and the same moment. Moment and twisting torque count only in scenes that
-/// have them.
+/// What a contact adds to its first particle, see record.h. The second one gets the opposite force
+/// and twisting torque, and the same torque per radius. Both torques count only in scenes that have
+/// them.
 struct ContactLoad {
-  Vec4 force, moment, twisting_torque;
+  Vec4 force, torque_per_radius, twisting_torque;
 };
 
 class DeferredForces {
@@ -57,7 +57,7 @@ class DeferredForces {
 
   /// Stores what a pair that touches does in this step. `far`: another thread will read it; it may
   /// do so after streams_are_done().
-  TALUS_INLINE void put(std::size_t place, bool far, const ContactLoad &its)
+  TALUS_INLINE void put(std::size_t place, bool far, const ContactLoad &contact)
   {
     const auto write = [far](Record &to, Vec4 value) {
       if (far)
@@ -65,11 +65,11 @@ class DeferredForces {
       else
         store(to, value);
     };
-    Vec4 force = its.force;
+    Vec4 force = contact.force;
     force[3] = step;
     write(load[stride * place], force);
-    if (stride == 2) write(load[stride * place + 1], its.moment);
-    if (!twisting_torque.empty()) write(twisting_torque[place], its.twisting_torque);
+    if (stride == 2) write(load[stride * place + 1], contact.torque_per_radius);
+    if (!twisting_torque.empty()) write(twisting_torque[place], contact.twisting_torque);
   }
 
   /// Adds the rows of the particles of a thread, when all that is done by all chunks.

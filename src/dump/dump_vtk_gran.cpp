@@ -77,7 +77,7 @@ DumpVtkGran::DumpVtkGran(LAMMPS *lmp, int narg, char **arg) :
       dynamic_cast<ComputeContactList *>(modify->add_compute(list_id + " all TALUS_CONTACT_LIST"));
 }
 
-/* The host may have deleted the compute: before its dumps when plugins are unloaded. */
+/* LAMMPS may have deleted the compute: before its dumps when plugins are unloaded. */
 
 DumpVtkGran::~DumpVtkGran()
 {
@@ -174,7 +174,7 @@ void DumpVtkGran::check(const std::string &problem) const
   if (!problem.empty()) error->one(FLERR, "dump vtk/gran {}: {}", id, problem);
 }
 
-/* As the host does before it writes. */
+/* As LAMMPS does before it writes. */
 
 void DumpVtkGran::fill_buffer()
 {
@@ -223,7 +223,7 @@ VtkPolyData DumpVtkGran::contacts()
   auto &body_number = lines.add_cell_data("body", 1);
   auto &force = lines.add_cell_data("force", 3), &overlap = lines.add_cell_data("overlap", 1);
   const auto is_chosen = [this](int i) { return (atom->mask[i] & groupbit) != 0; };
-  contact_list->contacts.for_each([&](const SurveyedContact &c) {
+  contact_list->contacts.for_each([&](const ContactReport &c) {
     const bool with_body = c.j < 0;
     if (!is_chosen(c.i) || (!with_body && !is_chosen(c.j))) return;
     const double *x = atom->x[c.i], normal_force = dot(c.force, c.normal);

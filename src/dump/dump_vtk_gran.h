@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // dump vtk/gran: grains, the forces of their contacts and the large bodies as one time series for
-// ParaView. What is asked of the grains, and of which grains, is a matter of the host's dump
+// ParaView. What is asked of the grains, and of which grains, is a matter of LAMMPS' dump
 // custom; each part is a VtkPolyData. doc/dump_vtk_gran.md is the user's page.
 
 #ifndef LMP_DUMP_VTK_GRAN_H

@@ -22,7 +22,7 @@ int Talus::message_length(int stride, std::size_t count)
 void ExchangePlan::clear()
 {
   owned = proxies = 0;
-  own = ExchangeNeighbor{};
+  self_images = ExchangeNeighbor{};
   others.clear();
 }
 
@@ -30,7 +30,7 @@ void ExchangePlan::clear()
 
 ExchangeNeighbor &ExchangePlan::neighbor(int rank)
 {
-  if (rank == me) return own;
+  if (rank == me) return self_images;
   const auto before = [this](const ExchangeNeighbor &n, int wanted) {
     return std::make_pair(n.rank < me, n.rank) < std::make_pair(wanted < me, wanted);
   };
@@ -45,15 +45,15 @@ ExchangeNeighbor &ExchangePlan::neighbor(int rank)
 void ExchangePlan::build(int my_rank, int first_proxy, const std::vector<ProxyOrigin> &origins)
 {
   clear();
-  me = own.rank = my_rank;
+  me = self_images.rank = my_rank;
   owned = first_proxy;
   proxies = static_cast<int>(origins.size());
 
   ExchangeNeighbor *last = nullptr;
   for (int k = 0; k < proxies; k++) add_to_runs(origins[k], first_proxy + k, last);
-  arrange_message(own);
+  arrange_message(self_images);
   for (ExchangeNeighbor &from : others) arrange_message(from);
-  accept_request(me, own.receive_index);
+  accept_request(me, self_images.receive_index);
 }
 
 /* Leaves the owner's index where the place in the message will stand. */
@@ -83,7 +83,7 @@ void ExchangePlan::arrange_message(ExchangeNeighbor &from)
 
 std::vector<int> ExchangePlan::request_for(int rank) const
 {
-  if (rank == me) return own.receive_index;
+  if (rank == me) return self_images.receive_index;
   for (const ExchangeNeighbor &n : others)
     if (n.rank == rank) return n.receive_index;
   return {};
@@ -107,7 +107,7 @@ void ExchangePlan::accept_request(int rank, const std::vector<int> &message)
 int ExchangePlan::num_interior() const
 {
   std::vector<char> shared(owned, 0);
-  for (const int i : own.send_index) shared[i] = 1;
+  for (const int i : self_images.send_index) shared[i] = 1;
   for (const ExchangeNeighbor &n : others)
     for (const int i : n.send_index) shared[i] = 1;
   return static_cast<int>(std::count(shared.begin(), shared.end(), 0));

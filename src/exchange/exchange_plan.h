@@ -89,7 +89,7 @@ class ExchangePlan {
   /// rank 0. We ourselves are not among them.
   const std::vector<ExchangeNeighbor> &neighbors() const { return others; }
   /// Periodic images of our own particles.
-  const ExchangeNeighbor &self() const { return own; }
+  const ExchangeNeighbor &self() const { return self_images; }
 
   int num_owned() const { return owned; }
   int num_proxies() const { return proxies; }
@@ -102,7 +102,7 @@ class ExchangePlan {
   static void arrange_message(ExchangeNeighbor &from);
 
   int me = 0, owned = 0, proxies = 0;
-  ExchangeNeighbor own;
+  ExchangeNeighbor self_images;
   std::vector<ExchangeNeighbor> others;
 };
 

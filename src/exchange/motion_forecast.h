@@ -1,10 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Will a neighbor list still be valid until it can be made anew? A list made with a skin s holds
+// Will a neighbor list still be valid until it can be rebuilt? A list made with a skin s holds
 // every pair that can touch as long as no particle has moved further than s/2 since it was made.
 // The stock check asks all ranks in the step itself and waits for their answers. Asked one step
 // ahead, the answers have a step's time to arrive; the price is that the motion until then has to
-// be estimated from above: that the list may have to be made anew is known slightly earlier. A list
+// be estimated from above: that the list may have to be rebuilt is known slightly earlier. A list
 // that is kept is kept until the next check, N steps later (`neigh_modify every N`): it serves in N
 // steps.
 //

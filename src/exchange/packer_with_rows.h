@@ -2,7 +2,7 @@
 //
 // Carries a few more numbers of each particle in the messages of another packer: those of all
 // particles of a message stand behind what that one has written. So orientations of particles with
-// a shape travel with position and velocity, whether these are in the arrays of the host or in the
+// a shape travel with position and velocity, whether these are in the arrays of LAMMPS or in the
 // records.
 
 #ifndef TALUS_EXCHANGE_PACKER_WITH_ROWS_H

@@ -37,7 +37,7 @@ namespace Talus {
 
 class ProxyExchange {
  public:
-  /// Collective over `parent`: works on a duplicate of it, so that no message of the host can be
+  /// Collective over `parent`: works on a duplicate of it, so that no message of LAMMPS can be
   /// taken for one of ours.
   explicit ProxyExchange(MPI_Comm parent);
   /// Completes what is under way, without unpacking; after a second without progress (a rank has

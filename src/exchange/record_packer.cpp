@@ -51,20 +51,20 @@ void RecordPacker::set_plan(const ExchangePlan &plan, const int *slot_of_atom)
 RecordPacker::Slots RecordPacker::slots_of(const ExchangeNeighbor &neighbor,
                                            const int *slot_of_atom)
 {
-  Slots its{neighbor.rank, neighbor.send_index, {}};
-  for (int &sent : its.sent) sent = slot_of_atom[sent];
+  Slots result{neighbor.rank, neighbor.send_index, {}};
+  for (int &sent : result.sent) sent = slot_of_atom[sent];
   neighbor.for_each_proxy([&](int proxy, int place, const PeriodicShift &shift) {
-    if (its.received.empty() || its.received.back().shift != shift)
-      its.received.push_back({shift, {}});
-    its.received.back().targets.push_back({slot_of_atom[proxy], place});
+    if (result.received.empty() || result.received.back().shift != shift)
+      result.received.push_back({shift, {}});
+    result.received.back().targets.push_back({slot_of_atom[proxy], place});
   });
-  return its;
+  return result;
 }
 
 const RecordPacker::Slots &RecordPacker::slots_with(int rank) const
 {
   const auto found = std::find_if(slots.begin(), slots.end(),
-                                  [rank](const Slots &its) { return its.rank == rank; });
+                                  [rank](const Slots &one) { return one.rank == rank; });
   assert(found != slots.end());
   return *found;
 }
@@ -98,7 +98,7 @@ void RecordPacker::pack_all(const std::vector<int> &sent, double *out) const
   constexpr int width = rotation ? 9 : 6;
   const int count = static_cast<int>(sent.size());
   for (int k = 0; k < count; k++, out += width) {
-    from.call(sent[std::min(k + ahead, count - 1)]);
+    from.prefetch(sent[std::min(k + ahead, count - 1)]);
     const Record *moves = &from.motion[(rotation ? 2L : 1L) * sent[k]];
     store_anywhere(out, load4(from.position[sent[k]]));
     if (rotation) store_anywhere(out + 3, load4(moves[0]));
@@ -127,7 +127,7 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
   });
   const int count = static_cast<int>(run.targets.size());
   for (int k = 0; k < count; k++) {
-    records->call(run.targets[std::min(k + ahead, count - 1)].slot);
+    records->prefetch(run.targets[std::min(k + ahead, count - 1)].slot);
     const std::size_t s = run.targets[k].slot;
     const double *in = message + width * run.targets[k].place;
     Record &position = records->position[s];

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The state of spheres as the exchange carries it from records to records, while particles live
-// there: position, velocity and, in scenes with friction, angular velocity. The arrays of the host
+// there: position, velocity and, in scenes with friction, angular velocity. The arrays of LAMMPS
 // are neither read nor written, so that its ghosts stay as they are.
 //
 //   set_plan()    once per exchange plan, when the slots of its particles are known

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // fix pour/rate: a stream of spheres into a region at a given mass rate. doc/fix_pour_rate.md is
-// the user's page. That its name begins with that of the host's fix pour tells pair styles that
+// the user's page. That its name begins with that of LAMMPS' fix pour tells pair styles that
 // particles will come, and to ask extract() how large they are.
 
 #ifndef LMP_FIX_POUR_RATE_H

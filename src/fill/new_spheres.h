@@ -24,7 +24,7 @@ std::vector<KnownSphere> spheres_in_box(LAMMPS *lmp, const Talus::Vector3<double
                                         const Talus::Vector3<double> &hi);
 
 /// Makes particles: `spheres` is the same on all ranks. IDs follow the largest one, in this order.
-/// Returns the local index of the first. Collective; the host must then renew its ghosts.
+/// Returns the local index of the first. Collective; LAMMPS must then renew its ghosts.
 int create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spheres, int type, double density);
 
 }    // namespace LAMMPS_NS

@@ -20,7 +20,7 @@ void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &rec
     for (int m = 0; m < most; m++) make_row(table, records, slot_of_atom, group, m);
     group.end_row = static_cast<int>(rows.size());
     for (int k = 0; k < lanes; k++)    // lanes without a clump
-      group.number[Group::MASS][k] = group.number[Group::TURN][k] = 1.0;
+      group.number[Group::MASS][k] = group.number[Group::QUAT][k] = 1.0;
   }
   current = true;
 }
@@ -49,14 +49,15 @@ void ClumpLanes::make_row(const ClumpTable &table, const Talus::ParticleRecords 
 void ClumpLanes::set(int clump, const Talus::ClumpState<double> &s)
 {
   Group &group = groups[clump / lanes];
-  Group::visit_all(s, [&](int which, double its) { group.number[which][clump % lanes] = its; });
+  Group::visit_all(s, [&](int which, double value) { group.number[which][clump % lanes] = value; });
 }
 
 Talus::ClumpState<double> ClumpLanes::get(int clump) const
 {
   const Group &group = groups[clump / lanes];
   Talus::ClumpState<double> s;
-  Group::visit_all(s, [&](int which, double &its) { its = group.number[which][clump % lanes]; });
-  s.axes = s.turn.axes();
+  Group::visit_all(s,
+                   [&](int which, double &value) { value = group.number[which][clump % lanes]; });
+  s.axes = s.quat.axes();
   return s;
 }

@@ -21,8 +21,8 @@ namespace LAMMPS_NS {
    is kept as lanes, and the rest of their records is read and written as a whole. In other rows
    spheres are looked at one by one.
 
-   Made by the fix that moves clumps; used until neighbor lists are made anew, or a step is made in
-   the arrays of the host.
+   Made by the fix that moves clumps; used until neighbor lists are rebuilt, or a step is made in
+   the arrays of LAMMPS.
 ------------------------------------------------------------------------- */
 
 class ClumpLanes {
@@ -53,23 +53,23 @@ class ClumpLanes {
   void move(const ClumpTable &table, Talus::ParticleRecords &records, int group,
             FindMotion find_motion, RowOfSphere row, Shift shift)
   {
-    if (group + 1 < num_groups()) call(records, groups[group + 1]);
-    Group &its = groups[group];
-    State s = its.load();
-    const Motion motion = find_motion(s, sum_loads(table, records, its, s, row));
-    its.keep(s);
+    if (group + 1 < num_groups()) prefetch(records, groups[group + 1]);
+    Group &this_group = groups[group];
+    State s = this_group.load();
+    const Motion motion = find_motion(s, sum_loads(table, records, this_group, s, row));
+    this_group.keep(s);
     if (records.keeps_changes())
-      place<true>(table, records, its, s, motion, shift);
+      place<true>(table, records, this_group, s, motion, shift);
     else
-      place<false>(table, records, its, s, motion, shift);
+      place<false>(table, records, this_group, s, motion, shift);
   }
 
  private:
   static constexpr int lanes = Talus::lanes;
 
   struct Group {
-    enum { POSITION, VELOCITY = 3, MOMENTUM = 6, OMEGA = 9, TURN = 12, INERTIA = 16, MASS = 19 };
-    alignas(64) double number[20][lanes];    // of states; axes are those of TURN
+    enum { POSITION, VELOCITY = 3, MOMENTUM = 6, OMEGA = 9, QUAT = 12, INERTIA = 16, MASS = 19 };
+    alignas(64) double number[20][lanes];    // of states; axes are those of QUAT
     int first_row, end_row;
     int first_clump, end_clump;
 
@@ -80,10 +80,10 @@ class ClumpLanes {
       visit_three(VELOCITY, s.velocity, visit);
       visit_three(MOMENTUM, s.momentum, visit);
       visit_three(OMEGA, s.omega, visit);
-      visit(TURN, s.turn.w);
-      visit(TURN + 1, s.turn.x);
-      visit(TURN + 2, s.turn.y);
-      visit(TURN + 3, s.turn.z);
+      visit(QUAT, s.quat.w);
+      visit(QUAT + 1, s.quat.x);
+      visit(QUAT + 2, s.quat.y);
+      visit(QUAT + 3, s.quat.z);
     }
     template <class AnyState, class Visit> static void visit_all(AnyState &s, Visit visit)
     {
@@ -102,13 +102,13 @@ class ClumpLanes {
     State load() const
     {
       State s;
-      visit_all(s, [this](int which, Vec8 &its) { its = Talus::load8(number[which]); });
-      s.axes = s.turn.axes();
+      visit_all(s, [this](int which, Vec8 &value) { value = Talus::load8(number[which]); });
+      s.axes = s.quat.axes();
       return s;
     }
     void keep(const State &s)
     {
-      visit_motion(s, [this](int which, const Vec8 &its) { Talus::store(number[which], its); });
+      visit_motion(s, [this](int which, const Vec8 &value) { Talus::store(number[which], value); });
     }
   };
   struct Row {
@@ -139,12 +139,12 @@ class ClumpLanes {
     }
   }
 
-  void call(const Talus::ParticleRecords &records, const Group &group) const
+  void prefetch(const Talus::ParticleRecords &records, const Group &group) const
   {
     for (int r = group.first_row; r < group.end_row; r++) {
       if (!rows[r].usual) continue;
       for (const int slot : rows[r].slot) {
-        records.call(slot);
+        records.prefetch(slot);
         __builtin_prefetch(&records.load[2L * slot]);
       }
     }
@@ -156,11 +156,11 @@ class ClumpLanes {
   {
     Sums sum{};
     for (int r = group.first_row; r < group.end_row; r++) {
-      const Sums its = rows[r].usual ? loads_of(records, rows[r])
-                                     : loads_one_by_one(table, records, group, r, row);
-      sum.force = sum.force + its.force;
-      sum.torque =
-          sum.torque + (cross(state.axes.to_space(rows[r].place()), its.force) + its.torque);
+      const Sums row_sum = rows[r].usual ? loads_of(records, rows[r])
+                                         : loads_one_by_one(table, records, group, r, row);
+      sum.force = sum.force + row_sum.force;
+      sum.torque = sum.torque +
+                   (cross(state.axes.to_space(rows[r].place()), row_sum.force) + row_sum.torque);
     }
     return sum;
   }
@@ -180,14 +180,15 @@ class ClumpLanes {
                    [&](long slot) -> const Talus::Record & { return of_all[2 * slot + offset]; });
     };
     const Talus::EightRows f = of(records.load, 0), m = of(records.load, 1);
-    const Vector moment{m.number[0], m.number[1], m.number[2]};
-    Vector torque{none - radius * moment.x, none - radius * moment.y, none - radius * moment.z};
+    const Vector torque_per_radius{m.number[0], m.number[1], m.number[2]};
+    Vector torque{none - radius * torque_per_radius.x, none - radius * torque_per_radius.y,
+                  none - radius * torque_per_radius.z};
     if (!records.twisting_torque.empty()) {
       const Talus::EightRows t = eight(
           row, [&](long slot) -> const Talus::Record & { return records.twisting_torque[slot]; });
       torque = torque + Vector{t.number[0], t.number[1], t.number[2]};
     }
-    torque = select(f.number[3] > none, moment, torque);
+    torque = select(f.number[3] > none, torque_per_radius, torque);
     return {{f.number[0], f.number[1], f.number[2]}, torque};
   }
 
@@ -199,9 +200,9 @@ class ClumpLanes {
     for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
       const int slot = rows[r].slot[k];
       if (!sphere.owned) {
-        const double *its = row(sphere);
-        std::copy(its, its + 3, f[k].c);
-        std::copy(its + 3, its + 6, t[k].c);
+        const double *load = row(sphere);
+        std::copy(load, load + 3, f[k].c);
+        std::copy(load + 3, load + 6, t[k].c);
       } else if (records.velocity(slot).c[3] > 0.0) {    // not frozen
         f[k] = records.load[2L * slot];
         store(t[k], records.torque(slot));
@@ -223,7 +224,7 @@ class ClumpLanes {
   {
     for (int r = group.first_row; r < group.end_row; r++) {
       const Row &row = rows[r];
-      const Vector its = row.place(), arm = s.axes.to_space(its), v = motion.velocity_at(its);
+      const Vector place = row.place(), arm = s.axes.to_space(place), v = motion.velocity_at(place);
       const int m = r - group.first_row;
       const Vector x = arm + (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift)
                                           : s.position);

@@ -17,8 +17,8 @@ namespace LAMMPS_NS {
    that other ranks own, in ascending order of their IDs. What is summed over the spheres of a
    clump in this order has the same bits on all ranks that own a part of it.
 
-   Made by the fix that moves clumps whenever neighbor lists are made; indices are those of the
-   host, below the number of owned particles or of a ghost.
+   Made by the fix that moves clumps whenever neighbor lists are made; indices are those of LAMMPS,
+   below the number of owned particles or of a ghost.
 ------------------------------------------------------------------------- */
 
 struct ClumpSphere {

@@ -60,8 +60,9 @@ ConvexRegion::ConvexRegion(const Region &region)
   } else if (const auto *cone = as<RegCone>(region)) {
     add_round(shape_of(*cone));
   } else if (const auto *sphere = as<RegSphere>(region)) {
-    const auto its = shape_of(*sphere);
-    rounds_at_rest.push_back({vector_of(its.data()), {0.0, 0.0, 0.0}, its[3], 0.0, 1.0});
+    const auto sphere_shape = shape_of(*sphere);
+    rounds_at_rest.push_back(
+        {vector_of(sphere_shape.data()), {0.0, 0.0, 0.0}, sphere_shape[3], 0.0, 1.0});
   } else if (const auto *plane = as<RegPlane>(region)) {
     const auto [point, normal] = shape_of(*plane);
     add_plane(vector_of(point.data()), vector_of(normal.data()));
@@ -74,25 +75,25 @@ void ConvexRegion::add_plane(const Vector3<double> &point, const Vector3<double>
   planes_at_rest.push_back({normal, dot(normal, point)});
 }
 
-void ConvexRegion::add_planes(const CornersOfRegion &its)
+void ConvexRegion::add_planes(const CornersOfRegion &corners)
 {
   for (int face = 0; face < 6; face++)
-    add_plane(vector_of(its.corner[face % 2]), vector_of(its.normal[face]));
+    add_plane(vector_of(corners.corner[face % 2]), vector_of(corners.normal[face]));
 }
 
 /* Ends may be as far away as 1e20. */
 
-void ConvexRegion::add_round(const RoundRegion &its)
+void ConvexRegion::add_round(const RoundRegion &shape)
 {
   double point[3] = {0.0, 0.0, 0.0}, axis[3] = {0.0, 0.0, 0.0};
-  axis[its.axis] = 1.0;
-  point[its.axis == 0 ? 1 : 0] = its.center[0];
-  point[its.axis == 2 ? 1 : 2] = its.center[1];
+  axis[shape.axis] = 1.0;
+  point[shape.axis == 0 ? 1 : 0] = shape.center[0];
+  point[shape.axis == 2 ? 1 : 2] = shape.center[1];
   const Vector3<double> along = vector_of(axis);
-  planes_at_rest.push_back({along, its.end[0]});
-  planes_at_rest.push_back({-along, -its.end[1]});
-  const double slope = (its.radius[1] - its.radius[0]) / (its.end[1] - its.end[0]);
-  rounds_at_rest.push_back({vector_of(point), along, its.radius[0] - slope * its.end[0], slope,
+  planes_at_rest.push_back({along, shape.end[0]});
+  planes_at_rest.push_back({-along, -shape.end[1]});
+  const double slope = (shape.radius[1] - shape.radius[0]) / (shape.end[1] - shape.end[0]);
+  rounds_at_rest.push_back({vector_of(point), along, shape.radius[0] - slope * shape.end[0], slope,
                             1.0 / std::sqrt(1.0 + slope * slope)});
 }
 

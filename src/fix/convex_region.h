@@ -52,8 +52,8 @@ class ConvexRegion {
     double radius, slope, cosine;    // of the angle between surface and axis
   };
   void add_plane(const Vector3<double> &point, const Vector3<double> &normal);
-  void add_planes(const CornersOfRegion &its);
-  void add_round(const RoundRegion &its);
+  void add_planes(const CornersOfRegion &corners);
+  void add_round(const RoundRegion &shape);
   Vec8 depth(const Vector3<Vec8> &x) const;
 
   std::vector<Plane> planes_at_rest, planes;

@@ -34,7 +34,7 @@ class FixFreezeTalus : public FixFreeze, public Talus::SystemFix {
   void post_force(int) override { system->complete_step_of(*this); }
 
   // SystemFix
-  std::string needs_host_arrays() override { return ""; }
+  std::string needs_arrays() override { return ""; }
   void complete_step() override { FixFreeze::post_force(0); }
 
  private:

@@ -43,8 +43,8 @@ std::string FixGravityTalus::find_reason()
   if (update->whichflag == 2) return "there is no gravity in a minimization";
   if (utils::strmatch(update->integrate_style, "^respa")) return "run_style respa has levels";
   if (group->dynamic[igroup]) return "its group is dynamic";
-  for (const std::string &its : {reason_of_variables(), reason_of_fixes_before()})
-    if (!its.empty()) return its;
+  for (const std::string &reason : {reason_of_variables(), reason_of_fixes_before()})
+    if (!reason.empty()) return reason;
   return system->weights().take(this);
 }
 

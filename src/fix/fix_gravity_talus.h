@@ -39,7 +39,7 @@ class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
   void post_force(int) override;
 
   // SystemGravity
-  std::string needs_host_arrays() override { return reason; }
+  std::string needs_arrays() override { return reason; }
   std::string reason_for_stock() const override { return reason; }
   void complete_step() override;
   const double *acceleration() override;

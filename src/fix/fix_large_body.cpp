@@ -146,21 +146,21 @@ void FixLargeBody::init()
   body.init();
 }
 
-/* It may have been deleted and defined anew since the last run, and move now. */
+/* It may have been deleted and defined again since the last run, and move now. */
 
 void FixLargeBody::follow_region()
 {
-  auto *its = dynamic_cast<RegionShape *>(&body.shape());
-  if (!its) return;
-  Region *region = domain->get_region_by_id(its->region_id());
+  auto *shape = dynamic_cast<RegionShape *>(&body.shape());
+  if (!shape) return;
+  Region *region = domain->get_region_by_id(shape->region_id());
   if (!region)
     error->all(FLERR, "Fix large/body {}: region '{}' is gone: define it again before the run", id,
-               its->region_id());
+               shape->region_id());
   const std::string refusal = RegionShape::refusal(*region, motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
-  its->replace(region);
+  shape->replace(region);
   if (motion.has_own()) return;
-  motion.follow(*region, its->reference_point());
+  motion.follow(*region, shape->reference_point());
   body.set_frame(&motion.frame(), motion.moves());
   if (motion.moves()) restart_global = 1;
 }
@@ -220,10 +220,10 @@ void FixLargeBody::min_post_force(int vflag)
   post_force(vflag);
 }
 
-std::string FixLargeBody::needs_host_arrays()
+std::string FixLargeBody::needs_arrays()
 {
   if (motion.asks_variables()) return "its variables may read particles";
-  return body.needs_host_arrays();
+  return body.needs_arrays();
 }
 
 void FixLargeBody::post_force(int vflag)

@@ -54,12 +54,12 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   int image(int *&, double **&) override;
 
   // SystemFix
-  std::string needs_host_arrays() override;
+  std::string needs_arrays() override;
   bool is_touched() const override { return true; }
   void add_to(Talus::StateDigest &digest) const override;
-  void for_each_contact(Talus::Ask ask, const VisitContact &visit) override
+  void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override
   {
-    body.for_each_contact(ask, visit);
+    body.for_each_contact(requested, visit);
   }
 
   void grow_arrays(int) override;

@@ -62,7 +62,7 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
 }
 
 /* Version of what follows; number of particles; side of a mesh; motion; what triangles have borne.
-   The host does not move what it has read for us when particles are deleted before this fix is
+   LAMMPS does not move what it has read for us when particles are deleted before this fix is
    defined: the number tells. */
 
 void FixLargeBody::write_restart(FILE *fp)

@@ -58,7 +58,7 @@ FixNVESphereSymplectic::FixNVESphereSymplectic(LAMMPS *lmp, int narg, char **arg
   }
 
   const bool says_start = std::find(known.begin(), known.end(), "start") != known.end();
-  if (its_order == 2) SecondOrderCheck::set_half(lmp, title, start, says_start);
+  if (integration_order == 2) SecondOrderCheck::set_half(lmp, title, start, says_start);
 
   if (gravity.given()) {
     scalar_flag = 1;
@@ -81,7 +81,7 @@ void FixNVESphereSymplectic::parse_keyword(Words &words)
   if (keyword == "start") {
     start.set_half(words.choice("value", {"half", "plain"}) == 0);
   } else if (keyword == "order") {
-    its_order = 1 + words.choice("value", {"1", "2"});
+    integration_order = 1 + words.choice("value", {"1", "2"});
   } else if (keyword == "gravity") {
     gravity.parse(words);
   } else if (keyword == "orientation") {
@@ -119,7 +119,7 @@ void FixNVESphereSymplectic::init()
                "radius, but {} members of group {} have none",
                npoints, group->names[igroup]);
 
-  if (its_order == 2) second_order.check(*system, start);
+  if (integration_order == 2) second_order.check(*system, start);
   frozenbits = 0;
   if (gravity.given())
     for (auto &fix : modify->get_fix_list())
@@ -137,8 +137,9 @@ void FixNVESphereSymplectic::check_fix(Fix *fix)
     return (atom->mask[i] & fix->groupbit) != 0;
   };
 
-  const auto *twin = dynamic_cast<FixNVESphereSymplectic *>(fix);
-  if (utils::strmatch(fix->style, "^gravity") || (twin && twin->gravity.given())) {
+  const auto *other_integrator = dynamic_cast<FixNVESphereSymplectic *>(fix);
+  if (utils::strmatch(fix->style, "^gravity") ||
+      (other_integrator && other_integrator->gravity.given())) {
     reason = "gravity would act twice";
   } else if (strcmp(fix->style, "setforce") == 0 || utils::strmatch(fix->style, "^setforce/kk")) {
     reason = "gravity is not seen in the force that it sets";
@@ -195,7 +196,7 @@ Talus::RecordStep FixNVESphereSymplectic::step_of(double kick, double dt) const
   return step;
 }
 
-std::string FixNVESphereSymplectic::needs_host_arrays()
+std::string FixNVESphereSymplectic::needs_arrays()
 {
   if (rotates) return "it turns orientations";
   return group->dynamic[igroup] ? "its group is dynamic" : "";
@@ -233,18 +234,18 @@ void FixNVESphereSymplectic::rotate(int i, double dt)
   if (speed == 0.0) return;
 
   double axis[3] = {w[0] / speed, w[1] / speed, w[2] / speed};
-  double turn[4], now[4];
-  MathExtra::axisangle_to_quat(axis, dt * speed, turn);
+  double rotation[4], now[4];
+  MathExtra::axisangle_to_quat(axis, dt * speed, rotation);
 
   if (atom->quat_flag) {
     double *const quat = atom->quat[i];
-    MathExtra::quatquat(turn, quat, now);
+    MathExtra::quatquat(rotation, quat, now);
     MathExtra::qnormalize(now);
     for (int k = 0; k < 4; k++) quat[k] = now[k];
   }
   if (atom->mu_flag && atom->mu[i][3] > 0.0) {
     double *const mu = atom->mu[i];    // x y z length
-    MathExtra::quatrotvec(turn, mu, now);
+    MathExtra::quatrotvec(rotation, mu, now);
     const double scale = mu[3] / MathExtra::len3(now);
     for (int k = 0; k < 3; k++) mu[k] = scale * now[k];
   }

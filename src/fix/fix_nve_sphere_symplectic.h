@@ -64,9 +64,9 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   double compute_scalar() override;
 
   // SystemFix
-  std::string needs_host_arrays() override;
+  std::string needs_arrays() override;
   bool integrates() const override { return true; }
-  int order() const override { return its_order; }
+  int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   double next_kick_in_steps() const override;
   bool keeps_changes() const override { return true; }
@@ -79,7 +79,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   StartTime start;
   bool rotates = false;    // quaternion or dipole follows omega
   double inertia = 0.4;    // c of I = c m r^2
-  int its_order = 1;
+  int integration_order = 1;
   SecondOrderCheck second_order;
   ConstantGravity gravity;
   int frozenbits = 0;    // groups of fix freeze, with gravity only

@@ -35,7 +35,7 @@ std::string FixNVESphereTalus::find_reason() const
   return "";
 }
 
-std::string FixNVESphereTalus::needs_host_arrays()
+std::string FixNVESphereTalus::needs_arrays()
 {
   if (!reason.empty()) return reason;
   return group->dynamic[igroup] ? "its group is dynamic" : "";

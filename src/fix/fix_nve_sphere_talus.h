@@ -44,7 +44,7 @@ class FixNVESphereTalus : public FixNVESphere, public Talus::SystemFix {
   void final_integrate() override;
 
   // SystemFix
-  std::string needs_host_arrays() override;
+  std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
   void complete_step() override;

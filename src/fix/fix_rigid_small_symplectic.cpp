@@ -76,7 +76,7 @@ FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, int narg, char **a
 
 FixRigidSmallSymplectic::FixRigidSmallSymplectic(LAMMPS *lmp, Settings settings) :
     FixRigidSmallTalus(lmp, static_cast<int>(settings.stock.size()), settings.stock.data()),
-    start(settings.start), its_order(settings.order), second_order(this, lmp, title),
+    start(settings.start), integration_order(settings.order), second_order(this, lmp, title),
     gravity(settings.gravity)
 {
   restart_global = 1;
@@ -96,7 +96,7 @@ void FixRigidSmallSymplectic::init()
     error->all(FLERR, Error::NOLASTLINE, "{} {}: {}: use fix rigid/small", title, id, reason);
   for (const Fix *fix : modify->get_fix_list())
     if (fix != this) check_fix(fix);
-  if (its_order == 2) second_order.check(*system, start);
+  if (integration_order == 2) second_order.check(*system, start);
 }
 
 /* Without a pair style of Talus as well: forces are those of the arrays. */
@@ -141,16 +141,17 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
   v_init(vflag);
   const double dt = update->dt, kick_time = start.next_kick(dt), time = kick_time * force_unit();
   if (start.is_half()) extrapolation = start.lag() / kick_time;
-  way_back = its_order == 2 ? start.lag() : 0.0;
-  look_at_particles();
+  way_back = integration_order == 2 ? start.lag() : 0.0;
+  find_particles();
   share_loads();
   const double *g = gravity.acceleration();
   const Kick kick{time, {time * g[0], time * g[1], time * g[2]}, 1.0};
   const auto motion = [&](auto &s, const auto &sum) {
     using Real = std::decay_t<decltype(s.mass)>;
     s.kick(time, sum.force, sum.torque);
-    s.velocity = s.velocity + Talus::in_all_lanes<Real>({kick.fall[0], kick.fall[1], kick.fall[2]});
-    if (its_order == 2) return s.drift_half_way(dt);
+    s.velocity = s.velocity + Talus::in_all_lanes<Real>({kick.gravity_kick[0], kick.gravity_kick[1],
+                                                         kick.gravity_kick[2]});
+    if (integration_order == 2) return s.drift_half_way(dt);
     s.drift_freely(dt);
     return s.sphere_motion();
   };
@@ -160,9 +161,9 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
     take_from_lanes();
     for_each_clump([&](int clump, Body &b) {
       ClumpState s = state_of(b);
-      const auto its = motion(s, loads_on(clump, s));
+      const auto sphere_motion = motion(s, loads_on(clump, s));
       put_state(s, b);
-      place_spheres(clump, s, its, b, Get::PLACES_AND_VELOCITIES, kick);
+      place_spheres(clump, s, sphere_motion, b, SphereUpdate::POSITIONS_AND_VELOCITIES, kick);
     });
   }
   system->advance(this, record_step(time));

@@ -58,7 +58,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
 
   // SystemFix
   double next_kick_in_steps() const override;
-  int order() const override { return its_order; }
+  int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }
   void complete_step() override;
@@ -80,7 +80,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   FixRigidSmallSymplectic(LAMMPS *, Settings);
 
   StartTime start;
-  int its_order;
+  int integration_order;
   // spheres have the velocities of a moment that is so long before the end of the step: with order 2
   // those half way through it
   double way_back = 0.0;

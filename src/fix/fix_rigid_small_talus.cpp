@@ -98,10 +98,10 @@ std::string FixRigidSmallTalus::reason_of_spheres() const
   return all ? "some of its particles have no radius" : "";
 }
 
-std::string FixRigidSmallTalus::needs_host_arrays()
+std::string FixRigidSmallTalus::needs_arrays()
 {
   if (!reason.empty()) return reason;
-  return system->pipeline().keeps_spins()
+  return system->pipeline().keeps_omega()
              ? ""
              : "it turns particles and the contacts between them do not";
 }
@@ -130,8 +130,8 @@ ClumpState FixRigidSmallTalus::state_of(const Body &b)
   s.velocity = vector_of(b.vcm);
   s.momentum = vector_of(b.angmom);
   s.omega = vector_of(b.omega);
-  s.turn = {b.quat[0], b.quat[1], b.quat[2], b.quat[3]};
-  s.axes = s.turn.axes();
+  s.quat = {b.quat[0], b.quat[1], b.quat[2], b.quat[3]};
+  s.axes = s.quat.axes();
   return s;
 }
 
@@ -141,7 +141,7 @@ void FixRigidSmallTalus::put_state(const ClumpState &s, Body &b)
   put(s.velocity, b.vcm);
   put(s.momentum, b.angmom);
   put(s.omega, b.omega);
-  const double quat[4] = {s.turn.w, s.turn.x, s.turn.y, s.turn.z};
+  const double quat[4] = {s.quat.w, s.quat.x, s.quat.y, s.quat.z};
   std::copy(quat, quat + 4, b.quat);
   put(s.axes.x, b.ex_space);
   put(s.axes.y, b.ey_space);
@@ -153,9 +153,11 @@ FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpSta
   Loads sum{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
     const double *row = s->owned ? nullptr : row_of(*s);
-    const Loads its = row ? Loads{vector_of(row), vector_of(row + 3)} : particles.load(s->atom);
-    sum.force = sum.force + its.force;
-    sum.torque = sum.torque + (cross(state.axes.to_space(s->place), its.force) + its.torque);
+    const Loads sphere_load =
+        row ? Loads{vector_of(row), vector_of(row + 3)} : particles.load(s->atom);
+    sum.force = sum.force + sphere_load.force;
+    sum.torque =
+        sum.torque + (cross(state.axes.to_space(s->place), sphere_load.force) + sphere_load.torque);
   }
   if (domain->dimension == 2) sum.force.z = sum.torque.x = sum.torque.y = 0.0;
   return sum;
@@ -226,10 +228,11 @@ void FixRigidSmallTalus::keep_change(Talus::ChangeRecord &change, const ClumpSph
    what is accounted for, at the places before. */
 
 void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
-                                       const Talus::SphereMotion<double> &motion, Body &b, Get what,
-                                       const Kick &kick, const SphereVelocity *before)
+                                       const Talus::SphereMotion<double> &motion, Body &b,
+                                       SphereUpdate what, const Kick &kick,
+                                       const SphereVelocity *before)
 {
-  const bool moves = what == Get::PLACES_AND_VELOCITIES;
+  const bool moves = what == SphereUpdate::POSITIONS_AND_VELOCITIES;
   const bool tallies = evflag && kick.share > 0.0;
   const bool flat = domain->dimension == 2;
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
@@ -242,25 +245,25 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
     const Vector shift = shift_of(*s);
     if (moves) put(arm + (state.position - shift), x);
     if (flat && moves) x[2] = 0.0;
-    if (what != Get::NOTHING) {
+    if (what != SphereUpdate::NOTHING) {
       put(motion.velocity_at(s->place), v);
       if (flat) v[2] = 0.0;
       put(motion.omega, w);
     }
-    if (Talus::ChangeRecord *its = moves ? particles.change(i) : nullptr)
-      keep_change(*its, *s, before ? before[s - table.begin(clump)] : old);
+    if (Talus::ChangeRecord *change = moves ? particles.change(i) : nullptr)
+      keep_change(*change, *s, before ? before[s - table.begin(clump)] : old);
     if (!tallies) continue;
 
-    const Vector change = vector_of(v) - old.v - vector_of(kick.fall);
+    const Vector change = vector_of(v) - old.v - vector_of(kick.gravity_kick);
     const Vector holds = (atom->rmass[i] / kick.time) * change - particles.force(i);
     const Vector at = x_old + shift, part = kick.share * holds;
     double virial_of[6] = {at.x * part.x, at.y * part.y, at.z * part.z,
                            at.x * part.y, at.x * part.z, at.y * part.z};
-    double place[1][3], its[1][3], center[3] = {b.xgc[0], b.xgc[1], b.xgc[2]};
+    double place[1][3], forces[1][3], center[3] = {b.xgc[0], b.xgc[1], b.xgc[2]};
     put(at, place[0]);
-    put(part, its[0]);
+    put(part, forces[0]);
     int list = i;
-    v_tally(1, &list, 1.0, virial_of, place, its, center);
+    v_tally(1, &list, 1.0, virial_of, place, forces, center);
   }
   if (evflag && moves) put(state.position + state.axes.to_space(vector_of(b.xgc_body)), b.xgc);
 }
@@ -272,7 +275,7 @@ void FixRigidSmallTalus::setup(int vflag)
   if (!reason.empty()) return FixRigidSmall::setup(vflag);
   v_init(vflag);
   kick_is_due = false;
-  look_at_particles();
+  find_particles();
   share_loads();
   for_each_clump([&](int clump, Body &b) {
     ClumpState s = state_of(b);
@@ -281,7 +284,8 @@ void FixRigidSmallTalus::setup(int vflag)
     put(sum.torque, b.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, sphere_motion_of(s), b, states_known ? Get::NOTHING : Get::VELOCITIES,
+    place_spheres(clump, s, sphere_motion_of(s), b,
+                  states_known ? SphereUpdate::NOTHING : SphereUpdate::VELOCITIES,
                   {dtf, {0.0, 0.0, 0.0}, 1.0});
   });
 }
@@ -290,7 +294,7 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
 {
   if (!reason.empty()) return FixRigidSmall::initial_integrate(vflag);
   v_init(vflag);
-  look_at_particles();
+  find_particles();
   if (kick_is_due) share_loads();
   if (moves_in_lanes())
     move_in_lanes([this](auto &s, auto loads) {
@@ -331,13 +335,13 @@ void FixRigidSmallTalus::begin_step()
       if (evflag) {    // their velocities after the first of both kicks, for virials
         for (const ClumpSphere *one = table.begin(clump); one != table.end(clump); one++)
           before.push_back(one->owned ? velocity_of(*one) : SphereVelocity{});
-        place_spheres(clump, s, s.sphere_motion(), b, Get::VELOCITIES, no_share);
+        place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::VELOCITIES, no_share);
       }
     }
     s.kick(dtf, loads.force, loads.torque);
     s.drift_extrapolated(dtv);
     put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, Get::PLACES_AND_VELOCITIES, kick,
+    place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::POSITIONS_AND_VELOCITIES, kick,
                   before.empty() ? nullptr : before.data());
   });
 }
@@ -353,7 +357,7 @@ void FixRigidSmallTalus::final_integrate()
 
 void FixRigidSmallTalus::complete_step()
 {
-  look_at_particles();
+  find_particles();
   take_from_lanes();
   share_loads();
   for_each_clump([&](int clump, Body &b) {
@@ -365,7 +369,8 @@ void FixRigidSmallTalus::complete_step()
     s.kick(dtf, loads.force, loads.torque);
     s.omega = s.omega_now();
     put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, Get::VELOCITIES, {dtf, {0.0, 0.0, 0.0}, 0.5});
+    place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::VELOCITIES,
+                  {dtf, {0.0, 0.0, 0.0}, 0.5});
   });
   kick_is_due = false;
 }

@@ -64,7 +64,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   int maxsize_restart() override;
 
   // SystemFix
-  std::string needs_host_arrays() override;
+  std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
@@ -85,7 +85,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   // the step it is for virials; see place_spheres()
   struct Kick {
     double time;
-    double fall[3];
+    double gravity_kick[3];
     double share;
   };
   using Loads = Talus::ParticleState::Load;    // torque about the center of mass
@@ -103,8 +103,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
         lanes.move(
             table, records, g, motion, [this](const ClumpSphere &s) { return row_of(s); },
             [this](const ClumpSphere &s) {
-              const Talus::Vector3<double> its = shift_of(s);
-              return Talus::Record{{its.x, its.y, its.z, 0.0}};
+              const Talus::Vector3<double> shift = shift_of(s);
+              return Talus::Record{{shift.x, shift.y, shift.z, 0.0}};
             });
     });
   }
@@ -128,10 +128,10 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   };
   // the spheres that this rank owns get this from the clump's state and their motion. Changes, of
   // those that get places, are those since `before`, of all spheres, or those that this makes
-  enum class Get { NOTHING, VELOCITIES, PLACES_AND_VELOCITIES };
+  enum class SphereUpdate { NOTHING, VELOCITIES, POSITIONS_AND_VELOCITIES };
   void place_spheres(int clump, const Talus::ClumpState<double> &state,
-                     const Talus::SphereMotion<double> &motion, Body &b, Get what, const Kick &kick,
-                     const SphereVelocity *before = nullptr);
+                     const Talus::SphereMotion<double> &motion, Body &b, SphereUpdate what,
+                     const Kick &kick, const SphereVelocity *before = nullptr);
   // of the spheres of a clump between two steps
   virtual Talus::SphereMotion<double> sphere_motion_of(const Talus::ClumpState<double> &s) const
   {
@@ -142,7 +142,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   // for GranularSystem::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
   // before the first of these in a step: where its particles are
-  void look_at_particles() { particles = system->particles(); }
+  void find_particles() { particles = system->particles(); }
   double force_unit() const;
 
  private:
@@ -158,7 +158,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool restored = false;        // from a restart file, and no run since
   bool states_known = false;    // the set-up has found clumps as the last run has left them
 
-  Talus::ParticleState particles;    // see look_at_particles()
+  Talus::ParticleState particles;    // see find_particles()
   bool kick_is_due = false;          // the one that ends the last step has been put off
 
   int threads() const;

@@ -66,9 +66,9 @@ void find_axes(const Eigen::Matrix3d &inertia, bool flat, ClumpState &state, dou
     for (int d = 0; d < 3; d++) moments[d] = solver.eigenvalues()(d);
   }
   const Eigen::Quaterniond q(axes);
-  state.turn = Talus::Turn<double>{q.w(), q.x(), q.y(), q.z()}.normalized();
+  state.quat = Talus::Quaternion<double>{q.w(), q.x(), q.y(), q.z()}.normalized();
   state.inverse_inertia = {1.0 / moments[0], 1.0 / moments[1], 1.0 / moments[2]};
-  state.axes = state.turn.axes();
+  state.axes = state.quat.axes();
 }
 
 }    // namespace
@@ -184,19 +184,20 @@ bool FixRigidSmallTalus::is_kept(int clump) const
       write_state_row(s->atom, row);
     else
       std::copy_n(row_of(*s), size_states, row);
-    const SphereState its(row);
-    mass += its.mass;
-    inertia += inertia_of(its, s->place);
+    const SphereState sphere(row);
+    mass += sphere.mass;
+    inertia += inertia_of(sphere, s->place);
     if (!s->owned) continue;
     const Vector arm = state.axes.to_space(s->place);
     double x[3];
     domain->unmap(atom->x[s->atom], xcmimage[s->atom], x);
     const Vector place = Vector{x[0], x[1], x[2]} - (state.position + arm);
-    const Vector v = its.v - motion.velocity_at(s->place);
-    const double speed = length(state.velocity) + length(state.omega) * (length(arm) + its.radius);
-    if (!(length(place) <= of_states * (length(arm) + its.radius)) ||
+    const Vector v = sphere.v - motion.velocity_at(s->place);
+    const double speed =
+        length(state.velocity) + length(state.omega) * (length(arm) + sphere.radius);
+    if (!(length(place) <= of_states * (length(arm) + sphere.radius)) ||
         !(length(v) <= of_states * speed) ||
-        !(length(its.omega - motion.omega) * its.radius <= of_states * speed))
+        !(length(sphere.omega - motion.omega) * sphere.radius <= of_states * speed))
       return false;
   }
   if (given_masses_stay()) return true;
@@ -270,12 +271,12 @@ void FixRigidSmallTalus::find_body(int clump)
 /* ----------------------------------------------------------------------
    restart files: of each particle the layout of its row, whether a set-up has been made, the ID of its
    body and its place in it, of the one that owns the body the state as well, number by number: the
-   struct of the host may change
+   struct of LAMMPS may change
 ------------------------------------------------------------------------- */
 
 static constexpr tagint no_setup = -1;    // in the place of the ID
 static constexpr tagint layout =
-    -2;    // that of before began with the ID, and had a struct of the host
+    -2;    // that of before began with the ID, and had a struct of LAMMPS
 
 static constexpr int row_begin = 7, num_numbers = 1 + 12 * 3 + 2 * 4, num_whole = 2 + 4;
 
@@ -307,12 +308,12 @@ int FixRigidSmallTalus::pack_restart(int i, double *buf)
   std::copy_n(displace[i], 3, buf + 3);
   buf[6] = owns ? 1.0 : 0.0;
   if (bodyown[i] < 0) return size_restart(i);
-  Body &its = body[bodyown[i]];
+  Body &b = body[bodyown[i]];
   double *next = buf + row_begin;
-  for_each_number(its, [&](const double *value, int n) { next = std::copy_n(value, n, next); });
-  *next++ = its.natoms;
-  *next++ = ubuf(its.image).d;
-  std::copy_n(its.remapflag, 4, next);
+  for_each_number(b, [&](const double *value, int n) { next = std::copy_n(value, n, next); });
+  *next++ = b.natoms;
+  *next++ = ubuf(b.image).d;
+  std::copy_n(b.remapflag, 4, next);
   return size_restart(i);
 }
 
@@ -338,15 +339,15 @@ void FixRigidSmallTalus::unpack_restart(int i, int nth)
   std::copy_n(buf + 3, 3, displace[i]);
   if (buf[6] == 0.0) return;
   if (nlocal_body == nmax_body) grow_body();
-  Body &its = body[nlocal_body];
+  Body &b = body[nlocal_body];
   const double *next = buf + row_begin;
-  for_each_number(its, [&](double *value, int n) {
+  for_each_number(b, [&](double *value, int n) {
     std::copy_n(next, n, value);
     next += n;
   });
-  its.natoms = static_cast<int>(*next++);
-  its.image = static_cast<imageint>(ubuf(*next++).i);
-  std::copy_n(next, 4, its.remapflag);
+  b.natoms = static_cast<int>(*next++);
+  b.image = static_cast<imageint>(ubuf(*next++).i);
+  std::copy_n(next, 4, b.remapflag);
   body[nlocal_body].ilocal = i;
   bodyown[i] = nlocal_body++;
 }

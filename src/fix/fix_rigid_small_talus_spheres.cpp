@@ -42,8 +42,8 @@ void FixRigidSmallTalus::write_row(int i, double *row) const
     write_state_row(i, row);
   } else {
     const auto [f, t] = particles.load(i);
-    const double its[size_loads] = {f.x, f.y, f.z, t.x, t.y, t.z};
-    std::copy(its, its + size_loads, row);
+    const double loads[size_loads] = {f.x, f.y, f.z, t.x, t.y, t.z};
+    std::copy(loads, loads + size_loads, row);
   }
 }
 

@@ -99,14 +99,14 @@ void FixShapeGran::setup_pre_neighbor()
   pre_neighbor();
 }
 
-/* Radius and mass belong to the type; the host makes new particles with others. */
+/* Radius and mass belong to the type; LAMMPS makes new particles with others. */
 
 void FixShapeGran::set_sizes(int first, int last)
 {
   for (int i = first; i < last; i++)
-    if (const ParticleShape *its = table.of(atom->type[i])) {
-      atom->radius[i] = its->shape().bounding_radius();
-      atom->rmass[i] = its->mass();
+    if (const ParticleShape *shape = table.of(atom->type[i])) {
+      atom->radius[i] = shape->shape().bounding_radius();
+      atom->rmass[i] = shape->mass();
     }
 }
 
@@ -115,9 +115,9 @@ void FixShapeGran::set_sizes(int first, int last)
 void FixShapeGran::orient_new(int first, int last)
 {
   for (int i = first; i < last; i++) {
-    const ParticleShape *its = table.of(atom->type[i]);
-    if (its && atom->tag[i] > 0 && !is_known(quat[i]))
-      put(its->new_orientation(atom->tag[i]), quat[i]);
+    const ParticleShape *shape = table.of(atom->type[i]);
+    if (shape && atom->tag[i] > 0 && !is_known(quat[i]))
+      put(shape->new_orientation(atom->tag[i]), quat[i]);
   }
 }
 
@@ -138,8 +138,8 @@ void FixShapeGran::keep_histories()
   } else {
     pairs.save(histories);
   }
-  for (auto &[body, its] : walls)
-    if (its.points) its.points->save(histories);
+  for (auto &[body, wall] : walls)
+    if (wall.points) wall.points->save(histories);
   histories_are_current = true;
   set_maxexchange();
 }
@@ -168,8 +168,8 @@ void FixShapeGran::set_pairs(std::vector<std::array<int, 2>> found)
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs.set_pairs(view(), found, tags, system->law_table());
   pairs.restore(histories);
-  for (auto &[body, its] : walls)
-    if (its.points) list_particles(*body, *its.points);
+  for (auto &[body, wall] : walls)
+    if (wall.points) list_particles(*body, *wall.points);
 }
 
 void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
@@ -183,9 +183,9 @@ void FixShapeGran::list_particles(const LargeBody &body, WallPoints &points)
 
 /* ---- a step ---- */
 
-std::string FixShapeGran::needs_host_arrays()
+std::string FixShapeGran::needs_arrays()
 {
-  if (!system->pipeline().keeps_spins())
+  if (!system->pipeline().keeps_omega())
     return "it turns particles and the contacts between them have no friction";
   if (system->account().is_asked())
     return "the energies of contacts of particles with a shape are asked for";
@@ -215,34 +215,34 @@ void FixShapeGran::compute_contacts(const ContactStep &step)
   pairs.compute(view(), system->law_table(),
                 {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
   if (step.advance) histories_are_current = false;
-  if (!step.report) return;
+  if (!step.tally) return;
   pairs.for_each_force([&](int i, int j, const Vector3<double> &force) {
     const double *a = atom->x[i], *b = atom->x[j];
-    (*step.report)({i,
-                    j,
-                    i < atom->nlocal,
-                    j < atom->nlocal,
-                    {force.x, force.y, force.z},
-                    {a[0] - b[0], a[1] - b[1], a[2] - b[2]}});
+    (*step.tally)({i,
+                   j,
+                   i < atom->nlocal,
+                   j < atom->nlocal,
+                   {force.x, force.y, force.z},
+                   {a[0] - b[0], a[1] - b[1], a[2] - b[2]}});
   });
 }
 
 FixShapeGran::Wall &FixShapeGran::wall_of(LargeBody &body)
 {
-  Wall &its = walls[&body];
-  if (!its.surfaces) its.surfaces = std::make_unique<BodySurfaces>(body.shape(), table);
-  return its;
+  Wall &wall = walls[&body];
+  if (!wall.surfaces) wall.surfaces = std::make_unique<BodySurfaces>(body.shape(), table);
+  return wall;
 }
 
 BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step)
 {
-  Wall &its = wall_of(body);
-  if (!its.points) {
-    its.points = std::make_unique<WallPoints>(table, name_of(body));
-    list_particles(body, *its.points);
+  Wall &wall = wall_of(body);
+  if (!wall.points) {
+    wall.points = std::make_unique<WallPoints>(table, name_of(body));
+    list_particles(body, *wall.points);
   }
   if (step.advance) histories_are_current = false;
-  return its.points->compute(*its.surfaces, body.present_frame(), view(), body.law_table(), step);
+  return wall.points->compute(*wall.surfaces, body.present_frame(), view(), body.law_table(), step);
 }
 
 /* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */

@@ -83,7 +83,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double memory_usage() override;
 
   // SystemFix
-  std::string needs_host_arrays() override;
+  std::string needs_arrays() override;
   void add_to(Talus::StateDigest &digest) const override;
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
@@ -104,8 +104,9 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void compute_contacts(const Talus::ContactStep &step) override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step) override;
   bool keeps_change_of(int i) const override { return moves_particle(i); }
-  void for_each_contact_of_pairs(Talus::Ask ask, const VisitContact &visit) const override;
-  void for_each_contact_of_body(Talus::LargeBody &body, Talus::Ask ask,
+  void for_each_contact_of_pairs(Talus::ContactData requested,
+                                 const VisitContact &visit) const override;
+  void for_each_contact_of_body(Talus::LargeBody &body, Talus::ContactData requested,
                                 const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;
   Talus::DeepestContact deepest_contact() const override;
@@ -153,7 +154,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   int other_integrators = 0;             ///< bits of groups that other fixes move
 
   Talus::ContactLists histories;        ///< of contact points, while there are none
-  bool histories_are_current = true;    ///< they hold all that contacts of owned particles remember
+  bool histories_are_current = true;    ///< they hold all histories of contacts of owned particles
   Talus::SparseExchange exchange;
 
   std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color

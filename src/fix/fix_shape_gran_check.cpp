@@ -37,7 +37,7 @@ void FixShapeGran::check_scene()
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
                "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",
                system->reason_of_pair_style());
-  const std::string lists = system->neighbors().reason_for_host();
+  const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty())
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: neighbor lists are those of LAMMPS because of {}: leave it out",
@@ -63,17 +63,17 @@ void FixShapeGran::check_pairs()
             "Fix shape/gran: contacts of types {} and {}, which have the shapes {} and {}, are "
             "not known: give particles of this script other shapes",
             i, j, name(i), name(j));
-      const std::string its = PointBatch::refusal(laws.law(laws.row(i, j)));
-      if (!its.empty())
+      const std::string reason = PointBatch::refusal(laws.law(laws.row(i, j)));
+      if (!reason.empty())
         error->all(FLERR, Error::NOLASTLINE,
                    "Fix shape/gran: the contact of types {} and {}, of which one has a shape, {}",
-                   i, j, its);
+                   i, j, reason);
     }
 }
 
 void FixShapeGran::check_bodies()
 {
-  walls.clear();    // a script may have deleted some; what they remember is in the lists
+  walls.clear();    // a script may have deleted some; their histories are in the lists
   for (LargeBody *body : system->bodies().in_order()) {
     const std::string surface = wall_of(*body).surfaces->refusal();
     if (!surface.empty()) error->all(FLERR, Error::NOLASTLINE, "{}: {}", body->name(), surface);

@@ -28,11 +28,11 @@ std::array<double, FixShapeGran::size_sums> FixShapeGran::sums() const
 {
   std::array<double, size_sums> mine{}, all{};
   for (int i = 0; i < atom->nlocal; i++) {
-    const ParticleShape *its = table.of(atom->type[i]);
-    if (!its || !(atom->mask[i] & groupbit) || !is_known(quat[i])) continue;
+    const ParticleShape *shape = table.of(atom->type[i]);
+    if (!shape || !(atom->mask[i] & groupbit) || !is_known(quat[i])) continue;
     const Vector3<double> v = row(atom->v[i]), omega = row(atom->omega[i]);
     const Eigen::Quaterniond q = quaternion(quat[i]);
-    const Vector3<double> momentum = its->rotation().angular_momentum(q, omega);
+    const Vector3<double> momentum = shape->rotation().angular_momentum(q, omega);
     mine[0] += 0.5 * force->mvv2e * atom->rmass[i] * dot(v, v);
     mine[1] += 0.5 * force->mvv2e * dot(omega, momentum);
     mine[2] += momentum.x;
@@ -110,18 +110,18 @@ int FixShapeGran::add_to_picture(int narg, char **arg)
 
 /* ---- contacts, pictures ---- */
 
-void FixShapeGran::for_each_contact_of_pairs(Ask ask, const VisitContact &visit) const
+void FixShapeGran::for_each_contact_of_pairs(ContactData requested, const VisitContact &visit) const
 {
-  pairs.for_each_contact(system->law_table(), update->dt, ask, visit);
+  pairs.for_each_contact(system->law_table(), update->dt, requested, visit);
 }
 
-void FixShapeGran::for_each_contact_of_body(LargeBody &body, Ask ask,
+void FixShapeGran::for_each_contact_of_body(LargeBody &body, ContactData requested,
                                             const VisitContact &visit) const
 {
-  const auto its = walls.find(&body);
-  if (its == walls.end() || !its->second.points) return;
-  its->second.points->for_each_contact(body.present_frame(), view(), body.law_table(), update->dt,
-                                       ask, visit);
+  const auto wall = walls.find(&body);
+  if (wall == walls.end() || !wall->second.points) return;
+  wall->second.points->for_each_contact(body.present_frame(), view(), body.law_table(), update->dt,
+                                        requested, visit);
 }
 
 void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const
@@ -130,10 +130,10 @@ void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const
   std::vector<std::vector<Triangle>> of_type(table.last_type() + 1);
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
-    const ParticleShape *its = table.of(type);
-    if (!its || !is_known(quat[i])) continue;
-    if (of_type[type].empty()) of_type[type] = its->shape().surface(pieces);
-    const Pose pose = its->pose(row(atom->x[i]), quaternion(quat[i]));
+    const ParticleShape *shape = table.of(type);
+    if (!shape || !is_known(quat[i])) continue;
+    if (of_type[type].empty()) of_type[type] = shape->shape().surface(pieces);
+    const Pose pose = shape->pose(row(atom->x[i]), quaternion(quat[i]));
     for (const Triangle &one : of_type[type])
       visit(i, {{pose.point_in_space(one.corner[0]), pose.point_in_space(one.corner[1]),
                  pose.point_in_space(one.corner[2])}});
@@ -144,8 +144,8 @@ DeepestContact FixShapeGran::deepest_contact() const
 {
   DeepestContact deepest;
   const auto inside = [this](int i) {
-    const ParticleShape *its = table.of(atom->type[i]);
-    return its ? its->shape().inscribed_radius() : atom->radius[i];
+    const ParticleShape *shape = table.of(atom->type[i]);
+    return shape ? shape->shape().inscribed_radius() : atom->radius[i];
   };
   pairs.for_each_point([&](int i, int j, const PointContact &point) {
     const double ratio = point.overlap / std::min(inside(i), inside(j));
@@ -170,8 +170,8 @@ int FixShapeGran::image(int *&kinds, double **&values)
   });
   for (const auto &[other, type] : also_drawn) {
     Fix *fix = modify->get_fix_by_id(other);
-    const int its = fix ? fix->image(kinds, values) : 0;
-    for (int k = 0; k < its; k++) {
+    const int drawn = fix ? fix->image(kinds, values) : 0;
+    for (int k = 0; k < drawn; k++) {
       if (kinds[k] != TALUS_IMAGE_TRIANGLE) continue;
       image_values.push_back(type);
       image_values.insert(image_values.end(), values[k] + 1, values[k] + size);

@@ -79,8 +79,8 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
 }
 
 /* Restart files hold a version and the number of particles; of each particle the number of doubles,
-   its ID, and what it carries. The host does not move what it has read for us when particles are deleted or
-   added before this fix is defined: their number tells. */
+   its ID, and what it carries. LAMMPS does not move what it has read for us when particles are
+   deleted or added before this fix is defined: their number tells. */
 
 void FixShapeGran::write_restart(FILE *fp)
 {
@@ -148,7 +148,7 @@ double FixShapeGran::memory_usage()
 {
   double bytes = 4.0 * sizeof(double) * atom->nmax + histories.memory_usage() +
                  pairs.memory_usage() + table.memory_usage();
-  for (const auto &[body, its] : walls)
-    if (its.points) bytes += its.points->memory_usage();
+  for (const auto &[body, wall] : walls)
+    if (wall.points) bytes += wall.points->memory_usage();
   return bytes;
 }

@@ -83,19 +83,19 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   bool adds_forces() const override { return true; }
   bool is_touched() const override { return true; }
   /// Of a wall that is not accelerated there are none.
-  void for_each_contact(Ask ask, const VisitContact &visit) override
+  void for_each_contact(ContactData requested, const VisitContact &visit) override
   {
     if (!has_forces) return;
-    const Survey its{ask, visit};
-    survey = &its;
-    survey_contacts();
-    survey = nullptr;
+    const ReportRequest request{requested, visit};
+    report = &request;
+    report_contacts();
+    report = nullptr;
   }
-  std::string needs_host_arrays() override
+  std::string needs_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
     if (this->heat_flag) return "it conducts heat";
-    if (!system->pipeline().keeps_spins())
+    if (!system->pipeline().keeps_omega())
       return "it exerts torques and the contacts between particles do not";
     return what_reads_arrays();
   }
@@ -109,8 +109,8 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   virtual void begin_run() = 0;
   /// The forces of a step, on particles of which each is where it is.
   virtual void add_contacts() = 0;
-  /// The contacts as add_contacts() has left them, by deliver(), which surveys them.
-  virtual void survey_contacts() = 0;
+  /// Reports the contacts as add_contacts() has left them, through deliver().
+  virtual void report_contacts() = 0;
   /// "", or why the methods of the stock class are needed by this kind of wall.
   virtual std::string what_only_stock_does() const = 0;
   /// "", or what in this wall may read the arrays of LAMMPS in every step.
@@ -123,7 +123,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   }
   bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
   /// Forces by particle are kept for output; steps in the records have no output.
-  bool keeps_contacts() const { return this->peratom_flag && system->particles().is_shown(); }
+  bool keeps_contacts() const { return this->peratom_flag && system->particles().is_in_arrays(); }
   bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
   /// The temperature of the wall in this step, if it conducts heat.
@@ -137,12 +137,12 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     return this->heat_flag ? this->Twall - this->atom->temperature[i] : 0.0;
   }
 
-  /// Begins a step of a batch, or a survey.
+  /// Begins a step of a batch, or a report.
   void begin(WallBatch &batch)
   {
     const double dt = this->update->dt;
-    if (survey)
-      batch.begin_survey(dt);
+    if (report)
+      batch.begin_report(dt);
     else    // as in LAMMPS: histories stand still while a run is set up
       batch.begin_step(wall_law, this->update->setupflag ? 0.0 : dt, accounts ? &account : nullptr);
   }
@@ -156,42 +156,42 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
 
   void deliver(WallBatch &batch, const ParticleState &particles)
   {
-    if (survey) {
-      batch.survey(survey->ask, survey->visit);
+    if (report) {
+      batch.report(report->requested, report->visit);
       return;
     }
     const bool keeps = keeps_contacts();
-    batch.compute([&](const WallBatch::Result &its) {
+    batch.compute([&](const WallBatch::Result &result) {
       const auto vector = [](const double *row) { return Vector3<double>{row[0], row[1], row[2]}; };
-      particles.add(its.atom, vector(its.force), vector(its.torque));
-      if (this->heat_flag) this->atom->heatflow[its.atom] += its.heat_flow;
-      if (keeps) keep_contact(its);
+      particles.add(result.atom, vector(result.force), vector(result.torque));
+      if (this->heat_flag) this->atom->heatflow[result.atom] += result.heat_flow;
+      if (keeps) keep_contact(result);
     });
   }
 
  private:
   /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
-  void keep_contact(const WallBatch::Result &its)
+  void keep_contact(const WallBatch::Result &result)
   {
-    double *row = this->array_atom[its.atom];
+    double *row = this->array_atom[result.atom];
     row[0] = 1.0;
     for (int d = 0; d < 3; d++) {
-      row[1 + d] = its.force[d];
-      row[4 + d] = this->atom->x[its.atom][d] - its.separation[d];
+      row[1 + d] = result.force[d];
+      row[4 + d] = this->atom->x[result.atom][d] - result.separation[d];
     }
-    row[7] = this->atom->radius[its.atom];
-    if (this->size_peratom_cols > 8) row[8] = its.heat_flow;
+    row[7] = this->atom->radius[result.atom];
+    if (this->size_peratom_cols > 8) row[8] = result.heat_flow;
   }
 
-  struct Survey {
-    Ask ask;
+  struct ReportRequest {
+    ContactData requested;
     const VisitContact &visit;
   };
 
   const char *plain_style;
   std::string stock_reason;
   bool has_forces = false;    // of a step
-  const Survey *survey = nullptr;
+  const ReportRequest *report = nullptr;
   bool accounts = false;
   WorkAccount account;
 
@@ -204,8 +204,8 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
       return std::string("fix ") + this->fix_rigid->id +
              " moves rigid bodies, and the unit of force is not that of mass times acceleration";
     if (this->group->dynamic[this->igroup]) return "its group is dynamic";
-    const std::string its = reason_of_model(*this->model);
-    return its.empty() ? what_only_stock_does() : its;
+    const std::string reason = reason_of_model(*this->model);
+    return reason.empty() ? what_only_stock_does() : reason;
   }
 };
 

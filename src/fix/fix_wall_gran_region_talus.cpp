@@ -22,9 +22,10 @@ void FixWallGranRegionTalus::begin_run()
 std::string FixWallGranRegionTalus::what_reads_arrays()
 {
   if (!region->dynamic_check()) return "";
-  const std::string its = variable_that_may_read_particles(lmp, *region);
-  return its.empty() ? ""
-                     : "its region may move with particles: v_" + its + " reads more than time";
+  const std::string variable = variable_that_may_read_particles(lmp, *region);
+  return variable.empty()
+             ? ""
+             : "its region may move with particles: v_" + variable + " reads more than time";
 }
 
 double FixWallGranRegionTalus::displacement() const
@@ -34,31 +35,31 @@ double FixWallGranRegionTalus::displacement() const
 
 bool FixWallGranRegionTalus::is_inside(const double *x)
 {
-  return in_frame ? RegionInFrame(*region, turn).match(x) : region->match(x[0], x[1], x[2]);
+  return in_frame ? RegionInFrame(*region, motion).match(x) : region->match(x[0], x[1], x[2]);
 }
 
 int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
 {
-  return in_frame ? RegionInFrame(*region, turn).surface(x, reach)
+  return in_frame ? RegionInFrame(*region, motion).surface(x, reach)
                   : region->surface(x[0], x[1], x[2], reach);
 }
 
 /* Contacts that have begun may last beyond the radius. */
 
-double FixWallGranRegionTalus::reach_of(double radius)
+double FixWallGranRegionTalus::pulloff_distance_of(double radius)
 {
   return touches_beyond_contact() ? radius + model->pulloff_distance(radius, 0.0) : radius;
 }
 
 /* Which of eight particles may be nearer to the surface than they reach with the margin. */
 
-unsigned FixWallGranRegionTalus::near(const EightSpheres &its, double margin)
+unsigned FixWallGranRegionTalus::near(const EightSpheres &spheres, double margin)
 {
   constexpr double rounding = 1.000001;
-  Vec8 reach = its.radius;
+  Vec8 reach = spheres.radius;
   if (touches_beyond_contact())
-    reach = for_each_lane(reach, [this](double radius) { return reach_of(radius); });
-  return parts.near(its.position, splat<Vec8>(rounding) * (reach + splat<Vec8>(margin)));
+    reach = for_each_lane(reach, [this](double radius) { return pulloff_distance_of(radius); });
+  return parts.near(spheres.position, splat<Vec8>(rounding) * (reach + splat<Vec8>(margin)));
 }
 
 /* A particle that is not near keeps its histories, as in LAMMPS, if it is not in the region, and
@@ -83,19 +84,19 @@ void FixWallGranRegionTalus::find_candidates(double moved, const ParticleState &
   candidates.list(
       atom->nlocal, neighbor->skin, moved, 1,
       [&](const int *eight, double margin) {
-        const EightSpheres its = eight_spheres(particles, eight);
-        around.add(its.position);
-        largest = larger(largest, its.radius);
+        const EightSpheres spheres = eight_spheres(particles, eight);
+        around.add(spheres.position);
+        largest = larger(largest, spheres.radius);
         unsigned members = 0;
         for (int k = 0; k < lanes; k++) members |= (is_member(eight[k]) ? 1U : 0U) << k;
-        return near(its, margin) & members;
+        return near(spheres, margin) & members;
       },
       [&](int i) {
         if (is_member(i)) clear_history(i, particles);
       });
   double radius = 0.0;
   for (int k = 0; k < lanes; k++) radius = std::max(radius, largest[k]);
-  listed_box = AxisBox(around, 2.0 * (reach_of(radius) + neighbor->skin));
+  listed_box = AxisBox(around, 2.0 * (pulloff_distance_of(radius) + neighbor->skin));
 }
 
 void FixWallGranRegionTalus::begin_step()
@@ -104,7 +105,7 @@ void FixWallGranRegionTalus::begin_step()
     region->prematch();
     region->set_velocity();
     parts.place();
-    if (in_frame) turn = RegionTurn(*region);
+    if (in_frame) motion = RegionMotion(*region);
   }
   std::fill(velocity, velocity + 3, 0.0);
 }
@@ -122,7 +123,7 @@ void FixWallGranRegionTalus::add_contacts()
   system->account().add(batch.work);
 }
 
-void FixWallGranRegionTalus::survey_contacts()
+void FixWallGranRegionTalus::report_contacts()
 {
   begin_step();
   add_contacts_of_candidates(system->particles());
@@ -155,7 +156,7 @@ void FixWallGranRegionTalus::add_contacts_of(int i, const ParticleState &particl
 {
   const double *x = particles.x(i);
   if (!simple && !is_inside(x)) return;
-  const int nc = find_contacts(x, reach_of(particles.radius(i)));
+  const int nc = find_contacts(x, pulloff_distance_of(particles.radius(i)));
   const bool known = simple && nc > 0 && region->contact[0].r > 0.0;
   if (simple && !known && !is_inside(x)) return;
   if (nc > tmax) error->one(FLERR, "Too many wallgran/region contacts for one particle");
@@ -212,7 +213,7 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const ParticleState &par
   const bool beyond = touches_beyond_contact();
   const double radius = particles.radius(i);
   double touch = radius;
-  if (beyond && history[0] != 0.0) touch += wall_law.reach(radius, contact.radius);
+  if (beyond && history[0] != 0.0) touch += wall_law.pulloff_distance(radius, contact.radius);
   if (!(contact.r * contact.r < touch * touch)) {
     if (history) std::fill(history, history + size_history, 0.0);
     return;

@@ -23,7 +23,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
  protected:
   void begin_run() override;
   void add_contacts() override;
-  void survey_contacts() override;
+  void report_contacts() override;
   std::string what_only_stock_does() const override { return ""; }
   std::string what_reads_arrays() override;
 
@@ -31,8 +31,8 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   double displacement() const;
   bool is_inside(const double *x);
   int find_contacts(const double *x, double reach);
-  double reach_of(double radius);
-  unsigned near(const Talus::EightSpheres &its, double margin);
+  double pulloff_distance_of(double radius);
+  unsigned near(const Talus::EightSpheres &spheres, double margin);
   void find_candidates(double moved, const Talus::ParticleState &particles);
   void begin_step();
   void add_contacts_of_candidates(const Talus::ParticleState &particles);
@@ -42,12 +42,12 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void clear_history(int i, const Talus::ParticleState &particles);
   bool match_history(int i, int nc);
 
-  bool dynamic = false;        // the region moves or changes its shape
-  bool bounded = false;        // distances from it are known
-  bool simple = false;         // and it is not made of others
-  bool in_frame = false;       // it is asked in its own frame, see RegionInFrame
-  Talus::RegionTurn turn;      // of this step, then
-  Talus::RegionParts parts;    // if it is bounded
+  bool dynamic = false;          // the region moves or changes its shape
+  bool bounded = false;          // distances from it are known
+  bool simple = false;           // and it is not made of others
+  bool in_frame = false;         // it is asked in its own frame, see RegionInFrame
+  Talus::RegionMotion motion;    // of this step, then
+  Talus::RegionParts parts;      // if it is bounded
   std::vector<Talus::RegionPose> listed_poses;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch
   Talus::WallBatch batch;

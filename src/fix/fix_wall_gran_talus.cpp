@@ -74,23 +74,23 @@ double FixWallGranTalus::displacement() const
 
 FixWallGranTalus::Gap FixWallGranTalus::gap(const double *x, double radius) const
 {
-  Gap its;
+  Gap result;
   if (!is_cylinder()) {
     const double above = x[wallstyle] - now[0], below = now[1] - x[wallstyle];
-    its.part = above < below ? 0 : 1;
-    its.d[wallstyle] = its.part ? -below : above;
-    return its;
+    result.part = above < below ? 0 : 1;
+    result.d[wallstyle] = result.part ? -below : above;
+    return result;
   }
   const double cylinder = radius_of_cylinder();
   const double r = sqrt(x[0] * x[0] + x[1] * x[1]), inwards = cylinder - r;
   if (inwards > radius) {
-    its.d[2] = cylinder;
+    result.d[2] = cylinder;
   } else {
-    its.d[0] = -inwards / r * x[0];
-    its.d[1] = -inwards / r * x[1];
-    its.radius = r < cylinder ? -2 * cylinder : 2 * cylinder;
+    result.d[0] = -inwards / r * x[0];
+    result.d[1] = -inwards / r * x[1];
+    result.radius = r < cylinder ? -2 * cylinder : 2 * cylinder;
   }
-  return its;
+  return result;
 }
 
 double FixWallGranTalus::distance(const double *x) const
@@ -156,7 +156,7 @@ void FixWallGranTalus::add_contacts()
     if (ranges[t].first < ranges[t].second) system->account().add(batches[t].work);
 }
 
-void FixWallGranTalus::survey_contacts()
+void FixWallGranTalus::report_contacts()
 {
   place();
   const ParticleState particles = system->particles();
@@ -179,7 +179,7 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const ParticleState &pa
     const Gap g = gap(particles.x(i), radius);
     const double squared = g.d[0] * g.d[0] + g.d[1] * g.d[1] + g.d[2] * g.d[2];
     double touch = radius;
-    if (beyond && history_one[i][0] != 0.0) touch += wall_law.reach(radius, g.radius);
+    if (beyond && history_one[i][0] != 0.0) touch += wall_law.pulloff_distance(radius, g.radius);
     if (!(squared < touch * touch)) {
       if (candidates.touched[c]) clear_history(i);
       candidates.touched[c] = 0;

@@ -26,7 +26,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
  protected:
   void begin_run() override;
   void add_contacts() override;
-  void survey_contacts() override;
+  void report_contacts() override;
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override
   {

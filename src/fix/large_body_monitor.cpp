@@ -17,23 +17,23 @@ using namespace Talus;
 
 std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst,
                                                         std::function<bool()> moves,
-                                                        const MeshShape *its_mesh,
+                                                        const MeshShape *mesh_shape,
                                                         const std::string &id)
 {
   using Finding = RunMonitor::Finding;
   look = std::move(find_worst);
-  mesh = its_mesh;
+  mesh = mesh_shape;
   body = "Fix large/body " + id;
   const auto check = [this](double limit, std::function<Finding()> find,
-                            void (LargeBodyMonitor::*say)(const Finding &) const) {
-    return RunMonitor::Check{limit, std::move(find), [this, say](const Finding &found) {
-                               if (comm->me == 0) (this->*say)(found);
+                            void (LargeBodyMonitor::*warning)(const Finding &) const) {
+    return RunMonitor::Check{limit, std::move(find), [this, warning](const Finding &found) {
+                               if (comm->me == 0) (this->*warning)(found);
                                return true;
                              }};
   };
   RunMonitor::Check overlap = check(
       largest_overlap, [this] { return finding(findings().overlap); },
-      &LargeBodyMonitor::say_overlap);
+      &LargeBodyMonitor::warn_overlap);
   overlap.worse = ContactMonitor::much_deeper;
   return {std::move(overlap),
           check(
@@ -41,11 +41,11 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
               [this, moves = std::move(moves)] {
                 return moves() ? finding(findings().speed, update->dt) : Finding{};
               },
-              &LargeBodyMonitor::say_move),
+              &LargeBodyMonitor::warn_move),
           check(
-              0.5, [this] { return finding(findings().passed); }, &LargeBodyMonitor::say_passage),
+              0.5, [this] { return finding(findings().passed); }, &LargeBodyMonitor::warn_passage),
           check(
-              0.5, [this] { return finding(findings().idle); }, &LargeBodyMonitor::say_idle)};
+              0.5, [this] { return finding(findings().idle); }, &LargeBodyMonitor::warn_idle)};
 }
 
 const BodyFindings &LargeBodyMonitor::findings()
@@ -57,12 +57,12 @@ const BodyFindings &LargeBodyMonitor::findings()
 
 /* Details: the particle and, of a mesh, the number of the triangle in the file. */
 
-RunMonitor::Finding LargeBodyMonitor::finding(const Worst &its, double factor) const
+RunMonitor::Finding LargeBodyMonitor::finding(const Worst &found, double factor) const
 {
-  if (!(its.value > 0.0)) return {};
-  const int triangle = mesh ? mesh->surface().number_in_file(its.part) + 1 : 0;
-  return {factor * its.value,
-          {static_cast<double>(atom->tag[its.particle]), static_cast<double>(triangle)}};
+  if (!(found.value > 0.0)) return {};
+  const int triangle = mesh ? mesh->surface().number_in_file(found.part) + 1 : 0;
+  return {factor * found.value,
+          {static_cast<double>(atom->tag[found.particle]), static_cast<double>(triangle)}};
 }
 
 std::string LargeBodyMonitor::place(const RunMonitor::Finding &found) const
@@ -76,10 +76,10 @@ void LargeBodyMonitor::warn(const std::string &text) const
   error->warning(FLERR, "{}: {}", body, text);
 }
 
-void LargeBodyMonitor::say_overlap(const RunMonitor::Finding &found) const
+void LargeBodyMonitor::warn_overlap(const RunMonitor::Finding &found) const
 {
   const bool begins = update->ntimestep == update->firststep;
-  std::string cure = ContactMonitor::cure_of(found.value);
+  std::string cure = ContactMonitor::remedy_for(found.value);
   if (begins)
     cure = "it is there from the beginning: move the particle or the body";
   else if (found.value > deep)
@@ -90,14 +90,14 @@ void LargeBodyMonitor::say_overlap(const RunMonitor::Finding &found) const
                    found.details[0], place(found), found.value, update->ntimestep, cure));
 }
 
-void LargeBodyMonitor::say_move(const RunMonitor::Finding &found) const
+void LargeBodyMonitor::warn_move(const RunMonitor::Finding &found) const
 {
   warn(fmt::format("particle {:.0f} and the body move past each other by {:.3g} of its radius in a "
                    "time step at step {}; an impact is not resolved: reduce the time step",
                    found.details[0], found.value, update->ntimestep));
 }
 
-void LargeBodyMonitor::say_passage(const RunMonitor::Finding &found) const
+void LargeBodyMonitor::warn_passage(const RunMonitor::Finding &found) const
 {
   const bool unfelt = found.value > 1.5;
   warn(fmt::format("particle {:.0f} went through {} before step {}; {}", found.details[0],
@@ -108,7 +108,7 @@ void LargeBodyMonitor::say_passage(const RunMonitor::Finding &found) const
                             "impact: use a higher stiffness or a smaller time step"));
 }
 
-void LargeBodyMonitor::say_idle(const RunMonitor::Finding &found) const
+void LargeBodyMonitor::warn_idle(const RunMonitor::Finding &found) const
 {
   warn(fmt::format("particle {:.0f} is at {} at step {}, but on the side where the mesh does not "
                    "act: move it, or use 'two-sided', or the other one of 'inside' and 'outside'",

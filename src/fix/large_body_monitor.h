@@ -31,11 +31,11 @@ class LargeBodyMonitor : protected Pointers {
 
   explicit LargeBodyMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// `find_worst`: of the particles of this rank; `moves`: whether the body does; `its_mesh`: the
+  /// `find_worst`: of the particles of this rank; `moves`: whether the body does; `mesh_shape`: the
   /// shape if it is one, or nullptr. This object must live as long as the checks.
   std::vector<RunMonitor::Check> checks(std::function<Talus::BodyFindings()> find_worst,
                                         std::function<bool()> moves,
-                                        const Talus::MeshShape *its_mesh, const std::string &id);
+                                        const Talus::MeshShape *mesh_shape, const std::string &id);
 
   /// A run begins.
   void start() { step_of_look = -1; }
@@ -46,10 +46,10 @@ class LargeBodyMonitor : protected Pointers {
   RunMonitor::Finding finding(const Worst &worst, double factor = 1.0) const;
   std::string place(const RunMonitor::Finding &found) const;
   void warn(const std::string &text) const;
-  void say_overlap(const RunMonitor::Finding &found) const;
-  void say_move(const RunMonitor::Finding &found) const;
-  void say_passage(const RunMonitor::Finding &found) const;
-  void say_idle(const RunMonitor::Finding &found) const;
+  void warn_overlap(const RunMonitor::Finding &found) const;
+  void warn_move(const RunMonitor::Finding &found) const;
+  void warn_passage(const RunMonitor::Finding &found) const;
+  void warn_idle(const RunMonitor::Finding &found) const;
 
   std::string body;    // its name
   const Talus::MeshShape *mesh = nullptr;

@@ -240,29 +240,29 @@ void LargeBodyMotion::evaluate_region(double dt)
   modify->clearstep_compute();
   region->prematch();
   modify->addstep_compute(update->ntimestep + 1);
-  const RegionTurn turn(*region);
-  const double *const d = turn.displacement;
-  if (!std::isfinite(d[0] + d[1] + d[2] + turn.angle))
+  const RegionMotion motion(*region);
+  const double *const d = motion.displacement;
+  if (!std::isfinite(d[0] + d[1] + d[2] + motion.angle))
     error->all(FLERR, "Fix large/body: a variable that moves region '{}' is not finite",
                region->id);
-  const Vector3<double> axis{turn.axis[0], turn.axis[1], turn.axis[2]};
+  const Vector3<double> axis{motion.axis[0], motion.axis[1], motion.axis[2]};
   BodyState state = now.state;
   state.position = now.origin + Vector3<double>{d[0], d[1], d[2]};
   state.orientation = Eigen::Quaterniond::Identity();
-  if (turn.angle != 0.0) state.orientation = Eigen::AngleAxisd(turn.angle, to_eigen(axis));
+  if (motion.angle != 0.0) state.orientation = Eigen::AngleAxisd(motion.angle, to_eigen(axis));
   if (dt > 0.0) {
     state.velocity = 1.0 / dt * (state.position - now.state.position);
-    state.omega = (turn.angle - region_angle) / dt * axis;
+    state.omega = (motion.angle - region_angle) / dt * axis;
   }
-  region_angle = turn.angle;
+  region_angle = motion.angle;
   now.set(state);
 }
 
-void LargeBodyMotion::follow(Region &its, const Vector3<double> &reference)
+void LargeBodyMotion::follow(Region &followed, const Vector3<double> &reference)
 {
-  region = &its;
+  region = &followed;
   const Kind before = kind;
-  kind = its.dynamic ? Kind::REGION : Kind::NONE;
+  kind = followed.dynamic ? Kind::REGION : Kind::NONE;
   now.moves = moves();
   now.origin = reference;
   if (kind == Kind::REGION && before == kind) return;
@@ -288,7 +288,7 @@ void LargeBodyMotion::advance(const BodyLoad &load, double lag)
     now.omega_change = kind == Kind::FREE ? 0.5 * rigid.change_by_torque(old, now.state)
                                           : 0.5 * (now.state.omega - old.omega);
   }
-  if (lag > 0.0) find_moments(old, lag);
+  if (lag > 0.0) find_kinematics(old, lag);
   behind = lag;
 }
 
@@ -304,7 +304,7 @@ void LargeBodyMotion::move(const BodyLoad &load, double lag)
     return;
   }
   BodyState state = now.state;
-  if (kind == Kind::EXTERNAL) guided.advance(state, update->dt);
+  if (kind == Kind::EXTERNAL) external.advance(state, update->dt);
   if (kind == Kind::SERVO) move_servo(state, load, lag);
   if (kind == Kind::FREE) move_free(state, load, lag);
   now.set(state);
@@ -393,7 +393,7 @@ int LargeBodyMotion::set_state(int narg, char **arg, double way, double reach)
                "the skin {:.4g}: give states more often, or with 'after N'",
                jump, way);
   BodyState state = now.state;
-  guided.guide(state, target, steps);
+  external.guide(state, target, steps);
   now.set(state);
   if (steps == 0) stand_still();
   const bool has_after =
@@ -411,8 +411,8 @@ void LargeBodyMotion::to_array(double *a) const
   *a++ = clock.time;
   *a++ = static_cast<double>(clock.step);
   *a++ = clock.dt;
-  guided.to_array(a);
-  a += GuidedMotion::size;
+  external.to_array(a);
+  a += ExternalMotion::size;
   *a++ = behind;
   *a++ = servo_rate;
   half_way.to_array(a);
@@ -427,12 +427,12 @@ bool LargeBodyMotion::from_array(const double *a)
   clock.time = *a++;
   clock.step = static_cast<std::int64_t>(*a++);
   clock.dt = *a++;
-  guided.from_array(a);
-  a += GuidedMotion::size;
+  external.from_array(a);
+  a += ExternalMotion::size;
   behind = *a++;
   servo_rate = *a++;
   half_way = BodyState::from_array(a);
   present = BodyState::from_array(a + BodyState::size);
-  show_moments();
+  show_kinematics();
   return true;
 }

@@ -9,7 +9,7 @@
 #include "base/words.h"
 #include "body/contact/body_load.h"
 #include "body/motion/body_state.h"
-#include "body/motion/guided_motion.h"
+#include "body/motion/external_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
 #include "fix/constant_gravity.h"
@@ -34,7 +34,7 @@ class LargeBodyMotion : protected Pointers {
   void finish(const Talus::Vector3<double> &reference);
 
   /// Of a body whose shape is a region: it goes where the region goes, or stays if that stays. At
-  /// the beginning of each run, after init(), because regions may be defined anew. `reference`: of
+  /// the beginning of each run, after init(), because regions may be defined again. `reference`: of
   /// the shape. Must not be called if there is a motion of its own.
   void follow(Region &region, const Talus::Vector3<double> &reference);
   /// Has one of the words move and servo.
@@ -68,7 +68,7 @@ class LargeBodyMotion : protected Pointers {
 
   /// kind, state, clock, guide; lag, rate of a servo and what contacts of second order see
   static constexpr int size_restart =
-      1 + Talus::BodyState::size + 3 + Talus::GuidedMotion::size + 2 + 2 * Talus::BodyState::size;
+      1 + Talus::BodyState::size + 3 + Talus::ExternalMotion::size + 2 + 2 * Talus::BodyState::size;
   void to_array(double *a) const;
   /// False if the motion was of another kind: the body then begins where its words put it.
   bool from_array(const double *a);
@@ -93,9 +93,9 @@ class LargeBodyMotion : protected Pointers {
   void move(const Talus::BodyLoad &load, double lag);
   void move_free(Talus::BodyState &state, const Talus::BodyLoad &load, double lag);
   void move_servo(Talus::BodyState &state, const Talus::BodyLoad &load, double lag);
-  void find_moments(const Talus::BodyState &old, double lag);
+  void find_kinematics(const Talus::BodyState &old, double lag);
   void stand_still();
-  void show_moments();
+  void show_kinematics();
   Talus::BodyState state_from(int narg, char **arg, int &steps) const;
 
   Kind kind = Kind::NONE;
@@ -106,7 +106,7 @@ class LargeBodyMotion : protected Pointers {
   Talus::Vector3<double> angle_axis{0.0, 0.0, 1.0};
   Region *region = nullptr;     // that the body follows
   double region_angle = 0.0;    // at the state that `now` has
-  Talus::GuidedMotion guided;
+  Talus::ExternalMotion external;
   Talus::RigidBody rigid;
   Talus::Servo servo;
   Talus::BodyState initial;    // velocities of a free body

@@ -162,7 +162,7 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   std::vector<Triangle> &soup = content.triangles;
 
   double scale = 1.0;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Vector3<double> shift{0.0, 0.0, 0.0};
   std::string side = two_sided ? "two-sided" : "";
   for (bool more = true; more;) {    // scaled, then turned, then shifted, in whatever order given
@@ -173,13 +173,14 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
     } else if (words.take("rotate")) {
       const double angle = words.number("rotate theta");
       const Vector3<double> axis = words.direction("rotate axis (ax ay az)");
-      turn = Eigen::AngleAxisd(angle * std::acos(-1.0) / 180.0, to_eigen(axis)).toRotationMatrix();
+      rotation =
+          Eigen::AngleAxisd(angle * std::acos(-1.0) / 180.0, to_eigen(axis)).toRotationMatrix();
     } else {
       more = take_side(side);
     }
   }
   for (Triangle &t : soup)
-    for (Vector3<double> &p : t.corner) p = rotated(turn, scale * p) + shift;
+    for (Vector3<double> &p : t.corner) p = rotated(rotation, scale * p) + shift;
 
   std::unique_ptr<MeshShape> shape;
   try {
@@ -192,11 +193,11 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   shape->set_name(file);
   const MeshReport &report = shape->surface().report();
   const int back = words.index() - file_word + 1;
-  if (report.turned_edges && side == "one-sided")
+  if (report.inconsistent_edges && side == "one-sided")
     words.fail(back,
                fmt::format("'{}': {} edges lie between triangles that face opposite sides, the "
                            "first at triangle {}: leave out one-sided, or repair the file",
-                           file, report.turned_edges, report.first_turned));
+                           file, report.inconsistent_edges, report.first_inconsistent));
   const bool has_inside = report.closed();
   if (!has_inside && (side == "inside" || side == "outside"))
     words.fail(back,
@@ -223,8 +224,9 @@ bool LargeBodyShapes::take_side(std::string &side)
 std::string LargeBodyShapes::what_is_open(const MeshReport &r)
 {
   if (r.open_edges) return fmt::format("{} open edges", r.open_edges);
-  if (r.crowded_edges) return fmt::format("{} edges of more than two triangles", r.crowded_edges);
-  return fmt::format("{} edges whose triangles face opposite sides", r.turned_edges);
+  if (r.nonmanifold_edges)
+    return fmt::format("{} edges of more than two triangles", r.nonmanifold_edges);
+  return fmt::format("{} edges whose triangles face opposite sides", r.inconsistent_edges);
 }
 
 /* What was found in the file, and on which side the mesh acts. */
@@ -241,12 +243,12 @@ void LargeBodyShapes::tell(const MeshShape &shape, const std::string &side)
   };
   warn(r.degenerate, r.first_degenerate, "triangles without area are left out");
   warn(r.duplicate, r.first_duplicate, "triangles that are there already are left out");
-  warn(r.crowded_edges, r.first_crowded, "edges belong to more than two triangles");
+  warn(r.nonmanifold_edges, r.first_nonmanifold, "edges belong to more than two triangles");
   std::string text = r.closed() ? fmt::format("closed, volume {:.6g}", std::fabs(surface.volume()))
                                 : what_is_open(r);
-  if (r.mended_edges)
+  if (r.repaired_edges)
     text += fmt::format(", triangles turned at {} edges where neighbors faced opposite sides",
-                        r.mended_edges);
+                        r.repaired_edges);
   static const char *const acts[] = {"on the side of its normals", "on the side behind its normals",
                                      "on both sides", "on the side where particles are"};
   const std::string where = side == "inside" || side == "outside"
@@ -261,13 +263,13 @@ void LargeBodyShapes::tell(const MeshShape &shape, const std::string &side)
 LargeBodyShapes::Shape LargeBodyShapes::region()
 {
   const std::string id = words.text("region-ID");
-  Region *its = domain->get_region_by_id(id);
-  if (!its) words.fail(1, "region '" + id + "' does not exist");
-  const std::string refusal = RegionShape::refusal(*its, false);
+  Region *region = domain->get_region_by_id(id);
+  if (!region) words.fail(1, "region '" + id + "' does not exist");
+  const std::string refusal = RegionShape::refusal(*region, false);
   if (!refusal.empty()) words.fail(1, refusal);
-  its->init();
-  its->prematch();
-  return std::make_unique<RegionShape>(its, id.c_str());
+  region->init();
+  region->prematch();
+  return std::make_unique<RegionShape>(region, id.c_str());
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::custom()

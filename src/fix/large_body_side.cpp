@@ -15,7 +15,7 @@ using namespace Talus;
 void LargeBodySide::decide(int group_bits, const BodyFrame &frame)
 {
   if (!is_open()) return;
-  const MeshInterior interior(its->surface());
+  const MeshInterior interior(mesh_shape->surface());
   bigint here[2] = {0, 0}, count[2];    // outside, inside
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & group_bits)) continue;
@@ -25,21 +25,21 @@ void LargeBodySide::decide(int group_bits, const BodyFrame &frame)
   MPI_Allreduce(here, count, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (count[0] + count[1] == 0) return;
   if (count[0] && count[1]) {
-    its->set_side(MeshSide::BOTH);
+    mesh_shape->set_side(MeshSide::BOTH);
     if (comm->me == 0)
       error->warning(FLERR,
                      "fix large/body mesh '{}': {} particles are inside of it and {} outside: it "
                      "acts on both sides; say 'inside' or 'outside' if one is meant",
-                     its->name(), count[1], count[0]);
+                     mesh_shape->name(), count[1], count[0]);
     return;
   }
-  its->set_side(its->side_within(count[1] > 0));
+  mesh_shape->set_side(mesh_shape->side_within(count[1] > 0));
   if (comm->me == 0)
     utils::logmesg(lmp, "fix large/body mesh '{}': particles are {} of it: it acts on this side\n",
-                   its->name(), count[1] ? "inside" : "outside");
+                   mesh_shape->name(), count[1] ? "inside" : "outside");
 }
 
 void LargeBodySide::set_code(double code)
 {
-  if (is_open()) its->set_side(static_cast<MeshSide>(static_cast<int>(code)));
+  if (is_open()) mesh_shape->set_side(static_cast<MeshSide>(static_cast<int>(code)));
 }

@@ -18,20 +18,20 @@ class LargeBodySide : protected Pointers {
   explicit LargeBodySide(LAMMPS *lmp) : Pointers(lmp) {}
 
   /// Of shapes that are no mesh nothing is decided. `shape` must live as long as this.
-  void watch(Talus::LargeBodyShape &shape) { its = shape.as_mesh(); }
-  const Talus::MeshShape *mesh() const { return its; }
+  void watch(Talus::LargeBodyShape &shape) { mesh_shape = shape.as_mesh(); }
+  const Talus::MeshShape *mesh() const { return mesh_shape; }
   /// The command has not said it.
-  bool is_open() const { return its && its->side() == Talus::MeshSide::UNDECIDED; }
+  bool is_open() const { return mesh_shape && mesh_shape->side() == Talus::MeshSide::UNDECIDED; }
 
   /// Before particles of the group are listed. Collective while the question is open.
   void decide(int group_bits, const Talus::BodyFrame &frame);
 
   /// For restart files; what the command says counts more.
-  double code() const { return its ? static_cast<double>(its->side()) : 0.0; }
+  double code() const { return mesh_shape ? static_cast<double>(mesh_shape->side()) : 0.0; }
   void set_code(double code);
 
  private:
-  Talus::MeshShape *its = nullptr;
+  Talus::MeshShape *mesh_shape = nullptr;
 };
 
 }    // namespace LAMMPS_NS

@@ -25,8 +25,8 @@ constexpr int size_image = 10;    // type and three corners
 
 }    // namespace
 
-LargeBodySurface::LargeBodySurface(LAMMPS *lmp, LargeBodyShape &its_shape) :
-    Pointers(lmp), shape(its_shape), mesh(its_shape.as_mesh())
+LargeBodySurface::LargeBodySurface(LAMMPS *lmp, LargeBodyShape &body_shape) :
+    Pointers(lmp), shape(body_shape), mesh(body_shape.as_mesh())
 {
 }
 
@@ -72,11 +72,11 @@ void LargeBodySurface::keep_loads()
 void LargeBodySurface::add_step(double dt)
 {
   if (!with_loads || (averages && dt == 0.0)) return;
-  if (!averages || begins_anew) {
+  if (!averages || starts_new_sums) {
     for (int t = 0; t < size(); t++) std::fill_n(&loads[fields * t], WORK, 0.0);
     steps = 0;
   }
-  begins_anew = false;
+  starts_new_sums = false;
   steps++;
   for (const TouchedPart &p : parts) {
     double *load = &loads[fields * p.part];
@@ -177,7 +177,7 @@ void LargeBodySurface::add_loads(VtkPolyData &picture, const BodyFrame &frame)
 {
   static const char *const names[] = {"pressure", "shear_stress", "shear_work", "wear"};
   reduce();
-  begins_anew = true;
+  starts_new_sums = true;
   const int count = comm->me == 0 ? size() : 0;
   for (int c = 0; c < columns(); c++) {
     VtkPolyData::Array &array = picture.add_cell_data(names[c], 1);

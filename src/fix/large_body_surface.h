@@ -69,8 +69,8 @@ class LargeBodySurface : protected Pointers {
   const Talus::LargeBodyShape &shape;
   const Talus::MeshShape *mesh;    // nullptr: another shape
   bool with_loads = false;
-  bool averages = false;      // loads are sums over `steps` steps
-  bool begins_anew = true;    // they are in a picture: the next step begins new sums
+  bool averages = false;          // loads are sums over `steps` steps
+  bool starts_new_sums = true;    // they are in a picture: the next step begins new sums
   int steps = 0;
   double wear = 0.0;    // coefficient, 1/pressure
   int interval = 0;

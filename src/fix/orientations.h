@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Rows of the host's arrays as vectors and quaternions.
+// Rows of the arrays of LAMMPS as vectors and quaternions.
 
 #ifndef LMP_ORIENTATIONS_H
 #define LMP_ORIENTATIONS_H

@@ -17,20 +17,20 @@ using Talus::NearParts;
 using Talus::SurfaceContact;
 using Talus::Vector3;
 
-RegionShape::RegionShape(Region *r, const char *its_id) : region(r), id(its_id)
+RegionShape::RegionShape(Region *r, const char *name) : region(r), id(name)
 {
   replace(r);
 }
 
-/* Some versions of the host move the extent with the region, others have none of one that moves. */
+/* Some versions of LAMMPS move the extent with the region, others have none of one that moves. */
 
 void RegionShape::replace(Region *now)
 {
   region = now;
   middle = {0.0, 0.0, 0.0};
   if (region->dynamic) {
-    const Talus::RegionTurn turn(*region);
-    middle = {turn.point[0], turn.point[1], turn.point[2]};
+    const Talus::RegionMotion motion(*region);
+    middle = {motion.point[0], motion.point[1], motion.point[2]};
   } else if (region->bboxflag) {
     middle = {0.5 * (region->extent_xlo + region->extent_xhi),
               0.5 * (region->extent_ylo + region->extent_yhi),

@@ -11,14 +11,14 @@ namespace LAMMPS_NS {
 
 class Region;
 
-/// The surface of a region of the host, seen from where its particles are, as fix wall/gran/region
+/// The surface of a region of LAMMPS, seen from where its particles are, as fix wall/gran/region
 /// sees it. A region that moves is asked as if it did not: how it moves is a matter of the body.
 /// The region keeps its contacts in its own arrays, so one thread asks it.
 class RegionShape : public Talus::LargeBodyShape {
  public:
   RegionShape(Region *region, const char *id);
 
-  /// Regions may be deleted and defined anew between runs: tell the shape at the start of each.
+  /// Regions may be deleted and defined again between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
   void replace(Region *now);
 

@@ -30,11 +30,11 @@ void LanesOfBox::add(const Vector3<Vec8> &x)
   hi = {larger(hi.x, x.x), larger(hi.y, x.y), larger(hi.z, x.z)};
 }
 
-AxisBox::AxisBox(const LanesOfBox &its, double by)
+AxisBox::AxisBox(const LanesOfBox &points, double by)
 {
   for (int k = 0; k < lanes; k++) {
-    const double low[3] = {its.lo.x[k], its.lo.y[k], its.lo.z[k]},
-                 high[3] = {its.hi.x[k], its.hi.y[k], its.hi.z[k]};
+    const double low[3] = {points.lo.x[k], points.lo.y[k], points.lo.z[k]},
+                 high[3] = {points.hi.x[k], points.hi.y[k], points.hi.z[k]};
     for (int d = 0; d < 3; d++) {
       lo[d] = std::min(lo[d], low[d] - by);
       hi[d] = std::max(hi[d], high[d] + by);
@@ -44,11 +44,11 @@ AxisBox::AxisBox(const LanesOfBox &its, double by)
 
 /* ---------------------------------------------------------------------- */
 
-RegionTurn::RegionTurn(const Region &region)
+RegionMotion::RegionMotion(const Region &region)
 {
   if (region.moveflag) {
-    const double its[3] = {region.dx, region.dy, region.dz};
-    std::copy_n(its, 3, displacement);
+    const double shift[3] = {region.dx, region.dy, region.dz};
+    std::copy_n(shift, 3, displacement);
   }
   if (!region.rotateflag) return;
   rotates = true;
@@ -59,19 +59,19 @@ RegionTurn::RegionTurn(const Region &region)
   std::copy_n(axis_of_rotation(region), 3, axis);
 }
 
-void RegionTurn::move(double (&x)[3]) const
+void RegionMotion::move(double (&x)[3]) const
 {
   if (rotates) rotate(x, sine);
   for (int d = 0; d < 3; d++) x[d] += displacement[d];
 }
 
-void RegionTurn::move_back(double (&x)[3]) const
+void RegionMotion::move_back(double (&x)[3]) const
 {
   for (int d = 0; d < 3; d++) x[d] -= displacement[d];
   if (rotates) rotate(x, -sine);
 }
 
-void RegionTurn::rotate(double (&x)[3], double sine_of_angle) const
+void RegionMotion::rotate(double (&x)[3], double sine_of_angle) const
 {
   double along[3], across[3];
   for (int d = 0; d < 3; d++) x[d] -= point[d];
@@ -89,13 +89,13 @@ void RegionTurn::rotate(double (&x)[3], double sine_of_angle) const
 
 /* ---------------------------------------------------------------------- */
 
-RegionPose::RegionPose(const RegionTurn &turn)
+RegionPose::RegionPose(const RegionMotion &motion)
 {
-  turn.move(shift);
+  motion.move(shift);
   for (int axis = 0; axis < 3; axis++) {
     double x[3] = {0.0, 0.0, 0.0};
     x[axis] = 1.0;
-    turn.move(x);
+    motion.move(x);
     for (int d = 0; d < 3; d++) rotation[d][axis] = x[d] - shift[d];
   }
 }
@@ -164,7 +164,7 @@ void RegionParts::place()
 {
   for (std::size_t k = 0; k < simple.size(); k++) {
     if (!simple[k]->dynamic) continue;
-    pose[k] = RegionPose(RegionTurn(*simple[k]));
+    pose[k] = RegionPose(RegionMotion(*simple[k]));
     shape[k].place(pose[k]);
   }
 }
@@ -209,8 +209,8 @@ std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
   if (region.varshape) return variable_of_more_than_time(lmp);
   if (is_composite(region)) {
     for (int n = 0; n < region.nregion; n++) {
-      const std::string its = variable_that_may_read_particles(lmp, *region.reglist[n]);
-      if (!its.empty()) return its;
+      const std::string variable = variable_that_may_read_particles(lmp, *region.reglist[n]);
+      if (!variable.empty()) return variable;
     }
     return "";
   }
@@ -222,7 +222,8 @@ std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
 
 /* ---------------------------------------------------------------------- */
 
-RegionAtRest::RegionAtRest(Region &its) : region(its), dynamic(its.dynamic), turns(its.rotateflag)
+RegionAtRest::RegionAtRest(Region &moving) :
+    region(moving), dynamic(moving.dynamic), turns(moving.rotateflag)
 {
   region.dynamic = region.rotateflag = 0;
 }
@@ -236,7 +237,7 @@ RegionAtRest::~RegionAtRest()
 bool RegionInFrame::match(const double *x) const
 {
   double x0[3] = {x[0], x[1], x[2]};
-  turn.move_back(x0);
+  motion.move_back(x0);
   const RegionAtRest at_rest(region);
   return region.match(x0[0], x0[1], x0[2]);
 }
@@ -246,16 +247,16 @@ bool RegionInFrame::match(const double *x) const
 int RegionInFrame::surface(const double *x, double cutoff) const
 {
   double x0[3] = {x[0], x[1], x[2]};
-  turn.move_back(x0);
+  motion.move_back(x0);
   const RegionAtRest at_rest(region);
   const int contacts = region.surface(x0[0], x0[1], x0[2], cutoff);
-  for (int n = 0; n < contacts && turn.rotates; n++) {
-    Region::Contact &its = region.contact[n];
-    double point[3] = {x0[0] - its.delx, x0[1] - its.dely, x0[2] - its.delz};
-    turn.move(point);
-    its.delx = x[0] - point[0];
-    its.dely = x[1] - point[1];
-    its.delz = x[2] - point[2];
+  for (int n = 0; n < contacts && motion.rotates; n++) {
+    Region::Contact &contact = region.contact[n];
+    double point[3] = {x0[0] - contact.delx, x0[1] - contact.dely, x0[2] - contact.delz};
+    motion.move(point);
+    contact.delx = x[0] - point[0];
+    contact.dely = x[1] - point[1];
+    contact.delz = x[2] - point[2];
   }
   return contacts;
 }

@@ -33,22 +33,22 @@ struct AxisBox {
 
   AxisBox() = default;
   /// Wider than the lanes by a length.
-  AxisBox(const LanesOfBox &its, double by);
+  AxisBox(const LanesOfBox &points, double by);
   bool is_empty() const { return lo[0] > hi[0]; }
 };
 
 /// How a simple region that moves or turns stands, in the words of its command: x = point + turned
 /// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
-struct RegionTurn {
+struct RegionMotion {
   double point[3] = {0.0, 0.0, 0.0}, axis[3] = {0.0, 0.0, 1.0};
   double displacement[3] = {0.0, 0.0, 0.0}, angle = 0.0;
   double cosine = 1.0, sine = 0.0;    ///< of the angle
   bool rotates = false;               ///< has `rotate`
 
   /// At rest.
-  RegionTurn() = default;
+  RegionMotion() = default;
   /// Now, after Region::prematch().
-  explicit RegionTurn(const LAMMPS_NS::Region &region);
+  explicit RegionMotion(const LAMMPS_NS::Region &region);
 
   /// Takes a point of the region at rest to where it is now, and back. The sums are those of
   /// Region::rotate(), in its order: so results have the bits of LAMMPS.
@@ -63,7 +63,7 @@ struct RegionTurn {
 class RegionPose {
  public:
   RegionPose() = default;
-  explicit RegionPose(const RegionTurn &turn);
+  explicit RegionPose(const RegionMotion &motion);
 
   /// Largest distance of a point that is inside the box from where the same point of the region was
   /// in the pose `then`.
@@ -90,7 +90,8 @@ bool has_distance(const LAMMPS_NS::Region &region);
 class RegionParts {
  public:
   RegionParts() = default;
-  /// In init() of who asks, for regions may be defined anew; of a region that has_distance().
+  /// To be made in init() of the fix that uses it, because regions may be redefined between runs;
+  /// of a region that has_distance().
   explicit RegionParts(LAMMPS_NS::Region &region) { collect(region); }
 
   /// In each step, after Region::prematch().
@@ -132,12 +133,15 @@ class RegionAtRest {
   const int dynamic, turns;
 };
 
-/// Asks a simple region in its own frame: sine and cosine of a step are computed once, where the host
+/// Asks a simple region in its own frame: sine and cosine of a step are computed once, where LAMMPS
 /// does it again for every question. Answers have its bits.
 class RegionInFrame {
  public:
-  /// Both must exist as long as this does; `turn` that of the region, after prematch().
-  RegionInFrame(LAMMPS_NS::Region &region, const RegionTurn &turn) : region(region), turn(turn) {}
+  /// Both must exist as long as this does; `motion` that of the region, after prematch().
+  RegionInFrame(LAMMPS_NS::Region &region, const RegionMotion &motion) :
+      region(region), motion(motion)
+  {
+  }
 
   /// As Region::match() and Region::surface(): contacts are in region.contact.
   bool match(const double *x) const;
@@ -145,7 +149,7 @@ class RegionInFrame {
 
  private:
   LAMMPS_NS::Region &region;
-  const RegionTurn &turn;
+  const RegionMotion &motion;
 };
 
 }    // namespace Talus

@@ -19,23 +19,23 @@ using Talus::LargeBody;
 
 namespace {
 
-/* "", or which contacts of the run are not of second order, and the cure, for people. */
+/* "", or which contacts of the run are not of second order, and the cure, as text for messages. */
 
 std::string reason_of_contacts(GranularSystem &system)
 {
   if (!system.pair_style_is_alone())
     return "contacts of particles are not those of a pair style of Talus: use pair_style "
            "gran/penalty, or a granular style with the suffix talus, and not hybrid";
-  const Talus::LawBook &laws = system.laws();
+  const Talus::PairCoeffs &laws = system.laws();
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) {
       if (!laws.known(i, j)) continue;
-      const std::string its = laws.reason_against_second_order(i, j);
-      if (!its.empty()) return fmt::format("the contact of types {} and {} {}", i, j, its);
+      const std::string reason = laws.reason_against_second_order(i, j);
+      if (!reason.empty()) return fmt::format("the contact of types {} and {} {}", i, j, reason);
     }
   for (LargeBody *body : system.bodies().in_order()) {
-    const std::string its = body->reason_against_second_order();
-    if (!its.empty()) return body->name() + " " + its;
+    const std::string reason = body->reason_against_second_order();
+    if (!reason.empty()) return body->name() + " " + reason;
   }
   return "";
 }
@@ -46,8 +46,8 @@ std::vector<std::string> notes_on_bodies(GranularSystem &system)
 {
   std::vector<std::string> notes;
   for (LargeBody *body : system.bodies().in_order()) {
-    const std::string its = body->note_on_second_order();
-    if (!its.empty()) notes.push_back(body->name() + ": " + its);
+    const std::string note = body->note_on_second_order();
+    if (!note.empty()) notes.push_back(body->name() + ": " + note);
   }
   return notes;
 }
@@ -70,13 +70,13 @@ void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
   for (const auto &other : modify->get_fix_list()) {
     seen = seen || other == fix;
     if (other == fix || !other->time_integrate) continue;
-    const auto *ours = Talus::SystemFix::of(other);
-    if (!ours || ours->order() != 2)
+    const auto *talus_fix = Talus::SystemFix::of(other);
+    if (!talus_fix || talus_fix->order() != 2)
       error->all(FLERR, Error::NOLASTLINE,
                  "{} order 2: fix {} ({}) moves particles as well, with order 1: use order 1, or "
                  "only fixes nve/sphere/symplectic and rigid/small/symplectic with 'order 2'",
                  title, other->id, other->style);
-    if (start.lag() == 0.0) start.set_lag(ours->lag());
+    if (start.lag() == 0.0) start.set_lag(talus_fix->lag());
     if (!seen) announced = true;    // by that one
   }
   for (const auto &other : modify->get_fix_list())

@@ -19,16 +19,16 @@ void WallLaw::take(const Model &model)
   table.reset(1);
   table.set(1, 1, spec.law, contact_coefficients(spec, spec, FrictionMix::MINIMUM));
   table.finish();
-  places = stock_history_of({&model}).value();
+  history_index = stock_history_of({&model}).value();
   // that a contact has begun comes first
-  if (model.beyond_contact && law().has_history() && places != std::vector<int>{-1})
-    places.insert(places.begin(), -1);
+  if (model.beyond_contact && law().has_history() && history_index != std::vector<int>{-1})
+    history_index.insert(history_index.begin(), -1);
 }
 
-double WallLaw::reach(double radius, double wall_radius) const
+double WallLaw::pulloff_distance(double radius, double wall_radius) const
 {
   const double inverse = 1.0 / radius + (wall_radius != 0.0 ? 1.0 / wall_radius : 0.0);
-  return reach_of(law(), row(), 1.0 / inverse);
+  return pulloff_distance_of(law(), row(), 1.0 / inverse);
 }
 
 /* No lane may ever hold what is not finite. */
@@ -59,8 +59,8 @@ void WallBatch::add(const Contact &c)
   batch.temperature_difference[k] = c.temperature_difference;
   if (account) set_change(k, c);
   if (!c.history) return;
-  for (std::size_t n = 0; n < law->places.size(); n++)
-    if (law->places[n] >= 0) batch.history[law->places[n]][k] = c.history[n];
+  for (std::size_t n = 0; n < law->history_index.size(); n++)
+    if (law->history_index[n] >= 0) batch.history[law->history_index[n]][k] = c.history[n];
 }
 
 /* What follows from what was put in, eight at a time. */
@@ -103,8 +103,8 @@ void WallBatch::run()
   set_lanes(end);
   run_laws(batch, 0, 0, end, {law->table, dt, true, account});
   for (int k = 0; k < filled; k++)
-    for (std::size_t n = 0; histories[k] && n < law->places.size(); n++)
-      if (law->places[n] >= 0) histories[k][n] = batch.history[law->places[n]][k];
+    for (std::size_t n = 0; histories[k] && n < law->history_index.size(); n++)
+      if (law->history_index[n] >= 0) histories[k][n] = batch.history[law->history_index[n]][k];
   if (account) add_to_account();
   set_torques(end);
   keep_forces(end);
@@ -115,8 +115,8 @@ void WallBatch::set_torques(int end)
   const bool twists = law->law().twists();
   for (int d = 0; d < 3; d++)
     for (int k = 0; k < end; k += lanes) {
-      const Vec8 its = -load8(&radius[k]) * load8(&batch.moment[d][k]);
-      store(&torque[d][k], twists ? its + load8(&batch.twisting_torque[d][k]) : its);
+      const Vec8 of_force = -load8(&radius[k]) * load8(&batch.torque_per_radius[d][k]);
+      store(&torque[d][k], twists ? of_force + load8(&batch.twisting_torque[d][k]) : of_force);
     }
 }
 
@@ -124,12 +124,12 @@ void WallBatch::keep_forces(int end)
 {
   const std::size_t n = kept / ContactBatch::width;
   if (n == last.size()) last.emplace_back();
-  LastForces &its = last[n];
-  std::copy_n(atoms, filled, its.atoms);
+  LastForces &forces = last[n];
+  std::copy_n(atoms, filled, forces.atoms);
   for (int d = 0; d < 3; d++) {
-    std::copy_n(batch.force[d], end, its.force[d]);
-    std::copy_n(batch.moment[d], end, its.moment[d]);
-    if (law->law().twists()) std::copy_n(batch.twisting_torque[d], end, its.twisting_torque[d]);
+    std::copy_n(batch.force[d], end, forces.force[d]);
+    std::copy_n(batch.torque_per_radius[d], end, forces.torque_per_radius[d]);
+    if (law->law().twists()) std::copy_n(batch.twisting_torque[d], end, forces.twisting_torque[d]);
   }
   kept += filled;
 }
@@ -137,40 +137,41 @@ void WallBatch::keep_forces(int end)
 void WallBatch::add_to_account()
 {
   for (int k = 0; k < filled; k++) {
-    const EnergyByCause its = work_of_lane(batch, k);
-    work += its;
-    add_work(*account, atoms[k], its, 1.0);
+    const EnergyByCause contact_work = work_of_lane(batch, k);
+    work += contact_work;
+    add_work(*account, atoms[k], contact_work, 1.0);
   }
 }
 
 /* A contact that began behind the step has no forces. */
 
-void WallBatch::find_last(int k, SurveyedContact &found)
+void WallBatch::find_last(int k, ContactReport &found)
 {
-  if (surveyed == kept) return;
-  const LastForces &its = last[surveyed / ContactBatch::width];
-  const int lane = static_cast<int>(surveyed % ContactBatch::width);
-  if (its.atoms[lane] != atoms[k]) return;
-  surveyed++;
-  found.force = lane_of(its.force, lane);
-  found.moment = lane_of(its.moment, lane);
-  if (law->law().twists()) found.twisting_torque = lane_of(its.twisting_torque, lane);
+  if (reported == kept) return;
+  const LastForces &forces = last[reported / ContactBatch::width];
+  const int lane = static_cast<int>(reported % ContactBatch::width);
+  if (forces.atoms[lane] != atoms[k]) return;
+  reported++;
+  found.force = lane_of(forces.force, lane);
+  found.torque_per_radius = lane_of(forces.torque_per_radius, lane);
+  if (law->law().twists()) found.twisting_torque = lane_of(forces.twisting_torque, lane);
 }
 
-void WallBatch::survey(Ask ask, const std::function<void(const SurveyedContact &)> &visit)
+void WallBatch::report(ContactData requested,
+                       const std::function<void(const ContactReport &)> &visit)
 {
   set_lanes((filled + lanes - 1) / lanes * lanes);
   for (int k = 0; k < filled; k++) {
-    HistoryValues memory{};
-    for (std::size_t n = 0; histories[k] && n < law->places.size(); n++)
-      if (law->places[n] >= 0) memory[law->places[n]] = histories[k][n];
+    HistoryValues history{};
+    for (std::size_t n = 0; histories[k] && n < law->history_index.size(); n++)
+      if (law->history_index[n] >= 0) history[law->history_index[n]] = histories[k][n];
     const ContactState<double> state = state_of_lane(batch, k);
-    SurveyedContact found;
+    ContactReport found;
     found.i = atoms[k];
     found.part = parts[k];
     found.normal = state.normal;
     found.overlap = state.overlap;
-    survey_contact(law->law(), law->row(), state, dt, memory, ask, found);
+    report_contact(law->law(), law->row(), state, dt, history, requested, found);
     find_last(k, found);
     found.set_arms_of_spheres(radius[k], 0.0);
     visit(found);
@@ -180,15 +181,15 @@ void WallBatch::survey(Ask ask, const std::function<void(const SurveyedContact &
 
 WallBatch::Result WallBatch::result(int k) const
 {
-  Result its;
-  its.atom = atoms[k];
-  its.heat_flow = law->law().conducts_heat() ? batch.heat_flow[k] : 0.0;
+  Result found;
+  found.atom = atoms[k];
+  found.heat_flow = law->law().conducts_heat() ? batch.heat_flow[k] : 0.0;
   for (int d = 0; d < 3; d++) {
-    its.force[d] = batch.force[d][k];
-    its.torque[d] = torque[d][k];
-    its.separation[d] = separation[d][k];
+    found.force[d] = batch.force[d][k];
+    found.torque[d] = torque[d][k];
+    found.separation[d] = separation[d][k];
   }
-  return its;
+  return found;
 }
 
 }    // namespace Talus

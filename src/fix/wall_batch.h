@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts of particles with a granular wall of LAMMPS on their way through the kernels of its
-// contact law: they are put in one by one, computed side by side, and handed back in the same
-// order, as forces or, for outputs, as a survey. Lever arms against a wall are full radii.
+// Contacts of particles with a granular wall of LAMMPS: added one by one, computed several at a
+// time by the kernel of its contact law, and returned in the same order, as forces or, for outputs,
+// as reports. Lever arms against a wall are full radii.
 
 #ifndef TALUS_FIX_WALL_BATCH_H
 #define TALUS_FIX_WALL_BATCH_H
@@ -19,16 +19,16 @@
 
 namespace Talus {
 
-/// The law of a wall, and where LAMMPS keeps what a contact remembers. Shared by threads.
+/// The law of a wall, and where LAMMPS keeps the history of a contact. Shared by threads.
 struct WallLaw {
   LawTable table;    ///< of one row, for all types of particles
-  /// Of each value that LAMMPS keeps: its place with us, -1: not used.
-  std::vector<int> places;
+  /// Of each value that LAMMPS keeps: its index in ContactBatch::history, -1: not used.
+  std::vector<int> history_index;
 
   /// Of a model without a reason_of_model(), after the init() of its fix.
   void take(const Model &model);
   /// How far a contact lasts beyond zero overlap (length).
-  double reach(double radius, double wall_radius) const;
+  double pulloff_distance(double radius, double wall_radius) const;
 
   const ContactLaw &law() const { return table.law(0); }
   const ContactCoefficients &row() const { return table.coefficients(0); }
@@ -45,29 +45,29 @@ class WallBatch {
     const double *velocity, *wall_velocity, *omega;
     double temperature_difference;    ///< of the wall over the particle; 0 if no heat is conducted
     double *history;    ///< as LAMMPS keeps it, or nullptr; must stay until the batch is computed
-    int part = -1;      ///< of the wall, see SurveyedContact
+    int part = -1;      ///< of the wall, see ContactReport
     const ChangeRecord *change = nullptr;    ///< of the particle's velocities, for an account
   };
 
   WallBatch();
 
   /// dt is 0 while a run is set up. `account`: nullptr, or asks for the work of the contacts.
-  void begin_step(const WallLaw &its, double time_step, const WorkAccount *its_account)
+  void begin_step(const WallLaw &wall_law, double time_step, const WorkAccount *work_account)
   {
-    law = &its;
+    law = &wall_law;
     dt = time_step;
-    account = its_account;
+    account = work_account;
     work = EnergyByCause{};
     filled = 0;    // an error may have left some
     kept = 0;
   }
-  /// Behind a step, of which the same contacts are added again, for survey().
-  void begin_survey(double time_step)
+  /// After a step, whose contacts are added again, for report().
+  void begin_report(double time_step)
   {
     dt = time_step;
     account = nullptr;
     filled = 0;
-    surveyed = 0;
+    reported = 0;
   }
   void add(const Contact &contact);
   bool is_full() const { return filled == ContactBatch::width; }
@@ -75,7 +75,7 @@ class WallBatch {
     int atom;
     double force[3], torque[3], separation[3], heat_flow;
   };
-  /// Computes all and begins anew: deliver(result) for each.
+  /// Computes all, calls deliver(result) for each, and empties the batch.
   template <class Deliver> void compute(Deliver deliver)
   {
     run();
@@ -83,7 +83,7 @@ class WallBatch {
     filled = 0;
   }
   /// In the place of compute(): visit(contact) for each, which changes nothing.
-  void survey(Ask ask, const std::function<void(const SurveyedContact &)> &visit);
+  void report(ContactData requested, const std::function<void(const ContactReport &)> &visit);
 
   /// Since begin_step(), if there is an account.
   EnergyByCause work;
@@ -95,7 +95,7 @@ class WallBatch {
   void add_to_account();
   void set_torques(int end);
   void keep_forces(int end);
-  void find_last(int lane, SurveyedContact &found);
+  void find_last(int lane, ContactReport &found);
   Result result(int lane) const;
 
   const WallLaw *law = nullptr;
@@ -106,14 +106,14 @@ class WallBatch {
   using Lane = double[ContactBatch::width];
   using Lanes = double[3][ContactBatch::width];
 
-  /// Of contacts of the last step, a batch in each. Not all laws of LAMMPS remember what would tell
-  /// it again.
+  /// Of contacts of the last step, a batch in each. Not all laws of LAMMPS have the history to
+  /// compute it again.
   struct LastForces {
     int atoms[ContactBatch::width];
-    alignas(64) Lanes force, moment, twisting_torque;
+    alignas(64) Lanes force, torque_per_radius, twisting_torque;
   };
   AlignedVector<LastForces> last;
-  std::size_t kept = 0, surveyed = 0;    // contacts
+  std::size_t kept = 0, reported = 0;    // contacts
 
   ContactBatch batch;
   int atoms[ContactBatch::width], parts[ContactBatch::width];

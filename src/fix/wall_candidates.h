@@ -44,10 +44,10 @@ class WallCandidates {
            (!everything && !(moved + moved_then + shifted <= margin));
   }
 
-  /// Those of the owned particles that are near; others are handed to far(i). near(eight, margin)
-  /// has a bit for each of eight particles, the last of which may be there several times. `margin`:
-  /// a little more than the way that particles and wall may go. Both are called by `threads` at the
-  /// same time, each particle once.
+  /// Those of the owned particles that are near; far(i) is called with the others. near(eight,
+  /// margin) has a bit for each of eight particles, the last of which may be there several times.
+  /// `margin`: a little more than the way that particles and wall may go. Both are called by
+  /// `threads` at the same time, each particle once.
   template <class Near, class Far>
   void list(int owned, double skin, double moved, int threads, Near near, Far far)
   {
@@ -80,12 +80,12 @@ class WallCandidates {
   }
 
   int size() const { return static_cast<int>(atoms.size()); }
-  /// Host's indices of candidate c and those behind it, of the last one again where there is none.
+  /// Local indices of candidate c and those behind it, of the last one again where there is none.
   void eight_from(int c, int (&eight)[lanes]) const
   {
     for (int k = 0; k < lanes; k++) eight[k] = atoms[std::min(c + k, size() - 1)];
   }
-  /// Host's indices, ascending.
+  /// Local indices, ascending.
   std::vector<int> atoms;
   /// Whether each may have a history that is not zero; for the owner.
   std::vector<unsigned char> touched;

@@ -22,21 +22,22 @@ void ContactHistory::fetch(const PairList &pairs, const HistoryStore &store)
   for (std::int64_t block = 0; block < n; block += 8) {
     unsigned bits = 0;
     for (std::int64_t c = block; c < std::min(block + 8, n); c++) {
-      const FoundHistory its = store.find(pairs.first[c], pairs.second[c]);
-      const Record &first = its.rows->record(its.row);
-      rows.record(found) = its.by_a ? first : mirrored(first);
+      const FoundHistory stored = store.find(pairs.first[c], pairs.second[c]);
+      const Record &first = stored.rows->record(stored.row);
+      rows.record(found) = stored.by_a ? first : mirrored(first);
       for (int k = 1; k < rows.records(); k++)
-        rows.record(found, k) = k < its.rows->records() ? its.rows->record(its.row, k) : Record{};
+        rows.record(found, k) =
+            k < stored.rows->records() ? stored.rows->record(stored.row, k) : Record{};
       places[c] = found;
-      found += its.known;
-      bits |= static_cast<unsigned>(its.known) << (c - block);
+      found += stored.known;
+      bits |= static_cast<unsigned>(stored.known) << (c - block);
     }
     touching[block / 8] = static_cast<std::uint8_t>(bits);
   }
   rows.resize(found);
 }
 
-void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool keeps_its_own)
+void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool as_copy)
 {
   const std::int64_t n = pairs.num_pairs();
   const ParticleOrder &order = pairs.order();
@@ -50,8 +51,9 @@ void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool kee
   std::uint32_t count = 0;
   for (std::size_t block = 0; block < touching.size(); block++) {
     std::uint32_t found[8];
-    const int its = store_places(found, static_cast<std::uint32_t>(8 * block), touching[block]);
-    for (int k = 0; k < its; k++) {
+    const int num_found =
+        store_places(found, static_cast<std::uint32_t>(8 * block), touching[block]);
+    for (int k = 0; k < num_found; k++) {
       const int first = pairs.first[found[k]], second = pairs.second[found[k]];
       const std::uint32_t place = places[found[k]];
       to.first[count] = first;
@@ -66,7 +68,7 @@ void ContactHistory::put_aside(const PairList &pairs, SlotContacts &to, bool kee
     to.rows[row] = std::max(to.rows[row], to.rows[row - 1]);
   std::fill(to.first.begin() + count, to.first.end(), -1);
   std::fill(to.place.begin() + count, to.place.end(), 0);
-  if (keeps_its_own) {
+  if (as_copy) {
     to.histories = rows;
     return;
   }

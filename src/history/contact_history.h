@@ -3,7 +3,7 @@
 // Contact history of the candidate pairs during a run: a row of numbers (see HistoryRows) for each
 // pair that touches, seen from the first particle of the pair. Half of the candidates or more do
 // not touch: the rows stand side by side in the order in which the contacts were found, so nearly
-// in that of the pairs, and each pair knows its place.
+// in that of the pairs, and each pair has the index of its row.
 
 #ifndef TALUS_HISTORY_CONTACT_HISTORY_H
 #define TALUS_HISTORY_CONTACT_HISTORY_H
@@ -22,12 +22,12 @@ class ContactHistory {
   /// it does not know start at zero.
   void fetch(const PairList &pairs, const HistoryStore &store);
 
-  /// Before pairs are numbered anew: hands all histories over, and has none until fetch(). With
-  /// `keeps_its_own`, for a restart file, `to` gets a copy. May run for different chunks of a rank
-  /// at the same time.
-  void put_aside(const PairList &pairs, SlotContacts &to, bool keeps_its_own);
+  /// Before pairs are renumbered: moves all histories to `to`, and has none until fetch(). With
+  /// `as_copy`, for a restart file, both have them. May run for different chunks of a rank at the
+  /// same time.
+  void put_aside(const PairList &pairs, SlotContacts &to, bool as_copy);
 
-  /// Gives all memory back: for scenes whose laws keep no history.
+  /// Releases all memory: for scenes whose laws keep no history.
   void release();
 
   /// Which of the pairs 8 block ... 8 block + 7 touch from now on, as bits: histories of new

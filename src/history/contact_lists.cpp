@@ -71,9 +71,9 @@ int ContactLists::pack(int particle, double *to) const
 {
   int count = 0;
   double *next = to + size_head;
-  for_each(particle, [&](const Contact &its) {
-    write_name(its.partner, its.feature, next);
-    next = std::copy_n(its.value, num_values, next + size_name);
+  for_each(particle, [&](const Contact &contact) {
+    write_name(contact.partner, contact.feature, next);
+    next = std::copy_n(contact.value, num_values, next + size_name);
     count++;
   });
   to[0] = count;

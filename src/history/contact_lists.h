@@ -1,16 +1,17 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What the contacts of each particle remember while there are no pairs and no candidates: on the
-// way through a rebuild, to another rank, between two runs, in restart files. A contact is named by
+// Histories of the contacts of each particle while there are no pairs and no candidates: during a
+// rebuild, while particles migrate, between two runs, in restart files. A contact is identified by
 // the particle that owns the list, its partner, and the feature at which the two touch; it has as
-// many numbers as the laws of its owner ask for.
+// many values as the laws of its owner need.
 //
 // One format, for messages and for restart files, in doubles:
 //
 //   number of contacts, numbers of each contact
-//   for each contact: partner, feature (bit patterns), and its numbers as the particle sees them
+//   for each contact: partner, feature (bit patterns), and its values with the signs of the
+//   particle
 //
-// Particles have the host's index. The owner of the lists moves them as the host moves particles.
+// Particles have local index. The owner of the lists moves them as LAMMPS moves particles.
 
 #ifndef TALUS_HISTORY_CONTACT_LISTS_H
 #define TALUS_HISTORY_CONTACT_LISTS_H
@@ -25,7 +26,7 @@ class ContactLists {
  public:
   struct Contact {
     std::int64_t partner;     ///< > 0: ID of a particle; else a large body
-    std::uint64_t feature;    ///< told apart by it: contacts with one partner; 0 where there is one
+    std::uint64_t feature;    ///< distinguishes contacts with one partner; 0 where there is one
     const double *value;      ///< values() numbers
   };
 
@@ -64,7 +65,8 @@ class ContactLists {
   int pack(int particle, double *to) const;
   int unpack(int particle, const double *from);
 
-  /// Parts of a list: what is before its contacts, and of each what is before its numbers.
+  /// Sizes of parts of a list (doubles): before its contacts, and before the values of each
+  /// contact.
   static constexpr int size_head = 2, size_name = 2;
   static void write_name(std::int64_t partner, std::uint64_t feature, double *to);
 

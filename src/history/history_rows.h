@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The numbers that contacts remember: a row for each contact, in as many records of four numbers as
-// its laws need (see HistoryLayout). The first records of all rows stand side by side, then the
-// second ones: laws with few numbers read and write no others.
+// History values of contacts: a row for each contact, of as many records of four values as its laws
+// need (see HistoryLayout). The first records of all rows are contiguous, then the second ones:
+// laws with few values read and write only these.
 
 #ifndef TALUS_HISTORY_HISTORY_ROWS_H
 #define TALUS_HISTORY_HISTORY_ROWS_H
@@ -52,7 +52,7 @@ class HistoryRows {
   {
     for (int k = 0; k < num_records; k++) planes[k].reserve(rows);
   }
-  /// A row of zeros behind the last one.
+  /// Appends a row of zeros.
   void add()
   {
     for (int k = 0; k < num_records; k++) planes[k].push_back(Record{});
@@ -61,7 +61,7 @@ class HistoryRows {
   {
     for (int k = 0; k < num_records; k++) planes[k][row] = Record{};
   }
-  /// Forgets all rows; keeps the memory.
+  /// Removes all rows; keeps the memory.
   void clear()
   {
     for (auto &plane : planes) plane.clear();
@@ -82,7 +82,7 @@ class HistoryRows {
     for (int k = 0; k < num_records; k++) planes[k][row] = from[k];
   }
 
-  /// To 4 records() numbers behind each other, and back.
+  /// To 4 records() consecutive numbers, and back.
   void write(std::size_t row, double *to) const
   {
     for (int k = 0; k < num_records; k++) std::memcpy(to + 4L * k, &planes[k][row], sizeof(Record));

@@ -43,10 +43,10 @@ void HistoryStore::finish(const ParticleOrder &last, int num_threads)
 void HistoryStore::name_contacts(const ParticleOrder &last)
 {
   std::size_t count = 0;
-  for (const SlotContacts &its : chunks) count += its.with_ghost.size();
+  for (const SlotContacts &chunk : chunks) count += chunk.with_ghost.size();
   named.reserve(count);
-  for (const SlotContacts &its : chunks)
-    for (const SlotContacts::Contact &c : its.with_ghost) {
+  for (const SlotContacts &chunk : chunks)
+    for (const SlotContacts::Contact &c : chunk.with_ghost) {
       const int first = last.atom_of_slot[c.first], second = last.atom_of_slot[c.second];
       const bool of_ghost = !last.is_owned(first);
       const int owner = owner_of_ghost(last.owned, of_ghost ? first : second);
@@ -55,7 +55,7 @@ void HistoryStore::name_contacts(const ParticleOrder &last)
         touched_image[of_ghost ? c.second : c.first] = 1;
       }
       if (scope.periodic && of_ghost) continue;
-      const HistoryValues history = its.histories.values(c.place);
+      const HistoryValues history = chunk.histories.values(c.place);
       named.insert(last.tag[first], last.tag[second], history);
       if (scope.periodic && owner != me)
         add_message(owner, last.tag[first], last.tag[second], history);
@@ -142,7 +142,7 @@ void HistoryStore::clear()
   touched_image.clear();
   messages.clear();
   most_partners = 0;
-  if (memory_usage() < worth_giving_back) return;
+  if (memory_usage() < release_threshold) return;
   const int records = num_records(), particles = static_cast<int>(origins.size());
   chunks = {};
   named = {};
@@ -163,7 +163,7 @@ double HistoryStore::memory_usage() const
       sizeof(std::int64_t) * name_of_slot.capacity() + touched_image.capacity() +
       sizeof(std::uint32_t) * followers_begin.capacity() +
       sizeof(int) * (followers.capacity() + slot_then.capacity()));
-  for (const SlotContacts &its : chunks) bytes += its.memory_usage();
+  for (const SlotContacts &chunk : chunks) bytes += chunk.memory_usage();
   for (const auto &message : messages)
     bytes += static_cast<double>(sizeof(double) * message.second.capacity());
   return bytes + lists.memory_usage() + named.memory_usage() + work.memory_usage();

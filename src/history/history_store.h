@@ -44,7 +44,7 @@ class HistoryStore {
   void keep(int records);
   int num_records() const { return lists.values() / 4; }
 
-  // ---- what particles carry along, by host's index ---------------------------------------------
+  // ---- what particles carry along, by local index ---------------------------------------------
 
   /// Which particle of the last lists this is.
   struct Origin {
@@ -54,7 +54,7 @@ class HistoryStore {
   /// Room for particles 0 ... capacity-1; new ones were in no list.
   void resize(int capacity);
   void copy(int from, int to);
-  /// A new particle takes this place.
+  /// A new particle has this index.
   void forget(int atom);
   /// Of `owned` particles and the ghosts behind them: a ghost, and the rank that owns it.
   void set_ghost(int owned, int atom, const Origin &origin, int owner);
@@ -68,7 +68,7 @@ class HistoryStore {
   // ---- out of the last lists -------------------------------------------------------------------
 
   struct Scope {
-    bool particles_may_leave;    ///< without it pack() and largest_count() know of nothing
+    bool particles_may_leave;    ///< without it pack() and largest_count() count nothing
     bool periodic;               ///< the first particle decides, see above
   };
   void begin(const WorkPartition &work, Scope scope);
@@ -80,7 +80,7 @@ class HistoryStore {
   const Messages &outgoing() const { return messages; }
   void receive(const std::vector<double> &message);
 
-  /// Forgets all histories, and gives the memory back if it is much.
+  /// Removes all histories, and releases the memory if it is large.
   void clear();
   bool empty() const { return !filled && lists.empty(); }
   /// Histories have been put aside since clear(): the same on all ranks.
@@ -103,7 +103,7 @@ class HistoryStore {
   /// The name of a particle out of a restart file, which has no contacts yet.
   void set_name(int atom, std::int64_t name);
 
-  /// The same, one by one: the partner and what the particle remembers of it.
+  /// The same, one by one: the partner and the history.
   struct Contact {
     std::int64_t partner;
     HistoryValues history;
@@ -122,7 +122,7 @@ class HistoryStore {
     if ((then_a | then_b) >= 0) return find_by_slots(then_a, then_b);
     return find_of_atoms(order->atom_of_slot[a], order->atom_of_slot[b]);
   }
-  /// Of two of the host's particles, before open() as well.
+  /// Of two of LAMMPS' particles, before open() as well.
   FoundHistory find_of_atoms(int i, int j) const;
   /// Histories have been fetched: forgets them. From here on particles carry the present slots.
   void number(const ParticleOrder &present);
@@ -146,7 +146,7 @@ class HistoryStore {
 
   int me;
 
-  // by host's index
+  // by local index
   std::vector<Origin> origins;
   ContactLists lists;                  // of owned ones that brought their contacts
   std::vector<std::int32_t> owners;    // by ghost
@@ -175,11 +175,11 @@ class HistoryStore {
 
 inline FoundHistory HistoryStore::find_in(int c, int a, int b) const
 {
-  const SlotContacts &its = chunks[c];
-  if (its.histories.empty()) return {};
-  const std::int64_t place = its.find(std::min(a, b), std::max(a, b)),
+  const SlotContacts &chunk = chunks[c];
+  if (chunk.histories.empty()) return {};
+  const std::int64_t place = chunk.find(std::min(a, b), std::max(a, b)),
                      readable = place & ~(place >> 63);
-  return {place >= 0, a < b, &its.histories, static_cast<std::size_t>(readable)};
+  return {place >= 0, a < b, &chunk.histories, static_cast<std::size_t>(readable)};
 }
 
 inline FoundHistory HistoryStore::find_by_slots(int a, int b) const

@@ -76,13 +76,13 @@ void HistoryStore::count_followers()
   followers_begin.assign(name_of_slot.size() + 2, 0);
   std::vector<std::vector<int>> elsewhere(chunks.size());
   for_each_chunk([&](int c) {
-    const SlotContacts &its = chunks[c];
+    const SlotContacts &chunk = chunks[c];
     const SlotRange range = work.range_of_chunk(c);
-    for (std::uint32_t e = 0; e < its.rows.back(); e++)
-      if (range.holds(its.first[e]))
-        followers_begin[its.first[e] + 2]++;
+    for (std::uint32_t e = 0; e < chunk.rows.back(); e++)
+      if (range.holds(chunk.first[e]))
+        followers_begin[chunk.first[e] + 2]++;
       else
-        elsewhere[c].push_back(its.first[e]);
+        elsewhere[c].push_back(chunk.first[e]);
   });
   for (const std::vector<int> &of_chunk : elsewhere)
     for (const int slot : of_chunk) followers_begin[slot + 2]++;
@@ -99,8 +99,8 @@ int HistoryStore::row_size(int slot) const
   int size = 0;
   const int range = work.range_of(slot);
   for (int phase = 0; phase < work.num_phases(); phase++) {
-    const SlotContacts &its = chunks[work.chunk(phase, range)];
-    size += static_cast<int>(its.row_end(slot) - its.row_begin(slot));
+    const SlotContacts &chunk = chunks[work.chunk(phase, range)];
+    size += static_cast<int>(chunk.row_end(slot) - chunk.row_begin(slot));
   }
   return size;
 }
@@ -140,8 +140,9 @@ template <class Visit> void HistoryStore::for_each_partner(int slot, Visit visit
   list_followers();
   const int range = work.range_of(slot);
   for (int phase = 0; phase < work.num_phases(); phase++) {
-    const SlotContacts &its = chunks[work.chunk(phase, range)];
-    for (std::uint32_t e = its.row_begin(slot); e < its.row_end(slot); e++) visit(its.first[e]);
+    const SlotContacts &chunk = chunks[work.chunk(phase, range)];
+    for (std::uint32_t e = chunk.row_begin(slot); e < chunk.row_end(slot); e++)
+      visit(chunk.first[e]);
   }
   for (std::uint32_t n = followers_begin[slot]; n < followers_begin[slot + 1]; n++)
     visit(followers[n]);
@@ -161,7 +162,7 @@ int HistoryStore::unpack(int atom, const double *buffer)
   return size_origin + unpack_list(atom, buffer + size_origin);
 }
 
-/* Of a contact with a ghost whose first particle sees none, nothing is known. */
+/* A contact with a ghost that the rank of its first particle does not have has no history. */
 
 template <class Visit> void HistoryStore::for_each_contact_of_slot(int slot, Visit visit)
 {
@@ -207,9 +208,9 @@ std::vector<HistoryStore::Contact> HistoryStore::contacts_of(int atom)
                                found.push_back({partner, history});
                              });
   else
-    lists.for_each(atom, [&](const ContactLists::Contact &its) {
-      found.push_back({its.partner, {}});
-      std::copy_n(its.value, lists.values(), found.back().history.begin());
+    lists.for_each(atom, [&](const ContactLists::Contact &contact) {
+      found.push_back({contact.partner, {}});
+      std::copy_n(contact.value, lists.values(), found.back().history.begin());
     });
   return found;
 }
@@ -247,10 +248,10 @@ void HistoryStore::name_lists(int owned)
 {
   for (int i = 0; !lists.empty() && i < owned; i++) {
     if (was_here(origins[i])) continue;
-    lists.for_each(i, [&](const ContactLists::Contact &its) {
+    lists.for_each(i, [&](const ContactLists::Contact &contact) {
       HistoryValues history{};
-      std::copy_n(its.value, lists.values(), history.begin());
-      named.insert(origins[i].name, its.partner, history);
+      std::copy_n(contact.value, lists.values(), history.begin());
+      named.insert(origins[i].name, contact.partner, history);
     });
   }
 }

@@ -19,12 +19,12 @@ template <class Real> struct ContactImpact {
 };
 
 /// Impact speed and age at this step; `advance` counts the step. `speed`: that of a contact which
-/// begins. One that has `parted` is forgotten behind this step.
+/// begins. One that has `separated` is reset after this step.
 template <bool advance, class Real>
-inline void follow_impact(ContactImpact<Real> &impact, Real speed, Real parted, double dt)
+inline void follow_impact(ContactImpact<Real> &impact, Real speed, Real separated, double dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-  const auto ends = parted > zero;
+  const auto ends = separated > zero;
   const auto begun = (impact.begun > zero) | ends;
   impact.speed = select(begun, impact.speed, speed);
   if (!advance) return;
@@ -63,7 +63,7 @@ TALUS_INLINE Vector3<Real> normal_half_way(const ContactState<Real> &s, Real dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   const Vector3<Real> half_way =
-      s.normal - (0.5 * dt * s.inverse_distance) * s.velocity - splat<Real>(0.5) * s.turn;
+      s.normal - (0.5 * dt * s.inverse_distance) * s.velocity - splat<Real>(0.5) * s.normal_change;
   const Real length = square_root(dot(half_way, half_way));
   return select(length > zero, one / length, zero) * half_way;
 }

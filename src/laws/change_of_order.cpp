@@ -18,17 +18,18 @@ void change_order(const ContactLaw &law, int order, HistoryValues &values)
   const HistoryValues old = values;
   values = {};
 
-  const auto take = [&](const HistoryPlaces &there, const HistoryPlaces &here, int count) {
+  const auto take = [&](const HistoryIndices &there, const HistoryIndices &here, int count) {
     for (int n = 0; n < count; n++) values[here[n]] = old[there[n]];
   };
-  const auto places = [](const HistoryLayout &of, Stage stage) {
+  const auto indices_of = [](const HistoryLayout &of, Stage stage) {
     return of.of_stage[static_cast<int>(stage)];
   };
-  const HistoryPlaces spring = places(is, Stage::TANGENTIAL), rolls = places(is, Stage::ROLLING);
-  take(places(was, Stage::TANGENTIAL), spring,
+  const HistoryIndices spring = indices_of(is, Stage::TANGENTIAL),
+                       rolls = indices_of(is, Stage::ROLLING);
+  take(indices_of(was, Stage::TANGENTIAL), spring,
        std::min(from.tangential().odd_history, to.tangential().odd_history));
   if (from.rolling().even_history > 0 && to.rolling().even_history > 0) {
-    take(places(was, Stage::ROLLING), rolls,
+    take(indices_of(was, Stage::ROLLING), rolls,
          std::min(from.rolling().even_history, to.rolling().even_history));
     values[rolls[0]] = rounded<47>(values[rolls[0]]);
   }

@@ -9,15 +9,16 @@ namespace Talus {
 
 void ContactBatch::clear()
 {
-  for (auto *vector : {normal, velocity, surface_rotation, relative_omega, velocity_change,
-                       rotation_change, omega_change, turn, force, moment, twisting_torque})
+  for (auto *vector :
+       {normal, velocity, surface_rotation, relative_omega, velocity_change, rotation_change,
+        omega_change, normal_change, force, torque_per_radius, twisting_torque})
     for (int d = 0; d < 3; d++) std::fill(std::begin(vector[d]), std::end(vector[d]), 0.0);
   for (auto &value : history) std::fill(std::begin(value), std::end(value), 0.0);
   std::fill(std::begin(overlap), std::end(overlap), 0.0);
   std::fill(std::begin(inverse_distance), std::end(inverse_distance), 0.0);
-  std::fill(std::begin(parted), std::end(parted), 0.0);
-  std::fill(std::begin(reach), std::end(reach), 0.0);
-  std::fill(std::begin(circle), std::end(circle), 0.0);
+  std::fill(std::begin(separated), std::end(separated), 0.0);
+  std::fill(std::begin(pulloff_distance), std::end(pulloff_distance), 0.0);
+  std::fill(std::begin(intersection_radius), std::end(intersection_radius), 0.0);
   std::fill(std::begin(temperature_difference), std::end(temperature_difference), 0.0);
   std::fill(std::begin(heat_flow), std::end(heat_flow), 0.0);
   std::fill(std::begin(arm_loss), std::end(arm_loss), 0.0);

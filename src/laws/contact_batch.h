@@ -25,23 +25,23 @@ struct ContactBatch {
   alignas(64) double inverse_mass[width];
   alignas(64) double inverse_radius[width];
   alignas(64) double relative_omega[3][width];
-  alignas(64) double circle[width];
+  alignas(64) double intersection_radius[width];
   alignas(64) double inverse_distance[width];
   alignas(64) double arm_loss[width], arm_difference[width];
   alignas(64) double temperature_difference[width];
   alignas(64) double velocity_change[3][width], rotation_change[3][width], omega_change[3][width];
-  alignas(64) double turn[3][width];
-  alignas(64) double parted[width], reach[width];
+  alignas(64) double normal_change[3][width];
+  alignas(64) double separated[width], pulloff_distance[width];
   double lag = 0.0;                       ///< of all
   alignas(64) int coefficients[width];    ///< row of the coefficient table
 
-  /// Input and output, as seen from the first body: which law remembers what here, see
-  /// HistoryLayout. The first three change their sign if the other body counts as the first.
+  /// Input and output, with the signs of the first body; HistoryLayout tells which law has which
+  /// values. The first three change their sign if the bodies are exchanged.
   alignas(64) double history[history_size][width];
 
   // output, see ContactLanes; only laws with torques write the last two
   alignas(64) double force[3][width];
-  alignas(64) double moment[3][width];
+  alignas(64) double torque_per_radius[3][width];
   alignas(64) double twisting_torque[3][width];
   alignas(64) double heat_flow[width];    ///< only of laws that conduct heat
 
@@ -50,13 +50,13 @@ struct ContactBatch {
   static constexpr int num_causes = 3;
   alignas(64) double work[num_causes][width];
 
-  /// What stages find for those behind them, see ContactLanes. Stays in the first cache.
+  /// What stages compute for later ones, see ContactLanes. Stays in the first-level cache.
   struct Between {
     alignas(64) double full_normal[3][width];    // only of synchronized laws
     alignas(64) double normal_velocity[width], mass[width], radius[width],
         impact_speed[width], age[width];
     alignas(64) double kn[width], kt[width], tangent_n[width], tangent_t[width],
-        contact_radius[width], elastic[width], pull_off[width];
+        contact_radius[width], elastic[width], pulloff_force[width];
     alignas(64) double gn[width], gt[width], normal_force[width], critical_force[width],
         adhesive_share[width], uncorrected_force[width], delayed_force[width];
   } between;

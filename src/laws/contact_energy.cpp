@@ -7,7 +7,7 @@
 namespace Talus {
 namespace {
 
-/// Normal law and damping of a contact at rest with nothing remembered.
+/// Normal law and damping of a contact at rest, without history.
 ContactLanes<double> at_rest(const ContactLaw &law, const ContactCoefficients &row, double overlap,
                              double mass_eff, double radius_eff)
 {
@@ -24,27 +24,27 @@ ContactLanes<double> at_rest(const ContactLaw &law, const ContactCoefficients &r
 
 }    // namespace
 
-void survey_contact(const ContactLaw &law, const ContactCoefficients &row,
-                    const ContactState<double> &state, double dt, const HistoryValues &memory,
-                    Ask ask, SurveyedContact &to)
+void report_contact(const ContactLaw &law, const ContactCoefficients &row,
+                    const ContactState<double> &state, double dt, const HistoryValues &history,
+                    ContactData requested, ContactReport &to)
 {
-  const Stage last = ask == Ask::ALL ? Stage::HEAT : Stage::NORMAL;
-  const ContactLanes<double> s = single_contact(law, row, state, dt, memory, last);
-  const HistoryLayout history = law.history();
+  const Stage last = requested == ContactData::ALL ? Stage::HEAT : Stage::NORMAL;
+  const ContactLanes<double> s = single_contact(law, row, state, dt, history, last);
+  const HistoryLayout layout = law.history();
   const auto stored = [&](Stage stage) {
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < law[stage].odd_history + law[stage].even_history; n++)
-      values[n] = memory[history.of_stage[static_cast<int>(stage)][n]];
+      values[n] = history[layout.of_stage[static_cast<int>(stage)][n]];
     return law[stage].stored(s, law.coefficients(stage, row), values);
   };
   to.force = s.force;
-  to.moment = s.moment;
+  to.torque_per_radius = s.torque_per_radius;
   to.twisting_torque = s.twisting_torque;
-  to.memory = memory;
+  to.history = history;
   to.stored = EnergyByCause{};
-  if (s.parted > 0.0) return;    // the overlap and the springs are those of the last step
+  if (s.separated > 0.0) return;    // the overlap and the springs are those of the last step
   to.stored.normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
-  if (law.normal().lasts_beyond_contact) to.stored.tearing = to.stored.normal;
+  if (law.normal().lasts_beyond_contact) to.stored.detaching = to.stored.normal;
   if (!law.has_friction()) return;
   to.stored.tangential = stored(Stage::TANGENTIAL);
   to.stored.resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
@@ -60,7 +60,7 @@ ContactState<double> state_of_lane(const ContactBatch &b, int k)
   s.inverse_mass = b.inverse_mass[k];
   s.inverse_radius = b.inverse_radius[k];
   s.relative_omega = lane_of(b.relative_omega, k);
-  s.circle = b.circle[k];
+  s.intersection_radius = b.intersection_radius[k];
   s.inverse_distance = b.inverse_distance[k];
   s.arm_loss = b.arm_loss[k];
   s.arm_difference = b.arm_difference[k];
@@ -68,7 +68,7 @@ ContactState<double> state_of_lane(const ContactBatch &b, int k)
   s.velocity_change = lane_of(b.velocity_change, k);
   s.rotation_change = lane_of(b.rotation_change, k);
   s.omega_change = lane_of(b.omega_change, k);
-  s.turn = lane_of(b.turn, k);
+  s.normal_change = lane_of(b.normal_change, k);
   return s;
 }
 

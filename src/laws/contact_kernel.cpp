@@ -12,7 +12,8 @@
 namespace Talus {
 namespace {
 
-/// Puts the normal of half a step before in the place of that of the positions, and keeps this one.
+/// Replaces the normal at the time of the positions by that of half a step before, and keeps the
+/// former.
 void go_half_way_back(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -37,21 +38,21 @@ template <bool beyond>
 void find_last_overlap(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
-    store(&b.parted[k], splat<Vec8>(0.0));
+    store(&b.separated[k], splat<Vec8>(0.0));
     if (!any(load8(&b.overlap[k]) <= splat<Vec8>(0.0))) continue;
     ContactState<Vec8> s;
     s.overlap = load8(&b.overlap[k]);
     s.normal = load_vector<Vec8>(b.normal, k);
     s.velocity = load_vector<Vec8>(b.velocity, k);
     s.inverse_distance = load8(&b.inverse_distance[k]);
-    s.reach = splat<Vec8>(0.0);
+    s.pulloff_distance = splat<Vec8>(0.0);
     if constexpr (beyond)
-      s.reach = load8(&b.reach[k]);
+      s.pulloff_distance = load8(&b.pulloff_distance[k]);
     else
-      store(&b.reach[k], s.reach);
+      store(&b.pulloff_distance[k], s.pulloff_distance);
     last_overlap(s, in.dt);
     store(&b.overlap[k], s.overlap);
-    store(&b.parted[k], s.parted);
+    store(&b.separated[k], s.separated);
   }
 }
 
@@ -63,17 +64,18 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
     load_state(b, k, s);
     approach<with_radius>(s);
     if constexpr (impact) {
-      double *const at[3] = {&b.history[in.places[0]][k], &b.history[in.places[1]][k],
-                             &b.history[in.places[2]][k]};
-      ContactImpact<Vec8> its{load8(at[0]), load8(at[1]), load8(at[2])};
-      const Vec8 parted = second_order ? s.parted : splat<Vec8>(0.0);
-      follow_impact<advance>(its, speed_at_begin<second_order>(s, in.dt), parted, in.dt);
-      s.impact_speed = its.speed;
-      s.age = its.age;
+      double *const at[3] = {&b.history[in.history_index[0]][k], &b.history[in.history_index[1]][k],
+                             &b.history[in.history_index[2]][k]};
+      ContactImpact<Vec8> contact_impact{load8(at[0]), load8(at[1]), load8(at[2])};
+      const Vec8 separated = second_order ? s.separated : splat<Vec8>(0.0);
+      follow_impact<advance>(contact_impact, speed_at_begin<second_order>(s, in.dt), separated,
+                             in.dt);
+      s.impact_speed = contact_impact.speed;
+      s.age = contact_impact.age;
       if constexpr (advance) {
-        store(at[0], its.speed);
-        store(at[1], its.age);
-        store(at[2], its.begun);
+        store(at[0], contact_impact.speed);
+        store(at[1], contact_impact.age);
+        store(at[2], contact_impact.begun);
       }
     }
     visit_approach(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
@@ -117,7 +119,7 @@ bool ContactKernel::operator==(const ContactKernel &other) const
          std::equal(steps.begin(), steps.begin() + count, other.steps.begin(),
                     [](const Step &a, const Step &b) {
                       return a.run == b.run && a.first_coefficient == b.first_coefficient &&
-                             a.places == b.places;
+                             a.history_index == b.history_index;
                     });
 }
 
@@ -125,39 +127,39 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
 {
   if (!law.tangential().second_order) return;
   if (!law.normal().lasts_beyond_contact) return add(find_last_overlap<false>);
-  add(law.normal().find_reach, law.first_coefficient(Stage::NORMAL));
+  add(law.normal().find_pulloff_distance, law.first_coefficient(Stage::NORMAL));
   add(find_last_overlap<true>);
 }
 
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
-  const HistoryLayout history = law.history();
+  const HistoryLayout layout = law.history();
   ContactKernel kernel;
   kernel.uniform = uniform;
   if (law.synchronized()) kernel.add(go_half_way_back, law.place_of_time_step());
   kernel.add_end_of_contact(law);
   kernel.add(law.needs_radius() ? approach_function<true>(law, advance)
                                 : approach_function<false>(law, advance),
-             0, history.impact);
-  for_each_stage(law, [&](Stage stage, const Law &its) {
+             0, layout.impact);
+  for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (needs_delay(law, stage)) kernel.add(law.normal().delay);
-    kernel.add(advance ? its.advancing : its.reading, law.first_coefficient(stage),
-               history.of_stage[static_cast<int>(stage)]);
+    kernel.add(advance ? stage_law.advancing : stage_law.reading, law.first_coefficient(stage),
+               layout.of_stage[static_cast<int>(stage)]);
   });
   if (law.synchronized()) kernel.add(return_to_full_step);
   return kernel;
 }
 
 /// Of tangential, rolling and twisting laws.
-static HistoryPlaces places_one_behind_the_other(const ContactLaw &law)
+static HistoryIndices consecutive_history_indices(const ContactLaw &law)
 {
-  const HistoryLayout history = law.history();
-  HistoryPlaces places{};
+  const HistoryLayout layout = law.history();
+  HistoryIndices history_index{};
   int next = 0;
   for (const Stage stage : {Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING})
     for (int n = 0; n < law[stage].odd_history + law[stage].even_history; n++)
-      places[next++] = history.of_stage[static_cast<int>(stage)][n];
-  return places;
+      history_index[next++] = layout.of_stage[static_cast<int>(stage)][n];
+  return history_index;
 }
 
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
@@ -168,7 +170,7 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   ContactKernel kernel;
   kernel.uniform = true;
   kernel.add_end_of_contact(law);
-  kernel.add(fused, 0, places_one_behind_the_other(law));
+  kernel.add(fused, 0, consecutive_history_indices(law));
   return kernel;
 }
 
@@ -178,7 +180,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
   kernel.uniform = uniform;
   if (const StageFunction fused = uniform && advance ? fused_accounting_function(law) : nullptr) {
     kernel.add_end_of_contact(law);
-    kernel.add(fused, 0, places_one_behind_the_other(law));
+    kernel.add(fused, 0, consecutive_history_indices(law));
     return kernel;
   }
   kernel.add(staged_kernel(law, uniform, advance));
@@ -188,38 +190,39 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
 
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const HistoryValues &memory, Stage last)
+                                    const HistoryValues &history, Stage last)
 {
   ContactLanes<double> s;
   static_cast<ContactState<double> &>(s) = state;
   s.full_normal = s.normal;
   if (law.synchronized()) s.normal = normal_half_way(s, coefficients.c[law.place_of_time_step()]);
   if (law.tangential().second_order) {
-    if (s.overlap <= 0.0) s.reach = reach_of(law, coefficients, 1.0 / s.inverse_radius);
+    if (s.overlap <= 0.0)
+      s.pulloff_distance = pulloff_distance_of(law, coefficients, 1.0 / s.inverse_radius);
     last_overlap(s, dt);
   }
   if (law.needs_radius())
     approach<true>(s);
   else
     approach<false>(s);
-  const HistoryLayout history = law.history();
-  const double *const kept = memory.data();
-  if (history.keeps_impact) {
-    const HistoryPlaces &at = history.impact;
+  const HistoryLayout layout = law.history();
+  const double *const kept = history.data();
+  if (layout.keeps_impact) {
+    const HistoryIndices &at = layout.impact;
     ContactImpact<double> impact{kept[at[0]], kept[at[1]], kept[at[2]]};
     const double speed =
         law.tangential().second_order ? speed_at_begin<true>(s, dt) : speed_at_begin<false>(s, dt);
-    follow_impact<false>(impact, speed, s.parted, dt);
+    follow_impact<false>(impact, speed, s.separated, dt);
     s.impact_speed = impact.speed;
     s.age = impact.age;
   }
-  for_each_stage(law, [&](Stage stage, const Law &its) {
+  for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (stage > last) return;
     if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
     double values[ContactBatch::history_size] = {};
-    for (int n = 0; n < its.odd_history + its.even_history; n++)
-      values[n] = kept[history.of_stage[static_cast<int>(stage)][n]];
-    its.one(s, law.coefficients(stage, coefficients), values, dt);
+    for (int n = 0; n < stage_law.odd_history + stage_law.even_history; n++)
+      values[n] = kept[layout.of_stage[static_cast<int>(stage)][n]];
+    stage_law.one(s, law.coefficients(stage, coefficients), values, dt);
   });
   return s;
 }

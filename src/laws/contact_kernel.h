@@ -28,7 +28,7 @@ class ContactKernel {
   {
     for (int n = 0; n < count; n++) {
       const Step &step = steps[n];
-      step.run(batch, begin, end, {table, uniform, step.first_coefficient, step.places, dt});
+      step.run(batch, begin, end, {table, uniform, step.first_coefficient, step.history_index, dt});
     }
   }
 
@@ -38,9 +38,9 @@ class ContactKernel {
   friend ContactKernel contact_kernel(const ContactLaw &, bool, bool);
   friend ContactKernel staged_kernel(const ContactLaw &, bool, bool);
   friend ContactKernel accounting_kernel(const ContactLaw &, bool, bool);
-  void add(StageFunction run, int first_coefficient = 0, const HistoryPlaces &places = {})
+  void add(StageFunction run, int first_coefficient = 0, const HistoryIndices &history_index = {})
   {
-    steps[count++] = {run, first_coefficient, places};
+    steps[count++] = {run, first_coefficient, history_index};
   }
 
   void add(const ContactKernel &other)
@@ -54,7 +54,7 @@ class ContactKernel {
   struct Step {
     StageFunction run;
     int first_coefficient;
-    HistoryPlaces places;
+    HistoryIndices history_index;
   };
   std::array<Step, num_stages + 9> steps{};    // and what is before and behind the stages
   int count = 0;
@@ -76,7 +76,7 @@ ContactKernel accounting_kernel(const ContactLaw &law, bool uniform, bool advanc
 /// One contact alone, history only read, up to a stage: for queries. Same bits as the kernels.
 ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                                     const ContactState<double> &state, double dt,
-                                    const HistoryValues &memory = {}, Stage last = Stage::HEAT);
+                                    const HistoryValues &history = {}, Stage last = Stage::HEAT);
 
 }    // namespace Talus
 

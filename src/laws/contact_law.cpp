@@ -10,17 +10,17 @@
 namespace Talus {
 namespace {
 
-/// Gives values places: those that change their sign 0 to 2, others those from 3 on. Rolling and
-/// twisting have theirs from 4 and 7 on, whatever the other laws remember: restart files of LAMMPS
-/// tell which they are by that.
-class Places {
+/// Assigns history indices: 0 to 2 to values that change their sign, those from 3 on to others.
+/// Rolling and twisting have theirs from 4 and 7 on, whatever the other laws have: restart files of
+/// LAMMPS identify them by that.
+class FreeIndices {
  public:
-  HistoryPlaces take(int num_odd, int num_even, int first_even = 3)
+  HistoryIndices take(int num_odd, int num_even, int first_even = 3)
   {
-    HistoryPlaces places{};
-    for (int n = 0; n < num_odd; n++) places[n] = take_one(0);
-    for (int n = 0; n < num_even; n++) places[num_odd + n] = take_one(first_even);
-    return places;
+    HistoryIndices history_index{};
+    for (int n = 0; n < num_odd; n++) history_index[n] = take_one(0);
+    for (int n = 0; n < num_even; n++) history_index[num_odd + n] = take_one(first_even);
+    return history_index;
   }
   static int first_of(Stage stage)
   {
@@ -35,11 +35,11 @@ class Places {
 
  private:
   /// There are enough, whichever laws of the stages come together.
-  int take_one(int place)
+  int take_one(int index)
   {
-    while (taken[place]) place++;
-    taken[place] = true;
-    return place;
+    while (taken[index]) index++;
+    taken[index] = true;
+    return index;
   }
   std::array<bool, ContactBatch::history_size> taken{};
 };
@@ -65,20 +65,20 @@ bool ContactLaw::needs_radius() const
 
 HistoryLayout ContactLaw::history() const
 {
-  Places places;
+  FreeIndices free_indices;
   HistoryLayout layout;
   bool reads_impact = false;
   for (int s = 0; s < num_stages; s++) {
-    layout.of_stage[s] = places.take(laws[s]->odd_history, laws[s]->even_history,
-                                     Places::first_of(static_cast<Stage>(s)));
+    layout.of_stage[s] = free_indices.take(laws[s]->odd_history, laws[s]->even_history,
+                                           FreeIndices::first_of(static_cast<Stage>(s)));
     reads_impact = reads_impact || laws[s]->reads_impact;
   }
-  // laws of second order remember a contact without a spring as well
-  const bool remembers_spring = tangential().odd_history + tangential().even_history > 0 &&
-                                (!tangential().second_order || tangential().has_spring);
-  layout.keeps_impact = remembers_spring && reads_impact;
-  if (layout.keeps_impact) layout.impact = places.take(0, 3);
-  layout.size = places.size();
+  // laws of second order have a history without a spring as well
+  const bool has_spring_history = tangential().odd_history + tangential().even_history > 0 &&
+                                  (!tangential().second_order || tangential().has_spring);
+  layout.keeps_impact = has_spring_history && reads_impact;
+  if (layout.keeps_impact) layout.impact = free_indices.take(0, 3);
+  layout.size = free_indices.size();
   if (layout.size == 0 && normal().lasts_beyond_contact) layout.size = 1;    // that it touches
   return layout;
 }
@@ -103,17 +103,20 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
   return 0.0;
 }
 
-double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
-                double radius_j)
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
+                           double radius_j)
 {
   if (radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
-  return reach_of(law, row, radius_i * radius_j / (radius_i + radius_j));
+  return pulloff_distance_of(law, row, radius_i * radius_j / (radius_i + radius_j));
 }
 
-double reach_of(const ContactLaw &law, const ContactCoefficients &row, double effective_radius)
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
+                           double effective_radius)
 {
   const Law &normal = law.normal();
-  return normal.reach ? normal.reach(law.coefficients(Stage::NORMAL, row), effective_radius) : 0.0;
+  return normal.pulloff_distance
+             ? normal.pulloff_distance(law.coefficients(Stage::NORMAL, row), effective_radius)
+             : 0.0;
 }
 
 std::string describe_law(const ContactLaw &law)

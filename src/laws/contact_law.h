@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The laws of one pair of materials, one for each stage, and what follows from their choice: which
-// numbers a row of coefficients holds, what a contact remembers, what has to be read and computed.
+// coefficients a row holds, what the history of a contact is, what has to be read and computed.
 
 #ifndef TALUS_LAWS_CONTACT_LAW_H
 #define TALUS_LAWS_CONTACT_LAW_H
@@ -13,13 +13,13 @@
 
 namespace Talus {
 
-/// Where a contact keeps what its laws remember, see ContactBatch::history. Values that change
-/// their sign with the order of the bodies have the first three places.
+/// Indices of the history values of each law in ContactBatch::history. Values that change their
+/// sign if the bodies are exchanged have the indices 0 to 2.
 struct HistoryLayout {
-  std::array<HistoryPlaces, num_stages> of_stage{};
-  HistoryPlaces impact{};    ///< speed, age, and 1 after the first step
+  std::array<HistoryIndices, num_stages> of_stage{};
+  HistoryIndices impact{};    ///< speed, age, and 1 after the first step
   bool keeps_impact = false;
-  int size = 0;    ///< places in use
+  int size = 0;    ///< indices in use
 };
 
 /// Which laws a pair uses; pairs with equal laws share a kernel.
@@ -44,19 +44,19 @@ class ContactLaw {
   /// There is rolling or spinning resistance.
   bool resists() const { return rolling().acts || twisting().acts; }
   bool conducts_heat() const { return heat().acts; }
-  /// Torques arise that are not the moment of a force on both surfaces: twisting_torque is written.
-  /// Heat goes with them.
+  /// twisting_torque is written: there are torques other than those of one force at both surfaces.
+  /// Heat flow goes with them.
   bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
   bool synchronized() const { return tangential().synchronized; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
-  /// Spins are read, torques arise.
+  /// Angular velocities are read, and torques computed.
   bool has_friction() const { return tangential().acts || twists(); }
   /// The tangential spring changes with the overlap while it is stretched.
   bool stiffens() const
   {
     return tangential().reads_stiffness ? normal().exponent > 1.0 : tangential().stiffens;
   }
-  /// Something is remembered of a contact.
+  /// Contacts have a history.
   bool has_history() const { return history().size > 0; }
   /// In records of four values.
   int history_records() const { return (history().size + 3) / 4; }
@@ -82,9 +82,10 @@ class ContactLaw {
 
 /// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a
 /// radius is.
-double reach_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
-                double radius_j);
-double reach_of(const ContactLaw &law, const ContactCoefficients &row, double effective_radius);
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
+                           double radius_j);
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
+                           double effective_radius);
 
 /// A law in words, e.g. "hertz + multistep + resistance".
 std::string describe_law(const ContactLaw &law);

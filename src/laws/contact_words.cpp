@@ -30,9 +30,9 @@ class Parser {
  private:
   void read_law(Stage stage, int word)
   {
-    const Law *its = find_law(stage, words_of(stage)[word]);
-    spec.law.choose(stage, its);
-    its->read(reader);
+    const Law *chosen = find_law(stage, words_of(stage)[word]);
+    spec.law.choose(stage, chosen);
+    chosen->read(reader);
   }
 
   /// Reads one keyword with its arguments; false if the next word is none.

@@ -8,7 +8,7 @@
 namespace Talus {
 namespace {
 
-template <bool friction, bool twists, bool resists, bool tears>
+template <bool friction, bool twists, bool resists, bool beyond_contact>
 void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k += lanes) {
@@ -17,17 +17,17 @@ void find_work_of_batch(ContactBatch &b, int begin, int end, const StageInput &i
     load_found<Stage::HEAT>(b, k, s);
     s.tangential = s.force - dot(s.force, s.normal) * s.normal;
     ContactWork<Vec8> work;
-    find_work<friction, twists, resists, tears>(s, in.dt, work);
+    find_work<friction, twists, resists, beyond_contact>(s, in.dt, work);
     for (int n = 0; n < ContactBatch::num_causes; n++) store(&b.work[n][k], work[n]);
   }
 }
 
-template <bool tears> StageFunction work_finder_of(const ContactLaw &law)
+template <bool beyond_contact> StageFunction work_finder_of(const ContactLaw &law)
 {
-  if (law.resists()) return find_work_of_batch<true, true, true, tears>;
-  if (law.twists()) return find_work_of_batch<true, true, false, tears>;
-  return law.has_friction() ? find_work_of_batch<true, false, false, tears>
-                            : find_work_of_batch<false, false, false, tears>;
+  if (law.resists()) return find_work_of_batch<true, true, true, beyond_contact>;
+  if (law.twists()) return find_work_of_batch<true, true, false, beyond_contact>;
+  return law.has_friction() ? find_work_of_batch<true, false, false, beyond_contact>
+                            : find_work_of_batch<false, false, false, beyond_contact>;
 }
 
 }    // namespace

@@ -11,8 +11,8 @@
 // time of the positions, to second order in the step. See doc/compute_penalty_stats.md for how
 // much that is.
 //
-// Of contacts that last beyond zero overlap the work is that of the whole normal force, and what
-// they store when they tear is lost like that of springs.
+// Of contacts that last beyond zero overlap the work is that of the whole normal force, and the
+// energy that they store at pull-off is lost like that of springs.
 
 #ifndef TALUS_LAWS_CONTACT_WORK_H
 #define TALUS_LAWS_CONTACT_WORK_H
@@ -31,30 +31,31 @@ enum class Cause : int { DAMPING, FRICTION, RESISTANCE };
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
 /// The work, when all stages have run: s.tangential is that of the tangential stage. `friction`,
-/// `twists`, `resists`: as ContactLaw has them; `tears`: as Law::lasts_beyond_contact of the normal
-/// law.
-/// The torques about the centers are -r moment and +- twisting torque: of the moment that much
-/// belongs to friction as its lever arm is long, of the twisting torque what the arms differ.
-template <bool friction, bool twists, bool resists, bool tears, class Real>
+/// `twists`, `resists`: as ContactLaw has them; `beyond_contact`: as Law::lasts_beyond_contact of
+/// the normal law. The torques about the centers are -r torque_per_radius and +- twisting_torque.
+/// Friction has (1 - arm_loss) n x F_t of the former and arm_difference n x F_t of the latter,
+/// resistance the rest.
+template <bool friction, bool twists, bool resists, bool beyond_contact, class Real>
 TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<Real> &work)
 {
   const Vector3<Real> velocity = s.velocity + s.velocity_change;
-  const Real lost = tears ? s.normal_force : s.normal_force - s.elastic;
+  const Real lost = beyond_contact ? s.normal_force : s.normal_force - s.elastic;
   work[0] = -dt * lost * dot(velocity, s.normal);
   work[1] = work[2] = splat<Real>(0.0);
   if constexpr (!friction) return;
   const Vector3<Real> rotation = s.surface_rotation + s.rotation_change;
   if constexpr (!twists) {
-    work[1] = -dt * (dot(s.tangential, velocity) - dot(s.moment, rotation));
+    work[1] = -dt * (dot(s.tangential, velocity) - dot(s.torque_per_radius, rotation));
     return;
   }
-  const Vector3<Real> lever = cross(s.normal, s.tangential);
+  const Vector3<Real> friction_torque = cross(s.normal, s.tangential);
   const Vector3<Real> omega = s.relative_omega + s.omega_change;
-  const Vector3<Real> moment = (splat<Real>(1.0) - s.arm_loss) * lever,
-                      twist = s.arm_difference * lever;
-  work[1] = -dt * (dot(s.tangential, velocity) - dot(moment, rotation) + dot(twist, omega));
+  const Vector3<Real> of_friction = (splat<Real>(1.0) - s.arm_loss) * friction_torque,
+                      twist = s.arm_difference * friction_torque;
+  work[1] = -dt * (dot(s.tangential, velocity) - dot(of_friction, rotation) + dot(twist, omega));
   if constexpr (!resists) return;
-  work[2] = dt * (dot(s.moment - moment, rotation) - dot(s.twisting_torque - twist, omega));
+  work[2] = dt * (dot(s.torque_per_radius - of_friction, rotation) -
+                  dot(s.twisting_torque - twist, omega));
 }
 
 /// find_work() for what single stages have left in `between`. Needs relative_omega and its change

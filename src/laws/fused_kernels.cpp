@@ -45,7 +45,7 @@ template <class... Laws> inline constexpr int values_of = (0 + ... + history_siz
 
 template <class Normal, class Damping, class Tangential, class Rolling, class Twisting>
 struct Fused {
-  static constexpr int remembered = values_of<Tangential, Rolling, Twisting>;
+  static constexpr int history_size = values_of<Tangential, Rolling, Twisting>;
   static constexpr bool with_radius = Normal::needs_radius || Damping::needs_radius ||
                                       Tangential::needs_radius || Rolling::needs_radius ||
                                       Twisting::needs_radius;
@@ -73,7 +73,7 @@ struct Fused {
                                    const StageInput &in)
   {
     if constexpr (Tangential::second_order) {
-      if (any_at_an_end<Tangential, Real>(b, k, in.places)) {
+      if (any_at_event<Tangential, Real>(b, k, in.history_index)) {
         for (int n = 0; n < width_of<Real>; n += lanes) compute_ends<accounts>(b, k + n, in);
         return;
       }
@@ -94,9 +94,9 @@ struct Fused {
     ContactLanes<Real> s;
     load_state(b, k, s);
     approach<with_radius>(s);
-    Real history[remembered + 1];    // none has no length 0
-    for (int n = 0; n < remembered; n++)
-      history[n] = Memory<Real>::load(&b.history[in.places[n]][k]);
+    Real history[history_size + 1];    // none has no length 0
+    for (int n = 0; n < history_size; n++)
+      history[n] = Memory<Real>::load(&b.history[in.history_index[n]][k]);
     Normal::template compute<true>(c.normal, s, history, in.dt);
     Damping::template compute<true>(c.damping, s, history, in.dt);
     if constexpr (Tangential::acts) {
@@ -105,13 +105,13 @@ struct Fused {
       if constexpr (Rolling::acts) Rolling::template compute<true>(c.rolling, s, of_rolling, in.dt);
       if constexpr (Twisting::acts)
         Twisting::template compute<true>(c.twisting, s, of_rolling + values_of<Rolling>, in.dt);
-      store_vector(b.moment, k, s.moment);
+      store_vector(b.torque_per_radius, k, s.torque_per_radius);
       if constexpr (twists) store_vector(b.twisting_torque, k, s.twisting_torque);
     }
     store_vector(b.force, k, s.force);
     if constexpr (accounts) account(b, k, s, in.dt);
-    for (int n = 0; n < remembered; n++)
-      Memory<Real>::store(&b.history[in.places[n]][k], history[n]);
+    for (int n = 0; n < history_size; n++)
+      Memory<Real>::store(&b.history[in.history_index[n]][k], history[n]);
   }
 
   template <class Real>
@@ -186,27 +186,27 @@ const Entry *entry_of(const ContactLaw &law)
 
 StageFunction fused_function(const ContactLaw &law)
 {
-  const Entry *its = entry_of(law);
-  return its ? its->function : nullptr;
+  const Entry *entry = entry_of(law);
+  return entry ? entry->function : nullptr;
 }
 
 StageFunction fused_accounting_function(const ContactLaw &law)
 {
-  const Entry *its = entry_of(law);
-  return its ? its->accounting : nullptr;
+  const Entry *entry = entry_of(law);
+  return entry ? entry->accounting : nullptr;
 }
 
 std::vector<ContactLaw> fused_laws()
 {
   std::vector<ContactLaw> laws;
   for (const Entry &e : entries) {
-    ContactLaw its;
-    its.choose(Stage::NORMAL, find_law(Stage::NORMAL, e.normal));
-    its.choose(Stage::DAMPING, find_law(Stage::DAMPING, e.damping));
-    its.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, e.tangential));
-    its.choose(Stage::ROLLING, find_law(Stage::ROLLING, e.rolling));
-    its.choose(Stage::TWISTING, find_law(Stage::TWISTING, e.twisting));
-    laws.push_back(e.second_order ? second_order_law(its) : its);
+    ContactLaw law;
+    law.choose(Stage::NORMAL, find_law(Stage::NORMAL, e.normal));
+    law.choose(Stage::DAMPING, find_law(Stage::DAMPING, e.damping));
+    law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, e.tangential));
+    law.choose(Stage::ROLLING, find_law(Stage::ROLLING, e.rolling));
+    law.choose(Stage::TWISTING, find_law(Stage::TWISTING, e.twisting));
+    laws.push_back(e.second_order ? second_order_law(law) : law);
   }
   return laws;
 }

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// All stages of a law in one function: what they leave for each other stays in registers, and a
-// step of a bed takes 2 to 4 % less time. Compiled for the most common laws, from
-// the same stage functions.
+// All stages of a law in one function: their intermediate results stay in registers, and a step of
+// a bed of particles takes 2 to 4 % less time. Compiled for the most common laws, from the same
+// stage functions.
 
 #ifndef TALUS_LAWS_FUSED_KERNELS_H
 #define TALUS_LAWS_FUSED_KERNELS_H

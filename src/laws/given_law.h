@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What a user asked for one pair of materials: a law for each stage, and numbers by name. The names
+// Input for one pair of materials: a law for each stage, and parameters by name. The names
 // are those of the documentation (kn, gn, E, nu, mu, ...); restart files hold the same.
 
 #ifndef TALUS_LAWS_GIVEN_LAW_H

@@ -5,8 +5,9 @@
 //   normal -> damping -> tangential -> rolling -> twisting -> cohesion -> heat,
 //
 // and a pair of materials names one law for each. A law is one file in the folder of its stage: a
-// struct with its equation, its words, the mixing of two materials, and what it remembers, stores
-// and needs; see law_definition.h for what such a struct consists of. list.cpp of each stage names them.
+// struct with its equation, its words, the mixing of two materials, its history and stored energy,
+// and what it needs; see law_definition.h for what such a struct consists of. list.cpp of each
+// stage names them.
 
 #ifndef TALUS_LAWS_LAW_H
 #define TALUS_LAWS_LAW_H
@@ -31,15 +32,15 @@ struct ContactCoefficients {
   double c[size] = {};
 };
 
-/// Where in ContactBatch::history the values of one law stand.
-using HistoryPlaces = std::array<int, ContactBatch::history_size>;
+/// Indices of the values of one law in ContactBatch::history.
+using HistoryIndices = std::array<int, ContactBatch::history_size>;
 
 /// What a stage is given besides the batch.
 struct StageInput {
   const ContactCoefficients *table;
   bool uniform;             ///< row 0 for every contact, else batch.coefficients[k]
   int first_coefficient;    ///< of this law in a row
-  HistoryPlaces places;
+  HistoryIndices history_index;
   double dt;
 };
 
@@ -66,15 +67,16 @@ struct Law {
   const CoefficientName *coefficients;
   int num_coefficients;
 
-  /// Values that the law remembers of a contact, zero when it begins: first those that change their
-  /// sign if the other body counts as the first (displacements, forces), then those that do not.
+  /// Number of history values, zero when a contact begins: first those that change their sign if
+  /// the bodies are exchanged (displacements, forces), then those that do not.
   int odd_history, even_history;
 
   bool acts;               ///< false of laws "none"
   bool needs_radius;       ///< reads the effective radius, or what follows from it
-  bool reads_impact;       ///< impact speed or age; kept if the tangential law remembers
+  bool reads_impact;       ///< impact speed or age; kept if the tangential law has a history
   bool reads_stiffness;    ///< tangential: kt or gt
-  bool has_spring;         ///< tangential: remembers a displacement, gives back its energy or more
+  bool has_spring;         ///< tangential: its history is a displacement, whose energy it gives
+                           ///< back, or more
   bool stiffens;           ///< tangential: a stretched spring of its own may gain from the overlap
   bool is_midpoint;        ///< tangential: second order in the time step
   bool synchronized;    ///< tangential: all stages see the normal of half a step before; the last
@@ -84,10 +86,10 @@ struct Law {
   double exponent;      ///< normal: elastic force ~ overlap^exponent
   bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
   bool cohesive;      ///< normal: adhesion of its own
-  bool allows_cohesion;    ///< damping: may follow such a normal law
-  bool
-      lasts_beyond_contact;    ///< normal: a contact ends when the bodies have come apart, at reach
-  bool second_order;           ///< tangential: reads the changes of velocities, see second_order.h
+  bool allows_cohesion;         ///< damping: may follow such a normal law
+  bool lasts_beyond_contact;    ///< normal: a contact ends at the pull-off distance, not at overlap
+                                ///< 0
+  bool second_order;            ///< tangential: reads the changes of velocities, see second_order.h
   /// Tangential, rolling, twisting: the law that integrators of second order take in its place; nullptr,
   /// or nullptr is returned: there is none. `adhesive`: after a normal law with adhesion of its own.
   const Law *(*order_2)(bool adhesive);
@@ -119,9 +121,9 @@ struct Law {
   /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
   double (*modulus)(const double *c);
   /// Normal: how far a contact that has begun lasts beyond zero overlap (length); nullptr if not.
-  double (*reach)(const double *c, double effective_radius);
-  /// Normal: ContactBatch::reach of contacts whose bodies are apart; nullptr if not.
-  StageFunction find_reach;
+  double (*pulloff_distance)(const double *c, double effective_radius);
+  /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
+  StageFunction find_pulloff_distance;
 };
 
 }    // namespace Talus

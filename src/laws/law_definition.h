@@ -7,9 +7,9 @@
 //   Row<Real>     its coefficients, all of type Real
 //   coefficients  their names
 //   compute<advance>(c, s, history, dt)
-//                 its equation: reads and writes s (see contact_lanes.h) and, if it remembers
-//                 something, history[0 ... odd_history + even_history - 1]; advances it only if
-//                 `advance`. Pure and free of branches. dt in units of the caller.
+//                 its equation: reads and writes s (see contact_lanes.h) and, if it has a history,
+//                 history[0 ... odd_history + even_history - 1], which it updates only if `advance`
+//                 (history_update of LAMMPS). Pure and free of branches. dt in units of the caller.
 //   read(reader)  its words; left out if it comes with another law's
 //   mix(m)        its row for a contact of two materials
 //   stored(s, c, history)   its energy, if it stores some
@@ -56,7 +56,8 @@ struct LawBase {
   static constexpr double exponent = 1.0;
 };
 
-/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own pull_off.
+/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own
+/// pulloff_force.
 struct NormalLaw : LawBase {
   static constexpr Stage stage = Stage::NORMAL;
   static constexpr const char *damping = "mass_velocity";
@@ -66,7 +67,8 @@ struct NormalLaw : LawBase {
   template <class Real> static void reduce(Real /*overlap*/, Real & /*k*/, Real & /*g*/) {}
   template <class Row> static double modulus(const Row & /*c*/) { return 0.0; }
   /// How far a contact lasts beyond zero overlap (length); only called if lasts_beyond_contact.
-  template <class Row> static double reach(const Row & /*c*/, double /*effective_radius*/)
+  template <class Row>
+  static double pulloff_distance(const Row & /*c*/, double /*effective_radius*/)
   {
     return 0.0;
   }
@@ -85,12 +87,13 @@ struct DampingLaw : LawBase {
   static double dashpot_exponent(double /*elastic*/) { return -1.0; }
 };
 
-/// Finds tangential and moment, and twisting_torque if it has lever_arms, and adds to force.
+/// Finds tangential and torque_per_radius, and twisting_torque if it has lever_arms, and adds to
+/// force.
 struct TangentialLaw : LawBase {
   static constexpr Stage stage = Stage::TANGENTIAL;
 };
 
-/// Adds to moment, or to twisting_torque.
+/// Adds to torque_per_radius, or to twisting_torque.
 struct RollingLaw : LawBase {
   static constexpr Stage stage = Stage::ROLLING;
 };
@@ -100,7 +103,7 @@ struct TwistingLaw : LawBase {
   static constexpr Stage stage = Stage::TWISTING;
 };
 
-/// Adds to force, for a pull that is constant while the bodies touch: with adhesive_share.
+/// Adds to force: an adhesive force that is constant while the bodies touch, times adhesive_share.
 struct CohesionLaw : LawBase {
   static constexpr Stage stage = Stage::COHESION;
   static constexpr const char *label = "adhesion";
@@ -124,7 +127,7 @@ template <class L> inline constexpr int num_coefficients_of()
 
 template <class L> using CoefficientPlaces = std::make_index_sequence<num_coefficients_of<L>()>;
 
-/// A row from numbers of its places: all(n) for n = 0, 1, ...
+/// A row from its coefficients: all(n) for n = 0, 1, ...
 template <class L, class Real, class All, std::size_t... n>
 TALUS_INLINE typename L::template Row<Real> row_from(const All &all, std::index_sequence<n...>)
 {
@@ -179,7 +182,7 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.inverse_mass = In::load(&b.inverse_mass[k]);
   s.inverse_radius = In::load(&b.inverse_radius[k]);
   s.relative_omega = load_vector<Real>(b.relative_omega, k);
-  s.circle = In::load(&b.circle[k]);
+  s.intersection_radius = In::load(&b.intersection_radius[k]);
   s.inverse_distance = In::load(&b.inverse_distance[k]);
   s.arm_loss = In::load(&b.arm_loss[k]);
   s.arm_difference = In::load(&b.arm_difference[k]);
@@ -188,9 +191,9 @@ TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.velocity_change = load_vector<Real>(b.velocity_change, k);
   s.rotation_change = load_vector<Real>(b.rotation_change, k);
   s.omega_change = load_vector<Real>(b.omega_change, k);
-  s.turn = load_vector<Real>(b.turn, k);
-  s.parted = In::load(&b.parted[k]);
-  s.reach = In::load(&b.reach[k]);
+  s.normal_change = load_vector<Real>(b.normal_change, k);
+  s.separated = In::load(&b.separated[k]);
+  s.pulloff_distance = In::load(&b.pulloff_distance[k]);
 }
 
 /// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
@@ -205,7 +208,7 @@ TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
     visit(s.tangent_t, b.between.tangent_t);
     visit(s.contact_radius, b.between.contact_radius);
     visit(s.elastic, b.between.elastic);
-    visit(s.pull_off, b.between.pull_off);
+    visit(s.pulloff_force, b.between.pulloff_force);
   } else if constexpr (stage == Stage::DAMPING) {
     visit(s.gn, b.between.gn);
     visit(s.gt, b.between.gt);
@@ -214,7 +217,7 @@ TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
   }
 }
 
-/// What tangential laws of second order find anew.
+/// What tangential laws of second order compute again, of the normal law.
 template <class Lanes, class Batch, class Visit>
 TALUS_INLINE void visit_normal_force(Lanes &s, Batch &b, Visit visit)
 {
@@ -249,7 +252,7 @@ TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s
   s.full_normal = load_vector<Real>(b.between.full_normal, k);
   s.force = load_vector<Real>(b.force, k);
   if (stage == Stage::TANGENTIAL) return;
-  s.moment = load_vector<Real>(b.moment, k);
+  s.torque_per_radius = load_vector<Real>(b.torque_per_radius, k);
   s.twisting_torque = load_vector<Real>(b.twisting_torque, k);
 }
 
@@ -261,15 +264,15 @@ TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
   if constexpr (stage == Stage::DAMPING || stage == Stage::TANGENTIAL || stage == Stage::COHESION)
     store_vector(b.force, k, s.force);
   if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)
-    store_vector(b.moment, k, s.moment);
+    store_vector(b.torque_per_radius, k, s.torque_per_radius);
   if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING || stage == Stage::TWISTING)
     store_vector(b.twisting_torque, k, s.twisting_torque);
 }
 
 template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;
 
-/// The equation of a law, or of one of second order the part of it that serves between begin and
-/// end of a contact; see SecondOrder::at_an_end().
+/// The equation of a law. Of one of second order, with `ends` false, without the terms for begin
+/// and end of a contact; see SecondOrder::at_event().
 template <class L, bool advance, bool ends, class Real>
 TALUS_INLINE void compute_law(const typename L::template Row<Real> &c, ContactLanes<Real> &s,
                               Real *history, double dt)
@@ -280,34 +283,34 @@ TALUS_INLINE void compute_law(const typename L::template Row<Real> &c, ContactLa
     L::template compute<advance>(c, s, history, dt);
 }
 
-/// Whether contacts with a law of second order begin or end among those from lane k on. `places`: of
-/// its numbers.
+/// Whether contacts with a law of second order begin or end among those from lane k on.
+/// `history_index`: of the values of the law.
 template <class L, class Real>
-TALUS_INLINE bool any_at_an_end(ContactBatch &b, int k, const HistoryPlaces &places)
+TALUS_INLINE bool any_at_event(ContactBatch &b, int k, const HistoryIndices &history_index)
 {
-  return any(L::at_an_end(Memory<Real>::load(&b.parted[k]),
-                          Memory<Real>::load(&b.history[places[L::first_even]][k])));
+  return any(L::at_event(Memory<Real>::load(&b.separated[k]),
+                         Memory<Real>::load(&b.history[history_index[L::first_even]][k])));
 }
 
 template <class L, bool advance, bool ends>
 TALUS_INLINE void run_lanes(ContactBatch &b, int k, const typename L::template Row<Vec8> &c,
                             const StageInput &in)
 {
-  constexpr int remembered = history_size_of<L>;
+  constexpr int history_size = history_size_of<L>;
   ContactLanes<Vec8> s;
   load_state(b, k, s);
   load_found<L::stage>(b, k, s);
-  Vec8 history[remembered + 1];    // none has no length 0
-  for (int n = 0; n < remembered; n++) history[n] = load8(&b.history[in.places[n]][k]);
+  Vec8 history[history_size + 1];    // none has no length 0
+  for (int n = 0; n < history_size; n++) history[n] = load8(&b.history[in.history_index[n]][k]);
   compute_law<L, advance, ends>(c, s, history, in.dt);
   store_found<L::stage>(b, k, s);
-  if constexpr (L::second_order) {    // finds the normal force anew
+  if constexpr (L::second_order) {    // finds the normal force again
     visit_normal_force(s, b, [k](Vec8 value, double *to) { store(to + k, value); });
     store(&b.between.adhesive_share[k], s.adhesive_share);
     if constexpr (ends) store(&b.between.uncorrected_force[k], s.uncorrected_force);
   }
   if constexpr (advance)
-    for (int n = 0; n < remembered; n++) store(&b.history[in.places[n]][k], history[n]);
+    for (int n = 0; n < history_size; n++) store(&b.history[in.history_index[n]][k], history[n]);
 }
 
 template <class L, bool advance>
@@ -317,7 +320,7 @@ void run_stage(ContactBatch &b, int begin, int end, const StageInput &in)
   for (int k = begin; k < end; k += lanes) {
     if (!in.uniform) c = collect<L>(in, &b.coefficients[k]);
     if constexpr (L::second_order && advance)
-      if (!any_at_an_end<L, Vec8>(b, k, in.places)) {
+      if (!any_at_event<L, Vec8>(b, k, in.history_index)) {
         run_lanes<L, advance, false>(b, k, c, in);
         continue;
       }
@@ -373,18 +376,19 @@ double stored_energy(const ContactLanes<double> &s, const double *c, const doubl
   return L::stored(s, row_of<L>(c), history);
 }
 
-template <class L> double reach_by(const double *c, double effective_radius)
+template <class L> double pulloff_distance_by(const double *c, double effective_radius)
 {
-  return L::reach(row_of<L>(c), effective_radius);
+  return L::pulloff_distance(row_of<L>(c), effective_radius);
 }
 
 /// Few bodies are apart.
-template <class L> void run_reach(ContactBatch &b, int begin, int end, const StageInput &in)
+template <class L>
+void run_pulloff_distance(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k++) {
     if (b.overlap[k] > 0.0) continue;
     const double *c = in.table[in.uniform ? 0 : b.coefficients[k]].c + in.first_coefficient;
-    b.reach[k] = reach_by<L>(c, 1.0 / b.inverse_radius[k]);
+    b.pulloff_distance[k] = pulloff_distance_by<L>(c, 1.0 / b.inverse_radius[k]);
   }
 }
 
@@ -393,7 +397,7 @@ template <class L> constexpr Law make_law()
   constexpr int n = num_coefficients_of<L>();
   static_assert(n == 0 || sizeof(typename L::template Row<double>) == n * sizeof(double),
                 "as many names as coefficients");
-  constexpr bool remembers = history_size_of < L >> 0;
+  constexpr bool has_history = history_size_of<L> != 0;
   Law law{};
   law.stage = L::stage;
   law.name = L::name;
@@ -424,7 +428,7 @@ template <class L> constexpr Law make_law()
   law.takes_no_gt = L::takes_no_gt;
   law.needs_gt = L::needs_gt;
   law.reading = run_stage<L, false>;
-  law.advancing = run_stage<L, remembers>;
+  law.advancing = run_stage<L, has_history>;
   law.one = compute_one<L>;
   law.read = L::read;
   law.mix = mix_row<L>;
@@ -437,8 +441,8 @@ template <class L> constexpr Law make_law()
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) {
-      law.reach = reach_by<L>;
-      law.find_reach = run_reach<L>;
+      law.pulloff_distance = pulloff_distance_by<L>;
+      law.find_pulloff_distance = run_pulloff_distance<L>;
     }
     law.delay = run_delay<L>;
     law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {

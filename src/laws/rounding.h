@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Numbers that laws of second order remember, rounded to fewer bits than a double has: a run keeps
+// History values of laws of second order, rounded to fewer bits than a double has: a run keeps
 // the bits that it had when two of them shared one double. Plain arithmetic, the same in every lane;
 // |number| below 1e290.
 

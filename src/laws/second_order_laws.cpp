@@ -15,11 +15,11 @@ bool is_named(const Law &law, const char *name)
 
 /// The law of a stage for integrators of second order, nullptr if there is none. Without a tangential
 /// force there is one, for the normal force.
-const Law *twin_of(const ContactLaw &law, Stage stage)
+const Law *counterpart_of(const ContactLaw &law, Stage stage)
 {
-  const Law &its = law[stage];
-  if (!its.acts && stage != Stage::TANGENTIAL) return &its;
-  return its.order_2 ? its.order_2(law.normal().cohesive) : nullptr;
+  const Law &stage_law = law[stage];
+  if (!stage_law.acts && stage != Stage::TANGENTIAL) return &stage_law;
+  return stage_law.order_2 ? stage_law.order_2(law.normal().cohesive) : nullptr;
 }
 
 /// All of them have their first coefficient in gn, but for `none`.
@@ -55,7 +55,7 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
   if (law.delayed())
     return "has resistance to rolling or spinning that is 'delayed', which begins with a jump and "
            "pushes a body at rest back and forth: leave the word out";
-  if (!twin_of(law, Stage::TWISTING))
+  if (!counterpart_of(law, Stage::TWISTING))
     return std::string("has the twisting law ") + law.twisting().name +
            ", whose torque jumps from one side to the other where a twist that slides comes to "
            "rest, so that runs with small time steps do not agree: leave 'twisting' out, or use "
@@ -77,7 +77,7 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
     return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";
   const std::string resistance = reason_of_resistance(law, row);
   if (!resistance.empty()) return resistance;
-  if (!twin_of(law, Stage::TANGENTIAL))
+  if (!counterpart_of(law, Stage::TANGENTIAL))
     return std::string("has the tangential law ") + tangential.name + ": " +
            cure_of_tangential(tangential);
   if (winds_up(law, row))
@@ -93,9 +93,9 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
 ContactLaw second_order_law(ContactLaw law)
 {
   if (law.tangential().second_order) return law;
-  const ContactLaw its = law;
+  const ContactLaw first_order = law;
   for (const Stage stage : {Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING})
-    if (const Law *twin = twin_of(its, stage)) law.choose(stage, twin);
+    if (const Law *counterpart = counterpart_of(first_order, stage)) law.choose(stage, counterpart);
   return law;
 }
 

@@ -13,12 +13,12 @@
 namespace Talus {
 
 /// "", or why a contact with this law and these coefficients is not of second order, with the cure,
-/// for people: it follows on the name of what has the law.
+/// as text for messages: it follows on the name of what has the law.
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row);
 
 /// The same law for integrators of second order. Stages that have none stay what they are: it may
-/// be asked for before somebody has looked for a reason against it, as by a large body that is
-/// defined. Coefficients have to be mixed for it.
+/// be called before reason_against_second_order(), as by a large body that is being defined.
+/// Coefficients have to be mixed for it.
 ContactLaw second_order_law(ContactLaw law);
 
 }    // namespace Talus

@@ -2,7 +2,7 @@
 //
 // The laws of each stage, in the order in which messages name them; the first one is what a contact
 // has if nothing else was asked for. One source for each, in the folder of the stage: that of a law
-// that is changed is compiled anew, and no other. Only law_list.cpp asks.
+// that is changed is compiled again, and no other. Only law_list.cpp asks.
 
 #ifndef TALUS_LAWS_STAGE_LISTS_H
 #define TALUS_LAWS_STAGE_LISTS_H

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// From what a user asked for to the coefficients of the kernels.
+// Mixing: from the parameters of two materials to the coefficients of the kernels.
 
 #ifndef TALUS_MATERIAL_CONTACT_SPEC_H
 #define TALUS_MATERIAL_CONTACT_SPEC_H

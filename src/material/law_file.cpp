@@ -58,7 +58,7 @@ class Reader {
 
 }    // namespace
 
-std::string complaint_about_law_file(std::int32_t mark, std::int32_t version)
+std::string problem_of_law_file(std::int32_t mark, std::int32_t version)
 {
   const std::string needed =
       std::to_string(oldest_law_file) + " to " + std::to_string(law_file_version);
@@ -91,12 +91,12 @@ ContactSpec from_bytes(const std::string &bytes)
   for (int s = 0; s < num_stages; s++) {
     const Stage stage = static_cast<Stage>(s);
     const std::string name = reader.name();
-    const Law *its = find_law(stage, name);
-    if (!its)
+    const Law *chosen = find_law(stage, name);
+    if (!chosen)
       throw std::runtime_error("the restart file has the " + std::string(name_of(stage)) +
                                " law '" + name + "' (version " + std::to_string(law_file_version) +
                                "), which this Talus does not have: " + cure);
-    spec.law.choose(stage, its);
+    spec.law.choose(stage, chosen);
   }
   while (!reader.at_end()) {
     const std::string name = reader.name();

@@ -13,13 +13,13 @@
 
 namespace Talus {
 
-/// First numbers of what a pair style writes. `mark` tells it from files of before versions existed.
+/// First numbers of what a pair style writes. `mark` distinguishes it from files without a version.
 /// From version 3 on the version of Talus follows, see version.h; version 2 is read as well.
 inline constexpr std::int32_t law_file_mark = 0x54414c55, law_file_version = 3;
 inline constexpr std::int32_t oldest_law_file = 2;
 
 /// What is wrong with the first two numbers of a file and what to do about it; "" if nothing is.
-std::string complaint_about_law_file(std::int32_t mark, std::int32_t version);
+std::string problem_of_law_file(std::int32_t mark, std::int32_t version);
 
 /// One pair of materials as a string of bytes.
 std::string to_bytes(const ContactSpec &spec);

@@ -99,14 +99,14 @@ bool LawTable::lasts_beyond_contact() const
   return any([](const ContactLaw &law) { return law.normal().lasts_beyond_contact; });
 }
 
-double LawTable::reach(int row, double radius_i, double radius_j) const
+double LawTable::pulloff_distance(int row, double radius_i, double radius_j) const
 {
-  return reach_of(laws[row], rows[row], radius_i, radius_j);
+  return pulloff_distance_of(laws[row], rows[row], radius_i, radius_j);
 }
 
-double LawTable::reach(int row, double radius) const
+double LawTable::pulloff_distance(int row, double radius) const
 {
-  return reach_of(laws[row], rows[row], radius);
+  return pulloff_distance_of(laws[row], rows[row], radius);
 }
 
 }    // namespace Talus

@@ -46,7 +46,8 @@ class LawTable {
 
   /// All pairs of types have the same law and coefficients: types need not be looked up.
   bool uniform() const { return one_row; }
-  /// Spins are read. They are wherever something is remembered: contacts without are the fast ones.
+  /// Angular velocities are read, as by all laws with a history; contacts without them are computed
+  /// faster.
   bool has_friction() const;
   bool has_history() const;
   /// Records of four numbers of each contact, of the law that needs most; 0 without history.
@@ -54,16 +55,16 @@ class LawTable {
   /// Impact speeds and ages are kept.
   bool keeps_impact() const;
   bool has_resistance() const;
-  /// Torques that are not the moment of a force on both surfaces.
+  /// Torques other than those of one force at both surfaces.
   bool has_twisting_torques() const;
   bool lasts_beyond_contact() const;
   bool conducts_heat() const;
   /// Changes of velocities are read.
   bool second_order() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.
-  double reach(int row, double radius_i, double radius_j) const;
+  double pulloff_distance(int row, double radius_i, double radius_j) const;
   /// The same against a flat body.
-  double reach(int row, double radius) const;
+  double pulloff_distance(int row, double radius) const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;

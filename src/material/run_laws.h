@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The one place where contacts of a batch become forces: whether the run is being set up, and whether
-// somebody wants to know their work, is known here alone. Sources of contacts (pairs of spheres,
-// spheres and large bodies, points of shapes) fill the batch and hand out what they find in it.
+// The one place where the contacts of a batch become forces: set-up of a run and accounting for
+// work are handled here alone. The callers (pairs of spheres, spheres and large bodies, points of
+// shapes) fill the batch and distribute the results.
 
 #ifndef TALUS_MATERIAL_RUN_LAWS_H
 #define TALUS_MATERIAL_RUN_LAWS_H
@@ -16,9 +16,9 @@ namespace Talus {
 /// What is the same for all contacts of a step.
 struct LawStep {
   const LawTable &laws;
-  double dt;                               ///< time step (time units of the host)
+  double dt;                               ///< time step (time units of LAMMPS)
   bool advance;                            ///< false while a run is set up: histories are only read
-  const WorkAccount *account = nullptr;    ///< given: ContactBatch::work is found as well
+  const WorkAccount *account = nullptr;    ///< if given, ContactBatch::work is computed as well
 };
 
 /// Computes the contacts begin ... end-1 of a batch, multiples of `lanes`, by one law of the table.

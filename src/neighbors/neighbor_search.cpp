@@ -70,10 +70,10 @@ NeighborSearch::Extent NeighborSearch::extent_of(const Spheres &s, int threads)
   std::vector<Extent> found((s.total - 1) / block + 1);
   in_ranges(static_cast<std::int64_t>(found.size()), threads, [&](int, int begin, int end) {
     for (int n = begin; n < end; n++) {
-      Extent its;
+      Extent of_block;
       const int first = n * block, last = first + std::min(block, s.total - first);
-      for (int a = first; a < last; a++) its.add(s.x + 3L * a, s.radius[a]);
-      found[n] = its;
+      for (int a = first; a < last; a++) of_block.add(s.x + 3L * a, s.radius[a]);
+      found[n] = of_block;
     }
   });
   Extent all;
@@ -168,15 +168,16 @@ void NeighborSearch::find_starts(CellCounts &counts)
   const auto begin = [&](int range) { return num_cells * range / workers; };
   const auto count = [&](int range) {
     std::int32_t sum = 0;
-    for (const auto &its : counts)
-      sum = std::accumulate(its.begin() + begin(range), its.begin() + begin(range + 1), sum);
+    for (const auto &of_thread : counts)
+      sum = std::accumulate(of_thread.begin() + begin(range), of_thread.begin() + begin(range + 1),
+                            sum);
     before[range + 1] = sum;
   };
   const auto place = [&](int range) {
     std::int32_t next = std::accumulate(before.begin(), before.begin() + range + 1, 0);
     for (std::int64_t c = begin(range); c < begin(range + 1); c++) {
       start[c] = next;
-      for (auto &its : counts) next += std::exchange(its[c], next);
+      for (auto &of_thread : counts) next += std::exchange(of_thread[c], next);
     }
     if (range + 1 == workers) start[num_cells] = next;
   };
@@ -194,7 +195,7 @@ void NeighborSearch::find(const Spheres &s, int threads,
   chunks.resize(threads);
   in_ranges(s.total, threads,
             [&](int t, int begin, int end) { find_rows(s, chunks[t], begin, end, excluded); });
-  if (memory_usage() > worth_giving_back) release_cells();
+  if (memory_usage() > release_threshold) release_cells();
 }
 
 /* Before lists of pairs are made from the rows. */
@@ -230,14 +231,14 @@ void NeighborSearch::find_rows(const Spheres &s, Chunk &mine, int begin, int end
 
 void NeighborSearch::find_row(const Spheres &s, int a, Chunk &found) const
 {
-  float own[4];
+  float of_sphere[4];
   double place[3];
   for (int d = 0; d < 3; d++) {
     place[d] = grid.place(s, a, d);
-    own[d] = static_cast<float>(place[d]);
+    of_sphere[d] = static_cast<float>(place[d]);
   }
-  own[3] = static_cast<float>(s.radius[a] * grid.per_length);
-  const double reach = own[3] + std::max(own[3], grid.alike) + skin + slack;
+  of_sphere[3] = static_cast<float>(s.radius[a] * grid.per_length);
+  const double reach = of_sphere[3] + std::max(of_sphere[3], grid.alike) + skin + slack;
   int from[3], to[3];
   for (int d = 0; d < 3; d++) {
     from[d] = grid.cell(place[d] - reach, d);
@@ -248,25 +249,26 @@ void NeighborSearch::find_row(const Spheres &s, int a, Chunk &found) const
   for (int kz = from[2]; kz <= to[2]; kz++)
     for (int ky = from[1]; ky <= to[1]; ky++) {
       const std::int64_t row = grid.row(ky, kz);
-      compare(own, a, below, start[row + from[0]], start[row + to[0] + 1], found);
+      compare(of_sphere, a, below, start[row + from[0]], start[row + to[0] + 1], found);
     }
 }
 
 /* Appends those of a piece of the sorted spheres that are near and of a lower index, or smaller. */
 
-TALUS_INLINE void NeighborSearch::compare(const float *own, int a, int below, std::int64_t begin,
-                                          std::int64_t end, Chunk &found) const
+TALUS_INLINE void NeighborSearch::compare(const float *place_and_radius, int a, int below,
+                                          std::int64_t begin, std::int64_t end, Chunk &found) const
 {
   const auto floats = [](const float *at) { return Memory<Floats>::load_anywhere(at); };
   const Ints lane = counting<Ints>();
-  const float wide = own[3] + skin + slack;
+  const float wide = place_and_radius[3] + skin + slack;
   const Ints by_index = Ints{} - static_cast<std::int32_t>(grid.alike > 0.0F);
   for (std::int64_t k = begin; k < end; k += width) {
-    const Floats dx = floats(&x[k]) - own[0], dy = floats(&y[k]) - own[1],
-                 dz = floats(&z[k]) - own[2];
-    const Floats its = floats(&radius[k]), reach = its + wide;
+    const Floats dx = floats(&x[k]) - place_and_radius[0], dy = floats(&y[k]) - place_and_radius[1],
+                 dz = floats(&z[k]) - place_and_radius[2];
+    const Floats other_radius = floats(&radius[k]), reach = other_radius + wide;
     const Ints other = Memory<Ints>::load_anywhere(&index[k]);
-    const Ints chosen = (~by_index & (its < own[3])) | ((by_index | (its == own[3])) & (other < a));
+    const Ints chosen = (~by_index & (other_radius < place_and_radius[3])) |
+                        ((by_index | (other_radius == place_and_radius[3])) & (other < a));
     const Ints near = dx * dx + dy * dy + dz * dz < reach * reach;
     const Ints inside = lane < static_cast<std::int32_t>(std::min<std::int64_t>(end - k, width));
     if (found.entries.size() < found.count + width)
@@ -298,7 +300,7 @@ void NeighborSearch::clear()
 {
   size.clear();
   entries.clear();
-  if (memory_usage() > worth_giving_back) *this = NeighborSearch{};
+  if (memory_usage() > release_threshold) *this = NeighborSearch{};
 }
 
 double NeighborSearch::memory_usage() const

@@ -2,7 +2,7 @@
 //
 // Finds the pairs of spheres that may touch before the next rebuild: all with
 // |x_i - x_j| < r_i + r_j + skin of which at least one is owned, and a few that are slightly
-// further apart. Does the work of the host's neighbor lists for contacts, on all threads.
+// further apart. Does the work of LAMMPS' neighbor lists for contacts, on all threads.
 //
 // Spheres are sorted into cells as wide as the reach of a usual one. Each looks for those around it
 // with a lower index, so that a pair is found once and where the candidate list will have it. If
@@ -25,7 +25,7 @@ namespace Talus {
 
 class NeighborSearch {
  public:
-  /// Host's arrays: rows of three doubles and radii, owned particles first, then ghosts.
+  /// Arrays of LAMMPS: rows of three doubles and radii, owned particles first, then ghosts.
   struct Spheres {
     int owned, total;
     const double *x, *radius;

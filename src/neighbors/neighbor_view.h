@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A half neighbor list as it stands in memory: the host's, without its types, or that of
+// A half neighbor list as it stands in memory: LAMMPS', without its types, or that of
 // NeighborSearch.
 
 #ifndef TALUS_NEIGHBORS_NEIGHBOR_VIEW_H

@@ -79,8 +79,8 @@ void PairList::read_copies(const std::vector<int> &copy_of_slot)
   std::copy(first.begin(), first.end(), copy_of_first.begin());
   for (const std::uint32_t c : at_frontier)
     if (is_foreign(first[c])) copy_of_first[c] = copy_of_slot[first[c]];
-  for (Distant &its : distant)
-    if (is_foreign(its.slot)) its.slot = copy_of_slot[its.slot];
+  for (Distant &one : distant)
+    if (is_foreign(one.slot)) one.slot = copy_of_slot[one.slot];
 }
 
 void PairList::find_frontier()

@@ -1,10 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The broad phase as the kernels want it: the pairs that may touch before the next rebuild as a
-// flat list of slots (first[c] < second[c], see ParticleOrder), sorted by second and then first.
-// Working through it in order adds the forces on every particle in ascending order of its
-// partners, on every rank and every thread; and whatever a pair needs has been touched lately or
-// stands next in memory, apart from few pairs whose members stand far from each other.
+// The result of the broad phase: the pairs that may touch before the next rebuild, as a flat list
+// of slots (first[c] < second[c], see ParticleOrder), sorted by second and then first. Working
+// through it in order adds the forces on every particle in ascending order of its partners, on
+// every rank and every thread; and whatever a pair needs has been touched lately or stands next in
+// memory, apart from few pairs whose members stand far from each other.
 
 #ifndef TALUS_NEIGHBORS_PAIR_LIST_H
 #define TALUS_NEIGHBORS_PAIR_LIST_H

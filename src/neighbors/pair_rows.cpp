@@ -44,12 +44,12 @@ PairRows::PairRows(const ParticleOrder &particles, const NeighborView &neighbors
   beside_ghosts.resize(ranges);
   std::vector<Finds> finds(ranges);
   in_parallel(ranges, ranges, [&](int r) { look_through(r, finds[r]); });
-  const auto any = [](const Finds &its) {
-    return std::any_of(its.begin(), its.end(), [](const auto &one) { return !one.empty(); });
+  const auto any = [](const Finds &found) {
+    return std::any_of(found.begin(), found.end(), [](const auto &one) { return !one.empty(); });
   };
   if (std::none_of(finds.begin(), finds.end(), any)) return;
-  turned.resize(ranges);
-  in_parallel(ranges, ranges, [&](int r) { take_turned(r, finds); });
+  reversed.resize(ranges);
+  in_parallel(ranges, ranges, [&](int r) { take_reversed(r, finds); });
 }
 
 /* Counts the pairs in the rows of a range of slots, and notes those that belong to others. */
@@ -83,22 +83,22 @@ void PairRows::look_through(int range, Finds &finds)
 
 /* Sorts what has been found for a range by the second slot. */
 
-void PairRows::take_turned(int range, const std::vector<Finds> &finds)
+void PairRows::take_reversed(int range, const std::vector<Finds> &finds)
 {
-  Turned &its = turned[range];
+  Reversed &of_range = reversed[range];
   const int begin = range_begin(range), rows = range_begin(range + 1) - begin;
   const auto for_each_found = [&](auto visit) {
     for (const Finds &of_thread : finds)
       for (const Found &found : of_thread[range]) visit(found.second - begin, found.entry);
   };
-  std::vector<std::size_t> &ends = its.begin;
+  std::vector<std::size_t> &ends = of_range.begin;
   ends.assign(rows + 2, 0);
   for_each_found([&](int row, int) { ends[row + 2]++; });
   for (int row = 0; row < rows; row++) sizes[begin + row] += static_cast<int>(ends[row + 2]);
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  renew(its.entries, ends.back());
+  renew(of_range.entries, ends.back());
   // the begin of a row moves on to its end
-  for_each_found([&](int row, int entry) { its.entries[ends[row + 1]++] = entry; });
+  for_each_found([&](int row, int entry) { of_range.entries[ends[row + 1]++] = entry; });
   ends.pop_back();
 }
 

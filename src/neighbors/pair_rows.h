@@ -57,14 +57,15 @@ class PairRows {
       for (int n = 0; n < view.size[atom]; n++) take(view.entries[atom][n]);
     if (left == 0) return;
     const int range = range_of(second);
-    const Turned &its = turned[range];
+    const Reversed &of_range = reversed[range];
     const std::size_t row = second - range_begin(range);
-    for (std::size_t n = its.begin[row]; n < its.begin[row + 1]; n++) take(its.entries[n]);
+    for (std::size_t n = of_range.begin[row]; n < of_range.begin[row + 1]; n++)
+      take(of_range.entries[n]);
   }
 
  private:
   /// Pairs as entries of rows where the list does not have them, of the seconds in one range.
-  struct Turned {
+  struct Reversed {
     std::vector<std::size_t> begin;    // of each row and the end of the last
     AlignedVector<int> entries;
   };
@@ -84,16 +85,16 @@ class PairRows {
     return static_cast<int>(((slot + std::int64_t{1}) * ranges - 1) / num_slots());
   }
   void look_through(int range, Finds &finds);
-  void take_turned(int range, const std::vector<Finds> &finds);
+  void take_reversed(int range, const std::vector<Finds> &finds);
 
   const ParticleOrder &order;
   const NeighborView view;
   const int ranges;    // of slots, one for each thread
   const bool scaled;
   std::atomic<bool> with_weights{false};
-  std::vector<unsigned char> listed;    // by host's index: has a row; empty if all have
+  std::vector<unsigned char> listed;    // by local index: has a row; empty if all have
   AlignedVector<int> sizes;             // by slot
-  std::vector<Turned> turned;           // by range; empty if no pair is
+  std::vector<Reversed> reversed;       // by range; empty if no pair is
   std::vector<std::vector<int>> beside_ghosts;
 };
 

@@ -37,11 +37,11 @@ void WorkPartition::cut(const ParticleOrder &order, const PairRows &rows, int th
   const int ranges = threads + 2 * small_ranges * (threads - 1);
   std::vector<double> work_before(ranges + 1, std::numeric_limits<double>::infinity());
   for (int r = 0; r < ranges; r++) {
-    const int thread = (r + small_ranges) / per_thread, its = (r + small_ranges) % per_thread;
+    const int thread = (r + small_ranges) / per_thread, piece = (r + small_ranges) % per_thread;
     work_before[r] = r == 0 ? 0.0
-                     : its <= small_ranges
-                         ? of_thread * (thread + small_share * its)
-                         : of_thread * (thread + 1 - small_share * (per_thread - its));
+                     : piece <= small_ranges
+                         ? of_thread * (thread + small_share * piece)
+                         : of_thread * (thread + 1 - small_share * (per_thread - piece));
   }
 
   // each thread finds begins among its slots, or takes its first one for what begins before it

@@ -63,7 +63,7 @@ template <class Stock> void AcceleratedPair<Stock>::init_style()
   keep_stock_history(stock_history());
 }
 
-/* In restart files; anew if models have changed. */
+/* In restart files; again if models have changed. */
 
 template <class Stock> void AcceleratedPair<Stock>::keep_stock_history(const std::string &values)
 {
@@ -89,8 +89,8 @@ template <class Stock> std::string AcceleratedPair<Stock>::find_reason_for_stock
   if (!this->atom->tag_enable) return "particles have no IDs (atom_modify id no)";
   if (this->force->ftm2v != 1.0)
     return "the unit of force is not that of mass times acceleration in these units";
-  for (const std::string &its : {reason_that_came_later(), reason_of_fixes()})
-    if (!its.empty()) return its;
+  for (const std::string &reason : {reason_that_came_later(), reason_of_fixes()})
+    if (!reason.empty()) return reason;
   return stock_history().empty() ? "" : this->system->reason_against_history();
 }
 
@@ -98,8 +98,8 @@ template <class Stock> std::string AcceleratedPair<Stock>::find_reason_for_stock
 
 template <class Stock> std::string AcceleratedPair<Stock>::reason_that_came_later() const
 {
-  const std::string its = reason_of_models();
-  return its.empty() ? this->unsupported_settings() : its;
+  const std::string reason = reason_of_models();
+  return reason.empty() ? this->unsupported_settings() : reason;
 }
 
 /* Histories and canonical keys have to be put aside before a fix moves particles between ranks. */

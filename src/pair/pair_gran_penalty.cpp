@@ -68,12 +68,12 @@ void PairGranPenalty::init_style()
 {
   check_host();
   system->init_pair_style();
-  const std::string lists = system->neighbors().reason_for_host();
-  if (!lists.empty() && system->range().largest_reach() > neighbor->skin)
+  const std::string lists = system->neighbors().reason_for_lammps_lists();
+  if (!lists.empty() && system->range().largest_pulloff_distance() > neighbor->skin)
     error->all(FLERR,
                "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
                "which are used because of {}: use a skin of at least {:g} in the neighbor command",
-               lists, system->range().largest_reach());
+               lists, system->range().largest_pulloff_distance());
 }
 
 void PairGranPenalty::check_host()
@@ -101,16 +101,17 @@ void PairGranPenalty::check_host()
 
 double PairGranPenalty::init_one(int i, int j)
 {
-  const LawBook &book = system->laws();
+  const PairCoeffs &pair_coeffs = system->laws();
   if (setflag[i][j] == 0) {
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
       error->all(FLERR, "Pair style gran/penalty: no pair_coeff for types {} and {}", i, j);
-    if (book.spec(i, i).law != book.spec(j, j).law)
+    if (pair_coeffs.spec(i, i).law != pair_coeffs.spec(j, j).law)
       error->all(FLERR,
                  "Pair style gran/penalty: types {} ({}) and {} ({}) have different laws: "
                  "add 'pair_coeff {} {} ...'",
-                 i, describe_law(book.law(i, i)), j, describe_law(book.law(j, j)), i, j);
-    if (!book.can_mix(i, j))
+                 i, describe_law(pair_coeffs.law(i, i)), j, describe_law(pair_coeffs.law(j, j)), i,
+                 j);
+    if (!pair_coeffs.can_mix(i, j))
       error->all(FLERR,
                  "Pair style gran/penalty: types {} and {} have a number and NULL for kt or gt: "
                  "add 'pair_coeff {} {} ...'",
@@ -163,5 +164,5 @@ double PairGranPenalty::atom2cut(int i)
 
 double PairGranPenalty::radii2cut(double r1, double r2)
 {
-  return r1 + r2 + system->range().largest_reach();
+  return r1 + r2 + system->range().largest_pulloff_distance();
 }

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // pair_style gran/penalty: penalty contact with friction between spheres. A thin style: it parses
-// and checks, asks GranularSystem for the forces, and answers the host's questions about single
+// and checks, asks GranularSystem for the forces, and answers LAMMPS' questions about single
 // pairs. doc/pair_gran_penalty.md is the user's page.
 
 #ifndef LMP_PAIR_GRAN_PENALTY_H

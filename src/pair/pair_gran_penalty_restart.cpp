@@ -43,8 +43,8 @@ void PairGranPenalty::write_restart(FILE *fp)
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      const LawBook &book = system->laws();
-      const std::string bytes = book.is_set(i, j) ? to_bytes(book.spec(i, j)) : "";
+      const PairCoeffs &pair_coeffs = system->laws();
+      const std::string bytes = pair_coeffs.is_set(i, j) ? to_bytes(pair_coeffs.spec(i, j)) : "";
       write_number(static_cast<std::int32_t>(bytes.size()), fp);    // 0: mixed
       fwrite(bytes.data(), 1, bytes.size(), fp);
     }
@@ -81,10 +81,10 @@ void PairGranPenalty::write_restart_settings(FILE *fp)
 void PairGranPenalty::read_restart_settings(FILE *fp)
 {
   const std::int32_t mark = read_number(fp);
-  const std::string unmarked = complaint_about_law_file(mark, law_file_version);
+  const std::string unmarked = problem_of_law_file(mark, law_file_version);
   if (!unmarked.empty()) error->all(FLERR, "Pair style gran/penalty: {}", unmarked);
   const std::int32_t version = read_number(fp);
-  const std::string complaint = complaint_about_law_file(mark, version);
+  const std::string complaint = problem_of_law_file(mark, version);
   if (!complaint.empty()) error->all(FLERR, "Pair style gran/penalty: {}", complaint);
   if (version > oldest_law_file && read_number(fp) > talus_version && comm->me == 0)
     error->warning(FLERR, "Pair style gran/penalty: the restart file was written by a newer Talus");

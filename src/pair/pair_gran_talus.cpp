@@ -46,11 +46,11 @@ template <class Stock> PairGranTalus<Stock>::~PairGranTalus()
 
 template <class Stock> void PairGranTalus<Stock>::set_laws()
 {
-  constexpr StockLaw its = law_of<Stock>;
+  constexpr StockLaw stock = law_of<Stock>;
   ContactSpec spec;
-  spec.law.choose(Stage::NORMAL, find_law(Stage::NORMAL, its.normal));
-  spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, its.damping));
-  spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, its.tangential));
+  spec.law.choose(Stage::NORMAL, find_law(Stage::NORMAL, stock.normal));
+  spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, stock.damping));
+  spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, stock.tangential));
   spec.given["kn"] = this->kn;
   spec.given["kt"] = this->kt;
   spec.given["gn"] = this->gamman;
@@ -58,7 +58,7 @@ template <class Stock> void PairGranTalus<Stock>::set_laws()
   spec.given["mu"] = this->xmu;
   if (this->limit_damping) spec.given["limit_damping"] = 1.0;
 
-  LawBook &laws = this->system->laws();
+  PairCoeffs &laws = this->system->laws();
   laws.resize(this->atom->ntypes);
   for (int i = 1; i <= this->atom->ntypes; i++)
     for (int j = i; j <= this->atom->ntypes; j++) laws.set(i, j, spec);

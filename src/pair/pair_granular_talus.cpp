@@ -28,12 +28,12 @@ std::vector<const Model *> PairGranularTalus::all_models() const
 
 std::string PairGranularTalus::reason_of_models() const
 {
-  const std::string lists = system->neighbors().reason_for_host();
+  const std::string lists = system->neighbors().reason_for_lammps_lists();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       if (!setflag[i][j]) continue;
-      const std::string its = reason_of_model(model_of(i, j));
-      if (!its.empty()) return its;
+      const std::string reason = reason_of_model(model_of(i, j));
+      if (!reason.empty()) return reason;
       if (model_of(i, j).beyond_contact && !lists.empty())
         return "contacts last longer than pairs are in the neighbor lists of LAMMPS: " + lists;
     }
@@ -62,7 +62,7 @@ std::string PairGranularTalus::stock_history() const
 
 void PairGranularTalus::set_laws()
 {
-  LawBook &laws = system->laws();
+  PairCoeffs &laws = system->laws();
   laws.resize(atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
@@ -129,7 +129,8 @@ double PairGranularTalus::atom2cut(int i)
 
 double PairGranularTalus::radii2cut(double r1, double r2)
 {
-  return in_system() ? r1 + r2 + system->range().largest_reach() : PairGranular::radii2cut(r1, r2);
+  return in_system() ? r1 + r2 + system->range().largest_pulloff_distance()
+                     : PairGranular::radii2cut(r1, r2);
 }
 #endif
 

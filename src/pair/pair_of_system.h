@@ -25,7 +25,7 @@ struct SinglePair {
   Talus::ContactLanes<double> contact;
   double distance, radius_i, radius_j;
 
-  /// What the host wants of single(): of the normal force, adhesion included.
+  /// What Pair::single() returns: the normal force, adhesion included, over the distance.
   double force_over_distance() const
   {
     return dot(contact.force - contact.tangential, contact.normal) / distance;
@@ -58,7 +58,7 @@ template <class Base> class PairOfSystem : public Base, public Talus::SystemPair
   std::shared_ptr<Talus::GranularSystem> system;
 
  private:
-  void tally(const Talus::ReportedContact &contact);
+  void tally(const Talus::TalliedContact &contact);
 };
 
 }    // namespace LAMMPS_NS

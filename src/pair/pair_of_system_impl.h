@@ -8,7 +8,7 @@
 #include "pair/pair_of_system.h"
 
 #include "contact/state_of_pair.h"
-#include "laws/circle_of_intersection.h"
+#include "laws/intersection_radius.h"
 #include "laws/tangential/end_of_contact.h"
 #include "system/private_members.h"
 
@@ -37,14 +37,14 @@ template <class Base> std::string PairOfSystem<Base>::unsupported_settings() con
 template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int vflag)
 {
   this->ev_init(eflag, vflag);
-  const std::function<void(const Talus::ReportedContact &)> to_host =
-      [this](const Talus::ReportedContact &c) { tally(c); };
-  system->compute_contacts(this->vflag_either ? &to_host : nullptr);
+  const std::function<void(const Talus::TalliedContact &)> to_lammps =
+      [this](const Talus::TalliedContact &c) { tally(c); };
+  system->compute_contacts(this->vflag_either ? &to_lammps : nullptr);
 }
 
-/* To the host, as if newton were off, an index of a ghost means that nothing is tallied for it. */
+/* To LAMMPS, as if newton were off, an index of a ghost means that nothing is tallied for it. */
 
-template <class Base> void PairOfSystem<Base>::tally(const Talus::ReportedContact &c)
+template <class Base> void PairOfSystem<Base>::tally(const Talus::TalliedContact &c)
 {
   const int no_particle = this->atom->nlocal;
   this->ev_tally_xyz(c.for_i ? c.i : no_particle, c.for_j ? c.j : no_particle, no_particle, 0, 0.0,
@@ -62,11 +62,11 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   const Talus::LawTable &laws = system->law_table();
   const double ri = atom->radius[i], rj = atom->radius[j];
-  const auto remembered = system->contacts().history_of(i, j);
+  const auto stored = system->contacts().history_of(i, j);
   const int row_of_types = laws.row(itype, jtype);
-  const double touch = ri + rj + (remembered ? laws.reach(row_of_types, ri, rj) : 0.0);
-  const bool ended = remembered && laws.law(row_of_types).tangential().second_order &&
-                     Talus::has_just_ended((*remembered)[3], false);
+  const double touch = ri + rj + (stored ? laws.pulloff_distance(row_of_types, ri, rj) : 0.0);
+  const bool ended = stored && laws.law(row_of_types).tangential().second_order &&
+                     Talus::has_just_ended((*stored)[3], false);
   if ((rsq >= touch * touch && !ended) || rsq == 0.0) return {};
 
   const double r = std::sqrt(rsq);
@@ -78,7 +78,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.inverse_mass = 1.0 / system->masses().mass(i) + 1.0 / system->masses().mass(j);
   s.inverse_radius = 1.0 / ri + 1.0 / rj;
   s.relative_omega = row(atom->omega[i]) - row(atom->omega[j]);
-  s.circle = Talus::circle_of_intersection(ri, rj, s.overlap);
+  s.intersection_radius = Talus::intersection_radius_of(ri, rj, s.overlap);
   s.inverse_distance = 1.0 / r;
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
@@ -92,7 +92,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
 
   return SinglePair{Talus::single_contact(laws.law(row_of_types), laws.coefficients(row_of_types),
                                           s, this->update->dt,
-                                          remembered.value_or(Talus::HistoryValues{})),
+                                          stored.value_or(Talus::HistoryValues{})),
                     r, ri, rj};
 }
 

@@ -19,9 +19,9 @@
 namespace Talus {
 
 /// `per_mass`: kick/m.
-template <class Real> inline Real kicked(Real v, Real per_mass, Real force, Real fall)
+template <class Real> inline Real kicked(Real v, Real per_mass, Real force, Real gravity_kick)
 {
-  return v + (per_mass * force + fall);
+  return v + (per_mass * force + gravity_kick);
 }
 
 template <class Real> inline Real drifted(Real x, Real dt, Real v)
@@ -36,7 +36,7 @@ inline Real kick_per_inertia(Real per_mass, Real inverse_radius, double inverse_
   return per_mass * (inverse_radius * inverse_radius) * inverse_c;
 }
 
-template <class Real> inline Real turned(Real omega, Real per_inertia, Real torque)
+template <class Real> inline Real kicked_omega(Real omega, Real per_inertia, Real torque)
 {
   return omega + per_inertia * torque;
 }

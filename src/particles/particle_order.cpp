@@ -23,7 +23,7 @@ void ParticleOrder::require_countable(std::size_t particles)
 
 namespace {
 
-/* The host's particles are usually in order already, since the contact store sorts them by key. */
+/* LAMMPS' particles are usually in order already, since the contact store sorts them by key. */
 
 template <class Before>
 std::vector<int> sorted(int begin_all, int end_all, int threads, Before before)

@@ -21,13 +21,13 @@ struct SlotRange {
 class ParticleOrder {
  public:
   /// At a rebuild: puts all particles into the order of (key, tag); images of one particle keep the
-  /// order of the host. The arrays are in the host's numbering: owned particles 0 ... num_owned-1,
+  /// order of LAMMPS. The arrays are in LAMMPS' numbering: owned particles 0 ... num_owned-1,
   /// then ghosts. Particles that are in order already, or nearly, cost least. Throws what
   /// require_countable() throws.
   void arrange(int num_owned, const std::vector<std::uint64_t> &key,
                std::vector<std::int64_t> tag_of_atom, int threads = 1);
 
-  /// Slots are counted with an int, like the host's particles: throws std::length_error if there
+  /// Slots are counted with an int, like LAMMPS' particles: throws std::length_error if there
   /// are too many.
   static void require_countable(std::size_t particles);
 
@@ -42,10 +42,10 @@ class ParticleOrder {
   }
   double memory_usage() const;
 
-  int owned = 0;                    ///< host's indices below this are owned by this rank
-  std::vector<std::int64_t> tag;    ///< by host's index, as of the rebuild
-  std::vector<int> atom_of_slot;    ///< slot -> host's index
-  std::vector<int> slot_of_atom;    ///< host's index -> slot
+  int owned = 0;                    ///< local indices below this are owned by this rank
+  std::vector<std::int64_t> tag;    ///< by local index, as of the rebuild
+  std::vector<int> atom_of_slot;    ///< slot -> local index
+  std::vector<int> slot_of_atom;    ///< local index -> slot
 };
 
 }    // namespace Talus

@@ -46,21 +46,21 @@ void ParticleRecords::release_sums()
 
 /* Eight particles at a time, for the sake of the divisions. */
 
-void ParticleRecords::read(const ParticleOrder &order, const ParticleView &host,
+void ParticleRecords::read(const ParticleOrder &order, const ParticleView &arrays,
                            const SlotChoice &slots)
 {
-  slots.in_groups([&](const int *slot, int count) { read_eight(order, host, slot, count); });
+  slots.in_groups([&](const int *slot, int count) { read_eight(order, arrays, slot, count); });
 }
 
-inline void ParticleRecords::read_eight(const ParticleOrder &order, const ParticleView &host,
+inline void ParticleRecords::read_eight(const ParticleOrder &order, const ParticleView &arrays,
                                         const int *slots, int count)
 {
   alignas(64) double inverse_mass[lanes], inverse_radius[lanes];
   for (int k = 0; k < lanes; k++) {
     const int a = order.atom_of_slot[slots[std::min(k, count - 1)]];
-    const bool replaced = host.mass_override && host.mass_override[a] > 0.0;
-    inverse_mass[k] = replaced ? host.mass_override[a] : host.mass[a];
-    inverse_radius[k] = host.radius[a];
+    const bool replaced = arrays.mass_override && arrays.mass_override[a] > 0.0;
+    inverse_mass[k] = replaced ? arrays.mass_override[a] : arrays.mass[a];
+    inverse_radius[k] = arrays.radius[a];
   }
   store(inverse_mass, splat<Vec8>(1.0) / load8(inverse_mass));
   store(inverse_radius, splat<Vec8>(1.0) / load8(inverse_radius));
@@ -68,10 +68,10 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
   for (int k = 0; k < count; k++) {
     const std::size_t s = slots[k];
     const std::int64_t a = 3L * order.atom_of_slot[s];
-    store(position[s], record_of(host.x + a, host.radius[order.atom_of_slot[s]]));
-    store(motion[stride * s], record_of(host.v + a, inverse_mass[k]));
-    if (stride == 2) store(motion[2 * s + 1], record_of(host.omega + a, inverse_radius[k]));
-    if (keeps_changes()) change[s] = host.change[order.atom_of_slot[s]];
+    store(position[s], record_of(arrays.x + a, arrays.radius[order.atom_of_slot[s]]));
+    store(motion[stride * s], record_of(arrays.v + a, inverse_mass[k]));
+    if (stride == 2) store(motion[2 * s + 1], record_of(arrays.omega + a, inverse_radius[k]));
+    if (keeps_changes()) change[s] = arrays.change[order.atom_of_slot[s]];
     begin_sums(s, load4(motion[stride * s]));
   }
 }
@@ -83,16 +83,16 @@ void ParticleRecords::set_gravity(const double *acceleration)
   has_gravity = gravity.c[0] != 0.0 || gravity.c[1] != 0.0 || gravity.c[2] != 0.0;
 }
 
-void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &host, int begin,
+void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &arrays, int begin,
                              int end) const
 {
   const bool rotation = stride == 2;
   for (int s = begin; s < end; s++) {
     const int a = order.atom_of_slot[s];
     if (!order.is_owned(a)) continue;
-    add_to_row(host.f + 3L * a, load4(load[stride * s]));
-    if (rotation) add_to_row(host.torque + 3L * a, torque(s));
-    if (host.heat_flow) host.heat_flow[a] += twisting_torque[s].c[3];
+    add_to_row(arrays.f + 3L * a, load4(load[stride * s]));
+    if (rotation) add_to_row(arrays.torque + 3L * a, torque(s));
+    if (arrays.heat_flow) arrays.heat_flow[a] += twisting_torque[s].c[3];
   }
 }
 

@@ -1,12 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // State of all particles of a rank, owned and ghost, as records in canonical order, and the sums of
-// their contact forces. The host's arrays are read once and written once in a step; or, as long as
-// no code outside reads the particles, not at all: advance() then moves them here.
+// their contact forces. The arrays of LAMMPS are read once and written once in a step; or, as long
+// as no code outside reads the particles, not at all: advance() then moves them here.
 //
 // What a contact needs of its partner apart from the position stands in one cache line, and so does
-// what it adds to it: (velocity, omega) and (force, moment). Scenes without friction have no second
-// halves.
+// what it adds to it: (velocity, omega) and (force, torque per radius). Scenes without friction
+// have no second halves.
 
 #ifndef TALUS_PARTICLES_PARTICLE_RECORDS_H
 #define TALUS_PARTICLES_PARTICLE_RECORDS_H
@@ -23,7 +23,7 @@
 
 namespace Talus {
 
-/// The host's arrays: rows of three doubles, owned particles first, then ghosts.
+/// The arrays of LAMMPS: rows of three doubles, owned particles first, then ghosts.
 struct ParticleView {
   double *x, *v, *omega;    ///< omega may be nullptr in a scene without friction
   const double *radius, *mass;
@@ -37,9 +37,9 @@ struct ParticleView {
 /// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),
 /// both once or twice, then x += dt v. A particle of infinite mass only drifts.
 struct RecordStep {
-  double dt, kick;    ///< time; kick times the host's force/(mass acceleration)
-  double fall[3];     ///< change of velocity by gravity, in each kick
-  double inertia;     ///< 2/5 for spheres, 1/2 for discs
+  double dt, kick;           ///< time; kick times LAMMPS' force/(mass acceleration)
+  double gravity_kick[3];    ///< change of velocity by gravity, in each kick
+  double inertia;            ///< 2/5 for spheres, 1/2 for discs
   /// Two for velocity Verlet: with the forces of the last step the kick that ends it, and the one
   /// that begins this step.
   bool two_kicks = false;
@@ -104,22 +104,22 @@ struct alignas(64) RecordTravel {
 class ParticleRecords {
  public:
   /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
-  /// in scenes without friction: omega records and moments are then neither read nor kept.
-  /// `twisting_torques`: laws with resistance occur. `copies`: of the states of some particles,
-  /// behind those of all. `changes`: see keep_changes().
+  /// in scenes without friction: omega records and torques per radius are then neither read nor
+  /// kept. `twisting_torques`: laws with resistance occur. `copies`: of the states of some
+  /// particles, behind those of all. `changes`: see keep_changes().
   void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0,
               bool changes = false);
   /// From now on changes of velocities are kept, 0 before the next step, or are not.
   void keep_changes(bool yes);
   bool keeps_changes() const { return !change.empty(); }
 
-  /// Gives the memory of the sums back. That of the states stays: rebuilds need less than it on top
-  /// of what they need without sums, and allocating memory anew takes time.
+  /// Releases the memory of the sums. That of the states stays: it is smaller than what rebuilds
+  /// need besides the sums, and allocating it again takes time.
   void release_sums();
   bool has_room() const { return !load.empty(); }
 
   /// Reads the state of some slots and clears their sums.
-  void read(const ParticleOrder &order, const ParticleView &host, const SlotChoice &slots);
+  void read(const ParticleOrder &order, const ParticleView &arrays, const SlotChoice &slots);
 
   /// From the next read(), advance() or clear() on: the sums of forces begin with the weight of the
   /// particle in a field of gravity (acceleration, nullptr: none). Without weight are those of
@@ -130,11 +130,11 @@ class ParticleRecords {
   void set_weightless(std::vector<unsigned char> marks) { weightless = std::move(marks); }
   /// The same: masses of the particles where those of the records are those of rigid bodies.
   void set_own_masses(std::vector<double> masses) { own_mass = std::move(masses); }
-  /// Where the sum of forces of a slot begins, if its velocity record is that.
-  Vec4 weight(std::size_t slot, Vec4 its_velocity) const
+  /// Initial value of the sum of forces of a slot with this velocity record.
+  Vec4 weight(std::size_t slot, Vec4 velocity_record) const
   {
     if (!has_gravity) return Vec4{};
-    const double inverse_mass = its_velocity[3];
+    const double inverse_mass = velocity_record[3];
     const double mass = own_mass.empty() ? 1.0 / inverse_mass : own_mass[slot];
     const bool has_weight = inverse_mass > 0.0 && (weightless.empty() || !weightless[slot]);
     return kept_if(has_weight, mass * load4(gravity));
@@ -142,12 +142,12 @@ class ParticleRecords {
   Vec4 weight(int slot) const { return weight(slot, load4(velocity(slot))); }
 
   /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1
-  /// to the host's rows of owned particles: f += F, torque += C - r M.
-  void add_to(const ParticleOrder &order, const ParticleView &host, int begin, int end) const;
+  /// to LAMMPS' rows of owned particles: f += F, torque += C - r M.
+  void add_to(const ParticleOrder &order, const ParticleView &arrays, int begin, int end) const;
 
-  /// Writes x, v and, if angular velocities are kept, omega of a slot to the host's row.
+  /// Writes x, v and, if angular velocities are kept, omega of a slot to LAMMPS' row.
   void write_state(int slot, double *x, double *v, double *omega) const;
-  /// Sets the host's row of forces, and that of torques if angular velocities are kept.
+  /// Sets LAMMPS' row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
 
   /// Keeps the changes of a slot whose records of velocities and angular velocities were replaced
@@ -159,13 +159,13 @@ class ParticleRecords {
           change_of(extrapolation * (v - v_old), radius * (extrapolation * (w - w_old))));
   }
 
-  /// Moves the particles of some slots and begins their sums anew. `role` of each slot: a ghost, at
+  /// Moves the particles of some slots and resets their sums. `role` of each slot: a ghost, at
   /// rest, or MOVES + n for the ones that the step n moves; empty: all are moved by the first step.
   /// `held`: position records when lists were made, or nullptr if the travel is not needed.
   enum Role : unsigned char { GHOST, RESTS, MOVES };
   RecordTravel advance(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                        const Record *held, const SlotChoice &slots);
-  /// Only begins sums anew.
+  /// Only resets the sums.
   void clear(int begin, int end);
 
   /// Copies the state of a slot to where other cores read it; then streams_are_done().
@@ -178,9 +178,9 @@ class ParticleRecords {
     if (keeps_changes()) stream(change[to], load8(change[from]));
   }
 
-  /// Torque on a slot so far: C - r M, or what settle_torque() has made of it. Torques are added
-  /// in one order on any number of threads: first those of the contacts, and of these first the
-  /// lever arms.
+  /// Torque on a slot so far: C - r M with the twisting torque C and the torque per radius M, or
+  /// the torque itself after settle_torque(). Torques are added in one order on any number of
+  /// threads: first those of the contacts, and of these first the lever arms.
   Vec4 torque(int slot) const
   {
     const std::size_t s = slot;
@@ -198,9 +198,9 @@ class ParticleRecords {
 
   double memory_usage() const;
 
-  /// Calls the state of a slot into the cache, before it is read or set; a hint. (A call that is
+  /// Prefetches the state of a slot, before it is read or set. (A call that is
   /// not inlined would be removed: to the compiler it has no effect.)
-  TALUS_INLINE void call(int slot) const
+  TALUS_INLINE void prefetch(int slot) const
   {
     __builtin_prefetch(position.data() + slot, 1);
     __builtin_prefetch(motion.data() + stride * slot, 1);
@@ -239,7 +239,7 @@ class ParticleRecords {
   double extrapolation = 0.0;    ///< of the step that moves particles, see RecordStep
 
  private:
-  void read_eight(const ParticleOrder &order, const ParticleView &host, const int *slots,
+  void read_eight(const ParticleOrder &order, const ParticleView &arrays, const int *slots,
                   int count);
   struct Kick;
   struct Moved {
@@ -250,17 +250,17 @@ class ParticleRecords {
   RecordTravel advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                            const Record *held, const SlotChoice &slots);
   /// The sums of a slot with this velocity record, before anything is added.
-  void begin_sums(std::size_t slot, Vec4 its_velocity)
+  void begin_sums(std::size_t slot, Vec4 velocity_record)
   {
-    store(load[stride * slot], weight(slot, its_velocity));
+    store(load[stride * slot], weight(slot, velocity_record));
     if (stride == 2) store(load[2 * slot + 1], Vec4{});
     if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
   }
-  Vec4 torque_of(std::size_t slot, Vec4 its_position, Vec4 its_force) const
+  Vec4 torque_of(std::size_t slot, Vec4 position_record, Vec4 force_record) const
   {
-    const Vec4 its_load = load4(load[2 * slot + 1]);
-    if (its_force[3] != 0.0) return its_load;
-    const Vec4 of_forces = Vec4{} - its_position[3] * its_load;
+    const Vec4 torque_record = load4(load[2 * slot + 1]);
+    if (force_record[3] != 0.0) return torque_record;
+    const Vec4 of_forces = Vec4{} - position_record[3] * torque_record;
     return twisting_torque.empty() ? of_forces : of_forces + load4(twisting_torque[slot]);
   }
 

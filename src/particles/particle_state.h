@@ -5,12 +5,11 @@
 // Code that computes contacts with bodies, walls and shapes, or moves clumps, reads and writes
 // particles here and does not ask which it is.
 //
-// A particle has the host's index i; where it is stored it has a place, that index or its slot.
-// Loops that go through many particles keep places, and read eight of them at a time.
+// A particle has a local index i; its place is where it is stored: that index in the arrays, its
+// slot in the records. Loops over many particles keep places, and read eight of them at a time.
 //
-// Made anew for each use, by GranularSystem::particles(); valid until the particles go elsewhere:
-// when forces between particles are computed, or they return to the host. Units are those of the
-// host.
+// Made for each use, by GranularSystem::particles(); valid until the particles go elsewhere:
+// when forces between particles are computed, or they return to LAMMPS. Units are those of LAMMPS.
 
 #ifndef TALUS_PARTICLES_PARTICLE_STATE_H
 #define TALUS_PARTICLES_PARTICLE_STATE_H
@@ -29,10 +28,10 @@ class ParticleState {
   ParticleState() = default;
   /// In the arrays; `type` counts from 1. With `records` there, of owned particles and ghosts, with
   /// the slot of each.
-  ParticleState(int owned, const ParticleView &arrays, const int *type,
+  ParticleState(int owned, const ParticleView &view, const int *type,
                 ParticleRecords *records = nullptr, const int *slot_of_atom = nullptr) :
       num_owned(owned),
-      host(arrays), types(type), in_records(records), slots(slot_of_atom)
+      arrays(view), types(type), in_records(records), slots(slot_of_atom)
   {
   }
 
@@ -40,16 +39,17 @@ class ParticleState {
   int type(int i) const { return types[i]; }
   /// In the arrays, other masses for some particles, see ParticleView; in the records they are those
   /// of the last step.
-  void replace_masses(const double *mass_override) { host.mass_override = mass_override; }
+  void replace_masses(const double *mass_override) { arrays.mass_override = mass_override; }
 
-  /// Where particles are in the arrays of the host, as in all steps that it looks at.
-  bool is_shown() const { return !in_records; }
-  /// Where they live, for code that moves many in its own way; nullptr: in the arrays.
+  /// Particles are in the arrays of LAMMPS, as in all steps that LAMMPS reads or writes them in.
+  bool is_in_arrays() const { return !in_records; }
+  /// The records, for code that moves many particles in its own way; nullptr: particles are in the
+  /// arrays.
   ParticleRecords *records() const { return in_records; }
-  /// Slots by the host's index, in whose order a step goes through the particles; nullptr: in none.
+  /// Slots by local index, in whose order a step goes through the particles; nullptr: in none.
   const int *order() const { return in_records ? slots : nullptr; }
 
-  // ---- by the host's index
+  // ---- by local index
 
   int place(int i) const { return in_records ? slots[i] : i; }
   Vector3<double> position(int i) const { return vector(x(i)); }
@@ -58,7 +58,7 @@ class ParticleState {
   /// 0 in a scene without torques.
   Vector3<double> angular_velocity(int i) const
   {
-    return keeps_spins() ? vector(w(i)) : Vector3<double>{0.0, 0.0, 0.0};
+    return keeps_omega() ? vector(w(i)) : Vector3<double>{0.0, 0.0, 0.0};
   }
   /// As contacts feel it; 0 of frozen particles.
   double inverse_mass(int i) const
@@ -71,11 +71,11 @@ class ParticleState {
   double *x(int i) const { return row_at(place(i)); }
   double *v(int i) const
   {
-    return in_records ? in_records->motion[in_records->stride * slots[i]].c : host.v + 3L * i;
+    return in_records ? in_records->motion[in_records->stride * slots[i]].c : arrays.v + 3L * i;
   }
   double *w(int i) const
   {
-    return in_records ? in_records->motion[2 * slot(i) + 1].c : host.omega + 3L * i;
+    return in_records ? in_records->motion[2 * slot(i) + 1].c : arrays.omega + 3L * i;
   }
   /// Of its velocities, see ParticleRecords::change; nullptr if they are not kept.
   ChangeRecord *change(int i) const
@@ -91,7 +91,7 @@ class ParticleState {
   /// cleared in the records.
   Load load(int i) const
   {
-    if (!in_records) return {vector(host.f + 3L * i), vector(host.torque + 3L * i)};
+    if (!in_records) return {vector(arrays.f + 3L * i), vector(arrays.torque + 3L * i)};
     if (!(in_records->velocity(slots[i]).c[3] > 0.0)) return {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     Record torque;
     store(torque, in_records->torque(slots[i]));
@@ -100,14 +100,15 @@ class ParticleState {
   /// The sum of forces, of any particle.
   Vector3<double> force(int i) const
   {
-    return vector(in_records ? in_records->load[in_records->stride * slots[i]].c : host.f + 3L * i);
+    return vector(in_records ? in_records->load[in_records->stride * slots[i]].c
+                             : arrays.f + 3L * i);
   }
   /// Adds to the sums of one particle, where there are torques; by one thread for each.
   void add(int i, const Vector3<double> &force, const Vector3<double> &torque) const
   {
     if (in_records) in_records->settle_torque(slots[i]);
-    double *const f = in_records ? in_records->load[2 * slot(i)].c : host.f + 3L * i;
-    double *const t = in_records ? in_records->load[2 * slot(i) + 1].c : host.torque + 3L * i;
+    double *const f = in_records ? in_records->load[2 * slot(i)].c : arrays.f + 3L * i;
+    double *const t = in_records ? in_records->load[2 * slot(i) + 1].c : arrays.torque + 3L * i;
     f[0] += force.x;
     f[1] += force.y;
     f[2] += force.z;
@@ -121,28 +122,28 @@ class ParticleState {
   Vector3<double> position_at(int place) const { return vector(row_at(place)); }
   double radius_at(int place) const
   {
-    return in_records ? in_records->position[place].c[3] : host.radius[place];
+    return in_records ? in_records->position[place].c[3] : arrays.radius[place];
   }
 
-  /// Calls a position and radius into the cache; a hint.
+  /// Prefetches a position and radius.
   void prefetch_position(int place) const
   {
     if (in_records) {
       __builtin_prefetch(in_records->position.data() + place);
     } else {
-      __builtin_prefetch(host.x + 3L * place);
-      __builtin_prefetch(host.radius + place);
+      __builtin_prefetch(arrays.x + 3L * place);
+      __builtin_prefetch(arrays.radius + place);
     }
   }
-  /// What a contact reads and adds to, once its position is known; the same.
+  /// Prefetches what a contact reads and adds to, once its position is known.
   void prefetch_for_contact(int place) const
   {
     if (in_records) {
       in_records->prefetch_for_contact(place);
     } else {
-      for (const double *rows : {host.v, host.omega}) __builtin_prefetch(rows + 3L * place);
-      for (const double *rows : {host.f, host.torque}) __builtin_prefetch(rows + 3L * place, 1);
-      __builtin_prefetch(host.mass + place);
+      for (const double *rows : {arrays.v, arrays.omega}) __builtin_prefetch(rows + 3L * place);
+      for (const double *rows : {arrays.f, arrays.torque}) __builtin_prefetch(rows + 3L * place, 1);
+      __builtin_prefetch(arrays.mass + place);
     }
   }
 
@@ -161,7 +162,7 @@ class ParticleState {
   /// Changes of velocities by place, as change().
   ChangeRecord *changes() const
   {
-    if (!in_records) return host.change;
+    if (!in_records) return arrays.change;
     return in_records->keeps_changes() ? in_records->change.data() : nullptr;
   }
   /// Adds to the sums of the first `count` of these particles, one after another: some may be the
@@ -173,19 +174,19 @@ class ParticleState {
  private:
   static Vector3<double> vector(const double *row) { return {row[0], row[1], row[2]}; }
   std::size_t slot(int i) const { return static_cast<std::size_t>(slots[i]); }
-  bool keeps_spins() const { return !in_records || in_records->stride == 2; }
+  bool keeps_omega() const { return !in_records || in_records->stride == 2; }
   double *row_at(int place) const
   {
-    return in_records ? in_records->position[place].c : host.x + 3L * place;
+    return in_records ? in_records->position[place].c : arrays.x + 3L * place;
   }
   double inverse_mass_in_arrays(int i) const
   {
-    const bool replaced = host.mass_override && host.mass_override[i] > 0.0;
-    return 1.0 / (replaced ? host.mass_override[i] : host.mass[i]);
+    const bool replaced = arrays.mass_override && arrays.mass_override[i] > 0.0;
+    return 1.0 / (replaced ? arrays.mass_override[i] : arrays.mass[i]);
   }
 
   int num_owned = 0;
-  ParticleView host{};
+  ParticleView arrays{};
   const int *types = nullptr;
   ParticleRecords *in_records = nullptr;
   const int *slots = nullptr;
@@ -197,15 +198,16 @@ TALUS_INLINE void ParticleState::spheres_at(Place place, double (&center)[3][lan
 {
   if (in_records) {
     const Record *const positions = in_records->position.data();
-    const EightRows its = to_lanes([=](int k) -> const Record & { return positions[place(k)]; });
-    for (int d = 0; d < 3; d++) store(center[d], its.number[d]);
-    store(radii, its.number[3]);
+    const EightRows spheres =
+        to_lanes([=](int k) -> const Record & { return positions[place(k)]; });
+    for (int d = 0; d < 3; d++) store(center[d], spheres.number[d]);
+    store(radii, spheres.number[3]);
     return;
   }
   for (int k = 0; k < lanes; k++) {
     const int i = place(k);
-    for (int d = 0; d < 3; d++) center[d][k] = host.x[3L * i + d];
-    radii[k] = host.radius[i];
+    for (int d = 0; d < 3; d++) center[d][k] = arrays.x[3L * i + d];
+    radii[k] = arrays.radius[i];
   }
 }
 
@@ -225,8 +227,8 @@ TALUS_INLINE ParticleState::Motion ParticleState::motion_at(Place place, Vec8 ra
   alignas(64) double velocity[3][lanes], omega[3][lanes] = {}, inverse_mass[lanes];
   for (int k = 0; k < lanes; k++) {
     const int i = place(k);
-    for (int d = 0; d < 3; d++) velocity[d][k] = host.v[3L * i + d];
-    for (int d = 0; d < 3 && with_torques; d++) omega[d][k] = host.omega[3L * i + d];
+    for (int d = 0; d < 3; d++) velocity[d][k] = arrays.v[3L * i + d];
+    for (int d = 0; d < 3 && with_torques; d++) omega[d][k] = arrays.omega[3L * i + d];
     inverse_mass[k] = inverse_mass_in_arrays(i);
   }
   return {{load8(velocity[0]), load8(velocity[1]), load8(velocity[2])},
@@ -253,8 +255,8 @@ TALUS_INLINE void ParticleState::add_at(Place place, int count, const EightRows 
       if (torques) store(sums[1], in_records->torque(at) + load4(torque[k]));
       store(sums[0], torques ? shuffle<0, 1, 2, 4>(sum, four(1.0, 1.0, 1.0, 1.0)) : sum);
     } else {
-      for (int d = 0; d < 3; d++) host.f[3L * at + d] += force[k].c[d];
-      for (int d = 0; d < 3 && torques; d++) host.torque[3L * at + d] += torque[k].c[d];
+      for (int d = 0; d < 3; d++) arrays.f[3L * at + d] += force[k].c[d];
+      for (int d = 0; d < 3 && torques; d++) arrays.torque[3L * at + d] += torque[k].c[d];
     }
   }
 }

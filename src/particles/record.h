@@ -8,8 +8,8 @@
 //   omega record      { wx, wy, wz, 1/r }                 1/time, 1/length
 //   history record   { ... }                             see HistoryLayout: of most laws the first
 //                                                        one is dx, dy, dz (length), at limit
-//   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::add_torque()
-//   moment           { x, y, z, unused }
+//   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::settle_torque()
+//   torque per radius { x, y, z, unused } force; torque = -r times it
 //   twisting torque  { x, y, z, heat flow }              of scenes that conduct heat
 //
 // The fourth entries of the first three are chosen such that the sum of two records gives what a

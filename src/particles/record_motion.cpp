@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Particles that are moved in their records, without the host's arrays. Every operation and its
-// order are those of the integrators in the arrays of the host and of forecast_motion(), so that it
+// Particles that are moved in their records, without the arrays of LAMMPS. Every operation and its
+// order are those of the integrators in the arrays of LAMMPS and of forecast_motion(), so that it
 // does not show in a result where a step was made.
 
 #include "particles/kick_and_drift.h"
@@ -48,9 +48,9 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
   const Record &force = load[stride * slot];
   std::copy(force.c, force.c + 3, f);
   if (stride == 1) return;
-  Record turn;
-  store(turn, torque(slot));
-  std::copy(turn.c, turn.c + 3, torque_row);
+  Record total_torque;
+  store(total_torque, torque(slot));
+  std::copy(total_torque.c, total_torque.c + 3, torque_row);
 }
 
 /* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they
@@ -59,11 +59,11 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
 struct ParticleRecords::Kick {
   explicit Kick(const RecordStep &step) :
       kick(four(step.kick, step.kick, step.kick, 0.0)), dt(four(step.dt, step.dt, step.dt, 0.0)),
-      fall(four(step.fall[0], step.fall[1], step.fall[2], 0.0)), inverse_c(1.0 / step.inertia),
-      twice(step.two_kicks)
+      gravity_kick(four(step.gravity_kick[0], step.gravity_kick[1], step.gravity_kick[2], 0.0)),
+      inverse_c(1.0 / step.inertia), twice(step.two_kicks)
   {
   }
-  Vec4 kick, dt, fall;
+  Vec4 kick, dt, gravity_kick;
   double inverse_c;
   bool twice;
 };
@@ -75,15 +75,15 @@ inline ParticleRecords::Moved ParticleRecords::kick(const Kick &with, std::size_
   Record *moves = &motion[stride * s];
   const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
   const Vec4 x = load4(position[s]), force = load4(load[stride * s]);
-  const Vec4 fall = kept_if(v[3] != 0.0, with.fall);
-  Vec4 v_new = kicked(v, per_mass, force, fall);
-  if (with.twice) v_new = kicked(v_new, per_mass, force, fall);
+  const Vec4 gravity_kick = kept_if(v[3] != 0.0, with.gravity_kick);
+  Vec4 v_new = kicked(v, per_mass, force, gravity_kick);
+  if (with.twice) v_new = kicked(v_new, per_mass, force, gravity_kick);
   if constexpr (rotation) {
     const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
     const Vec4 per_inertia = kick_per_inertia(per_mass, inverse_radius, with.inverse_c);
     const Vec4 torque = torque_of(s, x, force);
-    Vec4 w_new = turned(w, per_inertia, torque);
-    if (with.twice) w_new = turned(w_new, per_inertia, torque);
+    Vec4 w_new = kicked_omega(w, per_inertia, torque);
+    if (with.twice) w_new = kicked_omega(w_new, per_inertia, torque);
     store(moves[1], w_new);
     if constexpr (changes) keep_change(s, v, v_new, w, w_new);
   } else if constexpr (changes)
@@ -99,22 +99,22 @@ RecordTravel ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
                                           const std::vector<Role> &role, const Record *held,
                                           const SlotChoice &slots)
 {
-  constexpr std::size_t its_stride = rotation ? 2 : 1;
+  constexpr std::size_t row_stride = rotation ? 2 : 1;
   const Kick first(steps[0]);
   const std::vector<Kick> others(steps.begin() + 1, steps.end());
   const Role *const roles = role.empty() ? nullptr : role.data();
   Vec4 moved2{}, fastest2{};
   slots.for_each(64, [&](std::size_t s, std::size_t soon) {
     __builtin_prefetch(position.data() + soon, 1);
-    __builtin_prefetch(motion.data() + its_stride * soon, 1);
-    __builtin_prefetch(load.data() + its_stride * soon, 1);
+    __builtin_prefetch(motion.data() + row_stride * soon, 1);
+    __builtin_prefetch(load.data() + row_stride * soon, 1);
     if (held) __builtin_prefetch(held + soon);
-    const Role its = roles ? roles[s] : MOVES;
-    const Moved now = its == MOVES  ? kick<rotation, changes>(first, s)
-                      : its > MOVES ? kick<rotation, changes>(others[its - MOVES - 1], s)
-                                    : Moved{load4(position[s]), load4(motion[its_stride * s])};
+    const Role role = roles ? roles[s] : MOVES;
+    const Moved now = role == MOVES  ? kick<rotation, changes>(first, s)
+                      : role > MOVES ? kick<rotation, changes>(others[role - MOVES - 1], s)
+                                     : Moved{load4(position[s]), load4(motion[row_stride * s])};
     begin_sums(s, now.v);
-    if (!held || its == GHOST) return;
+    if (!held || role == GHOST) return;
     moved2 = larger(square(now.x - load4(held[s])), moved2);
     fastest2 = larger(square(clear_fourth(now.v)), fastest2);
   });

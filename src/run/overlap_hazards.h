@@ -15,8 +15,8 @@ class LAMMPS;
 namespace Talus {
 
 /// "" if the exchange of proxies may overlap with the computation of pairs, else the first reason
-/// why it must not, for people. The same on all ranks. `pairs_computed`: the integrator calls the
-/// pair style.
+/// why it must not, as text for messages. The same on all ranks. `pairs_computed`: the integrator
+/// calls the pair style.
 std::string hazard_of_overlap(LAMMPS_NS::LAMMPS *lmp, bool pairs_computed);
 
 }    // namespace Talus

@@ -72,7 +72,7 @@ void RebuildCheck::ask(const RecordTravel *travel)
   asked = true;
 }
 
-/* The host decides first, as if there were no check: that tells whether a fix or a restart file
+/* LAMMPS decides first, as if there were no check: that tells whether a fix or a restart file
    demands new lists, which leaves the age of the lists as it is, or whether a check is due. */
 
 bool RebuildCheck::decide(const std::function<double()> &moved)
@@ -127,7 +127,7 @@ bool RebuildCheck::has_left(double moved) const
   return farthest > limit();
 }
 
-/* Half of the skin. As in the host, a box that changes takes from it what its two fastest corners
+/* Half of the skin. As in LAMMPS, a box that changes takes from it what its two fastest corners
    have moved, or if it is orthogonal its lowest and its highest one. */
 
 double RebuildCheck::limit() const

@@ -1,13 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Decides when neighbor lists are made anew, without waiting for all ranks in every step: takes the
+// Decides when neighbor lists are rebuilt, without waiting for all ranks in every step: takes the
 // place of Neighbor::decide() in our Verlet loop and keeps to `neigh_modify`.
 //
 // The question how far particles may be in the next step is asked in one step (ask()) and the
 // answer used in the next (decide()), see motion_forecast.h. With `every 1` a forecast that a
 // particle may be beyond half of the skin is followed by LAMMPS' own check in the step itself:
-// lists are made anew in the same steps as by LAMMPS. With `every N` they are made anew if a
-// particle may be beyond it before the next chance.
+// lists are rebuilt in the same steps as by LAMMPS. With `every N` they are rebuilt if a particle
+// may move beyond it before the next step in which they may be rebuilt.
 //
 // All methods are collective; every rank decides the same.
 
@@ -34,15 +34,15 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   RebuildCheck(const RebuildCheck &) = delete;
   RebuildCheck &operator=(const RebuildCheck &) = delete;
 
-  /// The host has just made new lists.
+  /// LAMMPS has just made new lists.
   void list_is_new();
 
   /// After the particles of this step have moved and lists, if due, are made: starts to find out
   /// how far particles may be in the next step, if a check is due there. Does not wait. `travel`:
-  /// what is known of that already, where the host's arrays are not up to date.
+  /// what is known of that already, where the arrays of LAMMPS are not up to date.
   void ask(const RecordTravel *travel);
 
-  /// Once per step, after particles have moved: whether lists are made anew in this step. `moved`:
+  /// Once per step, after particles have moved: whether lists are rebuilt in this step. `moved`:
   /// tells how far the particles of this rank are from where they were when lists were made.
   bool decide(const std::function<double()> &moved);
 
@@ -50,7 +50,7 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   void drop();
 
   /// Lists that were used too long, in this run: because `neigh_modify every` and `delay` left no
-  /// step before in which they could be made anew, or because particles moved further than
+  /// step before in which they could be rebuilt, or because particles moved further than
   /// foreseen.
   int num_delayed() const { return delayed; }
   int num_unforeseen() const { return unforeseen; }

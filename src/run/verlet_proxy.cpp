@@ -29,7 +29,7 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-/* As `verlet` it takes the place of the host's, which ignores words. */
+/* As `verlet` it takes the place of LAMMPS', which ignores words. */
 
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
     Verlet(lmp, 0, nullptr), system(GranularSystem::of(lmp))
@@ -104,10 +104,10 @@ void VerletProxy::run(int n)
   lists->ask(nullptr);
   system->start_run(pair_compute_flag);
   reverses = force->newton && others_act_on_ghosts();
-  // an error on the way, or the end of the time allowed, must not leave the host's arrays behind
+  // an error on the way, or the end of the time allowed, must not leave the arrays of LAMMPS behind
   struct End {
     GranularSystem &system;
-    ~End() { system.return_to_host(); }
+    ~End() { system.return_to_arrays(); }
   } at_the_end{*system};
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
@@ -128,7 +128,7 @@ bool VerletProxy::others_act_on_ghosts() const
          modify->n_pre_reverse;
 }
 
-/* One step of the host's Verlet loop, in its order; only the marked places differ. */
+/* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. */
 
 void VerletProxy::step()
 {
@@ -140,23 +140,23 @@ void VerletProxy::step()
   if (modify->n_post_integrate) modify->post_integrate();
   timer->stamp(Timer::MODIFY);
 
-  // the host's decide() waits for all ranks
-  const bool anew = lists->decide([this] { return system->moved_since_rebuild(); });
-  if (anew) rebuild();
-  // the host's forces are not read in a step after which particles stay in the records
-  const bool to_host = system->begin_forces(now, eflag || vflag);
-  if (!anew)
-    system->update_proxies(overlaps);    // the host's forward_comm() is complete at its end
+  // LAMMPS' decide() waits for all ranks
+  const bool must_rebuild = lists->decide([this] { return system->moved_since_rebuild(); });
+  if (must_rebuild) rebuild();
+  // LAMMPS' forces are not read in a step after which particles stay in the records
+  const bool to_arrays = system->begin_forces(now, eflag || vflag);
+  if (!must_rebuild)
+    system->update_proxies(overlaps);    // LAMMPS' forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
   const bool in_records = system->pipeline().holds_state();
   if (!in_records) lists->ask(nullptr);
   timer->stamp(Timer::COMM);
 
-  if (to_host) {
+  if (to_arrays) {
     force_clear();
     timer->stamp();
   }
-  compute_forces(to_host);
+  compute_forces(to_arrays);
   if (in_records) {
     const RecordTravel travel = system->pipeline().travel();
     lists->ask(&travel);
@@ -178,7 +178,7 @@ void VerletProxy::step()
 
 void VerletProxy::bring_back()
 {
-  if (system->return_to_host()) comm->forward_comm();
+  if (system->return_to_arrays()) comm->forward_comm();
 }
 
 void VerletProxy::rebuild()
@@ -217,7 +217,7 @@ void VerletProxy::rebuild()
 
 /* Pairs come first: some bonded styles add to what the pair style has tallied. */
 
-void VerletProxy::compute_forces(bool to_host)
+void VerletProxy::compute_forces(bool to_arrays)
 {
   if (modify->n_pre_force) {
     modify->pre_force(vflag);
@@ -245,8 +245,8 @@ void VerletProxy::compute_forces(bool to_host)
     modify->pre_reverse(eflag, vflag);
     timer->stamp(Timer::MODIFY);
   }
-  // forces in the records are complete, and those of the host not up to date
-  if (reverses && to_host) {
+  // forces in the records are complete, and those of LAMMPS not up to date
+  if (reverses && to_arrays) {
     comm->reverse_comm();
     timer->stamp(Timer::COMM);
   }

@@ -42,7 +42,7 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   void step();
   void bring_back();
   void rebuild();
-  void compute_forces(bool to_host);
+  void compute_forces(bool to_arrays);
 
   std::optional<Talus::RebuildCheck> lists;    ///< of the first run with steps of its own
   std::shared_ptr<Talus::GranularSystem> system;

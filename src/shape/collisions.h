@@ -33,9 +33,9 @@ enum class NarrowPhase {
   MPR          ///< one point per pair, by Minkowski Portal Refinement
 };
 
-/// One of both, at its place.
+/// One of the two, with its pose.
 template <class Kind> struct Placed {
-  const Kind &it;
+  const Kind &geometry;
   const Pose &pose;
 };
 
@@ -60,8 +60,8 @@ class Collisions {
   class Collision {
    public:
     Collision() = default;
-    Collision(Function its_function, bool is_exchanged) :
-        function(its_function), exchanged(is_exchanged)
+    Collision(Function collision_function, bool is_exchanged) :
+        function(collision_function), exchanged(is_exchanged)
     {
     }
     /// false: they cannot touch, and operator() must not be called.

@@ -19,11 +19,11 @@ FaceStiffness::FaceStiffness(const Shape &shape)
   const Eigen::Vector3d moments = shape.principal_moments() / shape.volume();
   const double share = std::min(1.0, most_faces / static_cast<double>(faces.size()));
   const auto row = [&](const Vector3<double> &arm, const Vector3<double> &direction) {
-    const Vector3<double> turn = cross(arm, direction);
-    Vector6 its;
-    its << direction.x, direction.y, direction.z, turn.x / std::sqrt(moments(0)),
-        turn.y / std::sqrt(moments(1)), turn.z / std::sqrt(moments(2));
-    return its;
+    const Vector3<double> torque = cross(arm, direction);
+    Vector6 column;
+    column << direction.x, direction.y, direction.z, torque.x / std::sqrt(moments(0)),
+        torque.y / std::sqrt(moments(1)), torque.z / std::sqrt(moments(2));
+    return column;
   };
   for (const HeldFace &face : faces) {
     Springs of_shapes, of_bodies;
@@ -42,10 +42,10 @@ FaceStiffness::FaceStiffness(const Shape &shape)
       of_bodies.normal += normal;
       of_bodies.tangential += tangential;
     }
-    for (auto [held, its] : {std::pair{&by_shapes, &of_shapes}, {&by_bodies, &of_bodies}}) {
-      held->all.normal += share * its->normal;
-      held->all.tangential += share * its->tangential;
-      held->face.push_back(*its);
+    for (auto [held, springs] : {std::pair{&by_shapes, &of_shapes}, {&by_bodies, &of_bodies}}) {
+      held->all.normal += share * springs->normal;
+      held->all.tangential += share * springs->tangential;
+      held->face.push_back(*springs);
     }
   }
 }

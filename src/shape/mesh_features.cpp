@@ -17,8 +17,8 @@ constexpr double straight = 1.0e-6;    // sine of the angle between pieces of on
 Vector inward_of(const TriangleMesh &mesh, int t, const Vector &from, const Vector &along)
 {
   const Vector n = mesh.normal(t), across = cross(n, along), middle = [&] {
-    const Triangle its = mesh.triangle(t);
-    return (1.0 / 3.0) * (its.corner[0] + its.corner[1] + its.corner[2]);
+    const Triangle triangle = mesh.triangle(t);
+    return (1.0 / 3.0) * (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]);
   }();
   return (dot(across, middle - from) < 0.0 ? -1.0 : 1.0) / length(across) * across;
 }
@@ -31,7 +31,7 @@ bool is_straight(const Vector &a, const Vector &b)
 
 bool same_planes(const MeshFeatures::Ridge &a, const MeshFeatures::Ridge &b)
 {
-  if (a.bend != b.bend) return false;
+  if (a.edge_kind != b.edge_kind) return false;
   return (a.planes[0] == b.planes[0] && a.planes[1] == b.planes[1]) ||
          (a.planes[0] == b.planes[1] && a.planes[1] == b.planes[0]);
 }
@@ -61,26 +61,26 @@ MeshFeatures::MeshFeatures(const TriangleMesh &mesh)
 
 void MeshFeatures::look_at_edges(const TriangleMesh &mesh, const MeshEdges &edges)
 {
-  bends.assign(3L * mesh.size(), Bend::RIM);
+  edge_kinds.assign(3L * mesh.size(), EdgeKind::BOUNDARY);
   neighbors.assign(3L * mesh.size(), -1);
   for (int t = 0; t < mesh.size(); t++)
     for (int k = 0; k < 3; k++) {
       const MeshEdges::Edge &edge = edges.of(t, k);
       if (edge.num_users != 2) continue;
       const int *user = edges.users(edge), other = user[0] == t ? user[1] : user[0];
-      const Corners &its = mesh.corners(t), &others = mesh.corners(other);
-      if (others.runs_along(its.vertex[k], its.vertex[(k + 1) % 3])) continue;
+      const Corners &corners = mesh.corners(t), &others = mesh.corners(other);
+      if (others.runs_along(corners.vertex[k], corners.vertex[(k + 1) % 3])) continue;
       neighbors[3L * t + k] = other;
-      Bend &bend = bends[3L * t + k];
+      EdgeKind &edge_kind = edge_kinds[3L * t + k];
       if (mesh.plane_of(t) == mesh.plane_of(other)) {
-        bend = Bend::FLAT;
+        edge_kind = EdgeKind::FLAT;
         continue;
       }
       int opposite = 0;
       while (others.vertex[opposite] == edge.vertex[0] || others.vertex[opposite] == edge.vertex[1])
         opposite++;
-      const Vector to = mesh.vertex(others.vertex[opposite]) - mesh.vertex(its.vertex[k]);
-      bend = dot(mesh.normal(mesh.plane_of(t)), to) < 0.0 ? Bend::RIDGE : Bend::VALLEY;
+      const Vector to = mesh.vertex(others.vertex[opposite]) - mesh.vertex(corners.vertex[k]);
+      edge_kind = dot(mesh.normal(mesh.plane_of(t)), to) < 0.0 ? EdgeKind::RIDGE : EdgeKind::VALLEY;
     }
 }
 
@@ -91,13 +91,13 @@ void MeshFeatures::find_ridges(const TriangleMesh &mesh, const MeshEdges &edges)
     for (int k = 0; k < 3; k++) {
       const MeshEdges::Edge &edge = edges.of(t, k);
       const int *user = edges.users(edge), *vertex = mesh.corners(t).vertex;
-      if (bend(t, k) == Bend::FLAT || user[0] != t) continue;
+      if (edge_kind(t, k) == EdgeKind::FLAT || user[0] != t) continue;
       Ridge ridge{};
       ridge.vertex[0] = vertex[k];
       ridge.vertex[1] = vertex[(k + 1) % 3];
       ridge.from = mesh.vertex(ridge.vertex[0]);
       ridge.along = mesh.vertex(ridge.vertex[1]) - ridge.from;
-      ridge.bend = bend(t, k);
+      ridge.edge_kind = edge_kind(t, k);
       if (edge.num_users <= 2)
         for (int u = 0; u < edge.num_users; u++)
           ridge.inward[u] = inward_of(mesh, user[u], ridge.from, ridge.along);
@@ -167,8 +167,8 @@ void MeshFeatures::find_corners(const TriangleMesh &mesh)
   for (const Ridge &ridge : ridges)
     for (int e = 0; e < 2; e++) {
       const Vector d = (e ? -1.0 : 1.0) / length(ridge.along) * ridge.along;
-      if (ridge.bend != Bend::VALLEY) in_front[ridge.vertex[e]].push_back(d);
-      if (ridge.bend != Bend::RIDGE) behind[ridge.vertex[e]].push_back(d);
+      if (ridge.edge_kind != EdgeKind::VALLEY) in_front[ridge.vertex[e]].push_back(d);
+      if (ridge.edge_kind != EdgeKind::RIDGE) behind[ridge.vertex[e]].push_back(d);
     }
   first_corner.assign(1, 0);
   for (int t = 0; t < mesh.size(); t++) {

@@ -15,16 +15,17 @@
 
 namespace Talus {
 
-/// How the surface bends over an edge, as seen from where normals point: not at all, like a ridge,
-/// like a valley; or it ends there, or more than two triangles meet: a ridge from both sides.
-enum class Bend : unsigned char { FLAT, RIDGE, VALLEY, RIM };
+/// Kind of an edge, as seen from the side to which normals point: flat, a convex ridge, a concave
+/// valley, or a boundary, where the surface ends or more than two triangles meet: a ridge from both
+/// sides.
+enum class EdgeKind : unsigned char { FLAT, RIDGE, VALLEY, BOUNDARY };
 
 class MeshFeatures {
  public:
   explicit MeshFeatures(const TriangleMesh &mesh);
 
   /// Edge k of a triangle, from its corner k to the next.
-  Bend bend(int triangle, int k) const { return bends[3L * triangle + k]; }
+  EdgeKind edge_kind(int triangle, int k) const { return edge_kinds[3L * triangle + k]; }
   /// The triangle on the other side of a flat edge, a ridge, or a valley.
   int over(int triangle, int k) const { return neighbors[3L * triangle + k]; }
 
@@ -37,7 +38,7 @@ class MeshFeatures {
     int end[2];                     ///< of the whole straight edge of which this is a piece
     std::uint32_t name;             ///< the same for all pieces of a straight edge
     int planes[2];                  ///< see TriangleMesh::plane_of(); or -1
-    Bend bend;
+    EdgeKind edge_kind;
   };
   /// A vertex at which ridges meet that are not one straight line, from in front or behind.
   struct Corner {
@@ -68,7 +69,7 @@ class MeshFeatures {
   void find_around(const TriangleMesh &mesh);
   void find_corners(const TriangleMesh &mesh);
 
-  std::vector<Bend> bends;
+  std::vector<EdgeKind> edge_kinds;
   std::vector<int> neighbors;
   std::vector<Ridge> ridges;
   std::vector<Corner> corners;

@@ -15,7 +15,7 @@ namespace Talus {
 /// One of the points at which bodies a and b touch.
 struct ShapeContact {
   Vector3<double> position;    ///< in space: half way between the two surfaces
-  Vector3<double> normal;      ///< unit vector from b to a: what is repelled pushes a along it
+  Vector3<double> normal;      ///< unit vector from b to a: repulsion pushes a along it
   double overlap;              ///< > 0
   /// Forces and torques of the law are multiplied by it, so that they are continuous where contact
   /// points merge. Of a vertex beside an edge contact it may be negative, see shared_energy.h; the

@@ -50,7 +50,7 @@ ShapeWord plain_shape(const std::string &name)
 {
   class Plain : public ShapeDescription {
    public:
-    explicit Plain(std::shared_ptr<const Shape> its) : shape(std::move(its)) {}
+    explicit Plain(std::shared_ptr<const Shape> made) : shape(std::move(made)) {}
     std::shared_ptr<const Shape> make() const override { return shape; }
 
    private:

@@ -17,77 +17,78 @@ namespace Talus {
 
 class BodySurfaces::Listing final : public SurfaceVisitor {
  public:
-  explicit Listing(std::vector<Surface> &its_list) : list(its_list) {}
+  explicit Listing(std::vector<Surface> &target) : list(target) {}
 
   void flat(const Vector3<double> &normal, const Vector3<double> &point, bool two_sided,
             int part) override
   {
-    FlatSurface its;
-    its.normal = normal;
-    its.offset = dot(normal, point);
-    its.two_sided = two_sided;
-    its.part = part;
-    add(its);
+    FlatSurface surface;
+    surface.normal = normal;
+    surface.offset = dot(normal, point);
+    surface.two_sided = two_sided;
+    surface.part = part;
+    add(surface);
   }
   void box(const Vector3<double> &center, const Vector3<double> &edges) override
   {
-    const auto its = std::make_shared<const ConvexShape>(ConvexShape::box(edges, 0.0));
-    Pose pose = its->given_frame();
+    const auto shape = std::make_shared<const ConvexShape>(ConvexShape::box(edges, 0.0));
+    Pose pose = shape->given_frame();
     pose.position = pose.position + center;
-    list.push_back({its, pose});
+    list.push_back({shape, pose});
   }
   void ball(const Vector3<double> &center, double radius) override
   {
-    Sphere its;
-    its.radius = radius;
-    add(its);
+    Sphere surface;
+    surface.radius = radius;
+    add(surface);
     list.back().pose.position = center;
   }
   void frustum(const Frustum &body) override
   {
-    RoundSurface its;
-    its.body = &body;
-    add(its);
+    RoundSurface surface;
+    surface.body = &body;
+    add(surface);
   }
   void vessel(const LargeBodyShape &body) override
   {
-    VesselSurface its;
-    its.body = &body;
-    add(its);
+    VesselSurface surface;
+    surface.body = &body;
+    add(surface);
   }
   void mesh(std::shared_ptr<const MeshShape> mesh) override
   {
-    MeshSurface its;
-    its.features = std::make_shared<const MeshFeatures>(mesh->surface());
-    its.shape = std::move(mesh);
-    add(its);
+    MeshSurface surface;
+    surface.features = std::make_shared<const MeshFeatures>(mesh->surface());
+    surface.shape = std::move(mesh);
+    add(surface);
   }
 
  private:
-  template <class Kind> void add(const Kind &its)
+  template <class Kind> void add(const Kind &surface)
   {
-    list.push_back({std::make_shared<const Kind>(its)});
+    list.push_back({std::make_shared<const Kind>(surface)});
   }
 
   std::vector<Surface> &list;
 };
 
-BodySurfaces::BodySurfaces(const LargeBodyShape &body, const ShapeTable &its_shapes) :
-    shapes(its_shapes), parts(body.most_contacts() > 1)
+BodySurfaces::BodySurfaces(const LargeBodyShape &body, const ShapeTable &shape_table) :
+    shapes(shape_table), parts(body.most_contacts() > 1)
 {
   Listing listing(surfaces);
   body.visit_surfaces(listing);
-  for (Surface &its : surfaces) {
-    its.collision.resize(shapes.last_type() + 1);
+  for (Surface &surface : surfaces) {
+    surface.collision.resize(shapes.last_type() + 1);
     for (int type = 1; type <= shapes.last_type(); type++)
-      if (shapes.of(type)) its.collision[type] = shapes.collision(type, *its.geometry);
+      if (shapes.of(type)) surface.collision[type] = shapes.collision(type, *surface.geometry);
   }
 }
 
 bool BodySurfaces::touches_all(int type) const
 {
-  return std::all_of(surfaces.begin(), surfaces.end(),
-                     [type](const Surface &its) { return static_cast<bool>(its.collision[type]); });
+  return std::all_of(surfaces.begin(), surfaces.end(), [type](const Surface &surface) {
+    return static_cast<bool>(surface.collision[type]);
+  });
 }
 
 std::string BodySurfaces::refusal() const

@@ -35,9 +35,9 @@ class BodySurfaces {
   /// Contacts of a particle with surface 0 ... size()-1; returns whether there are any.
   bool touch(int surface, const Particle &particle, ShapeContacts &contacts) const
   {
-    const Surface &its = surfaces[surface];
-    return its.collision[particle.type](particle.shape, particle.pose, *its.geometry, its.pose,
-                                        {particle.force_exponent}, contacts);
+    const Surface &touched = surfaces[surface];
+    return touched.collision[particle.type](particle.shape, particle.pose, *touched.geometry,
+                                            touched.pose, {particle.force_exponent}, contacts);
   }
 
  private:

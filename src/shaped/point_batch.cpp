@@ -22,12 +22,12 @@ std::string PointBatch::refusal(const ContactLaw &law)
   return "";
 }
 
-void PointBatch::compute(const Task &its_task, PointContact *points, std::size_t count)
+void PointBatch::compute(const Task &new_task, PointContact *points, std::size_t count)
 {
-  task = &its_task;
+  task = &new_task;
   const LawTable &laws = task->laws;
   for (law_index = 0; law_index < laws.num_laws(); law_index++) {
-    remembers = laws.distinct_law(law_index).has_history();
+    has_history = laws.distinct_law(law_index).has_history();
     for (std::size_t n = 0; n < count; n++) {
       if (laws.num_laws() > 1 && laws.law_index(points[n].row) != law_index) continue;
       of_lane[filled] = points + n;
@@ -52,7 +52,7 @@ void PointBatch::gather(const PointContact &point, int lane)
   batch.inverse_radius[lane] = point.inverse_radius;
   batch.coefficients[lane] = point.row;
   if (task->account) put(batch.velocity_change, point.velocity_change);
-  for (int k = 0; k < point_history_size && remembers; k++)
+  for (int k = 0; k < point_history_size && has_history; k++)
     batch.history[k][lane] = point.history[k];
 }
 
@@ -77,12 +77,12 @@ void PointBatch::hand_out(PointContact &point, int lane) const
   point.force =
       w * Vector3<double>{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
   if (task->account) point.work = w * work_of_lane(batch, lane);
-  if (task->advance && remembers)
+  if (task->advance && has_history)
     for (int k = 0; k < point_history_size; k++) point.history[k] = batch.history[k][lane];
 }
 
-SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &laws, double dt,
-                                   Ask ask)
+ContactReport PointBatch::report(const PointContact &point, const LawTable &laws, double dt,
+                                 ContactData requested)
 {
   ContactState<double> state;
   state.normal = point.normal;
@@ -90,14 +90,15 @@ SurveyedContact PointBatch::survey(const PointContact &point, const LawTable &la
   state.velocity = point.velocity;
   state.inverse_mass = point.inverse_mass;
   state.inverse_radius = point.inverse_radius;
-  SurveyedContact found;
+  ContactReport found;
   found.normal = point.normal;
   found.overlap = point.overlap;
   HistoryValues history{};
   std::copy(point.history.begin(), point.history.end(), history.begin());
-  survey_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, history, ask, found);
+  report_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, history, requested,
+                 found);
   found.force = point.weight * found.force;
-  found.moment = found.twisting_torque = {0.0, 0.0, 0.0};
+  found.torque_per_radius = found.twisting_torque = {0.0, 0.0, 0.0};
   found.stored.normal *= point.energy;
   found.stored.tangential *= point.weight;
   return found;

@@ -29,13 +29,13 @@ class PointBatch {
   /// Forces and histories of all points. What a point yields does not depend on the others.
   void compute(const Task &task, PointContact *points, std::size_t count);
 
-  /// What is asked about a point between steps, as its first body sees it: the numbers that do not
-  /// depend on who the bodies are. `dt`: of the step.
-  static SurveyedContact survey(const PointContact &point, const LawTable &laws, double dt,
-                                Ask ask);
+  /// Report of a point between steps, with the signs of its first body: what does not depend on the
+  /// identity of the bodies. `dt`: of the step.
+  static ContactReport report(const PointContact &point, const LawTable &laws, double dt,
+                              ContactData requested);
 
-  /// "" or why points of shapes cannot have this law, and the cure, for people. Not asked about
-  /// laws of second order, which no integrator may use then.
+  /// "" or why points of shapes cannot have this law, and the cure, as text for messages. Not asked
+  /// about laws of second order, which no integrator may use then.
   static std::string refusal(const ContactLaw &law);
 
  private:
@@ -45,7 +45,7 @@ class PointBatch {
 
   const Task *task = nullptr;
   int law_index = 0, filled = 0;
-  bool remembers = false;
+  bool has_history = false;
   PointContact *of_lane[ContactBatch::width] = {};
   ContactBatch batch;
 };

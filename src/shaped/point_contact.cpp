@@ -8,13 +8,13 @@ namespace Talus {
 
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to)
 {
-  const PointHistory &its = point.history;
-  if (std::all_of(its.begin(), its.end(), [](double v) { return v == 0.0; })) return false;
-  std::copy(its.begin(), its.end(), to.add(particle, partner, point.name));
+  const PointHistory &history = point.history;
+  if (std::all_of(history.begin(), history.end(), [](double v) { return v == 0.0; })) return false;
+  std::copy(history.begin(), history.end(), to.add(particle, partner, point.name));
   return true;
 }
 
-PointContact remembered_point(const ContactLists::Contact &one)
+PointContact stored_point(const ContactLists::Contact &one)
 {
   PointContact point{};
   point.name = one.feature;

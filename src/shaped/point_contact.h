@@ -12,7 +12,7 @@
 
 namespace Talus {
 
-/// What a point remembers, see HistoryValues: its laws have no resistance, and are of order 1.
+/// History of a contact point, see HistoryValues: its laws have no resistance, and are of order 1.
 inline constexpr int point_history_size = 8;
 using PointHistory = std::array<double, point_history_size>;
 
@@ -40,12 +40,12 @@ struct PointContact {
   EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
 
-/// Adds what a point remembers to the list of a particle, whose numbers are point_history_size.
-/// false: it remembers nothing, as points of laws without history: one that is not found there
-/// begins with zeros.
+/// Adds the history of a point to the list of a particle, of point_history_size values. false: all
+/// values are zero, as those of laws without history, and nothing was added: a point that is not
+/// found there begins with zeros.
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to);
-/// A point that is only remembered, out of such a list.
-PointContact remembered_point(const ContactLists::Contact &one);
+/// A point that has only a history so far, from such a list.
+PointContact stored_point(const ContactLists::Contact &one);
 
 }    // namespace Talus
 

@@ -19,8 +19,8 @@ FreeRotation rotation_of(const Shape &shape, double density)
 
 }    // namespace
 
-ParticleShape::ParticleShape(std::shared_ptr<const Shape> its_shape, double density) :
-    geometry(std::move(its_shape)), its_mass(density * geometry->volume()),
+ParticleShape::ParticleShape(std::shared_ptr<const Shape> particle_shape, double density) :
+    geometry(std::move(particle_shape)), particle_mass(density * geometry->volume()),
     free(rotation_of(*geometry, density)), held(*geometry)
 {
 }
@@ -36,10 +36,10 @@ Eigen::Quaterniond ParticleShape::new_orientation(std::int64_t id) const
   return {s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b)};
 }
 
-void ShapeTable::set(int type, std::shared_ptr<const ParticleShape> its)
+void ShapeTable::set(int type, std::shared_ptr<const ParticleShape> shape)
 {
   if (type >= static_cast<int>(shapes.size())) shapes.resize(type + 1);
-  shapes[type] = std::move(its);
+  shapes[type] = std::move(shape);
   const Sphere sphere;
   const auto geometry_of = [&](std::size_t k) -> const Geometry & {
     if (shapes[k]) return shapes[k]->shape();

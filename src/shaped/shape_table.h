@@ -19,10 +19,10 @@ namespace Talus {
 class ParticleShape {
  public:
   /// `density`: mass/length^3.
-  ParticleShape(std::shared_ptr<const Shape> its_shape, double density);
+  ParticleShape(std::shared_ptr<const Shape> particle_shape, double density);
 
   const Shape &shape() const { return *geometry; }
-  double mass() const { return its_mass; }
+  double mass() const { return particle_mass; }
   const FreeRotation &rotation() const { return free; }
   const FaceStiffness &faces() const { return held; }
   /// Of the shape, for a particle with its center of mass at x.
@@ -38,15 +38,15 @@ class ParticleShape {
   Eigen::Quaterniond new_orientation(std::int64_t id) const;
   void set_fixed(const Eigen::Quaterniond &orientation) { fixed = orientation; }
   /// Uniform among all rotations (Shoemake, Graphics Gems III, 1992), from seed and ID alone.
-  void set_random(std::uint64_t its_seed)
+  void set_random(std::uint64_t random_seed)
   {
     random = true;
-    seed = its_seed;
+    seed = random_seed;
   }
 
  private:
   std::shared_ptr<const Shape> geometry;
-  double its_mass;
+  double particle_mass;
   FreeRotation free;
   FaceStiffness held;
   Eigen::Quaterniond fixed = Eigen::Quaterniond::Identity();
@@ -58,9 +58,9 @@ class ParticleShape {
 class ShapeTable {
  public:
   /// `collisions`: must live as long as this.
-  explicit ShapeTable(const Collisions &its_collisions) : collisions(&its_collisions) {}
+  explicit ShapeTable(const Collisions &collision_table) : collisions(&collision_table) {}
 
-  void set(int type, std::shared_ptr<const ParticleShape> its);
+  void set(int type, std::shared_ptr<const ParticleShape> shape);
   /// nullptr of spheres.
   const ParticleShape *of(int type) const
   {
@@ -82,8 +82,8 @@ class ShapeTable {
     return collisions->find(of(type)->shape(), surface);
   }
   /// How contacts of two shapes are found.
-  NarrowPhase method() const { return way; }
-  void set_method(NarrowPhase its) { way = its; }
+  NarrowPhase method() const { return narrow_phase; }
+  void set_method(NarrowPhase method) { narrow_phase = method; }
   int last_type() const { return static_cast<int>(shapes.size()) - 1; }
   double memory_usage() const;
 
@@ -94,7 +94,7 @@ class ShapeTable {
   const Collisions *collisions;
   std::vector<std::shared_ptr<const ParticleShape>> shapes;
   std::vector<Collisions::Collision> of_types;
-  NarrowPhase way = NarrowPhase::FEATURES;
+  NarrowPhase narrow_phase = NarrowPhase::FEATURES;
 };
 
 }    // namespace Talus

@@ -80,7 +80,7 @@ void ShapedPairs::set_sides(const ShapedView &view, const std::vector<std::int64
   first_side.push_back(static_cast<int>(sides.size()));
 }
 
-/* Points that are only remembered: the narrow phase will find them again, or drop them. */
+/* Points that have only a history so far: the narrow phase will find them again, or drop them. */
 
 void ShapedPairs::restore(const ContactLists &from)
 {
@@ -92,7 +92,7 @@ void ShapedPairs::restore(const ContactLists &from)
       const bool of_first = pair.first < owned;
       from.for_each(of_first ? pair.first : pair.second, [&](const ContactLists::Contact &one) {
         if (one.partner != pair.tag[of_first ? 1 : 0]) return;
-        chunk.points.push_back(remembered_point(one));
+        chunk.points.push_back(stored_point(one));
         chunk.pair_of_point.push_back(p);
       });
     }
@@ -174,12 +174,12 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
   in_ranges(static_cast<std::int64_t>(used.size()), threads, [&](int, int begin, int end) {
     for (int n = begin; n < end; n++) {
       const int i = used[n];
-      Solid &its = solids[i];
+      Solid &solid = solids[i];
       const ParticleShape *shape = shapes.of(view.type(i));
-      its.shape = shape ? &shape->shape() : nullptr;
-      its.around.radius = view.radius(i);
-      its.pose.position = view.position(i);
-      if (shape) its.pose = shape->pose(its.pose.position, view.turn(i));
+      solid.shape = shape ? &shape->shape() : nullptr;
+      solid.bounding_sphere.radius = view.radius(i);
+      solid.pose.position = view.position(i);
+      if (shape) solid.pose = shape->pose(solid.pose.position, view.quaternion(i));
     }
   });
 }
@@ -267,10 +267,10 @@ void ShapedPairs::add_to_particles(const ShapedView &view, int threads) const
     for (int n = begin; n < end; n++) {
       Vector3<double> force{0.0, 0.0, 0.0}, torque = force;
       for (int s = first_side[n]; s < first_side[n + 1]; s++) {
-        const Result &its = results[sides[s].pair];
-        if (!its.points) continue;
-        force = sides[s].second ? force - its.force : force + its.force;
-        torque = torque + (sides[s].second ? its.torque_second : its.torque_first);
+        const Result &result = results[sides[s].pair];
+        if (!result.points) continue;
+        force = sides[s].second ? force - result.force : force + result.force;
+        torque = torque + (sides[s].second ? result.torque_second : result.torque_first);
       }
       view.add(particles[n], force, torque);
     }
@@ -293,14 +293,14 @@ void ShapedPairs::account(WorkAccount &to) const
 
 /* ---------------------------------------------------------------------- */
 
-void ShapedPairs::for_each_contact(const LawTable &laws, double dt, Ask ask,
+void ShapedPairs::for_each_contact(const LawTable &laws, double dt, ContactData requested,
                                    const VisitContact &visit) const
 {
   for (const Chunk &chunk : chunks)
     for (std::size_t n = 0; n < chunk.points.size(); n++) {
       const Pair &pair = list[chunk.pair_of_point[n]];
       const PointContact &point = chunk.points[n];
-      SurveyedContact found = PointBatch::survey(point, laws, dt, ask);
+      ContactReport found = PointBatch::report(point, laws, dt, requested);
       found.i = pair.first;
       found.j = pair.second;
       found.share = share(pair);

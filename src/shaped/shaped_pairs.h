@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts between particles of which at least one has a shape. Knows nothing of the host.
+// Contacts between particles of which at least one has a shape. Knows nothing of LAMMPS.
 //
 //   at a rebuild   save() (if the old pairs are current), set_pairs(), restore()
 //   every step     compute()
@@ -31,18 +31,18 @@ namespace Talus {
 
 class ShapedPairs {
  public:
-  explicit ShapedPairs(const ShapeTable &its_shapes) : shapes(its_shapes) {}
+  explicit ShapedPairs(const ShapeTable &shape_table) : shapes(shape_table) {}
 
-  /// New pairs, host's indices of owned particles and ghosts. `tag`: of all of these. What they
-  /// remember is nothing until restore(). Pairs of a particle with its own image are left out.
+  /// New pairs, local indices of owned particles and ghosts. `tag`: of all of these. Histories are
+  /// zero until restore(). Pairs of a particle with its own image are left out.
   void set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
                  const std::vector<std::int64_t> &tag, const LawTable &laws);
   /// Each pair finds its points in the list of one of its particles that is owned.
   void restore(const ContactLists &from);
-  /// Adds what points remember to the lists of all owned particles: as the first one sees it, named by
-  /// ID of the partner and feature. Where periodic borders are, the ranks on both sides know a
-  /// contact from positions that differ by rounding: the rank of the first particle decides, and
-  /// tells the others by messages[rank].
+  /// Adds the histories of points to the lists of all owned particles: with the signs of the first
+  /// one, identified by ID of the partner and feature. Where periodic borders are, the ranks on
+  /// both sides know a contact from positions that differ by rounding: the rank of the first
+  /// particle decides, and tells the others by messages[rank].
   using Messages = std::map<int, std::vector<double>>;
   void save(ContactLists &to) const;
   void save_in_periodic_box(ContactLists &to, int this_rank,
@@ -76,12 +76,13 @@ class ShapedPairs {
       }
   }
 
-  /// visit(contact) for the same, with what they remember now. `dt`: of that step.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
-  void for_each_contact(const LawTable &laws, double dt, Ask ask, const VisitContact &visit) const;
+  /// visit(contact) for the same, with their present history. `dt`: of that step.
+  using VisitContact = std::function<void(const ContactReport &)>;
+  void for_each_contact(const LawTable &laws, double dt, ContactData requested,
+                        const VisitContact &visit) const;
 
   /// The pair of rounded particles whose cores overlapped most since set_pairs(): by how much
-  /// (length; 0: none), over the smaller of both radii, and the host's indices of both.
+  /// (length; 0: none), over the smaller of both radii, and local indices of both.
   struct CoreOverlap {
     double depth = 0.0, ratio = 0.0;
     int first = 0, second = 0;
@@ -89,7 +90,7 @@ class ShapedPairs {
   CoreOverlap deepest_core_overlap() const;
 
   bool is_empty() const { return list.empty(); }
-  /// Host's indices of all particles that have pairs, ascending.
+  /// Local indices of all particles that have pairs, ascending.
   /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
   double count_contacts() const;
   double count_points() const;
@@ -99,7 +100,7 @@ class ShapedPairs {
 
  private:
   struct Pair {
-    int first, second;      ///< host's indices
+    int first, second;      ///< local indices
     int row;                ///< of the table of laws
     std::int64_t tag[2];    ///< IDs
     Collisions::Collision collision;
@@ -145,8 +146,8 @@ class ShapedPairs {
   std::vector<int> particles;     ///< owned ones that have pairs
   std::vector<int> first_side;    ///< of each of these in `sides`, and one more
   std::vector<Side> sides;
-  std::vector<int> used;        ///< all that have pairs, owned or ghosts
-  std::vector<Solid> solids;    ///< by host's index, of those that have pairs
+  std::vector<int> used;                               ///< all that have pairs, owned or ghosts
+  std::vector<Solid> solids;                           ///< by local index, of those that have pairs
   std::vector<std::unique_ptr<PointBatch>> batches;    ///< by thread
 };
 

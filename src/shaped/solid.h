@@ -12,19 +12,19 @@ namespace Talus {
 struct Solid {
   const Shape *shape = nullptr;    ///< nullptr: a sphere
   Pose pose;                       ///< of the frame of the shape
-  Sphere around;                   ///< the sphere that contains it
+  Sphere bounding_sphere;          ///< the sphere that contains it
 
   const Geometry &geometry() const
   {
     if (shape) return *shape;
-    return around;
+    return bounding_sphere;
   }
   const Vector3<double> &center() const { return pose.position; }
   /// The spheres around overlap.
   bool may_touch(const Solid &other) const
   {
     const Vector3<double> d = center() - other.center();
-    const double reach = around.radius + other.around.radius;
+    const double reach = bounding_sphere.radius + other.bounding_sphere.radius;
     return dot(d, d) < reach * reach;
   }
 };

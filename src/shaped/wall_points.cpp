@@ -31,7 +31,7 @@ void WallPoints::restore(const ContactLists &from)
     for (int n = chunk.begin; n < chunk.end; n++)
       from.for_each(particles[n], [&](const ContactLists::Contact &one) {
         if (one.partner != name) return;
-        chunk.points.push_back(remembered_point(one));
+        chunk.points.push_back(stored_point(one));
         chunk.of_point.push_back(n);
       });
 }
@@ -86,7 +86,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
   const int i = particles[n];
   const ParticleShape &particle = *shapes.of(view.type(i));
   const Vector3<double> center = view.position(i), seen = frame.point_to_body(center);
-  Pose pose = particle.pose(seen, view.turn(i));
+  Pose pose = particle.pose(seen, view.quaternion(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
   const int row = task.laws.row(view.type(i), view.type(i));
   const BodySurfaces::Particle seen_particle{view.type(i), particle.shape(), pose,
@@ -127,9 +127,9 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
 Vector3<double> WallPoints::change_seen(const Task &task, int i, const Vector3<double> &place)
 {
   const BodyFrame &frame = task.frame;
-  const Vector3<double> its = task.view.change_at(i, place);
-  if (!frame.moves) return frame.to_body(its);
-  return frame.to_body(its - frame.velocity_change -
+  const Vector3<double> change = task.view.change_at(i, place);
+  if (!frame.moves) return frame.to_body(change);
+  return frame.to_body(change - frame.velocity_change -
                        cross(frame.omega_change, place - frame.state.position));
 }
 
@@ -178,13 +178,13 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
 }
 
 void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view,
-                                  const LawTable &laws, double dt, Ask ask,
+                                  const LawTable &laws, double dt, ContactData requested,
                                   const VisitContact &visit) const
 {
   for (const Chunk &chunk : chunks)
     for (std::size_t k = 0; k < chunk.points.size(); k++) {
       const PointContact &point = chunk.points[k];
-      SurveyedContact found = PointBatch::survey(point, laws, dt, ask);
+      ContactReport found = PointBatch::report(point, laws, dt, requested);
       found.part = point.part;
       found.i = particles[chunk.of_point[k]];
       found.normal = frame.to_space(found.normal);

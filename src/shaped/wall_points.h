@@ -25,12 +25,12 @@ namespace Talus {
 
 class WallPoints {
  public:
-  WallPoints(const ShapeTable &its_shapes, std::int64_t its_name) :
-      shapes(its_shapes), name(its_name)
+  WallPoints(const ShapeTable &shape_table, std::int64_t body_name) :
+      shapes(shape_table), name(body_name)
   {
   }
 
-  /// Host's indices of the particles with a shape that the body acts on.
+  /// Local indices of the particles with a shape that the body acts on.
   void set_particles(const std::vector<int> &particles);
   /// From and to the lists of its particles, see point_contact.h.
   void restore(const ContactLists &from);
@@ -39,11 +39,11 @@ class WallPoints {
   /// Adds forces and torques; returns what the body bears.
   BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,
                    const LawTable &laws, const BodyStep &step);
-  /// visit(contact) for each point of the last compute(), with what it remembers now; its large
+  /// visit(contact) for each point of the last compute(), with its present history; its large
   /// body has no number. Positions of particles and body are still those of that step.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
+  using VisitContact = std::function<void(const ContactReport &)>;
   void for_each_contact(const BodyFrame &frame, const ShapedView &view, const LawTable &laws,
-                        double dt, Ask ask, const VisitContact &visit) const;
+                        double dt, ContactData requested, const VisitContact &visit) const;
   double memory_usage() const;
 
  private:

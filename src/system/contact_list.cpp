@@ -29,7 +29,7 @@ std::string ContactList::problem() const
   return "";
 }
 
-/* The list of the pair style itself, if the host has made one. */
+/* The list of the pair style itself, if LAMMPS has made one. */
 
 void ContactList::request(Compute *owner)
 {
@@ -47,10 +47,10 @@ bool ContactList::is_known() const
 
 void ContactList::for_each(const VisitContact &visit) const
 {
-  const bool ours = system->pair_style_is_alone();
-  if (!ours) for_each_pair_of_host(visit);
-  system->contacts().for_each(Ask::ALL, [&](const SurveyedContact &one) {
-    if (one.body >= 0 || (ours && system->contacts().is_of_this_rank(one))) visit(one);
+  const bool is_talus_pair = system->pair_style_is_alone();
+  if (!is_talus_pair) for_each_pair_of_lammps(visit);
+  system->contacts().for_each(ContactData::ALL, [&](const ContactReport &one) {
+    if (one.body >= 0 || (is_talus_pair && system->contacts().is_of_this_rank(one))) visit(one);
   });
 }
 
@@ -62,7 +62,7 @@ bool ContactList::is_for_me(int i, int j) const
   return atom->tag[i] < atom->tag[j];
 }
 
-void ContactList::for_each_pair_of_host(const VisitContact &visit) const
+void ContactList::for_each_pair_of_lammps(const VisitContact &visit) const
 {
   neighbor->build_one(list);
   for (int ii = 0; ii < list->inum; ii++) {
@@ -83,7 +83,7 @@ void ContactList::visit_pair(int i, int neighbor_of_i, const VisitContact &visit
   double over_distance = 0.0;
   pair->single(i, j, atom->type[i], atom->type[j], rsq, force->special_coul[bond],
                force->special_lj[bond], over_distance);
-  SurveyedContact c;
+  ContactReport c;
   c.i = i;
   c.j = j;
   c.normal = (1.0 / std::sqrt(rsq)) * separation;

@@ -28,8 +28,8 @@ std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestConta
   };
   return {
       {largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
-       say_once(&ContactMonitor::say_overlap), much_deeper},
-      {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::say_move)}};
+       say_once(&ContactMonitor::warn_overlap), much_deeper},
+      {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::warn_move)}};
 }
 
 RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) const
@@ -41,7 +41,7 @@ RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) co
 
 /* The overlap of an impact is that of a spring: ~ 1/sqrt(k), as the time step should be. */
 
-std::string ContactMonitor::cure_of(double overlap)
+std::string ContactMonitor::remedy_for(double overlap)
 {
   const double softer = overlap / largest_overlap;
   return fmt::format("contact laws are made for overlaps below {}: for impacts a stiffness {:.2g} "
@@ -50,13 +50,13 @@ std::string ContactMonitor::cure_of(double overlap)
                      largest_overlap, softer * softer, 1.0 / softer);
 }
 
-void ContactMonitor::say_overlap(const RunMonitor::Finding &worst) const
+void ContactMonitor::warn_overlap(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
                  "radius at step {}; {}",
                  GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
-                 worst.value, update->ntimestep, cure_of(worst.value));
+                 worst.value, update->ntimestep, remedy_for(worst.value));
 }
 
 RunMonitor::Finding ContactMonitor::largest_own_move() const
@@ -67,13 +67,13 @@ RunMonitor::Finding ContactMonitor::largest_own_move() const
   };
   std::vector<Move> found(comm->nthreads, Move{0.0, 0});
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
-    Move its = {0.0, 0};
+    Move farthest = {0.0, 0};
     for (int i = begin; i < end; i++) {
       const double *v = atom->v[i], r = atom->radius[i];
       const double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
-      if (ratio2 > its.ratio2) its = {ratio2, i};
+      if (ratio2 > farthest.ratio2) farthest = {ratio2, i};
     }
-    found[t] = its;
+    found[t] = farthest;
   });
   const Move longest = *std::max_element(
       found.begin(), found.end(), [](const Move &a, const Move &b) { return a.ratio2 < b.ratio2; });
@@ -81,7 +81,7 @@ RunMonitor::Finding ContactMonitor::largest_own_move() const
   return {std::sqrt(longest.ratio2) * update->dt, {static_cast<double>(atom->tag[longest.atom])}};
 }
 
-void ContactMonitor::say_move(const RunMonitor::Finding &worst) const
+void ContactMonitor::warn_move(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
                  "Pair style {}: particle {:.0f} moves by {:.3g} of its radius in a time step at "

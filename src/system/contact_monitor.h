@@ -28,7 +28,7 @@ class ContactMonitor : protected Pointers {
   static constexpr double largest_move = 0.1;    ///< over the radius
 
   /// What to do about an overlap above the limit.
-  static std::string cure_of(double overlap);
+  static std::string remedy_for(double overlap);
 
   explicit ContactMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 
@@ -39,8 +39,8 @@ class ContactMonitor : protected Pointers {
  private:
   RunMonitor::Finding overlap_of(const Talus::DeepestContact &deepest) const;
   RunMonitor::Finding largest_own_move() const;
-  void say_overlap(const RunMonitor::Finding &worst) const;
-  void say_move(const RunMonitor::Finding &worst) const;
+  void warn_overlap(const RunMonitor::Finding &worst) const;
+  void warn_move(const RunMonitor::Finding &worst) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -17,8 +17,9 @@ namespace Talus {
 
 double ContactRange::reach(int i, int j) const
 {
-  return laws.known(i, j) ? laws.reach(i, j, largest_radii.largest(i), largest_radii.largest(j))
-                          : 0.0;
+  return laws.known(i, j)
+             ? laws.pulloff_distance(i, j, largest_radii.largest(i), largest_radii.largest(j))
+             : 0.0;
 }
 
 double ContactRange::cutoff(int i, int j) const
@@ -26,7 +27,7 @@ double ContactRange::cutoff(int i, int j) const
   return largest_radii.cutoff(i, j) + reach(std::min(i, j), std::max(i, j));
 }
 
-double ContactRange::largest_reach() const
+double ContactRange::largest_pulloff_distance() const
 {
   double largest = 0.0;
   for (int i = 1; i <= atom->ntypes; i++)

@@ -1,12 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// At which distance particles may touch, or part, by their types: from the largest radii, and from
-// how far the laws let contacts last beyond zero overlap. And whether the box has room for that.
+// Largest distance at which particles are in contact, by their types: from the largest radii and
+// the pull-off distances of the laws. And whether the box is large enough for it.
 
 #ifndef TALUS_SYSTEM_CONTACT_RANGE_H
 #define TALUS_SYSTEM_CONTACT_RANGE_H
 
-#include "material/law_book.h"
+#include "material/pair_coeffs.h"
 #include "system/largest_radii.h"
 
 #include "pointers.h"
@@ -19,8 +19,8 @@ class SystemShapes;
 
 class ContactRange : protected LAMMPS_NS::Pointers {
  public:
-  ContactRange(LAMMPS_NS::LAMMPS *lmp, const LawBook &its_laws) :
-      Pointers(lmp), largest_radii(lmp), laws(its_laws)
+  ContactRange(LAMMPS_NS::LAMMPS *lmp, const PairCoeffs &pair_coeffs) :
+      Pointers(lmp), largest_radii(lmp), laws(pair_coeffs)
   {
   }
 
@@ -30,10 +30,10 @@ class ContactRange : protected LAMMPS_NS::Pointers {
     largest_radii.find(frozen_groups, shapes);
   }
   const LAMMPS_NS::LargestRadii &radii() const { return largest_radii; }
-  /// Of types i and j (length): at which particles may touch, or part.
+  /// Largest distance of particles of types i and j in contact (length).
   double cutoff(int i, int j) const;
   /// How far contacts of all types last beyond zero overlap (length).
-  double largest_reach() const;
+  double largest_pulloff_distance() const;
 
   /// Ends in an error of the pair style of that name if a particle is too large for the box.
   void require_sizes(const std::string &style) const;
@@ -45,7 +45,7 @@ class ContactRange : protected LAMMPS_NS::Pointers {
   double reach(int i, int j) const;
 
   LAMMPS_NS::LargestRadii largest_radii;
-  const LawBook &laws;
+  const PairCoeffs &laws;
 };
 
 }    // namespace Talus

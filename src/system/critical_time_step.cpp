@@ -36,7 +36,7 @@ double smaller_defined(double a, double b)
 
 }    // namespace
 
-void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &contacts, int group)
+void CriticalTimeStep::compute(const PairCoeffs &laws, const ContactPipeline &contacts, int group)
 {
   sizes = smallest_particles(laws.num_types(), group);
   const double mine = contacts.largest_relative_speed();
@@ -53,7 +53,7 @@ void CriticalTimeStep::compute(const LawBook &laws, const ContactPipeline &conta
   contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));
 }
 
-void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
+void CriticalTimeStep::compute_from_sizes(const PairCoeffs &laws, int group)
 {
   looks_at_damping = false;
   sizes = smallest_particles(laws.num_types(), group);
@@ -61,7 +61,7 @@ void CriticalTimeStep::compute_from_sizes(const LawBook &laws, int group)
   contact = smaller_defined(law_period, smallest_body_period(laws.num_types(), group));
 }
 
-void CriticalTimeStep::consider_pairs(const LawBook &laws, double speed)
+void CriticalTimeStep::consider_pairs(const PairCoeffs &laws, double speed)
 {
   law_period = period_of_shapes = rayleigh = hertz = stable = 0.0;
   order = GranularSystem::of(lmp)->integrators().order();
@@ -83,19 +83,19 @@ std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
   std::vector<double> mine(3 * (static_cast<size_t>(types) + 1), never);
   std::vector<std::vector<double>> found(comm->nthreads);
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
-    std::vector<double> its(mine.size(), never);
-    double *const r = its.data(), *const m = r + types + 1, *const own = m + types + 1;
+    std::vector<double> of_thread(mine.size(), never);
+    double *const r = of_thread.data(), *const m = r + types + 1, *const own_mass = m + types + 1;
     for (int i = begin; i < end; i++) {
       if ((atom->mask[i] & groups) != groups) continue;
       const int type = atom->type[i];
       r[type] = std::min(r[type], atom->radius[i]);
       if (system.masses().knows(i)) m[type] = std::min(m[type], system.masses().of_body(i));
-      own[type] = std::min(own[type], atom->rmass[i]);
+      own_mass[type] = std::min(own_mass[type], atom->rmass[i]);
     }
-    found[t] = std::move(its);
+    found[t] = std::move(of_thread);
   });
-  for (const std::vector<double> &its : found)
-    std::transform(its.begin(), its.end(), mine.begin(), mine.begin(),
+  for (const std::vector<double> &of_thread : found)
+    std::transform(of_thread.begin(), of_thread.end(), mine.begin(), mine.begin(),
                    [](double a, double b) { return std::min(a, b); });
   return mine;
 }
@@ -106,8 +106,8 @@ std::vector<double> CriticalTimeStep::sizes_here(int types, int group) const
   std::set<int> known{group};
   for (const LargeBody *body : GranularSystem::of(lmp)->bodies().in_order())
     if (const int groups = group | body->group_bits(); known.insert(groups).second) {
-      const std::vector<double> its = smallest_here(types, groups);
-      sizes_of_all.insert(sizes_of_all.end(), its.begin(), its.end());
+      const std::vector<double> of_body = smallest_here(types, groups);
+      sizes_of_all.insert(sizes_of_all.end(), of_body.begin(), of_body.end());
     }
   return sizes_of_all;
 }
@@ -119,17 +119,19 @@ CriticalTimeStep::Sizes CriticalTimeStep::smallest_particles(int types, int grou
   const std::vector<double> mine = smallest_here(types, groups);
   std::vector<double> all(mine);
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
-  const auto masses = all.begin() + types + 1, own = masses + types + 1;
+  const auto masses = all.begin() + types + 1, own_masses = masses + types + 1;
   std::for_each(masses, all.end(), [this](double &mass) { mass /= force->ftm2v; });
-  std::transform(masses, own, own, masses,    // where that of a body is not known yet
-                 [](double mass, double its) { return std::isinf(mass) ? its : mass; });
-  Sizes its{{all.begin(), masses}, {masses, own}, {own, all.end()}, {}};
-  for (std::size_t type = 0; type < its.radius.size(); type++) {
+  std::transform(masses, own_masses, own_masses, masses,    // where that of a body is not known yet
+                 [](double mass, double own_mass) { return std::isinf(mass) ? own_mass : mass; });
+  Sizes result{{all.begin(), masses}, {masses, own_masses}, {own_masses, all.end()}, {}};
+  for (std::size_t type = 0; type < result.radius.size(); type++) {
     const ParticleShape *shape = shape_of(static_cast<int>(type));
-    its.overlap.push_back(0.01 * (shape ? shape->shape().inscribed_radius() : its.radius[type]));
-    if (shape && !std::isinf(its.radius[type])) its.radius[type] = shape->shape().contact_radius();
+    result.overlap.push_back(0.01 *
+                             (shape ? shape->shape().inscribed_radius() : result.radius[type]));
+    if (shape && !std::isinf(result.radius[type]))
+      result.radius[type] = shape->shape().contact_radius();
   }
-  return its;
+  return result;
 }
 
 const ParticleShape *CriticalTimeStep::shape_of(int type) const
@@ -146,15 +148,15 @@ double CriticalTimeStep::reduce_smallest(double mine) const
   return std::isinf(all) ? 0.0 : all;
 }
 
-void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double speed)
+void CriticalTimeStep::consider_pair(const PairCoeffs &laws, int i, int j, double speed)
 {
-  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass, &own = sizes.own_mass;
+  const std::vector<double> &radius = sizes.radius, &mass = sizes.mass, &own_mass = sizes.own_mass;
   if (std::isinf(radius[i]) || std::isinf(radius[j])) return;
   if (!laws.known(i, j)) return;
   const ContactLaw &law = laws.law(i, j);
   const ContactCoefficients c = laws.coefficients(i, j);
   const double m = mass[i] * mass[j] / (mass[i] + mass[j]);
-  const double own_m = own[i] * own[j] / (own[i] + own[j]);
+  const double own_m = own_mass[i] * own_mass[j] / (own_mass[i] + own_mass[j]);
   const double r = radius[i] * radius[j] / (radius[i] + radius[j]);
 
   const double overlap = std::min(sizes.overlap[i], sizes.overlap[j]);
@@ -163,8 +165,9 @@ void CriticalTimeStep::consider_pair(const LawBook &laws, int i, int j, double s
 
   const ParticleShape *one = shape_of(i), *other = shape_of(j);
   if (one || other)
-    consider_faces(response(law, c, overlap, m, r), {{own[i], one ? &one->faces() : nullptr},
-                                                     {own[j], other ? &other->faces() : nullptr}});
+    consider_faces(response(law, c, overlap, m, r),
+                   {{own_mass[i], one ? &one->faces() : nullptr},
+                    {own_mass[j], other ? &other->faces() : nullptr}});
   else
     consider_stability(law, c, overlap, {m, own_m}, r, around_a_particle);
   const double k = tangent_stiffness(law, c, overlap, m, r);
@@ -190,9 +193,9 @@ void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCo
                                           double overlap, const Masses &mass_eff, double radius_eff,
                                           int contacts)
 {
-  const ContactResponse its = response(law, c, overlap, mass_eff.of_law, radius_eff);
+  const ContactResponse small_motion = response(law, c, overlap, mass_eff.of_law, radius_eff);
   const double moved = std::min(mass_eff.of_law, mass_eff.own);
-  stable = smaller_defined(stable, largest_stable_time_step(its, moved, contacts, order));
+  stable = smaller_defined(stable, largest_stable_time_step(small_motion, moved, contacts, order));
 }
 
 void CriticalTimeStep::consider_faces(const ContactResponse &contact_response,
@@ -232,9 +235,9 @@ double CriticalTimeStep::smallest_body_period(int types, int group)
 
 double CriticalTimeStep::rayleigh_of(const ContactSpec &spec, int type) const
 {
-  const ParticleShape *its = shape_of(type);
-  const double r = its ? its->shape().inscribed_radius() : sizes.radius[type];
-  const double volume = its ? its->shape().volume() : 4.0 / 3.0 * MathConst::MY_PI * r * r * r;
+  const ParticleShape *shape = shape_of(type);
+  const double r = shape ? shape->shape().inscribed_radius() : sizes.radius[type];
+  const double volume = shape ? shape->shape().volume() : 4.0 / 3.0 * MathConst::MY_PI * r * r * r;
   const double density = sizes.own_mass[type] / volume;
   const double poisson = spec.given.value("nu");
   const double shear = spec.given.value("E") / (2.0 * (1.0 + poisson));

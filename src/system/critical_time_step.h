@@ -30,7 +30,7 @@
 #define TALUS_SYSTEM_CRITICAL_TIME_STEP_H
 
 #include "contact/contact_pipeline.h"
-#include "material/law_book.h"
+#include "material/pair_coeffs.h"
 #include "pointers.h"
 #include "shaped/shape_table.h"
 #include "system/elastic_impacts.h"
@@ -52,11 +52,11 @@ class CriticalTimeStep : protected Pointers {
   ElasticImpacts elastic;
 
   /// `group` selects the particles whose sizes count.
-  void compute(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts, int group);
+  void compute(const Talus::PairCoeffs &laws, const Talus::ContactPipeline &contacts, int group);
 
   /// The same from the sizes of the particles alone: contacts at an overlap of 1 %, no speeds.
   /// Cheap enough for every rebuild.
-  void compute_from_sizes(const Talus::LawBook &laws, int group);
+  void compute_from_sizes(const Talus::PairCoeffs &laws, int group);
 
   /// What compute_from_sizes() depends on, of this rank and without communication: radius, then
   /// mass in contacts, then own mass of the smallest particle of each type, of those in `group` and
@@ -79,8 +79,8 @@ class CriticalTimeStep : protected Pointers {
   Sizes smallest_particles(int types, int groups) const;
   std::vector<double> smallest_here(int types, int groups) const;
   double reduce_smallest(double mine) const;
-  void consider_pairs(const Talus::LawBook &laws, double speed);
-  void consider_pair(const Talus::LawBook &laws, int i, int j, double speed);
+  void consider_pairs(const Talus::PairCoeffs &laws, double speed);
+  void consider_pair(const Talus::PairCoeffs &laws, int i, int j, double speed);
   void consider_damping(const std::string &who, const Talus::ContactLaw &law,
                         const Talus::ContactCoefficients &c, double overlap, double mass_eff,
                         double radius_eff);

@@ -2,7 +2,7 @@
 //
 // Masses that contacts feel where they are not the particle's own: members of a `fix freeze` group
 // are infinitely heavy, members of rigid bodies weigh what the body weighs. The laws take force =
-// mass acceleration for granted, so where the host's units do not (real, metal, electron), all
+// mass acceleration for granted, so where LAMMPS' units do not (real, metal, electron), all
 // masses are converted.
 
 #ifndef TALUS_SYSTEM_EFFECTIVE_MASSES_H

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The work that contacts take from particles, over all steps in which somebody asks for it: of
-// pairs, of large bodies and of walls. GranularSystem begins each step; those that compute contacts
-// add theirs, and computes ask for the sum, or receive it by particle (see contact_observer.h).
+// The work that contacts take from particles, over all steps in which a compute needs it: of pairs,
+// of large bodies and of walls. GranularSystem begins each step; code that computes contacts adds
+// its work, and computes read the sum, or receive it by particle (see contact_observer.h).
 //
 // Energies are in units of the script.
 
@@ -27,7 +27,7 @@ class EnergyAccount : protected LAMMPS_NS::Pointers {
   {
   }
 
-  /// Until drop_observer(): in the constructor of a compute, and in its destructor.
+  /// In the constructor of a compute, and drop_observer() in its destructor.
   void add_observer(ContactObserver *one) { observers.push_back(one); }
   void drop_observer(const ContactObserver *one);
   bool has_observers() const { return !observers.empty(); }
@@ -42,7 +42,7 @@ class EnergyAccount : protected LAMMPS_NS::Pointers {
   /// For the contacts of a large body or wall in a step: an empty sum, and the same particles.
   WorkAccount part_of_step() const;
   /// The sum of such a part.
-  void add(const EnergyByCause &its) { of_step.sum += its; }
+  void add(const EnergyByCause &of_part) { of_step.sum += of_part; }
 
   /// What contacts of this rank have taken in steps that were accounted for, up to the time of the
   /// velocities.

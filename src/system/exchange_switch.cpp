@@ -76,7 +76,7 @@ void ExchangeSwitch::is_deleted(const Comm *one)
 ProxyUpdates *ExchangeSwitch::direct() const
 {
   ProxyUpdates *proxies = present();
-  return proxies && !proxies->stands_aside() ? proxies : nullptr;
+  return proxies && !proxies->falls_back() ? proxies : nullptr;
 }
 
 std::string ExchangeSwitch::reason_for_stock() const

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Which exchange of proxies is in force: that of LAMMPS, or the direct one (class CommProxy), which
-// takes the place of the host's communication object. Unless the user has decided with comm_proxy,
+// takes the place of LAMMPS' communication object. Unless the user has decided with comm_proxy,
 // the direct one is switched on at the start of a run that can use it.
 //
 // All methods are collective; every rank decides the same.
@@ -36,7 +36,7 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   Choice choice() const { return chosen; }
 
   /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user
-  /// or the host is against it. What shows later lets it stand aside.
+  /// or LAMMPS is against it. It falls back later if something else is found.
   void start_run();
 
   /// From the constructor and the destructor of a direct exchange: in every step it is asked
@@ -45,7 +45,7 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   void is_deleted(const LAMMPS_NS::Comm *comm);
   /// The direct exchange if it is in force, else nullptr.
   ProxyUpdates *direct() const;
-  /// With direct() == nullptr: why, and the cure, for people.
+  /// With direct() == nullptr: why, and the cure, as text for messages.
   std::string reason_for_stock() const;
   /// "" or what of the present settings the direct exchange does not support, and the cure.
   /// `in_run`: after Domain::init(); else only what can be known before.

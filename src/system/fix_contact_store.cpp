@@ -121,9 +121,10 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
-  // a run style of the host cannot do so
-  const bool its_own = Talus::SystemRunStyle::of(update->integrate) != nullptr;
-  if (system && update->whichflag == 1 && !its_own) system->steps_in_records().report(true);
+  // a run style of LAMMPS cannot do so
+  const bool run_style_is_talus = Talus::SystemRunStyle::of(update->integrate) != nullptr;
+  if (system && update->whichflag == 1 && !run_style_is_talus)
+    system->steps_in_records().report(true);
   if (system) system->release_pairs();
   take_over_sorting();
   sort_particles();
@@ -164,10 +165,10 @@ void FixContactStore::pairs_are_current()
 
 /* Histories of the other order are kept as a whole until they have been changed. */
 
-void FixContactStore::keep_histories(int records, int its_order)
+void FixContactStore::keep_histories(int records, int integration_order)
 {
   const int needed = std::max(records, 1);
-  const bool old_ones = order != 0 && order != its_order;
+  const bool old_ones = order != 0 && order != integration_order;
   store.keep(old_ones ? std::max(needed, store.num_records()) : needed);
 }
 
@@ -195,7 +196,7 @@ RunMonitor::Finding FixContactStore::find_no_number() const
   return {};
 }
 
-void FixContactStore::say_no_number(const RunMonitor::Finding &found) const
+void FixContactStore::report_no_number(const RunMonitor::Finding &found) const
 {
   constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
   error->all(FLERR,
@@ -218,7 +219,7 @@ void FixContactStore::require_numbers() const
   if (here.value > 0.0) mine = {here.details[0], static_cast<int>(here.details[1])};
   MPI_Allreduce(&mine, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
   if (first.tag < std::numeric_limits<double>::max())
-    say_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
+    report_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
 }
 
 /* From here on each particle carries its slot along, also if it is moved or deleted before
@@ -247,7 +248,7 @@ bool FixContactStore::in_periodic_box() const
   return domain->xperiodic || domain->yperiodic || domain->zperiodic;
 }
 
-/* Pairs stay behind a run, for those who ask for contacts, and for a run that goes on without a new
+/* Pairs stay after a run, for those who ask for contacts, and for a run that goes on without a new
    set-up: in a periodic box it goes on with the histories of both sides as they are, not with what the
    sides agree on, so with the same bits as one run. */
 
@@ -312,7 +313,7 @@ void FixContactStore::follow_velocities(int mine, const Talus::SystemShapes *sha
   });
 }
 
-void FixContactStore::remember_velocities(int mine)
+void FixContactStore::store_velocities(int mine)
 {
   constexpr int all = 1;
   if (mine & all) return;
@@ -320,11 +321,11 @@ void FixContactStore::remember_velocities(int mine)
   last.resize(keys.size());
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this, mine](int, int begin, int end) {
     for (int i = begin; i < end; i++)
-      if (!(atom->mask[i] & mine)) remember_velocity(i);
+      if (!(atom->mask[i] & mine)) store_velocity(i);
   });
 }
 
-void FixContactStore::remember_velocity(int i)
+void FixContactStore::store_velocity(int i)
 {
   std::copy_n(atom->v[i], 3, last[i].data());
   std::copy_n(atom->omega[i], 3, last[i].data() + 3);

@@ -8,7 +8,7 @@
 //     history/history_store.h); in restart files by the names of particles;
 //   * with an integrator of second order the changes of its velocities, see
 //     ParticleRecords::change, to other ranks, to ghosts and into restart files;
-//   * where fix balance shifts cutting planes, its position: the host goes to fractions of the box
+//   * where fix balance shifts cutting planes, its position: LAMMPS goes to fractions of the box
 //     and back for that, which moves every particle by a rounding error. The positions are put
 //     back, so that load balancing does not change the trajectory.
 //
@@ -46,7 +46,7 @@ class FixContactStore : public Fix {
   /// Called by the system right after creation; it outlives this fix.
   void serve(Talus::GranularSystem *of) { system = of; }
   /// Records that the laws of an integrator of this order need of each contact, see HistoryRows.
-  void keep_histories(int records, int its_order);
+  void keep_histories(int records, int integration_order);
   /// To be called by the system whenever it has computed forces: its pairs hold the latest
   /// history, and the store need not.
   void pairs_are_current();
@@ -67,13 +67,13 @@ class FixContactStore : public Fix {
   /// Where changes are kept: velocities as the present forces see them, of particles that others
   /// move than those who keep changes; and before the next forces, what follows from them. `mine`:
   /// bits of the groups of particles that are of no concern, nor are those that shapes know of.
-  void remember_velocities(int mine);
+  void store_velocities(int mine);
   void follow_velocities(int mine, const Talus::SystemShapes *shapes);
 
   /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
   /// The error, collective.
   RunMonitor::Finding find_no_number() const;
-  void say_no_number(const RunMonitor::Finding &found) const;
+  void report_no_number(const RunMonitor::Finding &found) const;
 
   int setmask() override;
   void init() override;
@@ -123,7 +123,7 @@ class FixContactStore : public Fix {
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;
   void refresh_key(int i);
-  void remember_velocity(int i);
+  void store_velocity(int i);
   void take_over_sorting();
   void give_sorting_back();
   void sort_particles();
@@ -144,7 +144,7 @@ class FixContactStore : public Fix {
   Talus::HistoryStore store;
   Talus::SparseExchange exchange;
 
-  int host_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead
+  int lammps_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead
 
   bool guards_positions = false;    // a fix balance exists
   std::vector<double> positions;    // of owned particles as they were before fix balance

@@ -74,11 +74,11 @@ void FixContactStore::set_arrays(int i)
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   if (with_changes) changes[i] = Talus::ChangeRecord{};
-  if (with_last) remember_velocity(i);
+  if (with_last) store_velocity(i);
   store.forget(i);
 }
 
-/* Of the host's own proxies: those of the records find theirs on their own. */
+/* Of LAMMPS' own proxies: those of the records find theirs on their own. */
 
 int FixContactStore::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
                                        int * /*pbc*/)
@@ -203,7 +203,7 @@ int FixContactStore::pack_restart(int i, double *buf)
   return size;
 }
 
-/* The host does not move what it has read for us when particles are deleted before this fix exists:
+/* LAMMPS does not move what it has read for us when particles are deleted before this fix exists:
    restart() looks at their number, this at their names. */
 
 void FixContactStore::unpack_restart(int i, int nth)
@@ -225,7 +225,7 @@ void FixContactStore::unpack_restart(int i, int nth)
   changes[i] = read_change(extra + m + read);
 }
 
-/* Exactly, not an upper limit: the host writes as much, and reads it as further particles. */
+/* Exactly, not an upper limit: LAMMPS writes as much, and reads it as further particles. */
 
 int FixContactStore::size_restart(int i)
 {

@@ -19,25 +19,25 @@
 
 using namespace LAMMPS_NS;
 
-/* The host sorts particles by place now and then, for the sake of the cache. Sorting them into the
+/* LAMMPS sorts particles by place now and then, for the sake of the cache. Sorting them into the
    canonical order instead serves the same end, and lets the records of src/contact be read and
    written straight through. Only while a run lasts: init() is called by many commands after which
    no run follows, and what atom_modify sets between runs must hold.
 
    It is done before the exchange, where the histories of bonds, and those of other pair styles, are
-   still known by the places of particles in lists of the host: then the host sorts, behind it. */
+   still known by the places of particles in lists of LAMMPS: then LAMMPS sorts, behind it. */
 
 void FixContactStore::take_over_sorting()
 {
-  if (host_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
+  if (lammps_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
   if (atom->molecular != Atom::ATOMIC || !system || !system->pair_style_is_alone()) return;
-  host_sorts_every = atom->sortfreq;
+  lammps_sorts_every = atom->sortfreq;
   atom->sortfreq = 0;    // until post_run()
 }
 
 void FixContactStore::sort_particles()
 {
-  if (!host_sorts_every) return;
+  if (!lammps_sorts_every) return;
   const int n = atom->nlocal;
   struct Place {
     std::uint64_t key;
@@ -73,8 +73,8 @@ void FixContactStore::sort_particles()
 
 void FixContactStore::give_sorting_back()
 {
-  if (!host_sorts_every) return;
-  atom->sortfreq = host_sorts_every;
+  if (!lammps_sorts_every) return;
+  atom->sortfreq = lammps_sorts_every;
   atom->nextsort = MAXBIGINT;    // not before the next setup, which makes the bins for it
-  host_sorts_every = 0;
+  lammps_sorts_every = 0;
 }

@@ -88,7 +88,7 @@ void FixPairHistory::take_even_values_of(int partner, tagint tag, Talus::History
       std::copy(one.history.begin() + 3, one.history.end(), values.begin() + 3);
 }
 
-/* Exactly: the host writes as much. */
+/* Exactly: LAMMPS writes as much. */
 
 int FixPairHistory::size_restart(int i)
 {

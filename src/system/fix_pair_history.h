@@ -9,7 +9,7 @@
 // Of each particle: number of doubles, of contacts, and for each contact the tag of the partner (as
 // the bits of a double) and its values as the particle sees them.
 //
-// What is remembered of rolling and twisting is the same for both particles. The stock style writes
+// The history of rolling and twisting is the same for both particles. The stock style writes
 // it with a minus for the one that does not own the pair in its neighbor list, and reads it at the
 // owner alone: so the plain value, written for both, is what it continues with, whichever particle
 // owns the pair then. Of a file of its own the value of the particle that comes first in memory is

@@ -45,10 +45,10 @@ auto is_synchronized(const AnyModel *model) -> decltype(model->synchronized_verl
   return false;
 }
 
-const Law *law_of(const Model &model, const StageOfModel &its)
+const Law *law_of(const Model &model, const StageOfModel &sub_model)
 {
-  const Stage stage = its.stage;
-  const std::string &name = model.sub_models[its.type]->name;
+  const Stage stage = sub_model.stage;
+  const std::string &name = model.sub_models[sub_model.type]->name;
   const bool follows = stage == Stage::TANGENTIAL || (stage == Stage::ROLLING && name != "none");
   if (follows && is_synchronized(&model)) return find_law(stage, name + " synchronized_verlet");
   if (stage == Stage::NORMAL && name == "hertz/material") return find_law(stage, "hertz");
@@ -102,9 +102,9 @@ void give_resistance(const GranSubMod &sub_model, const std::array<const char *,
 
 std::string reason_of_model(const Model &model)
 {
-  for (const StageOfModel &its : stages) {
-    const std::string &name = model.sub_models[its.type]->name;
-    if (!law_of(model, its)) return std::string(its.word) + " model " + name;
+  for (const StageOfModel &sub_model : stages) {
+    const std::string &name = model.sub_models[sub_model.type]->name;
+    if (!law_of(model, sub_model)) return std::string(sub_model.word) + " model " + name;
   }
   return "";
 }
@@ -112,7 +112,8 @@ std::string reason_of_model(const Model &model)
 ContactSpec spec_of_model(const Model &model)
 {
   ContactSpec spec;
-  for (const StageOfModel &its : stages) spec.law.choose(its.stage, law_of(model, its));
+  for (const StageOfModel &sub_model : stages)
+    spec.law.choose(sub_model.stage, law_of(model, sub_model));
   give_normal(model, spec.given);
   give_tangential(model, spec.given);
   give_resistance(*model.rolling_model, {"k_roll", "gamma_roll", "mu_roll"}, spec.given);
@@ -136,18 +137,19 @@ std::optional<std::vector<int>> stock_history_of(const std::vector<const Model *
     if (!reason_of_model(*model).empty()) continue;
     const ContactLaw law = spec_of_model(*model).law;
     const HistoryLayout layout = law.history();
-    for (const StageOfModel &its : stages) {
-      const int kept = law[its.stage].odd_history + law[its.stage].even_history;
+    for (const StageOfModel &sub_model : stages) {
+      const int kept = law[sub_model.stage].odd_history + law[sub_model.stage].even_history;
       for (int n = 0; n < kept; n++) {
-        const int place = layout.of_stage[static_cast<int>(its.stage)][n];
-        int &known = values[its.type].at(n);
+        const int place = layout.of_stage[static_cast<int>(sub_model.stage)][n];
+        int &known = values[sub_model.type].at(n);
         if (known >= 0 && known != place) return {};
         known = place;
       }
     }
   }
   std::vector<int> all;
-  for (const std::vector<int> &its : values) all.insert(all.end(), its.begin(), its.end());
+  for (const std::vector<int> &indices : values)
+    all.insert(all.end(), indices.begin(), indices.end());
   if (all.empty() && beyond_contact) all.push_back(-1);    // that the particles touch
   return all;
 }

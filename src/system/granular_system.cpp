@@ -35,17 +35,17 @@ constexpr const char *placeholder_id = "TALUS_CONTACTS_LATER";
 std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 {
   static std::map<const LAMMPS *, std::weak_ptr<GranularSystem>> systems;
-  std::shared_ptr<GranularSystem> its = systems[lmp].lock();
-  if (!its) {
-    its.reset(new GranularSystem(lmp));
-    systems[lmp] = its;
+  std::shared_ptr<GranularSystem> system = systems[lmp].lock();
+  if (!system) {
+    system.reset(new GranularSystem(lmp));
+    systems[lmp] = system;
   }
-  return its;
+  return system;
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
-    contact_range(lmp, book), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
+    contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
     energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
     proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers)
 {
@@ -66,11 +66,11 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
       {{0.5,
         [this] { return contact_store ? contact_store->find_no_number() : RunMonitor::Finding{}; },
         [this](const RunMonitor::Finding &found) {
-          contact_store->say_no_number(found);
+          contact_store->report_no_number(found);
           return true;
         }}});
   monitors.add(pair, monitor.checks([this] { return run_contacts.deepest(); }));
-  monitors.add(pair, {time_step.check(book)});
+  monitors.add(pair, {time_step.check(pair_coeffs)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);
   return true;
@@ -84,7 +84,7 @@ void GranularSystem::detach(const Pair *one)
   monitors.remove(pair);
   pair = nullptr;
   contact_store = nullptr;
-  book = LawBook{};
+  pair_coeffs = PairCoeffs{};
   prepared.reset();
   announced.clear();
   energies.clear();
@@ -143,13 +143,13 @@ void GranularSystem::create_store()
 
 void GranularSystem::prepare_laws()
 {
-  if (prepared == book.revision()) return;
-  const LawTable table = book.table(movers.order());
+  if (prepared == pair_coeffs.revision()) return;
+  const LawTable table = pair_coeffs.table(movers.order());
   contact_store->keep_histories(table.history_records(), movers.order());
   contact_pipeline->set_laws(table);
-  prepared = book.revision();
+  prepared = pair_coeffs.revision();
 
-  const std::string description = "Talus " + style.name + ": " + book.describe(table);
+  const std::string description = "Talus " + style.name + ": " + pair_coeffs.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
   const std::string problem = contact_pipeline->keeps_history() ? contact_range.small_period() : "";
@@ -171,16 +171,16 @@ std::string GranularSystem::reason_against_history()
   return contact_range.small_period();
 }
 
-bool GranularSystem::take_shapes(SystemShapes *its)
+bool GranularSystem::take_shapes(SystemShapes *fix)
 {
   if (shaped) return false;
-  shaped = its;
+  shaped = fix;
   return true;
 }
 
-void GranularSystem::drop_shapes(const SystemShapes *its)
+void GranularSystem::drop_shapes(const SystemShapes *fix)
 {
-  if (shaped == its) shaped = nullptr;
+  if (shaped == fix) shaped = nullptr;
 }
 
 }    // namespace Talus

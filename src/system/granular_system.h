@@ -1,23 +1,23 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The one owner of what Talus knows of a LAMMPS instance. It makes a step and a rebuild, and gives
-// out its parts, each with one job: laws, masses, large bodies, integrators, the account of
+// Owner of all state that Talus has of a LAMMPS instance. It makes steps and rebuilds, and gives
+// access to its parts, each with one job: laws, masses, large bodies, integrators, the account of
 // energies, contacts for outputs, and so on. The commands (pair style, fixes, computes,
-// communication, run style) hold a reference and talk to the part that they mean; they do not know
+// communication, run style) hold a reference and call the part that they need; they do not call
 // each other.
 //
 //   granular_system.cpp   life, the pair style, laws
 //   step.cpp              one step, from the move to the forces, and where the particles are
 //   rebuild.cpp           from old neighbor lists to new ones
 //
-// A step is made in the arrays of the host, or, if only Talus looks at the particles in it, in the
+// A step is made in the arrays of LAMMPS, or, if only Talus looks at the particles in it, in the
 // records of the contacts (see contact/contact_pipeline.h), with the same bits.
 
 #ifndef TALUS_SYSTEM_GRANULAR_SYSTEM_H
 #define TALUS_SYSTEM_GRANULAR_SYSTEM_H
 
 #include "contact/contact_pipeline.h"
-#include "material/law_book.h"
+#include "material/pair_coeffs.h"
 #include "particles/particle_state.h"
 #include "system/contact_monitor.h"
 #include "system/contact_range.h"
@@ -68,7 +68,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   /// Laws between all types, as the script gives them; and with their coefficients as the kernels
   /// have them.
-  Talus::LawBook &laws() { return book; }
+  Talus::PairCoeffs &laws() { return pair_coeffs; }
   const LawTable &law_table();
   /// After init_pair_style(): at which distances particles touch.
   const ContactRange &range() const { return contact_range; }
@@ -91,15 +91,15 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ExchangeSwitch &exchange() { return exchange_switch; }
   StepsInRecords &steps_in_records() { return record_steps; }
 
-  /// Particles that are not spheres, nullptr: all are. The fix that has them takes the place in its
-  /// constructor and drops it in its destructor. false: there is one already.
+  /// Particles that are not spheres, nullptr: all are. Their fix registers in its constructor and
+  /// unregisters in its destructor. false: there is one already.
   SystemShapes *shapes() const { return shaped; }
-  bool take_shapes(SystemShapes *its);
-  void drop_shapes(const SystemShapes *its);
+  bool take_shapes(SystemShapes *fix);
+  void drop_shapes(const SystemShapes *fix);
 
   // ---- the pair style
 
-  /// What the system does as a pair style wants it.
+  /// What a pair style demands of the system.
   struct StyleTraits {
     std::string name;    ///< as scripts have it, for messages
     /// The Coulomb limit acts on stored displacements also while a run is set up, as in the stock
@@ -119,9 +119,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void init_pair_style();
   /// The same, before it, collective: "", or why contacts cannot have a history here.
   std::string reason_against_history();
-  /// All pairs are computed here: it is not part of hybrid. Valid after init() of the host.
+  /// All pairs are computed here: it is not part of hybrid. Valid after init() of LAMMPS.
   bool pair_style_is_alone() const;
-  /// "" if so, else why not, for people.
+  /// "" if so, else why not, as text for messages.
   std::string reason_of_pair_style() const;
   double memory_usage() const
   {
@@ -138,7 +138,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
   /// The forces of all contacts between particles. `report`, if given, is called for each of them.
-  void compute_contacts(const std::function<void(const ReportedContact &)> *report);
+  void compute_contacts(const std::function<void(const TalliedContact &)> *tally);
   /// Changes of velocities are kept: for second order, and for the work of contacts.
   bool needs_changes() const { return needs_changes(movers.order()); }
 
@@ -147,22 +147,23 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// The particles where they are now, for forces other than those between particles, and for those
   /// who move them.
   ParticleState particles();
-  /// Lets a fix do its part of a step in the arrays of the host: now, or when the particles come
-  /// back.
+  /// Lets a fix do its part of a step in the arrays of LAMMPS: now, or when the particles return
+  /// there.
   void complete_step_of(SystemFix &fix);
   /// At the start of a run, after set-up. Collective; `pairs_computed`: the run style calls the pair
   /// style.
   void start_run(bool pairs_computed);
-  /// Before the forces of a step are computed: whether its particles will be in the arrays of the
-  /// host after it, which then receive forces. `tallied`: energies or virials are asked for in it.
+  /// Before the forces of a step are computed: whether its particles will be in the arrays of
+  /// LAMMPS after it, which then receive forces. `tallied`: energies or virials are asked for in
+  /// it.
   bool begin_forces(LAMMPS_NS::bigint step, bool tallied);
   /// Updates the proxies, after begin_forces(); pending on return if `overlap`.
   void update_proxies(bool overlap);
-  /// New neighbor lists are due: the particles come back to the arrays of the host.
+  /// New neighbor lists are due: the particles come back to the arrays of LAMMPS.
   void begin_rebuild();
   /// The same between two steps, or at the end of a run, however it ends: with the forces that will
   /// move them in the next step. Returns whether they were in the records.
-  bool return_to_host();
+  bool return_to_arrays();
 
   // ---- rebuild: called by FixContactStore, in this order
 
@@ -195,12 +196,12 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::Pair *pair = nullptr;
   StyleTraits style{"gran/penalty"};
   LAMMPS_NS::FixContactStore *contact_store = nullptr;
-  Talus::LawBook book;
-  std::optional<int> prepared;    // revision of the book that the pipeline has
+  Talus::PairCoeffs pair_coeffs;
+  std::optional<int> prepared;    // revision of pair_coeffs that the pipeline has
   std::string announced;          // last description of the laws in the log
 
   // particles, pairs, contacts
-  std::optional<ContactPipeline> contact_pipeline;    // always there; anew with each pair style
+  std::optional<ContactPipeline> contact_pipeline;    // always there; replaced with each pair style
   LargeBodies large_bodies;
   LAMMPS_NS::NeighborSource neighbor_source;
   LAMMPS_NS::EffectiveMasses effective_masses;

@@ -29,15 +29,15 @@ int Integrators::order() const
 {
   int highest = 1;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix)) highest = std::max(highest, ours->order());
+    if (const auto *talus_fix = SystemFix::of(fix)) highest = std::max(highest, talus_fix->order());
   return highest;
 }
 
 double Integrators::lag() const
 {
   for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = SystemFix::of(fix);
-    if (ours && ours->order() == 2) return ours->lag();
+    const auto *talus_fix = SystemFix::of(fix);
+    if (talus_fix && talus_fix->order() == 2) return talus_fix->lag();
   }
   return 0.0;
 }
@@ -46,8 +46,8 @@ double Integrators::next_kick() const
 {
   double share = 1.0;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix); ours && ours->integrates())
-      share = std::min(share, ours->next_kick_in_steps());
+    if (const auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->integrates())
+      share = std::min(share, talus_fix->next_kick_in_steps());
   return share * update->dt;
 }
 
@@ -55,7 +55,8 @@ int Integrators::groups_with_changes() const
 {
   int bits = 0;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix); ours && ours->keeps_changes()) bits |= fix->groupbit;
+    if (const auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->keeps_changes())
+      bits |= fix->groupbit;
   return bits;
 }
 
@@ -66,7 +67,8 @@ void Integrators::start_run()
   of_run.clear();
   given.clear();    // an error may have left some
   for (Fix *fix : modify->get_fix_list())
-    if (auto *ours = SystemFix::of(fix); ours && ours->integrates()) of_run.push_back({fix, ours});
+    if (auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->integrates())
+      of_run.push_back({fix, talus_fix});
 }
 
 /* Particles that come later, from fix pour, belong to the group all and to one other. */
@@ -78,7 +80,7 @@ std::string Integrators::reason_against_records(const SystemFix *shapes) const
   constexpr int all = 1;
   for (std::size_t n = 1; n < of_run.size(); n++)
     for (std::size_t m = 0; m < n; m++) {
-      if (of_run[n].ours == shapes || of_run[m].ours == shapes) continue;
+      if (of_run[n].talus_fix == shapes || of_run[m].talus_fix == shapes) continue;
       const int one = of_run[m].fix->groupbit, other = of_run[n].fix->groupbit;
       bool both = one == other || one == all || other == all;
       for (int i = 0; i < atom->nlocal && !both; i++)
@@ -95,9 +97,9 @@ std::string Integrators::reason_against_records(const SystemFix *shapes) const
 int Integrators::mover_of(int i) const
 {
   for (std::size_t n = 0; n < of_run.size(); n++) {
-    const auto &[fix, ours] = of_run[n];
-    if (!(atom->mask[i] & fix->groupbit) || !ours->moves_particle(i)) continue;
-    return ours->places_particles() ? -1 : static_cast<int>(n);
+    const auto &[fix, talus_fix] = of_run[n];
+    if (!(atom->mask[i] & fix->groupbit) || !talus_fix->moves_particle(i)) continue;
+    return talus_fix->places_particles() ? -1 : static_cast<int>(n);
   }
   return -1;
 }
@@ -111,7 +113,7 @@ bool Integrators::give(const RecordStep &step)
 
 void Integrators::leave_records()
 {
-  for (const Integrator &one : of_run) one.ours->leave_records();
+  for (const Integrator &one : of_run) one.talus_fix->leave_records();
 }
 
 }    // namespace Talus

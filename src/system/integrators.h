@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The fixes that move particles: what the script's are like, and in a run with steps in the records
-// those of Talus, which give their steps one after another, so that all particles are moved in one
-// pass. GranularSystem owns them.
+// The fixes that move particles: properties of those in the script, and in a run with steps in the
+// records those of Talus, which hand in their steps one after another, so that all particles are
+// moved in one pass. GranularSystem owns them.
 
 #ifndef TALUS_SYSTEM_INTEGRATORS_H
 #define TALUS_SYSTEM_INTEGRATORS_H
@@ -41,9 +41,9 @@ class Integrators : protected LAMMPS_NS::Pointers {
   /// At its start, those in the order of the script.
   void start_run();
   /// Of such a run, collective: "", or why they cannot move particles in the records. `shapes`:
-  /// nullptr, or the one that sees itself to it that no other moves its particles.
+  /// nullptr, or the one that checks itself that no other fix moves its particles.
   std::string reason_against_records(const SystemFix *shapes) const;
-  /// Which of them moves an owned particle (host's index) on the way through the records, -1: none.
+  /// Which of them moves an owned particle (local index) on the way through the records, -1: none.
   int mover_of(int i) const;
   /// The step of one, each in its turn. Returns whether all have given theirs, in steps().
   bool give(const RecordStep &step);
@@ -54,7 +54,7 @@ class Integrators : protected LAMMPS_NS::Pointers {
  private:
   struct Integrator {
     LAMMPS_NS::Fix *fix;
-    SystemFix *ours;    ///< the same
+    SystemFix *talus_fix;    ///< the same
   };
   std::vector<Integrator> of_run;
   std::vector<RecordStep> given;    // of the first of these, in this step

@@ -22,7 +22,7 @@
 #endif
 
 // TALUS_HOST_HAS_RUN_PLUGINS, set by the build: plugins may bring run styles, which came in summer
-// 2025. Before, they enter them in the host's table of run styles, a public member of Update.
+// 2025. Before, they enter them in LAMMPS' table of run styles, a public member of Update.
 #if !defined(TALUS_HOST_HAS_RUN_PLUGINS)
 #error "link the CMake target lammps_host: it defines TALUS_HOST_HAS_RUN_PLUGINS"
 #endif
@@ -33,7 +33,7 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_TELLS_FORMULAS"
 #endif
 
-// Set by the build: TALUS_HOST_HAS_GRANULAR, the host has package GRANULAR; of its fix wall/gran,
+// Set by the build: TALUS_HOST_HAS_GRANULAR, LAMMPS has package GRANULAR; of its fix wall/gran,
 // TALUS_HOST_HAS_WALL_CYLINDER, it has the keyword zcylinder, and TALUS_HOST_DRAWS_GRAN_WALLS, its
 // planes can be seen in pictures. All three changed within updates of a release.
 #if !defined(TALUS_HOST_HAS_GRANULAR) || !defined(TALUS_HOST_HAS_WALL_CYLINDER) ||                 \

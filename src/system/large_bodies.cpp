@@ -47,8 +47,8 @@ void LargeBodies::start_run()
 {
   may_join.clear();
   for (const auto &fix : modify->get_fix_list()) {
-    const auto *ours = SystemFix::of(fix);
-    if (ours && ours->adds_forces()) break;
+    const auto *talus_fix = SystemFix::of(fix);
+    if (talus_fix && talus_fix->adds_forces()) break;
     for (const auto &body : all)
       if (body->command() == fix) may_join.push_back(body.get());
   }

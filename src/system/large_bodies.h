@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The large bodies of a LAMMPS instance, and which of them add their forces while contacts between
-// particles are computed, in the records. GranularSystem owns them; commands make and ask them.
+// particles are computed, in the records. GranularSystem owns them; commands create and query them.
 
 #ifndef TALUS_SYSTEM_LARGE_BODIES_H
 #define TALUS_SYSTEM_LARGE_BODIES_H
@@ -24,10 +24,7 @@ class GranularSystem;
 
 class LargeBodies : protected LAMMPS_NS::Pointers {
  public:
-  LargeBodies(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) :
-      Pointers(lmp), system(its_system)
-  {
-  }
+  LargeBodies(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
   /// A new body, until remove(): in the constructor of the command that defines it, and in its
   /// destructor.

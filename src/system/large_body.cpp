@@ -24,8 +24,8 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-LargeBody::LargeBody(const Fix *its_fix, GranularSystem &its_system, LAMMPS *lmp) :
-    Pointers(lmp), fix(its_fix), system(its_system), masses(lmp)
+LargeBody::LargeBody(const Fix *command_fix, GranularSystem &owner, LAMMPS *lmp) :
+    Pointers(lmp), fix(command_fix), system(owner), masses(lmp)
 {
   specs.resize(atom->ntypes + 1);
   spec_is_set.assign(atom->ntypes + 1, false);
@@ -46,15 +46,15 @@ std::string LargeBody::name() const
   return std::string("fix large/body ") + fix->id;
 }
 
-void LargeBody::set_shape(std::unique_ptr<LargeBodyShape> its)
+void LargeBody::set_shape(std::unique_ptr<LargeBodyShape> shape)
 {
-  its_shape = std::move(its);
+  body_shape = std::move(shape);
 }
 
-void LargeBody::set_frame(const BodyFrame *its, bool its_moves)
+void LargeBody::set_frame(const BodyFrame *body_frame, bool body_moves)
 {
-  frame = its;
-  moves = its_moves;
+  frame = body_frame;
+  moves = body_moves;
 }
 
 void LargeBody::keep_history()
@@ -64,7 +64,7 @@ void LargeBody::keep_history()
     return s.law.has_history() || (second_order && second_order_law(s.law).has_history());
   });
   if (with_history)
-    contacts.history.keep(its_shape->most_contacts() > 1, !its_shape->has_one_normal());
+    contacts.history.keep(body_shape->most_contacts() > 1, !body_shape->has_one_normal());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -110,8 +110,8 @@ void LargeBody::list_particles()
   masses.update();
   const ParticleState particles = view();
   const int *mask = mask_of_spheres();
-  if (its_shape->wants_focus()) its_shape->focus(bounds_of_focus(particles, mask));
-  contacts.find_candidates(*its_shape, *frame, particles, mask, group_bits(), neighbor->skin,
+  if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
+  contacts.find_candidates(*body_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     contacts.change_order(system.integrators().order(), atom->type,
@@ -136,8 +136,9 @@ Eigen::AlignedBox3d LargeBody::bounds_of_focus(const ParticleState &particles, c
   constexpr double everywhere = 1.0e100;
   if (system.shapes())
     return {Eigen::Vector3d::Constant(-everywhere), Eigen::Vector3d::Constant(everywhere)};
-  return BodyCandidates::bounds_of_search(*frame, particles, mask, group_bits(), neighbor->skin,
-                                          contacts.largest_reach(particles, mask, group_bits()));
+  return BodyCandidates::bounds_of_search(
+      *frame, particles, mask, group_bits(), neighbor->skin,
+      contacts.largest_pulloff_distance(particles, mask, group_bits()));
 }
 
 /* Particles with a shape belong to no group here: the system computes their contacts. */
@@ -156,16 +157,16 @@ const int *LargeBody::mask_of_spheres()
 
 ParticleState LargeBody::view() const
 {
-  ParticleState its = system.particles();
-  its.replace_masses(masses.override_or_null());
-  return its;
+  ParticleState particles = system.particles();
+  particles.replace_masses(masses.override_or_null());
+  return particles;
 }
 
-std::string LargeBody::needs_host_arrays() const
+std::string LargeBody::needs_arrays() const
 {
   const bool turns = std::any_of(specs.begin() + 1, specs.end(),
                                  [](const ContactSpec &s) { return s.law.has_friction(); });
-  if (turns && !system.pipeline().keeps_spins())
+  if (turns && !system.pipeline().keeps_omega())
     return "it has friction and the contacts between particles have none";
   return "";
 }
@@ -186,8 +187,8 @@ BodyStep LargeBody::step_of(bool advance)
 
 bool LargeBody::join_step()
 {
-  joined = (comm->nthreads == 1 || its_shape->thread_safe()) &&
-           contacts.begin_static(*its_shape, *frame, view(), step_of(true));
+  joined = (comm->nthreads == 1 || body_shape->thread_safe()) &&
+           contacts.begin_static(*body_shape, *frame, view(), step_of(true));
   return joined;
 }
 
@@ -204,7 +205,7 @@ void LargeBody::compute(bool advance, double *virial)
     }
     BodyStep step = step_of(advance);
     step.virial = virial;
-    mine = contacts.compute(*its_shape, *frame, view(), step);
+    mine = contacts.compute(*body_shape, *frame, view(), step);
     if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step));
   }
   joined = reduced = total_is_known = false;
@@ -221,7 +222,7 @@ void LargeBody::compute(bool advance, double *virial)
 
 BodyFindings LargeBody::findings_now() const
 {
-  return contacts.look_for_trouble(*its_shape, *frame, view(), comm->nthreads);
+  return contacts.find_worst(*body_shape, *frame, view(), comm->nthreads);
 }
 
 bool LargeBody::accounts() const
@@ -229,16 +230,16 @@ bool LargeBody::accounts() const
   return is_asked || was_asked || system.account().is_asked();
 }
 
-void LargeBody::for_each_contact(Ask ask, const BodyContacts::VisitContact &visit)
+void LargeBody::for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit)
 {
-  contacts.for_each_contact(*its_shape, *frame, view(), update->dt, ask, visit);
-  if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, ask, visit);
+  contacts.for_each_contact(*body_shape, *frame, view(), update->dt, requested, visit);
+  if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, requested, visit);
 }
 
-/* What a spring has taken it stores, or has lost: it does not matter here. The same with the whole
-   force of contacts that tear. */
+/* Work that went into a spring is stored there, or lost: both count here. So does the work of the
+   whole normal force of contacts that end by pull-off. */
 
-/* What was seen between has the host's indices of this rebuild, which stand until the next. */
+/* What was seen between has local indices of this rebuild, which stand until the next. */
 
 BodyFindings LargeBody::find_worst()
 {
@@ -252,8 +253,8 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated + system.account().counted_of_last_step() * last_dissipated, all;
-  for_each_contact(Ask::ENERGIES, [&](const SurveyedContact &one) {
-    here += one.stored.normal - one.stored.tearing;
+  for_each_contact(ContactData::ENERGIES, [&](const ContactReport &one) {
+    here += one.stored.normal - one.stored.detaching;
   });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

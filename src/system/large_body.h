@@ -56,12 +56,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   // ---- definition: what follows must be called before the first run
 
-  void set_shape(std::unique_ptr<LargeBodyShape> its);
-  LargeBodyShape &shape() { return *its_shape; }
+  void set_shape(std::unique_ptr<LargeBodyShape> shape);
+  LargeBodyShape &shape() { return *body_shape; }
   void set_law(int type, const ContactSpec &spec);
   bool has_law(int type) const { return spec_is_set[type]; }
   /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
-  void set_frame(const BodyFrame *its, bool moves);
+  void set_frame(const BodyFrame *body_frame, bool moves);
   /// Makes the surface for ParaView; called on all ranks, rank 0 gets all of it.
   void set_picture(std::function<VtkPolyData()> maker) { make_picture = std::move(maker); }
   /// Receives one entry for each contact of a step.
@@ -80,8 +80,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void init();
   void list_particles();
   /// At the beginning of a step in the records: whether its forces will be added by add_to_slots().
-  /// If not, nor are those of the bodies behind it: forces on a particle are summed in the order of
-  /// the commands.
+  /// If not, nor are those of the bodies defined after it: forces on a particle are summed in the
+  /// order of the commands.
   bool join_step();
   /// Adds the forces on the particles of slots begin ... end-1. Called by several threads at the
   /// same time, for ranges that together hold all owned particles.
@@ -91,10 +91,11 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void compute(bool advance, double *virial);
   /// "", or why contacts with the body are not of second order, and the cure.
   std::string reason_against_second_order();
-  /// "", or where contacts with the body are not of second order nevertheless, for people.
+  /// "", or where contacts with the body are not of second order nevertheless, as text for
+  /// messages.
   std::string note_on_second_order() const;
   /// Why steps with this body cannot be made in the records; "" if they can.
-  std::string needs_host_arrays() const;
+  std::string needs_arrays() const;
 
   // ---- load: force, torque about the reference point, contacts, of the last step
 
@@ -118,8 +119,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// It is.
   bool accounts() const;
   /// visit(contact) for those of the last step on this rank, once its forces have been computed.
-  void for_each_contact(Ask ask, const BodyContacts::VisitContact &visit);
-  /// On this rank, now and when particles were listed anew between two rebuilds.
+  void for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit);
+  /// On this rank, now and when particles were listed again between two rebuilds.
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
   VtkPolyData picture() const { return make_picture(); }
@@ -146,7 +147,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   const LAMMPS_NS::Fix *fix;
   GranularSystem &system;
-  std::unique_ptr<LargeBodyShape> its_shape;
+  std::unique_ptr<LargeBodyShape> body_shape;
   const BodyFrame *frame = nullptr;
   bool moves = false;
   std::vector<TouchedPart> *touched = nullptr;
@@ -157,7 +158,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   int order_of_history = 0;    ///< of the integrator, by whose laws it is; 0: not known
   BodyContacts contacts;
   std::vector<int> spheres;     ///< see mask_of_spheres()
-  BodyFindings seen_between;    ///< before particles were listed anew within a step
+  BodyFindings seen_between;    ///< before particles were listed again within a step
   LAMMPS_NS::EffectiveMasses masses;
   int already_frozen = 0;    ///< groups whose forces a fix freeze has set to zero before
 

@@ -43,9 +43,9 @@ void LargeBody::set_laws()
 std::string LargeBody::reason_against_second_order()
 {
   for (int type = 1; type <= atom->ntypes; type++) {
-    const std::string its =
+    const std::string reason =
         Talus::reason_against_second_order(specs[type].law, coefficients_of(type));
-    if (!its.empty()) return its;
+    if (!reason.empty()) return reason;
   }
   if (!with_history)
     return "was defined before the integrator and keeps no history without friction: define it "
@@ -55,7 +55,7 @@ std::string LargeBody::reason_against_second_order()
 
 std::string LargeBody::note_on_second_order() const
 {
-  const MeshShape *mesh = its_shape->as_mesh();
+  const MeshShape *mesh = body_shape->as_mesh();
   if (!mesh || !mesh->has_jumps()) return "";
   return "where particles go from facet to facet of a hollow that stands for a curved surface the "
          "force turns at once, and the error is of first order: less with more facets";

@@ -31,7 +31,7 @@ class NoBins : public NBin {
 };
 }    // namespace
 
-std::string NeighborSource::reason_for_host() const
+std::string NeighborSource::reason_for_lammps_lists() const
 {
   if (force->pair_match("^hybrid", 0)) return "pair style hybrid";
   if (atom->molecular != Atom::ATOMIC) return "bonds may scale forces";
@@ -41,27 +41,27 @@ std::string NeighborSource::reason_for_host() const
 
 void NeighborSource::init(Pair *pair)
 {
-  const std::string reason = reason_for_host();
-  own = reason.empty();
-  // of ours the host makes no list, but knows that pairs are those of spheres; of its own it has
+  const std::string reason = reason_for_lammps_lists();
+  searches = reason.empty();
+  // of ours LAMMPS makes no list, but knows that pairs are those of spheres; of its own it has
   // pairs across ranks on both sides, whatever `newton` says
-  neighbor->add_request(pair, NeighConst::REQ_SIZE |
-                                  (own ? NeighConst::REQ_OCCASIONAL : NeighConst::REQ_NEWTON_OFF));
+  neighbor->add_request(pair, NeighConst::REQ_SIZE | (searches ? NeighConst::REQ_OCCASIONAL
+                                                               : NeighConst::REQ_NEWTON_OFF));
   bins_left_out = false;
   types_excluded = neighbor->nex_type > 0;
   groups_excluded = neighbor->nex_group;
   molecules_excluded = neighbor->nex_mol;
   const std::string line =
       "Talus " + GranularSystem::of(lmp)->style_name() +
-      (own ? ": finds neighbors itself, as often as neigh_modify says\n"
-           : fmt::format(": neighbor lists are those of LAMMPS: {}\n", reason));
+      (searches ? ": finds neighbors itself, as often as neigh_modify says\n"
+                : fmt::format(": neighbor lists are those of LAMMPS: {}\n", reason));
   if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
   said = line;
 }
 
-NeighborView NeighborSource::find(const NeighList *list, double reach)
+NeighborView NeighborSource::find(const NeighList *list, double pulloff_distance)
 {
-  if (!own) {
+  if (!searches) {
     const double *scale = force->special_lj;
     return {list->inum,
             list->ilist,
@@ -74,12 +74,12 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
   if (!bins_left_out) leave_bins_out();
   const int total = atom->nlocal + atom->nghost;
   try {
-    search.find(
-        {atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius, neighbor->skin + reach},
-        comm->nthreads,
-        types_excluded || groups_excluded || molecules_excluded
-            ? [this](int i, int j) { return excludes(i, j); }
-            : std::function<bool(int, int)>());
+    search.find({atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius,
+                 neighbor->skin + pulloff_distance},
+                comm->nthreads,
+                types_excluded || groups_excluded || molecules_excluded
+                    ? [this](int i, int j) { return excludes(i, j); }
+                    : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
                GranularSystem::of(lmp)->style_name(), problem.what());
@@ -87,9 +87,9 @@ NeighborView NeighborSource::find(const NeighList *list, double reach)
   return search.view();
 }
 
-/* The host sorts all particles into bins at every rebuild, for lists that may be asked for. Ours is
-   not; where it is the only one the bins go. The host makes them anew, and init() is called, before
-   another list can be there. */
+/* LAMMPS sorts all particles into bins at every rebuild, for lists that may be asked for. Ours is
+   not; where it is the only one the bins go. LAMMPS makes them again, and init() is called,
+   before another list can be there. */
 
 void NeighborSource::leave_bins_out()
 {
@@ -105,8 +105,8 @@ void NeighborSource::leave_bins_out()
   builder->nb = none;
 }
 
-/* `neigh_modify exclude type`, `group` and `molecule/intra` or `inter`, as the host's lists heed them: as they were when a run
-   was set up, for the tables of the host are made then. */
+/* `neigh_modify exclude type`, `group` and `molecule/intra` or `inter`, as LAMMPS' lists heed them:
+   as they were when a run was set up, for the tables of LAMMPS are made then. */
 
 bool NeighborSource::excludes(int i, int j) const
 {

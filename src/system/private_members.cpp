@@ -143,12 +143,12 @@ CornersOfRegion corners_of(const RegBlock &r)
 
 CornersOfRegion corners_of(const RegPrism &r)
 {
-  CornersOfRegion its;
-  std::copy_n(r.*pointer_to(PrismLo{}), 3, its.corner[0]);
-  std::copy_n(r.*pointer_to(PrismHi{}), 3, its.corner[1]);
+  CornersOfRegion corners;
+  std::copy_n(r.*pointer_to(PrismLo{}), 3, corners.corner[0]);
+  std::copy_n(r.*pointer_to(PrismHi{}), 3, corners.corner[1]);
   for (int face = 0; face < 6; face++)
-    std::copy_n((r.*pointer_to(PrismFaces{}))[face], 3, its.normal[face]);
-  return its;
+    std::copy_n((r.*pointer_to(PrismFaces{}))[face], 3, corners.normal[face]);
+  return corners;
 }
 
 RoundRegion shape_of(const RegCylinder &r)

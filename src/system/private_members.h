@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What classes of the host keep to themselves and nothing else tells: read here, and nowhere else
-// in Talus. A newer LAMMPS that names a member otherwise, or tells it, changes one source file.
+// Private members of LAMMPS classes without public access: read here, and nowhere else in Talus. A
+// newer LAMMPS that renames one, or gives access to it, changes one source file.
 
 #ifndef TALUS_SYSTEM_PRIVATE_MEMBERS_H
 #define TALUS_SYSTEM_PRIVATE_MEMBERS_H

@@ -32,16 +32,16 @@ const std::vector<int> &ProxyStates::sent()
   return sent_particles;
 }
 
-/* Where states go through the arrays of the host, these have to show the particles that are sent: a
+/* Where states go through the arrays of LAMMPS, these have to show the particles that are sent: a
    step that is looked at may show its ghosts. */
 
-void ProxyStates::update(bool overlap, ContactPipeline &particles, const ParticleView &host,
+void ProxyStates::update(bool overlap, ContactPipeline &particles, const ParticleView &arrays,
                          bool stay)
 {
   ProxyUpdates *proxies = exchange.direct();
   const bool from_records = particles.holds_state();
   in_records = from_records && stay && proxies && !proxies->is_checking();
-  if (from_records && !in_records) particles.show_state(sent(), host);
+  if (from_records && !in_records) particles.copy_states_to_arrays(sent(), arrays);
   if (!proxies || !proxies->has_plan() || !(overlap || in_records)) {
     comm->forward_comm();    // complete at its end
     return;

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How the states of proxies come up to date in a step: through the arrays of the host, or, while
+// How the states of proxies come up to date in a step: through the arrays of LAMMPS, or, while
 // particles are in the records before and after it, from records to records. GranularSystem calls
 // it between the move of the particles and their forces.
 
@@ -23,19 +23,19 @@ class ProxyUpdates;
 
 class ProxyStates : protected LAMMPS_NS::Pointers {
  public:
-  ProxyStates(LAMMPS_NS::LAMMPS *lmp, const ExchangeSwitch &its_exchange) :
-      Pointers(lmp), exchange(its_exchange)
+  ProxyStates(LAMMPS_NS::LAMMPS *lmp, const ExchangeSwitch &exchange_switch) :
+      Pointers(lmp), exchange(exchange_switch)
   {
   }
 
   /// The exchange plan is a new one.
   void forget_plan() { sent_is_known = packer_knows_plan = false; }
-  /// Host's indices of owned particles that are proxies elsewhere, ascending, of the present plan.
+  /// Local indices of owned particles that are proxies elsewhere, ascending, of the present plan.
   const std::vector<int> &sent();
 
   /// Updates all proxies of these particles; pending on return if `overlap`. `stay`: if they are in
   /// the records, they will be after the step. Collective.
-  void update(bool overlap, ContactPipeline &particles, const ParticleView &host, bool stay);
+  void update(bool overlap, ContactPipeline &particles, const ParticleView &arrays, bool stay);
   /// Waits for those that are under way.
   void finish();
   /// Those of the last update() have come to the records. Asked once.

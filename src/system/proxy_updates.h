@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The direct exchange as the system and the run style see it: states of proxies are valid only once
-// nothing is pending. The communication object of the host implements it while it is
+// nothing is pending. The communication object of LAMMPS implements it while it is
 // in force (see exchange_switch.h); scripts may replace that object at any time, so
-// ExchangeSwitch::direct() looks for it anew in every step.
+// ExchangeSwitch::direct() looks for it again in every step.
 
 #ifndef TALUS_SYSTEM_PROXY_UPDATES_H
 #define TALUS_SYSTEM_PROXY_UPDATES_H
@@ -19,8 +19,8 @@ namespace Talus {
 class ProxyUpdates {
  public:
   /// In this run the present settings are not supported, and the user has not insisted: all is left
-  /// to the exchange of the host. The same on all ranks; valid after init() of the host.
-  virtual bool stands_aside() const = 0;
+  /// to the exchange of LAMMPS. The same on all ranks; valid after init() of LAMMPS.
+  virtual bool falls_back() const = 0;
 
   /// Whether begin() can be called: after borders() until the next exchange(). The same on all
   /// ranks.
@@ -28,7 +28,7 @@ class ProxyUpdates {
   virtual const ExchangePlan &plan() const = 0;
 
   /// Starts the update of all proxies; the caller sees to it that they are not read before
-  /// finish(). Collective among neighbors. `packer`: if states are not in the arrays of the host,
+  /// finish(). Collective among neighbors. `packer`: if states are not in the arrays of LAMMPS,
   /// on all ranks; else nullptr.
   virtual void begin(ProxyPacker *packer) = 0;
 
@@ -52,8 +52,8 @@ class ProxyUpdates {
   /// is pending.
   virtual void finish() = 0;
 
-  /// Every state is compared with the one that the exchange of the host brings: all updates go
-  /// through the arrays of the host.
+  /// Every state is compared with the one that the exchange of LAMMPS brings: all updates go
+  /// through the arrays of LAMMPS.
   virtual bool is_checking() const = 0;
 
   // for reports
@@ -62,7 +62,7 @@ class ProxyUpdates {
   /// Of this rank, for one update with the present plan.
   virtual double messages_per_exchange() const = 0;
   virtual double bytes_per_exchange() const = 0;
-  /// What the message of a proxy holds, for people.
+  /// What the message of a proxy holds, as text for messages.
   virtual std::string describe_message() const = 0;
 
  protected:

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// From old neighbor lists to new ones. FixContactStore calls these at the host's hooks:
+// From old neighbor lists to new ones. FixContactStore calls these at LAMMPS' hooks:
 //
 //   pre_exchange     look_at_contacts(), keep_history(), release_*()
-//                    the host migrates particles, which carry their slots or their histories
+//                    LAMMPS migrates particles, which carry their slots or their histories
 //   post_neighbor    renumber_pairs()
 
 #include "system/granular_system.h"
@@ -42,7 +42,7 @@ void GranularSystem::end_contacts_of_run()
   run_contacts.end_run();
 }
 
-/* The timer of the host stands at the fixes; the work is that of neighbor lists. */
+/* The timer of LAMMPS stands at the fixes; the work is that of neighbor lists. */
 
 void GranularSystem::renumber_pairs()
 {
@@ -58,7 +58,7 @@ void GranularSystem::renumber_pairs()
   const ProxyUpdates *direct = exchange_switch.direct();
   contact_pipeline->set_work(comm->nthreads, direct && direct->overlaps());
   try {
-    NeighborView found = neighbor_source.find(pair->list, contact_range.largest_reach());
+    NeighborView found = neighbor_source.find(pair->list, contact_range.largest_pulloff_distance());
     if (shaped) found = without_shapes(found);
     contact_pipeline->set_pairs({atom->nlocal, contact_store->all_keys(), tags, atom->type}, found);
     neighbor_source.release();
@@ -88,21 +88,21 @@ void GranularSystem::change_order_of_histories()
   contact_store->set_order_of_histories(now);
   if (before == 0 || before == now) return;
   contact_pipeline->change_order(
-      now, [this](int i, int j) -> const ContactLaw & { return book.law(i, j); });
+      now, [this](int i, int j) -> const ContactLaw & { return pair_coeffs.law(i, j); });
   contact_store->keep_histories(contact_pipeline->law_table().history_records(), now);
 }
 
-/* What the host has found cannot be changed; shapes refuse it in init(). */
+/* What LAMMPS has found cannot be changed; shapes refuse it in init(). */
 
 NeighborView GranularSystem::without_shapes(const NeighborView &all)
 {
-  if (!neighbor_source.reason_for_host().empty()) return all;
+  if (!neighbor_source.reason_for_lammps_lists().empty()) return all;
   std::vector<std::array<int, 2>> pairs;
   const int *type = atom->type;
   const NeighborView rest = neighbor_source.take_out([&](int i, int j) {
-    const bool its = shaped->is_shaped(type[i]) || shaped->is_shaped(type[j]);
-    if (its) pairs.push_back({i, j});
-    return its;
+    const bool with_shape = shaped->is_shaped(type[i]) || shaped->is_shaped(type[j]);
+    if (with_shape) pairs.push_back({i, j});
+    return with_shape;
   });
   shaped->set_pairs(std::move(pairs));
   return rest;

@@ -28,7 +28,7 @@ constexpr const char *kept_are_old = "Pair style {}: contacts of the last run ca
 
 }    // namespace
 
-void RunContacts::for_each(Ask ask, const VisitContact &visit) const
+void RunContacts::for_each(ContactData requested, const VisitContact &visit) const
 {
   if (system.has_pair_style() && update->whichflag == 0) {
     if (kept) {
@@ -38,19 +38,19 @@ void RunContacts::for_each(Ask ask, const VisitContact &visit) const
     }
     require_those_of_last_run();
   }
-  visit_all(ask, visit);
+  visit_all(requested, visit);
 }
 
-void RunContacts::visit_all(Ask ask, const VisitContact &visit) const
+void RunContacts::visit_all(ContactData requested, const VisitContact &visit) const
 {
   if (system.pipeline().num_particles() == atom->nlocal + atom->nghost)
-    system.pipeline().for_each_contact(update->dt, system.integrators().lag(), ask, visit);
-  if (system.shapes()) system.shapes()->for_each_contact_of_pairs(ask, visit);
+    system.pipeline().for_each_contact(update->dt, system.integrators().lag(), requested, visit);
+  if (system.shapes()) system.shapes()->for_each_contact_of_pairs(requested, visit);
   int number = 0;
   for (const auto &fix : modify->get_fix_list()) {
-    auto *ours = SystemFix::of(fix);
-    if (!ours || !ours->is_touched()) continue;
-    ours->for_each_contact(ask, [&](SurveyedContact one) {
+    auto *talus_fix = SystemFix::of(fix);
+    if (!talus_fix || !talus_fix->is_touched()) continue;
+    talus_fix->for_each_contact(requested, [&](ContactReport one) {
       one.body = number;
       visit(one);
     });
@@ -60,7 +60,7 @@ void RunContacts::visit_all(Ask ask, const VisitContact &visit) const
 
 /* A contact with a ghost is known twice: the owner of the particle with the lower ID has it. */
 
-bool RunContacts::is_of_this_rank(const SurveyedContact &one) const
+bool RunContacts::is_of_this_rank(const ContactReport &one) const
 {
   if (one.j < 0 || (one.i < atom->nlocal && one.j < atom->nlocal)) return true;
   const auto [owned, ghost] =
@@ -68,11 +68,11 @@ bool RunContacts::is_of_this_rank(const SurveyedContact &one) const
   return atom->tag[owned] <= atom->tag[ghost];
 }
 
-/* Behind a run indices of particles may have changed. */
+/* After a run indices of particles may have changed. */
 
 bool RunContacts::are_known() const
 {
-  return update->whichflag != 0 ? system.pipeline().has_pairs() : kept || behind_run;
+  return update->whichflag != 0 ? system.pipeline().has_pairs() : kept || digest_after_run;
 }
 
 /* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */
@@ -87,9 +87,9 @@ int RunContacts::present_index(const KeptContact &one, int end) const
   return found;
 }
 
-SurveyedContact RunContacts::at_present(const KeptContact &one) const
+ContactReport RunContacts::at_present(const KeptContact &one) const
 {
-  SurveyedContact now = one.contact;
+  ContactReport now = one.contact;
   now.i = present_index(one, 0);
   if (now.j < 0) return now;
   now.j = present_index(one, 1);
@@ -111,31 +111,31 @@ std::uint64_t RunContacts::digest_of_state() const
   if (owned)
     for (double **rows : {atom->x, atom->v, atom->omega}) digest.add(rows[0], 3L * owned);
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *ours = SystemFix::of(fix)) {
-      digest.add(static_cast<std::uint64_t>(ours->is_touched()));
-      ours->add_to(digest);
+    if (const auto *talus_fix = SystemFix::of(fix)) {
+      digest.add(static_cast<std::uint64_t>(talus_fix->is_touched()));
+      talus_fix->add_to(digest);
     }
   return digest.value();
 }
 
-/* Pairs and states stay until the next set-up, and contacts are found when somebody asks. */
+/* Pairs and states stay until the next set-up, and contacts are found on request. */
 
 void RunContacts::end_run()
 {
-  behind_run.reset();
-  if (system.account().has_observers()) behind_run = digest_of_state();
+  digest_after_run.reset();
+  if (system.account().has_observers()) digest_after_run = digest_of_state();
 }
 
 /* What bodies and walls know may be of particles that are gone. */
 
 void RunContacts::require_those_of_last_run() const
 {
-  if (!behind_run)
+  if (!digest_after_run)
     error->all(FLERR,
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",
                system.style_name());
-  if (*behind_run != digest_of_state()) error->one(FLERR, kept_are_old, system.style_name());
+  if (*digest_after_run != digest_of_state()) error->one(FLERR, kept_are_old, system.style_name());
 }
 
 /* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the
@@ -143,10 +143,10 @@ void RunContacts::require_those_of_last_run() const
 
 void RunContacts::keep()
 {
-  if (update->whichflag != 0 || kept || !behind_run) return;
-  if (*behind_run != digest_of_state()) return;    // those who ask will be told
+  if (update->whichflag != 0 || kept || !digest_after_run) return;
+  if (*digest_after_run != digest_of_state()) return;    // those who ask will be told
   std::vector<KeptContact> all;
-  visit_all(Ask::ALL, [&](const SurveyedContact &one) {
+  visit_all(ContactData::ALL, [&](const ContactReport &one) {
     all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
   });
   kept = std::move(all);
@@ -155,7 +155,7 @@ void RunContacts::keep()
 
 void RunContacts::forget()
 {
-  behind_run.reset();
+  digest_after_run.reset();
   kept.reset();
 }
 

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The contacts of the last step, for outputs: of particles with each other, with large bodies and
-// with walls. In a run they are found when somebody asks. Behind a run pairs and states stay as
+// with walls. In a run they are found on request. After a run pairs and states stay as
 // they are until the next set-up, for those who observe contacts (see contact_observer.h); what a
 // command changes in between is noticed, and is an error where contacts depend on it.
 
@@ -23,18 +23,15 @@ class GranularSystem;
 
 class RunContacts : protected LAMMPS_NS::Pointers {
  public:
-  RunContacts(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) :
-      Pointers(lmp), system(its_system)
-  {
-  }
+  RunContacts(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
-  /// visit(contact) for those on this rank, those with a ghost as well. Behind a run only as long as
+  /// visit(contact) for those on this rank, those with a ghost as well. After a run only as long as
   /// someone observes them.
   using VisitContact = ContactPipeline::VisitContact;
-  void for_each(Ask ask, const VisitContact &visit) const;
+  void for_each(ContactData requested, const VisitContact &visit) const;
   /// Of those that two ranks know, or one twice, only one is.
-  bool is_of_this_rank(const SurveyedContact &one) const;
-  /// In a run; behind it, if someone observes them.
+  bool is_of_this_rank(const ContactReport &one) const;
+  /// During a run; after it, if someone observes them.
   bool are_known() const;
   /// Pairs of particles that touch on this rank; those that another one has as well count half.
   double count() const;
@@ -42,8 +39,8 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   double count_candidates() const;
   /// Of the pairs that touch on this rank.
   DeepestContact deepest() const;
-  /// What a contact of host's indices remembers as i sees it, in a run or between two; none if they
-  /// do not touch.
+  /// History of the contact of local indices i and j, with the signs of i, in a run or between two;
+  /// none if they do not touch.
   std::optional<HistoryValues> history_of(int i, int j) const;
 
   // ---- by the system
@@ -57,21 +54,21 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   void keep();
 
  private:
-  /// A contact of the last run, whose particles may have other places by now.
+  /// A contact of the last run, whose particles may have other local indices by now.
   struct KeptContact {
-    SurveyedContact contact;
+    ContactReport contact;
     std::int64_t tag[2];    ///< of its particles
   };
   std::uint64_t digest_of_state() const;
   void require_those_of_last_run() const;
-  void visit_all(Ask ask, const VisitContact &visit) const;
+  void visit_all(ContactData requested, const VisitContact &visit) const;
   int present_index(const KeptContact &one, int end) const;
-  SurveyedContact at_present(const KeptContact &one) const;
+  ContactReport at_present(const KeptContact &one) const;
 
   GranularSystem &system;
-  /// Behind a run whose contacts are observed: digest of the state then; and contacts that have been
-  /// kept because particles may have changed places since, with the number of particles then.
-  std::optional<std::uint64_t> behind_run;
+  /// After a run whose contacts are observed: digest of the state then; and contacts that have been
+  /// kept because particles may have other local indices since, with the number of particles then.
+  std::optional<std::uint64_t> digest_after_run;
   std::optional<std::vector<KeptContact>> kept;
   std::int64_t kept_of = 0;
 };

@@ -48,7 +48,7 @@ void RunMonitor::look(Moment moment)
   for (Entry &entry : entries) {
     if (entry.said) continue;
     asked.push_back(&entry);
-    mine.push_back(entry.check.look());
+    mine.push_back(entry.check.evaluate());
     if (!std::isfinite(mine.back().value)) mine.back() = {};
     here.push_back({mine.back().value, comm->me});
   }
@@ -57,11 +57,11 @@ void RunMonitor::look(Moment moment)
   MPI_Allreduce(here.data(), all.data(), static_cast<int>(here.size()), MPI_DOUBLE_INT, MPI_MAXLOC,
                 world);
   for (std::size_t n = 0; n < asked.size(); n++) {
-    Entry &its = *asked[n];
+    Entry &entry = *asked[n];
     const double value = all[n].value;
-    if (!(value > its.check.limit) || value <= its.check.worse * its.told) continue;
-    its.said = its.check.say(from_worst(mine[n], value, all[n].rank));
-    its.told = value;
+    if (!(value > entry.check.limit) || value <= entry.check.worse * entry.told) continue;
+    entry.said = entry.check.warn(from_worst(mine[n], value, all[n].rank));
+    entry.told = value;
   }
 }
 

@@ -36,10 +36,10 @@ class RunMonitor : protected Pointers {
   struct Check {
     double limit;
     /// Of this rank, without communication; asked unless the check has spoken.
-    std::function<Finding()> look;
+    std::function<Finding()> evaluate;
     /// The value of all ranks is above the limit. Called on all ranks, which may communicate.
     /// Returns whether that was all for this run; if not, look() goes on.
-    std::function<bool(const Finding &worst)> say;
+    std::function<bool(const Finding &worst)> warn;
     /// What has been said in an earlier run is only said again of a value that is so many times as
     /// large; 0: in each run.
     double worse = 0.0;

@@ -20,7 +20,7 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
   const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
   if (n == 0) return;
 
-  // the arrays of the host are contiguous
+  // the arrays of LAMMPS are contiguous
   double *const x = atom->x[0];
   double *const v = atom->v[0];
   double *const omega = atom->omega[0];
@@ -31,7 +31,7 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
   const int *const mask = atom->mask, groupbit = lmp->group->bitmask[igroup];
   const double dt = step.dt, kick = step.kick, inverse_c = 1.0 / step.inertia;
   const double extrapolation = step.extrapolation;
-  const double fall[3] = {step.fall[0], step.fall[1], step.fall[2]};
+  const double gravity_kick[3] = {step.gravity_kick[0], step.gravity_kick[1], step.gravity_kick[2]};
 
   Talus::in_ranges(n, lmp->comm->nthreads, [=](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
@@ -43,8 +43,8 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
       for (int d = 0; d < 3; d++) {
         const bigint k = 3 * static_cast<bigint>(i) + d;
         const double v_old = v[k], omega_old = omega[k];
-        const double v_new = Talus::kicked(v_old, per_mass, f[k], falls * fall[d]);
-        const double omega_new = Talus::turned(omega_old, per_inertia, torque[k]);
+        const double v_new = Talus::kicked(v_old, per_mass, f[k], falls * gravity_kick[d]);
+        const double omega_new = Talus::kicked_omega(omega_old, per_inertia, torque[k]);
         v[k] = v_new;
         omega[k] = omega_new;
         if (change) {

@@ -26,10 +26,10 @@ double load(const ContactResponse &contact, const std::vector<HeldBody> &bodies,
   double sum = 0.0;
   for (const HeldBody &body : bodies) {
     const FaceStiffness *faces = body.faces;
-    const double its = !faces ? std::max(4.0 * (normal + 2.0 * tangential), 20.0 * tangential)
-                       : body.on_large_bodies ? faces->largest_on_bodies(normal, tangential)
-                                              : faces->largest(normal, tangential);
-    sum += its / body.mass;
+    const double of_body = !faces ? std::max(4.0 * (normal + 2.0 * tangential), 20.0 * tangential)
+                           : body.on_large_bodies ? faces->largest_on_bodies(normal, tangential)
+                                                  : faces->largest(normal, tangential);
+    sum += of_body / body.mass;
   }
   return sum;
 }

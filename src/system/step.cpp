@@ -7,9 +7,9 @@
 //   update_proxies()      messages leave; with overlap they are on their way during
 //   compute_contacts()    forces between particles, and of bodies that join, in canonical order
 //
-// In the arrays of the host particles are moved at once, and proxies are those of the host. In the
+// In the arrays of LAMMPS particles are moved at once, and proxies are those of LAMMPS. In the
 // records steps are made that StepsInRecords tells. The particles come back to the arrays for every
-// step with output, a fix of the host at its end or new neighbor lists, and at the end of a run, also
+// step with output, a fix of LAMMPS at its end or new neighbor lists, and at the end of a run, also
 // of one that ends in an error.
 
 #include "system/granular_system.h"
@@ -45,9 +45,9 @@ void GranularSystem::start_run(bool pairs_computed)
 void GranularSystem::advance(const Fix *integrator, const RecordStep &step, int frozen_groups)
 {
   if (!contact_pipeline->holds_state()) {
-    const SystemFix &its = *SystemFix::of(integrator);
-    ChangeRecord *const changes = its.keeps_changes() ? particles().changes() : nullptr;
-    if (!its.places_particles())
+    const SystemFix &talus_fix = *SystemFix::of(integrator);
+    ChangeRecord *const changes = talus_fix.keeps_changes() ? particles().changes() : nullptr;
+    if (!talus_fix.places_particles())
       kick_spheres(lmp, integrator->igroup, step, frozen_groups, true, changes);
     return;
   }
@@ -95,8 +95,8 @@ double GranularSystem::moved_in_arrays() const
     largest[t] = most;
   });
   double most = 0.0;
-  for (const double its : largest)
-    if (!(its <= most)) most = its;
+  for (const double one : largest)
+    if (!(one <= most)) most = one;
   return std::sqrt(most);
 }
 
@@ -111,7 +111,7 @@ void GranularSystem::update_proxies(bool overlap)
   proxies.update(overlap, *contact_pipeline, view(), stays_in_records);
 }
 
-void GranularSystem::compute_contacts(const std::function<void(const ReportedContact &)> *report)
+void GranularSystem::compute_contacts(const std::function<void(const TalliedContact &)> *tally)
 {
   if (!contact_pipeline->has_pairs() ||
       contact_pipeline->num_particles() != atom->nlocal + atom->nghost) {
@@ -122,7 +122,7 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   // a set-up is a step of no duration, or none
   const bool setting_up = update->setupflag != 0;
   const bool limits = style.limits_at_setup && !contact_pipeline->law_table().second_order();
-  ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, report,
+  ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, tally,
                    energies.begin_step(setting_up)};
   run_contacts.forget();
   const int order =
@@ -140,15 +140,15 @@ void GranularSystem::compute_contacts(const std::function<void(const ReportedCon
   };
   // contacts of shapes come before those of bodies, and after those of spheres
   if (!shaped && !step.read && !step.deliver && large_bodies.join_step())
-    step.add_more = &add_bodies;
+    step.add_other_forces = &add_bodies;
 
   compute_around_proxies(step);
   if (step.deliver && contact_pipeline->keeps_changes())
-    contact_store->remember_velocities(movers.groups_with_changes());
+    contact_store->store_velocities(movers.groups_with_changes());
   if (shaped) shaped->compute_contacts(step);
   contact_store->pairs_are_current();
   if (!setting_up) return;
-  time_step.judge_start(book, *contact_pipeline);
+  time_step.judge_start(pair_coeffs, *contact_pipeline);
   monitors.look(RunMonitor::Moment::SETUP);
 }
 
@@ -157,7 +157,7 @@ bool GranularSystem::needs_changes(int order) const
   return order == 2 || energies.is_asked() || large_bodies.account();
 }
 
-/* In the arrays of the host, of particles that are moved by fixes that do not keep them. */
+/* In the arrays of LAMMPS, of particles that are moved by fixes that do not keep them. */
 
 void GranularSystem::find_changes(ContactStep &step, int order)
 {
@@ -195,9 +195,9 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
   ProxyUpdates *direct = exchange_switch.direct();
   const std::function<void()> progress = [direct] { direct->progress(); };
   if (direct && direct->pending() && direct->may_progress_beside(comm->nthreads))
-    step.meanwhile = &progress;
+    step.progress = &progress;
   contact_pipeline->compute_early(view(), step);
-  step.meanwhile = nullptr;
+  step.progress = nullptr;
   proxies.finish();
   contact_pipeline->compute_late(view(), step);
 }
@@ -233,7 +233,7 @@ void GranularSystem::complete_step_of(SystemFix &fix)
   if (!contact_pipeline->holds_state()) fix.complete_step();
 }
 
-bool GranularSystem::return_to_host()
+bool GranularSystem::return_to_arrays()
 {
   stays_in_records = false;
   if (!contact_pipeline->holds_state()) return false;
@@ -257,15 +257,15 @@ void GranularSystem::leave_records(bool with_forces)
   contact_pipeline->return_state(view(), with_forces);
 }
 
-/* Fix freeze of LAMMPS does not know of the records. */
+/* Fix freeze of LAMMPS acts on its arrays only. */
 
 void GranularSystem::complete_step()
 {
   for (const bool integrating : {false, true})
     for (Fix *fix : modify->get_fix_list()) {
-      auto *ours = SystemFix::of(fix);
-      if (ours && ours->integrates() == integrating) ours->complete_step();
-      if (!ours && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
+      auto *talus_fix = SystemFix::of(fix);
+      if (talus_fix && talus_fix->integrates() == integrating) talus_fix->complete_step();
+      if (!talus_fix && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
     }
 }
 

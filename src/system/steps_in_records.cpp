@@ -87,7 +87,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
   return "";
 }
 
-/* A fix of the host that is called in every step may read or change anything. */
+/* A fix of LAMMPS that is called in every step may read or change anything. */
 
 std::string StepsInRecords::find_reason_against(bool pairs_computed)
 {
@@ -97,11 +97,12 @@ std::string StepsInRecords::find_reason_against(bool pairs_computed)
   integrators.start_run();
   for (Fix *fix : modify->get_fix_list()) {
     const int mask = modify->get_fix_mask(fix);
-    auto *ours = SystemFix::of(fix);
-    const std::string its = ours                           ? ours->needs_host_arrays()
-                            : acts_within_steps(fix, mask) ? "may look at particles in every step"
-                                                           : "";
-    if (!its.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + its;
+    auto *talus_fix = SystemFix::of(fix);
+    const std::string reason = talus_fix ? talus_fix->needs_arrays()
+                               : acts_within_steps(fix, mask)
+                                   ? "may look at particles in every step"
+                                   : "";
+    if (!reason.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + reason;
     if ((mask & END_OF_STEP) == 0 || fix == system.store()) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +

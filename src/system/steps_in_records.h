@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Which steps of a run are made in the records: those in which only Talus looks at the particles.
-// The arrays of the host are then neither read nor written. GranularSystem asks it in each step.
+// The arrays of LAMMPS are then neither read nor written. GranularSystem asks it in each step.
 
 #ifndef TALUS_SYSTEM_STEPS_IN_RECORDS_H
 #define TALUS_SYSTEM_STEPS_IN_RECORDS_H
@@ -23,14 +23,14 @@ namespace Talus {
 class GranularSystem;
 class Integrators;
 
-/// A fix of the host, whose calls are these, reads or changes particles in every step.
+/// A fix of LAMMPS, whose calls are these, reads or changes particles in every step.
 bool acts_within_steps(const LAMMPS_NS::Fix *fix, int mask);
 
 class StepsInRecords : protected LAMMPS_NS::Pointers {
  public:
-  /// `its_integrators`: of the system.
-  StepsInRecords(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system, Integrators &its_integrators) :
-      Pointers(lmp), system(its_system), integrators(its_integrators), styles(lmp)
+  /// `run_integrators`: of the system.
+  StepsInRecords(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner, Integrators &run_integrators) :
+      Pointers(lmp), system(owner), integrators(run_integrators), styles(lmp)
   {
   }
 
@@ -51,7 +51,8 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
   GranularSystem &system;
   Integrators &integrators;
   StyleReport styles;
-  std::string reason = "no run yet";               // "" if this run has such steps, for people
+  std::string reason = "no run yet";               // "" if this run has such steps, as text for
+                                                   // messages
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;    // fixes that look at particles then
 };
 

@@ -25,9 +25,9 @@ namespace Talus {
 
 namespace {
 
-std::string line(const std::string &style, const std::string &its)
+std::string line(const std::string &style, const std::string &state)
 {
-  return fmt::format("  {:<32}  {}\n", style, its);
+  return fmt::format("  {:<32}  {}\n", style, state);
 }
 
 std::string how(const std::string &reason_for_stock)
@@ -35,7 +35,7 @@ std::string how(const std::string &reason_for_stock)
   return reason_for_stock.empty() ? "accelerated" : "stock: " + reason_for_stock;
 }
 
-/* Of a style of the host, from its table of styles of that kind. */
+/* Of a style of LAMMPS, from its table of styles of that kind. */
 
 template <typename Styles> std::string why_stock(const Styles &styles, const std::string &name)
 {
@@ -43,7 +43,7 @@ template <typename Styles> std::string why_stock(const Styles &styles, const std
   return "start with -sf talus (or write suffix talus)";
 }
 
-/* Fixes that styles of the host make for themselves. */
+/* Fixes that styles of LAMMPS make for themselves. */
 
 bool is_internal(const Fix *fix)
 {
@@ -53,10 +53,10 @@ bool is_internal(const Fix *fix)
 
 }    // namespace
 
-void StyleReport::print(const GranularSystem &system, const std::string &reason_for_host)
+void StyleReport::print(const GranularSystem &system, const std::string &reason_for_arrays)
 {
   if (!concerns(system)) return;
-  const std::string now = text(system, reason_for_host);
+  const std::string now = text(system, reason_for_arrays);
   if (comm->me == 0 && now != last) utils::logmesg(lmp, now);
   last = now;
 }
@@ -72,48 +72,52 @@ bool StyleReport::concerns(const GranularSystem &system) const
 }
 
 std::string StyleReport::text(const GranularSystem &system,
-                              const std::string &reason_for_host) const
+                              const std::string &reason_for_arrays) const
 {
-  const auto *ours = SystemPair::of(force->pair);
-  const std::string pair = ours ? ours->plain_style() : force->pair ? force->pair_style : "none";
+  const auto *talus_pair = SystemPair::of(force->pair);
+  const std::string pair = talus_pair    ? talus_pair->plain_style()
+                           : force->pair ? force->pair_style
+                                         : "none";
   return "Talus " TALUS_VERSION "\nTalus: styles of this run\n" +
          line("pair " + pair, pair_is(system)) + lines_of_fixes() +
          line(std::string("run ") + update->integrate_style, run_style_is()) +
-         line("steps without output", reason_for_host.empty()
+         line("steps without output", reason_for_arrays.empty()
                                           ? "in the records"
-                                          : "through the arrays of LAMMPS: " + reason_for_host);
+                                          : "through the arrays of LAMMPS: " + reason_for_arrays);
 }
 
 std::string StyleReport::pair_is(const GranularSystem &system) const
 {
   if (!force->pair) return how("there is no pair style");
-  if (const auto *ours = SystemPair::of(force->pair)) return how(ours->reason_for_stock());
+  if (const auto *talus_pair = SystemPair::of(force->pair))
+    return how(talus_pair->reason_for_stock());
   if (system.has_pair_style())
     return "sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock";
   if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");
   return how(why_stock(*force->pair_map, force->pair_style));
 }
 
-/* A fix of the host that does not act on particles within a step, such as fix pour or fix print,
+/* A fix of LAMMPS that does not act on particles within a step, such as fix pour or fix print,
    keeps none from being in the records: it needs no line. */
 
 std::string StyleReport::lines_of_fixes() const
 {
   std::string lines;
   for (Fix *fix : modify->get_fix_list()) {
-    const auto *ours = SystemFix::of(fix);
-    const bool acts = ours || acts_within_steps(fix, modify->get_fix_mask(fix));
+    const auto *talus_fix = SystemFix::of(fix);
+    const bool acts = talus_fix || acts_within_steps(fix, modify->get_fix_mask(fix));
     if (is_internal(fix) || !acts) continue;
-    lines += line(std::string("fix ") + fix->id + " " + fix->style,
-                  how(ours ? ours->reason_for_stock() : why_stock(*modify->fix_map, fix->style)));
+    lines += line(
+        std::string("fix ") + fix->id + " " + fix->style,
+        how(talus_fix ? talus_fix->reason_for_stock() : why_stock(*modify->fix_map, fix->style)));
   }
   return lines;
 }
 
 std::string StyleReport::run_style_is() const
 {
-  const auto *ours = SystemRunStyle::of(update->integrate);
-  return how(ours ? ours->reason_for_stock() : "use run_style verlet");
+  const auto *talus_run_style = SystemRunStyle::of(update->integrate);
+  return how(talus_run_style ? talus_run_style->reason_for_stock() : "use run_style verlet");
 }
 
 }    // namespace Talus

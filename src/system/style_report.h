@@ -19,13 +19,13 @@ class StyleReport : protected LAMMPS_NS::Pointers {
  public:
   explicit StyleReport(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
   /// Prints the block if it differs from the last one, on the first rank; nothing for a script that
-  /// has neither granular pairs nor styles of Talus. `reason_for_host`: of the steps of this run.
-  /// After init() of the host.
-  void print(const GranularSystem &system, const std::string &reason_for_host);
+  /// has neither granular pairs nor styles of Talus. `reason_for_arrays`: of the steps of this run.
+  /// After init() of LAMMPS.
+  void print(const GranularSystem &system, const std::string &reason_for_arrays);
 
  private:
   bool concerns(const GranularSystem &system) const;
-  std::string text(const GranularSystem &system, const std::string &reason_for_host) const;
+  std::string text(const GranularSystem &system, const std::string &reason_for_arrays) const;
   std::string lines_of_fixes() const;
   std::string pair_is(const GranularSystem &system) const;
   std::string run_style_is() const;

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What GranularSystem knows of the fixes of Talus. It finds them in the list of the host, so that
+// What GranularSystem knows of the fixes of Talus. It finds them in the list of LAMMPS, so that
 // the order in which they act is that of the script.
 
 #ifndef TALUS_SYSTEM_SYSTEM_FIX_H
@@ -30,38 +30,38 @@ class SystemFix {
   }
 
   /// At the start of a run, collective: "", or why it needs the arrays of LAMMPS in this run.
-  virtual std::string needs_host_arrays() = 0;
+  virtual std::string needs_arrays() = 0;
 
   /// "" if it is accelerated in this run, else why the methods of the stock class are used, and the
-  /// cure, for people. Valid after init(); the same on all ranks.
+  /// cure, as text for messages. Valid after init(); the same on all ranks.
   virtual std::string reason_for_stock() const { return ""; }
 
-  /// It adds forces to particles in its own post_force(), also in the records. Bodies behind it in
-  /// the script do not join then, see LargeBody::join_step().
+  /// It adds forces to particles in its own post_force(), also in the records. Bodies that are
+  /// defined after it in the script do not join then, see LargeBody::join_step().
   virtual bool adds_forces() const { return false; }
 
   /// Particles touch it, a large body or a wall: it has a number, in the order of the script.
   virtual bool is_touched() const { return false; }
   /// Of such a fix: visit(contact) for those of the last step on this rank, once its forces have been
   /// computed; without the number.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
-  virtual void for_each_contact(Ask /*ask*/, const VisitContact & /*visit*/) {}
+  using VisitContact = std::function<void(const ContactReport &)>;
+  virtual void for_each_contact(ContactData /*requested*/, const VisitContact & /*visit*/) {}
 
-  /// Adds what contacts depend on besides time and particles: a command may have changed it behind a
+  /// Adds what contacts depend on besides time and particles: a command may have changed it after a
   /// run.
   virtual void add_to(StateDigest & /*digest*/) const {}
 
-  /// It moves particles.
+  /// Integrates the motion of particles.
   virtual bool integrates() const { return false; }
-  /// That moves particles: it has placed those of its group in the records before it calls
+  /// An integrator that moves the particles of its group in the records itself, before it calls
   /// GranularSystem::advance(), which then moves none of them.
   virtual bool places_particles() const { return false; }
-  /// That moves particles: of its group this one (host's index).
+  /// Of an integrator: whether it moves this particle of its group (local index).
   virtual bool moves_particle(int /*i*/) const { return true; }
-  /// Particles go back to the arrays of LAMMPS, before anything else looks at them or migrates them:
-  /// so does what it keeps of them on its own.
+  /// Called when particles go back to the arrays of LAMMPS, before anything else reads or migrates
+  /// them: what the fix itself keeps of them has to go back as well.
   virtual void leave_records() {}
-  /// That moves particles, as its command says: of the time step, 1 or 2.
+  /// Of an integrator: its order in the time step, 1 or 2, as its command says.
   virtual int order() const { return 1; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
   /// ParticleState::change(). In the records they are kept for all.

@@ -17,9 +17,9 @@ void make_run_style_the_default(LAMMPS *lmp)
 {
   Update *update = lmp->update;
   auto &creators = *update->integrate_map;
-  const auto ours = creators.find("verlet/proxy");
-  if (ours == creators.end()) return;
-  creators["verlet"] = ours->second;
+  const auto talus_style = creators.find("verlet/proxy");
+  if (talus_style == creators.end()) return;
+  creators["verlet"] = talus_style->second;
 
   const Integrate *present = update->integrate;
   if (std::strcmp(update->integrate_style, "verlet") != 0 || typeid(*present) != typeid(Verlet))

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What the system knows of the run style: update->integrate of the host, if it is that of Talus;
-// and how it becomes the host's default.
+// What the system knows of the run style: update->integrate of LAMMPS, if it is that of Talus;
+// and how it becomes LAMMPS' default.
 
 #ifndef TALUS_SYSTEM_SYSTEM_RUN_STYLE_H
 #define TALUS_SYSTEM_SYSTEM_RUN_STYLE_H
@@ -28,7 +28,7 @@ class SystemRunStyle {
   ~SystemRunStyle() = default;    // never deleted through this interface
 };
 
-/// Makes run style `verlet` of the host that of Talus, which is registered as verlet/proxy, also
+/// Makes run style `verlet` of LAMMPS that of Talus, which is registered as verlet/proxy, also
 /// the present one unless the user has chosen another. Collective, at any time between two runs:
 /// when the plugin is loaded, and when a pair style of Talus is defined, since some hosts bring
 /// back all styles of a plugin after `clear` without telling it.

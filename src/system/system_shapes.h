@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Particles that are not spheres, as GranularSystem knows them: fix shape/gran. They are particles
-// of the host like all others, with the radius of the sphere around their shape, so that neighbors,
+// of LAMMPS like all others, with the radius of the sphere around their shape, so that neighbors,
 // ghosts and the order of sums are found as always. Pairs with a shape are taken out of the
 // neighbor list at a rebuild, and computed by the fix after those of spheres.
 
@@ -38,15 +38,15 @@ class SystemShapes : public SystemFix {
   /// nullptr of a type of spheres.
   virtual const ParticleShape *shape_of(int type) const = 0;
 
-  /// Before particles are sorted or migrate, behind a run, and before a restart file is written:
-  /// puts what contacts remember to the particles. Collective.
+  /// Before particles are sorted or migrate, after a run, and before a restart file is written:
+  /// stores the histories of contacts with the particles. Collective.
   virtual void keep_histories() = 0;
-  /// Rows of four by host's index, of owned particles and ghosts: orientations, to be sent with
+  /// Rows of four by local index, of owned particles and ghosts: orientations, to be sent with
   /// positions in each step.
   virtual double *const *orientations() const = 0;
-  /// At a rebuild, collective: the pairs with a shape (host's indices, at least one is owned).
+  /// At a rebuild, collective: the pairs with a shape (local indices, at least one is owned).
   virtual void set_pairs(std::vector<std::array<int, 2>> pairs) = 0;
-  /// Adds the forces of their contacts where those of spheres are now, in the arrays of the host or
+  /// Adds the forces of their contacts where those of spheres are now, in the arrays of LAMMPS or
   /// in the records, when all particles of this step are there, ghosts included. Collective.
   virtual void compute_contacts(const ContactStep &step) = 0;
 
@@ -60,9 +60,10 @@ class SystemShapes : public SystemFix {
 
   /// visit(contact) for each contact point of the last step on this rank: of two particles, and of
   /// a particle and a large body, which has no number.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
-  virtual void for_each_contact_of_pairs(Ask ask, const VisitContact &visit) const = 0;
-  virtual void for_each_contact_of_body(LargeBody &body, Ask ask,
+  using VisitContact = std::function<void(const ContactReport &)>;
+  virtual void for_each_contact_of_pairs(ContactData requested,
+                                         const VisitContact &visit) const = 0;
+  virtual void for_each_contact_of_body(LargeBody &body, ContactData requested,
                                         const VisitContact &visit) const = 0;
   /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
   using VisitTriangle = std::function<void(int, const Triangle &)>;

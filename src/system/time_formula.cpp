@@ -59,8 +59,9 @@ bool reads_only_time(Variable &all, const std::string &name, std::set<std::strin
   if (holds(fixed, style)) return true;
   std::vector<std::string> inner;
   if (style != "equal" || !formula_reads_only_time(formula_of(all, n), inner)) return false;
-  return std::all_of(inner.begin(), inner.end(),
-                     [&](const std::string &its) { return reads_only_time(all, its, met); });
+  return std::all_of(inner.begin(), inner.end(), [&](const std::string &variable) {
+    return reads_only_time(all, variable, met);
+  });
 }
 
 }    // namespace

@@ -20,7 +20,7 @@ constexpr int everyone = 1;    // the bit of the group all
 
 }    // namespace
 
-void TimeStepMonitor::judge_start(const LawBook &laws, const ContactPipeline &contacts)
+void TimeStepMonitor::judge_start(const PairCoeffs &laws, const ContactPipeline &contacts)
 {
   critical.compute(laws, contacts, everyone);
   said = false;
@@ -32,10 +32,10 @@ void TimeStepMonitor::judge_start(const LawBook &laws, const ContactPipeline &co
   }
   critical.compute_from_sizes(laws, everyone);
   limit_at_start = critical.smallest();
-  remember_sizes(laws);
+  store_sizes(laws);
 }
 
-void TimeStepMonitor::remember_sizes(const LawBook &laws)
+void TimeStepMonitor::store_sizes(const PairCoeffs &laws)
 {
   const std::vector<double> here = critical.sizes_here(laws.num_types(), everyone);
   known_sizes.resize(here.size());
@@ -46,14 +46,14 @@ void TimeStepMonitor::remember_sizes(const LawBook &laws)
 /* Particles that were added or changed during the run: by how much the largest of the sizes known
    before shrink. */
 
-RunMonitor::Check TimeStepMonitor::check(const LawBook &laws)
+RunMonitor::Check TimeStepMonitor::check(const PairCoeffs &laws)
 {
   constexpr double as_before = 1.0;
   return {as_before, [this, &laws] { return smaller_particles(laws); },
           [this, &laws](const RunMonitor::Finding &) { return judge_smaller_particles(laws); }};
 }
 
-RunMonitor::Finding TimeStepMonitor::smaller_particles(const LawBook &laws) const
+RunMonitor::Finding TimeStepMonitor::smaller_particles(const PairCoeffs &laws) const
 {
   if (said) return {};
   const std::vector<double> here = critical.sizes_here(laws.num_types(), everyone);
@@ -66,13 +66,13 @@ RunMonitor::Finding TimeStepMonitor::smaller_particles(const LawBook &laws) cons
   return {shrinks};
 }
 
-bool TimeStepMonitor::judge_smaller_particles(const LawBook &laws)
+bool TimeStepMonitor::judge_smaller_particles(const PairCoeffs &laws)
 {
   critical.compute_from_sizes(laws, everyone);
   const double limit = critical.smallest();
   const bool smaller = limit_at_start > 0.0 ? limit < limit_at_start : limit > 0.0;
   if (smaller) judge();
-  if (!said) remember_sizes(laws);
+  if (!said) store_sizes(laws);
   return said;
 }
 

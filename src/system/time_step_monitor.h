@@ -16,7 +16,7 @@
 #define TALUS_SYSTEM_TIME_STEP_MONITOR_H
 
 #include "contact/contact_pipeline.h"
-#include "material/law_book.h"
+#include "material/pair_coeffs.h"
 #include "pointers.h"
 #include "system/critical_time_step.h"
 #include "system/run_monitor.h"
@@ -35,15 +35,15 @@ class TimeStepMonitor : protected Pointers {
   void start() { said = true; }
 
   /// Collective, at the start of a run. `contacts` are those of its first step.
-  void judge_start(const Talus::LawBook &laws, const Talus::ContactPipeline &contacts);
+  void judge_start(const Talus::PairCoeffs &laws, const Talus::ContactPipeline &contacts);
 
   /// This object and `laws` must live as long as the check.
-  RunMonitor::Check check(const Talus::LawBook &laws);
+  RunMonitor::Check check(const Talus::PairCoeffs &laws);
 
  private:
-  RunMonitor::Finding smaller_particles(const Talus::LawBook &laws) const;
-  bool judge_smaller_particles(const Talus::LawBook &laws);
-  void remember_sizes(const Talus::LawBook &laws);
+  RunMonitor::Finding smaller_particles(const Talus::PairCoeffs &laws) const;
+  bool judge_smaller_particles(const Talus::PairCoeffs &laws);
+  void store_sizes(const Talus::PairCoeffs &laws);
   void judge();
 
   CriticalTimeStep critical;

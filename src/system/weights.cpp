@@ -13,7 +13,7 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-std::string Weights::take(SystemGravity *its)
+std::string Weights::take(SystemGravity *gravity_fix)
 {
   if (!system.pair_style_is_alone()) return system.reason_of_pair_style();
   if (!force->pair->compute_flag) return "'pair_modify compute no' is set";
@@ -21,14 +21,14 @@ std::string Weights::take(SystemGravity *its)
     return "the unit of force is not that of mass times acceleration";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
-  if (field && field != its) return "another fix gravity comes before it";
-  field = its;
+  if (field && field != gravity_fix) return "another fix gravity comes before it";
+  field = gravity_fix;
   return "";
 }
 
-void Weights::drop(const SystemGravity *its)
+void Weights::drop(const SystemGravity *gravity_fix)
 {
-  if (field == its) field = nullptr;
+  if (field == gravity_fix) field = nullptr;
 }
 
 void Weights::begin_step(ContactPipeline &particles)

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The field of gravity with whose weights the sums of forces on particles begin, if a fix has given
-// them one. GranularSystem tells them about it.
+// The field of gravity, if a fix has registered one: the sums of forces on particles then start
+// with their weights instead of 0. GranularSystem calls it in each step.
 
 #ifndef TALUS_SYSTEM_WEIGHTS_H
 #define TALUS_SYSTEM_WEIGHTS_H
@@ -19,13 +19,13 @@ class GranularSystem;
 
 class Weights : protected LAMMPS_NS::Pointers {
  public:
-  Weights(LAMMPS_NS::LAMMPS *lmp, GranularSystem &its_system) : Pointers(lmp), system(its_system) {}
+  Weights(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
   /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with
   /// the weights. Returns "", or why the fix has to add them itself.
-  std::string take(SystemGravity *its);
+  std::string take(SystemGravity *gravity_fix);
   /// The fix is going.
-  void drop(const SystemGravity *its);
+  void drop(const SystemGravity *gravity_fix);
 
   // ---- by the system
 

@@ -23,7 +23,7 @@ constexpr double pi = 3.14159265358979323846;
 
 class Capsule : public Shape {
  public:
-  Capsule(double length, double its_radius) : half(0.5 * length), radius(its_radius) {}
+  Capsule(double length, double cap_radius) : half(0.5 * length), radius(cap_radius) {}
 
   const double half, radius;
 
@@ -80,8 +80,10 @@ using AtPlace = Placed<Capsule>;
 
 class Touch {
  public:
-  Touch(const AtPlace &its_capsule, const CollisionRequest &its_how, ShapeContacts &its_contacts) :
-      capsule(its_capsule), how(its_how), contacts(its_contacts)
+  Touch(const AtPlace &placed_capsule, const CollisionRequest &collision_request,
+        ShapeContacts &found_contacts) :
+      capsule(placed_capsule),
+      how(collision_request), contacts(found_contacts)
   {
     contacts.clear();
   }
@@ -89,7 +91,7 @@ class Touch {
   /// Of the point of the axis at s = -1 ... 1.
   Vector place(double s) const
   {
-    return capsule.pose.point_in_space({0.0, 0.0, s * capsule.it.half});
+    return capsule.pose.point_in_space({0.0, 0.0, s * capsule.geometry.half});
   }
 
   void add(const Vector &x, const SurfaceContact &found, double curvature, std::uint32_t name)
@@ -97,9 +99,9 @@ class Touch {
     ShapeContact contact;
     contact.normal = found.normal;
     contact.overlap = found.overlap;
-    contact.position = x - (capsule.it.radius - 0.5 * found.overlap) * found.normal;
+    contact.position = x - (capsule.geometry.radius - 0.5 * found.overlap) * found.normal;
     contact.weight = 1.0;
-    contact.curvature[0] = 1.0 / capsule.it.radius;
+    contact.curvature[0] = 1.0 / capsule.geometry.radius;
     contact.curvature[1] = curvature;
     contact.name = name;
     contact.part = found.part;
@@ -113,12 +115,12 @@ class Touch {
     SurfaceContact found[LargeBodyShape::max_contacts];
     for (const int end : {0, 1}) {
       const Vector x = place(end ? 1.0 : -1.0);
-      const int count = find(x, capsule.it.radius, found);
+      const int count = find(x, capsule.geometry.radius, found);
       for (int k = 0; k < count; k++)
         add(x, found[k], curvature, contact_name(ContactParts::VERTEX_OF_A, end, 0));
     }
     const Vector axis = place(1.0) - place(0.0);
-    const double reach = 2.0 * capsule.it.bounding_radius();
+    const double reach = 2.0 * capsule.geometry.bounding_radius();
     const auto slope = [&](double s) {
       return find(place(s), reach, found) ? dot(found[0].normal, axis) : 0.0;
     };
@@ -128,7 +130,8 @@ class Touch {
       const double middle = 0.5 * (below + above);
       (slope(middle) < 0.0 ? below : above) = middle;
     }
-    if (find(place(below), capsule.it.radius, found)) add_middle(place(below), found[0], curvature);
+    if (find(place(below), capsule.geometry.radius, found))
+      add_middle(place(below), found[0], curvature);
     return !contacts.points.empty();
   }
 
@@ -154,15 +157,15 @@ class Touch {
 bool with_flat(const AtPlace &a, const Placed<FlatSurface> &b, const CollisionRequest &how,
                ShapeContacts &contacts)
 {
-  const FlatSurface &its = b.it;
-  const double center = dot(its.normal, a.pose.position) - its.offset;
-  const double side = its.two_sided && center < 0.0 ? -1.0 : 1.0;
+  const FlatSurface &plane = b.geometry;
+  const double center = dot(plane.normal, a.pose.position) - plane.offset;
+  const double side = plane.two_sided && center < 0.0 ? -1.0 : 1.0;
   Touch touch(a, how, contacts);
-  if (side * center <= -a.it.bounding_radius()) return false;
+  if (side * center <= -a.geometry.bounding_radius()) return false;
   return touch.ends_and_middle([&](const Vector &x, double radius, SurfaceContact *found) {
-    found->normal = side * its.normal;
-    found->overlap = radius - side * (dot(its.normal, x) - its.offset);
-    found->part = its.part;
+    found->normal = side * plane.normal;
+    found->overlap = radius - side * (dot(plane.normal, x) - plane.offset);
+    found->part = plane.part;
     return found->overlap > 0.0 ? 1 : 0;
   });
 }
@@ -171,11 +174,11 @@ bool with_mesh(const AtPlace &a, const Placed<MeshSurface> &b, const CollisionRe
                ShapeContacts &contacts)
 {
   std::vector<NearPart> parts;
-  b.it.shape->is_near(a.pose.position, 3.0 * a.it.bounding_radius(), parts);
+  b.geometry.shape->is_near(a.pose.position, 3.0 * a.geometry.bounding_radius(), parts);
   const NearParts near{parts.data(), parts.data() + parts.size()};
   return Touch(a, how, contacts)
       .ends_and_middle([&](const Vector &x, double radius, SurfaceContact *found) {
-        return b.it.shape->find_contacts(x, radius, near, found);
+        return b.geometry.shape->find_contacts(x, radius, near, found);
       });
 }
 
@@ -183,15 +186,15 @@ bool with_convex(const AtPlace &a, const Placed<ConvexShape> &b, const Collision
                  ShapeContacts &contacts)
 {
   Touch touch(a, how, contacts);
-  const double reach = a.it.bounding_radius() + b.it.bounding_radius();
+  const double reach = a.geometry.bounding_radius() + b.geometry.bounding_radius();
   if (length(a.pose.position - b.pose.position) >= reach) return false;
   const auto find = [&](const Vector &x, double radius, SurfaceContact *found) {
-    const CorePoint nearest = nearest_point(b.it.core(), b.pose.point_in_body(x));
+    const CorePoint nearest = nearest_point(b.geometry.core(), b.pose.point_in_body(x));
     found->normal = b.pose.direction_in_space(nearest.normal);
-    found->overlap = radius + b.it.radius() - nearest.distance;
+    found->overlap = radius + b.geometry.radius() - nearest.distance;
     return found->overlap > 0.0 ? 1 : 0;
   };
-  return touch.ends_and_middle(find, 1.0 / b.it.contact_radius());
+  return touch.ends_and_middle(find, 1.0 / b.geometry.contact_radius());
 }
 
 /* ---- at the nearest points of two axes, see C. Ericson, Real-time collision detection, 5.1.9 ---- */
@@ -214,7 +217,7 @@ bool with_axis(const AtPlace &a, const Vector &center, const Vector &half_axis, 
     t = 0.5 * (along(middle - s) + along(middle + s));
   }
   const Vector x = touch.place(of_a(t)), apart = x - (center + t * half_axis);
-  const double distance = length(apart), overlap = a.it.radius + radius - distance;
+  const double distance = length(apart), overlap = a.geometry.radius + radius - distance;
   if (!(overlap > 0.0) || !(distance > 0.0)) return false;
   touch.add(x, {(1.0 / distance) * apart, overlap}, 1.0 / radius,
             contact_name(ContactParts::WHOLE, 0, 0));
@@ -224,14 +227,14 @@ bool with_axis(const AtPlace &a, const Vector &center, const Vector &half_axis, 
 bool with_sphere(const AtPlace &a, const Placed<Sphere> &b, const CollisionRequest &how,
                  ShapeContacts &contacts)
 {
-  return with_axis(a, b.pose.position, {0.0, 0.0, 0.0}, b.it.radius, how, contacts);
+  return with_axis(a, b.pose.position, {0.0, 0.0, 0.0}, b.geometry.radius, how, contacts);
 }
 
 bool with_capsule(const AtPlace &a, const AtPlace &b, const CollisionRequest &how,
                   ShapeContacts &contacts)
 {
-  const Vector axis = b.pose.direction_in_space({0.0, 0.0, b.it.half});
-  return with_axis(a, b.pose.position, axis, b.it.radius, how, contacts);
+  const Vector axis = b.pose.direction_in_space({0.0, 0.0, b.geometry.half});
+  return with_axis(a, b.pose.position, axis, b.geometry.radius, how, contacts);
 }
 
 std::shared_ptr<const Shape> make(const ShapeReader &from)

@@ -134,7 +134,7 @@ class SecondOrder(SceneCase):
         one = self.end("one", law=law, boundary="f f f")
         self.assert_same(self.end("other", "run 153\nrun 247\n", law=law, np=4, boundary="f f f"), one)
 
-    def test_contacts_that_tear(self):
+    def test_contacts_that_detach(self):
         law = "jkr 2.0e4 50.0 0.3 0.05 tangential mindlin NULL 0.0 0.5"
         f = {"law": law, "bodies": BODIES.replace(LAW, law), "boundary": "f f f"}
         one = self.end("one", **f)

@@ -12,11 +12,11 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-import body_twin
+import body_reference
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
-TEARING = "jkr 2.0e4 300.0 0.3 0.3 tangential mindlin NULL 0.0 0.3"
+DETACHING = "jkr 2.0e4 300.0 0.3 0.3 tangential mindlin NULL 0.0 0.3"
 COUNT = 8    # spheres in a row along y, 2 from each other
 SCENE = f"""
 units lj
@@ -139,8 +139,8 @@ class NormalsThatTurn(OrderCase):
             self.assert_second_order(fold, 0.4)
 
 
-class ContactsThatTear(OrderCase):
-    law = TEARING
+class ContactsThatDetach(OrderCase):
+    law = DETACHING
 
     def test_planes_and_round_surfaces(self):
         self.write(0.3, 0.52)
@@ -205,13 +205,13 @@ class BodiesThatMove(OrderCase):
         self.assert_second_order("fix b all large/body mesh m.stl contact LAW surface_velocity 1 0.5 0.3", 0.3)
 
 
-class LimitOfTheTwin(OrderCase):
+class LimitOfTheReference(OrderCase):
     """The engine with a moderate time step against the limit of a slow program of first order."""
 
     def assert_limit(self, body, surface, x, v, time):
         sphere = Sphere(x, v, (0.0, 3.0, 1.0), density=1.0, diameter=1.0)
         write_sphere_data(self.path("data"), ((-20, 20), (-20, 20), (-20, 20)), [sphere])
-        expected = body_twin.limit(sphere, surface, time, 16000, kn=2.0e4, gn=300.0, mu=0.3)
+        expected = body_reference.limit(sphere, surface, time, 16000, kn=2.0e4, gn=300.0, mu=0.3)
         found = self.end(body.replace("LAW", LAW), time, 4096)
         # position, velocity and spin by component, in this order
         found = [found[3 * d + k] for k in range(3) for d in range(3)]

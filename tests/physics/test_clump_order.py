@@ -11,7 +11,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-import clump_twin
+import clump_reference
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 from tossed_clumps import DIAMETERS, PLACES, random_rotation
 
@@ -88,7 +88,7 @@ class ClumpOrder(SceneCase):
     def error(a, b):
         return math.sqrt(sum((p - q)**2 for x, y in zip(a, b) for p, q in zip(x, y)) / len(a))
 
-    def assert_second_order(self, body, time, steps=(256, 2048), gravity=10.0, law=LAW, twin=5.0e-5, twin_steps=8000):
+    def assert_second_order(self, body, time, steps=(256, 2048), gravity=10.0, law=LAW, reference=5.0e-5, reference_steps=8000):
         self.write()
         exact = self.end(body, time, 16384, gravity=gravity, law=law)
         coarse, fine = (self.error(self.end(body, time, n, gravity=gravity, law=law), exact) for n in steps)
@@ -96,13 +96,13 @@ class ClumpOrder(SceneCase):
         old = self.error(self.end(body, time, steps[1], "start half", gravity=gravity, law=law), exact)
         print(f"{self.id().split('.')[-1]}: {coarse:.1e} {fine:.1e}, order {order:.2f}; order 1: {old:.1e}")
         self.assertGreater(order, 1.8)
-        if twin:
+        if reference:
             self.assertLess(fine, 0.2 * old)
-            expected = clump_twin.limit(self.groups, bool(body), time, twin_steps, kn=2.0e4, gn=300.0, mu=0.3,
-                                        gravity=gravity)
+            expected = clump_reference.limit(self.groups, bool(body), time, reference_steps, kn=2.0e4, gn=300.0, mu=0.3,
+                                             gravity=gravity)
             error = self.error(expected, exact)
-            print(f"    twin: {error:.1e}")
-            self.assertLess(error, twin)
+            print(f"    reference: {error:.1e}")
+            self.assertLess(error, reference)
 
     def test_a_dumbbell_on_a_floor(self):
         self.place((0.0, 0.0, 1.0), (1.0, 0.5, -0.5), (0.0, 3.0, 1.0))
@@ -118,12 +118,12 @@ class ClumpOrder(SceneCase):
             self.place((1.7 * (k % 2) + 0.01 * k, 1.7 * (k // 2 % 2), 1.2 + 1.7 * (k // 4)), (0.3 * (-1)**k, 0.2, -1.0),
                        (0.0, 3.0, 1.0), TRIANGLE if k % 3 else DUMBBELL)
         self.place((0.8, 0.8, 2.6), (0.0, 0.0, -1.0), (0.0, 0.0, 2.0), (((0.0, 0.0, 0.0),), (0.8,)))
-        self.assert_second_order(FLOOR, 0.5, twin=None)
+        self.assert_second_order(FLOOR, 0.5, reference=None)
 
     def test_without_friction_and_without_damping(self):
         self.place((0.0, 0.0, 1.0), (1.0, 0.5, -0.5), (0.0, 3.0, 1.0))
-        self.assert_second_order(FLOOR, 0.4, law="hertz 2.0e4 300 limit_damping", twin=None)
-        self.assert_second_order(FLOOR, 0.4, law="hertz 2.0e4 0", twin=None)
+        self.assert_second_order(FLOOR, 0.4, law="hertz 2.0e4 300 limit_damping", reference=None)
+        self.assert_second_order(FLOOR, 0.4, law="hertz 2.0e4 0", reference=None)
 
 
 if __name__ == "__main__":

@@ -156,9 +156,9 @@ class TestModels(Case):
         """What compute pair/local says. Of what is odd in the order of the two particles the sign depends on it."""
         odd = {3, 4, 5, 12, 13, 14}    # behind distance and force: friction and separation, but not rolling
 
-        def by_pair(its):
+        def by_pair(frame):
             rows = {}
-            for row in its.rows:
+            for row in frame.rows:
                 i, j = int(row[1]), int(row[2])
                 values = [(-v if i > j and k + 1 in odd else v) for k, v in enumerate(row[3:])]
                 rows[min(i, j), max(i, j)] = values

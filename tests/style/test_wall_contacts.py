@@ -87,8 +87,8 @@ class WallContacts(SceneCase):
         for mine, theirs in zip(one, other, strict=True):
             scale = [max(abs(value) for value in column) for column in zip(*mine)]
             for a, b in zip(mine, theirs, strict=True):
-                for value, its, most in zip(a, b, scale, strict=True):
-                    self.assertLessEqual(abs(value - its), limit * max(most, 1e-3))
+                for value, expected, most in zip(a, b, scale, strict=True):
+                    self.assertLessEqual(abs(value - expected), limit * max(most, 1e-3))
 
     def assert_rows_are_forces(self, rows, frame):
         """On the first particle in all of the forces and torques, on the second the opposite force."""
@@ -111,21 +111,21 @@ class WallContacts(SceneCase):
 
     def test_as_of_large_bodies(self):
         """Rows, counts, energies and stresses, on any number of ranks and threads."""
-        twin = self.run_scene(planes_as_bodies(OURS))
+        of_bodies = self.run_scene(planes_as_bodies(OURS))
         self.assertGreater(sum(row["body"] > 0 for row in self.rows[-1]), 5)
         for np, threads in (1, 1), (2, 1), (1, 3):
-            its = self.run_scene(planes_of_lammps(STOCK), np=np, env={"OMP_NUM_THREADS": str(threads)})
+            of_walls = self.run_scene(planes_of_lammps(STOCK), np=np, env={"OMP_NUM_THREADS": str(threads)})
             self.assertRegex(self.log, "steps without output +in the records")
-            self.assert_alike(twin, its)
+            self.assert_alike(of_bodies, of_walls)
             self.assertEqual({row["part"] for row in self.rows[-1] if row["body"]}, {1.0})
 
     def test_regions_as_of_large_bodies(self):
-        twin = self.run_scene(REGION + f"fix w all large/body region w contact {OURS}\n")
+        of_bodies = self.run_scene(REGION + f"fix w all large/body region w contact {OURS}\n")
         faces = {row["part"] for row in self.rows[-1] if row["body"]}
         self.assertGreater(len(faces), 1)
         for np in 1, 2:
-            its = self.run_scene(REGION + f"fix w all wall/gran/region/talus {STOCK} region w\n", np=np)
-            self.assert_alike(twin, its)
+            of_walls = self.run_scene(REGION + f"fix w all wall/gran/region/talus {STOCK} region w\n", np=np)
+            self.assert_alike(of_bodies, of_walls)
             self.assertEqual({row["part"] for row in self.rows[-1] if row["body"]}, faces)
 
     def test_number_is_that_of_the_script(self):

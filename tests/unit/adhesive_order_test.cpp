@@ -1,10 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Normal laws with adhesion of their own with `order 2` of the integrator: the order of the slow
-// twin with and without what makes it two, and the laws of the engine against it, over impacts
-// after which the bodies part, and some in which they tear.
+// reference with and without what makes it two, and the laws of the engine against it, over impacts
+// after which the bodies separate, some of them by pull-off.
 
-#include "adhesive_twin.h"
+#include "adhesive_reference.h"
 #include "second_order_engine.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-using namespace Twin;
+using namespace Reference;
 
 namespace {
 
@@ -60,10 +60,10 @@ Scene on_plane()
   return scene;
 }
 
-AdhesiveLaw law_of(bool tears, double gamma, double damping, double xt, double mu)
+AdhesiveLaw law_of(bool detaches, double gamma, double damping, double xt, double mu)
 {
   const double young = 1.5e5 / (2.0 * (1.0 - 0.3 * 0.3));
-  return {tears, young, gamma, damping, xt, mu};
+  return {detaches, young, gamma, damping, xt, mu};
 }
 
 const AdhesiveLaw laws[] = {
@@ -76,7 +76,7 @@ const AdhesiveLaw slippery = law_of(false, 0.5, 200.0, 0.7, 0.1);
 std::string words_of(const AdhesiveLaw &law)
 {
   const auto number = [](double x) { return std::to_string(x); };
-  std::string words = std::string(law.tears ? "jkr" : "dmt") + " 1.5e5 " + number(law.damping) +
+  std::string words = std::string(law.detaches ? "jkr" : "dmt") + " 1.5e5 " + number(law.damping) +
                       " 0.3 " + number(law.gamma);
   if (law.mu > 0.0)
     words += " tangential linear_nohistory " + number(law.xt) + " " + number(law.mu);
@@ -102,10 +102,10 @@ double squared_error(const State &a, const State &b)
 State result(const AdhesiveImpact &method, const Scene &scene, int steps)
 {
   AdhesiveImpact impact = method;
-  System its = scene.start;
-  impact.run(its, scene.time, steps);
-  EXPECT_TRUE(impact.tore);
-  return its.particles;
+  System system = scene.start;
+  impact.run(system, scene.time, steps);
+  EXPECT_TRUE(impact.detached);
+  return system.particles;
 }
 
 /// Between 128 and 2048 steps; errors are root mean squares over moments at which contacts begin.
@@ -128,7 +128,7 @@ double order(const AdhesiveImpact &method, const Scene &scene)
 
 }    // namespace
 
-TEST(AdhesiveOrder, OfTheTwinIsTwo)
+TEST(AdhesiveOrder, OfTheReferenceIsTwo)
 {
   for (const AdhesiveLaw &law : laws)
     for (const Scene &scene : {head_on(), oblique(), on_plane()}) {
@@ -156,7 +156,7 @@ TEST(AdhesiveOrder, IsOneWithoutWhatMakesItTwo)
     }
 }
 
-TEST(AdhesiveOrder, TheEngineHasTheLawsOfTheTwin)
+TEST(AdhesiveOrder, TheEngineHasTheLawsOfTheReference)
 {
   std::vector<AdhesiveLaw> all(std::begin(laws), std::end(laws));
   all.push_back(slippery);
@@ -164,12 +164,12 @@ TEST(AdhesiveOrder, TheEngineHasTheLawsOfTheTwin)
     const std::string words = words_of(law);
     ASSERT_EQ(Engine::reason_against(words), "") << words;
     const Engine::Kernels kernels(words);
-    AdhesiveImpact twin;
-    twin.law = law;
+    AdhesiveImpact reference;
+    reference.law = law;
     for (const Scene &scene : {head_on(), oblique(), on_plane()})
       for (int steps : {60, 61, 157, 400}) {
         const Engine::Motion engine(kernels, scene.start, scene.time, steps, true);
-        EXPECT_LT(squared_error(engine.result(), result(twin, scene, steps)), 1.0e-16)
+        EXPECT_LT(squared_error(engine.result(), result(reference, scene, steps)), 1.0e-16)
             << words << ", " << steps;
         EXPECT_TRUE(engine.sets_up_alike()) << words << ", " << steps;
       }

@@ -12,7 +12,7 @@
 
 using namespace Talus;
 using namespace named;
-using namespace twin;
+using namespace reference;
 
 namespace {
 
@@ -34,7 +34,7 @@ Triple negated(const Triple &v)
 }
 
 struct Result {
-  Triple force, moment, twisting_torque, history, impact;
+  Triple force, torque_per_radius, twisting_torque, history, impact;
   double sliding;
 };
 
@@ -64,7 +64,7 @@ class LawBits : public testing::TestWithParam<NamedLaw> {
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(law, uniform, advance)(batch, begin, begin + lanes, &p, dt);
-    return {triple_of(batch.force, lane),           triple_of(batch.moment, lane),
+    return {triple_of(batch.force, lane),           triple_of(batch.torque_per_radius, lane),
             triple_of(batch.twisting_torque, lane), triple_of(batch.history, lane),
             triple_of(batch.history + 4, lane),     batch.history[3][lane]};
   }
@@ -96,9 +96,9 @@ TEST_P(LawBits, QueriesAgreeWithKernels)
     const Result kernel = run(lane, c, true, false);
     const ContactLanes<double> query = single_contact(law, p, state_of(c), dt, remembered(c));
     ASSERT_EQ(kernel.force, triple_of(query.force)) << title(law);
-    ASSERT_EQ(kernel.moment, triple_of(query.moment)) << title(law);
+    ASSERT_EQ(kernel.torque_per_radius, triple_of(query.torque_per_radius)) << title(law);
     ASSERT_EQ(kernel.twisting_torque, triple_of(query.twisting_torque)) << title(law);
-    // and leave what is remembered
+    // and leave the history as it is
     const HistoryValues before = remembered(c);
     for (int n = 0; n < ContactBatch::history_size; n++)
       ASSERT_EQ(batch.history[n][lane], before[n]) << title(law);
@@ -149,7 +149,7 @@ TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
     const Result a = run(n % width, c, true, advance);
     const Result b = run((n + 11) % width, swapped, true, advance);
     ASSERT_EQ(a.force, negated(b.force)) << title(law);
-    ASSERT_EQ(a.moment, b.moment) << title(law);
+    ASSERT_EQ(a.torque_per_radius, b.torque_per_radius) << title(law);
     ASSERT_EQ(a.twisting_torque, negated(b.twisting_torque)) << title(law);
     ASSERT_EQ(a.history, negated(b.history)) << title(law);
     ASSERT_EQ(a.impact, b.impact) << title(law);

@@ -1,10 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Every combination of laws against the slow twin, from the words of the user (two ContactSpecs, mixed) to force,
-// torques, history and impact of random contacts. Errors are relative to the sum of the magnitudes of the terms of
-// a result: kn overlap + gn |v| for the normal force, kt |d| + gt (|v| + r |omega|) and mu times the former for the
-// tangential one, and so on (scales in law_twin.h). States in which rounding decides on which side of a
-// threshold a contact is are left out, and counted.
+// Every combination of laws against the slow reference, from the words of the user (two
+// ContactSpecs, mixed) to force, torques, history and impact of random contacts. Errors are
+// relative to the sum of the magnitudes of the terms of a result: kn overlap + gn |v| for the
+// normal force, kt |d| + gt (|v| + r |omega|) and mu times the former for the tangential one, and
+// so on (scales in law_reference.h). States in which rounding decides on which side of a threshold
+// a contact is are left out, and counted.
 
 #include "law_states.h"
 
@@ -16,7 +17,7 @@
 
 using namespace Talus;
 using namespace named;
-using namespace twin;
+using namespace reference;
 
 namespace {
 
@@ -25,7 +26,7 @@ constexpr int num_contacts =
     100000;    // of each pair of laws, with and without advancing histories
 constexpr int num_rows = 32;
 
-/// A pair of materials as the twin and as the kernels see it.
+/// A pair of materials as the reference and as the kernels see it.
 struct Table {
   std::vector<Composite> composite;
   std::vector<ContactCoefficients> row;
@@ -91,7 +92,7 @@ void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outco
   if (law.has_friction())
     for (int body = 0; body < 2; body++) {
       const Vector twisting_torque = law.resists ? lane_of(b.twisting_torque, lane) : Vector{};
-      const Vector torque = Number(-1) * c.radius[body] * lane_of(b.moment, lane) +
+      const Vector torque = Number(-1) * c.radius[body] * lane_of(b.torque_per_radius, lane) +
                             Number(body == 0 ? 1 : -1) * twisting_torque;
       keep(worst.torque, error_of(torque, expected.torque[body], expected.torque_scale[body]));
     }
@@ -111,14 +112,14 @@ void compare_lane(const ContactBatch &b, int lane, const Contact &c, const Outco
        << expected.normal_force << "\n";
   for (int d = 0; d < 3; d++)
     text << "force " << b.force[d][lane] << " expected " << expected.force[d] << " moment "
-         << b.moment[d][lane] << " twisting_torque " << b.twisting_torque[d][lane]
+         << b.torque_per_radius[d][lane] << " twisting_torque " << b.twisting_torque[d][lane]
          << " torques expected " << expected.torque[0][d] << " " << expected.torque[1][d] << "\n";
   worst.where = text.str();
 }
 
 class AllLaws : public testing::TestWithParam<NamedLaw> {};
 
-TEST_P(AllLaws, AgreeWithTheSlowTwin)
+TEST_P(AllLaws, AgreeWithTheSlowReference)
 {
   const std::vector<NamedLaw> laws = variants(GetParam());
   RandomSource random(100 + 8 * static_cast<int>(GetParam().normal) +
@@ -175,7 +176,8 @@ TEST_P(AllLaws, AgreeWithTheSlowTwin)
 INSTANTIATE_TEST_SUITE_P(Grammar, AllLaws, testing::ValuesIn(law_pairs()),
                          [](const auto &info) { return identifier(info.param); });
 
-// All 528 combinations have kernels of both kinds, and queries; where nothing is remembered both kinds are one.
+// All 528 combinations have kernels of both kinds, and queries; where no contact has a history both
+// kinds are one.
 TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
 {
   RandomSource random(1);
@@ -197,7 +199,7 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
           for (int lane = 0; lane < ContactBatch::width; lane++)
             for (int d = 0; d < 3; d++)
               ASSERT_TRUE(std::isfinite(batch.force[d][lane]) &&
-                          std::isfinite(batch.moment[d][lane]) &&
+                          std::isfinite(batch.torque_per_radius[d][lane]) &&
                           std::isfinite(batch.twisting_torque[d][lane]) &&
                           std::isfinite(batch.history[d][lane]))
                   << title(law);
@@ -206,7 +208,8 @@ TEST(AllLawsOfTheGrammar, HaveKernelsThatRun)
   EXPECT_EQ(count, 528);
 }
 
-// The circle of intersection against the textbook's formula, where that one is well conditioned.
+// The radius of the intersection circle against the textbook formula, where that one is well
+// conditioned.
 TEST(Resistance, CircleOfIntersection)
 {
   RandomSource random(2);
@@ -215,14 +218,14 @@ TEST(Resistance, CircleOfIntersection)
     const double overlap = 2.0 * std::min(a, b) * random.uniform(0.01, 0.99);
     const Number d = Number(a) + b - overlap, x = (Number(a) * a - Number(b) * b) / (2 * d) + d / 2;
     const Number expected = std::sqrt((a - x) * (a + x));
-    const double found = circle_of_intersection(a, b, overlap);
+    const double found = intersection_radius_of(a, b, overlap);
     ASSERT_NEAR(found, static_cast<double>(expected), 1e-13 * std::min(a, b));
-    ASSERT_EQ(found, circle_of_intersection(b, a, overlap));    // whichever comes first
+    ASSERT_EQ(found, intersection_radius_of(b, a, overlap));    // whichever comes first
   }
-  EXPECT_EQ(circle_of_intersection(1.0, 2.0, 0.0), 0.0);
-  EXPECT_EQ(circle_of_intersection(1.0, 2.0, -0.5), 0.0);
-  EXPECT_EQ(circle_of_intersection(1.0, 3.0, 2.5), 0.0);    // one inside the other
-  EXPECT_NEAR(circle_of_intersection(5e-9, 5e-9, 1e-9), std::sqrt(25e-18 - 4.5e-9 * 4.5e-9), 1e-23);
+  EXPECT_EQ(intersection_radius_of(1.0, 2.0, 0.0), 0.0);
+  EXPECT_EQ(intersection_radius_of(1.0, 2.0, -0.5), 0.0);
+  EXPECT_EQ(intersection_radius_of(1.0, 3.0, 2.5), 0.0);    // one inside the other
+  EXPECT_NEAR(intersection_radius_of(5e-9, 5e-9, 1e-9), std::sqrt(25e-18 - 4.5e-9 * 4.5e-9), 1e-23);
 }
 
 }    // namespace

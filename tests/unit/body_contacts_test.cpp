@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts of particles with a large body: forces against the slow twin, balance of forces and
+// Contacts of particles with a large body: forces against the slow reference, balance of forces and
 // torques, life and death of the history.
 
 #include "body/contact/body_contacts.h"
@@ -68,8 +68,8 @@ class BodyContactsTest : public testing::TestWithParam<int> {
             p.type.data()};
   }
 
-  /// The contact of particle i as the twin wants it: with a resting, infinitely large and heavy
-  /// body.
+  /// The contact of particle i as the reference takes it: with a resting, infinitely large and
+  /// heavy body.
   Contact contact_of(int i, const SurfaceContact &surface) const
   {
     Contact c;
@@ -97,7 +97,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
   std::vector<Vector> force, torque;
 };
 
-TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
+TEST_P(BodyContactsTest, AgreesWithTheSlowReferenceAndBalances)
 {
   std::vector<Vector> displacement(p.size());
   std::vector<char> sliding(p.size(), 0);
@@ -119,9 +119,9 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
         c.history = displacement[i];
         c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
-        const ContactLaw &its = laws.law(row);
-        expected = evaluate(c, named::named_law(its),
-                            named::numbers_of(its, laws.coefficients(row)), dt, advance);
+        const ContactLaw &pair_law = laws.law(row);
+        expected = evaluate(c, named::named_law(pair_law),
+                            named::numbers_of(pair_law, laws.coefficients(row)), dt, advance);
         touching++;
       }
       const double error = 1e-12 * expected.force_scale;
@@ -144,9 +144,9 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowTwinAndBalances)
     // Newton's third law, for forces and for torques about the reference point
     ASSERT_GT(scale, 0.0);
     const Vector reaction{load.force.x, load.force.y, load.force.z};
-    const Vector moment{load.torque.x, load.torque.y, load.torque.z};
+    const Vector net_torque{load.torque.x, load.torque.y, load.torque.z};
     ASSERT_LE(norm(axpy(1.0, reaction, sum_force)), 1e-14 * scale);
-    ASSERT_LE(norm(axpy(1.0, moment, sum_torque)), 1e-14 * scale);
+    ASSERT_LE(norm(axpy(1.0, net_torque, sum_torque)), 1e-14 * scale);
     ASSERT_EQ(load.contacts, touching);
     p.move(5.0 * dt, 0.1, random);
   }
@@ -173,7 +173,7 @@ TEST_P(BodyContactsTest, TheWorstContactAndTheFastestParticle)
     deepest = i;
   }
   for (int threads : {1, 2, 7}) {
-    const BodyFindings worst = contacts.look_for_trouble(*shape, frame, view(), threads);
+    const BodyFindings worst = contacts.find_worst(*shape, frame, view(), threads);
     EXPECT_EQ(worst.overlap.value, overlap);
     EXPECT_EQ(worst.overlap.particle, deepest);
     EXPECT_EQ(worst.speed.value, speed / 0.5);
@@ -191,7 +191,7 @@ TEST_P(BodyContactsTest, ForcesAreAdded)
     for (int d = 0; d < 3; d++) EXPECT_EQ(force[i][d], 2.0 * once[i][d]);
 }
 
-// A force computed anew from the stored history has the same bits, and the history stays.
+// A force computed again from the stored history has the same bits, and the history stays.
 TEST_P(BodyContactsTest, WithoutAdvanceTheHistoryStays)
 {
   find();

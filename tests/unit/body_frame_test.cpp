@@ -54,8 +54,8 @@ LawTable resisting_law()
 /// A box full of particles, its walls touched at faces, edges and corners.
 class Scene {
  public:
-  Scene(const BodyFrame &its_frame, int threads) :
-      random(3), p(slow::random_packing(500, random)), frame(its_frame), threads(threads)
+  Scene(const BodyFrame &body_frame, int threads) :
+      random(3), p(slow::random_packing(500, random)), frame(body_frame), threads(threads)
   {
     frame.origin = box.reference_point();
     contacts.set_laws(resisting_law());

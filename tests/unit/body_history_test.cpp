@@ -52,10 +52,10 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<int, bool>> {
       history.set_touching(0, 1U << candidate, 1U << candidate);
     }
     for (int k = 0; k < (several() ? 2 : 1); k++) {
-      const double its = value + 100.0 * k;
+      const double first_value = value + 100.0 * k;
       const std::uint32_t slot = history.first_slot(candidate) + k;
       history.begin_step();
-      history.set_values(slot, values(its));
+      history.set_values(slot, values(first_value));
     }
   }
 
@@ -84,8 +84,8 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<int, bool>> {
       all.resize(all.size() + ContactLists::size_name);
       ContactLists::write_name(0, k, &all[all.size() - ContactLists::size_name]);
       all.insert(all.end(), normal.begin(), normal.end());
-      const HistoryValues its = values(value + 100.0 * k);
-      all.insert(all.end(), its.begin(), its.begin() + 4L * records());
+      const HistoryValues history = values(value + 100.0 * k);
+      all.insert(all.end(), history.begin(), history.begin() + 4L * records());
     }
     return all;
   }

@@ -4,7 +4,7 @@
 // and bodies that hold a force.
 
 #include "body/motion/body_state.h"
-#include "body/motion/guided_motion.h"
+#include "body/motion/external_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
 
@@ -27,7 +27,7 @@ TEST(BodyRotation, TurnsAndTurnsBack)
   const V axis{0.6, 0.0, 0.8}, v{0.3, -1.0, 2.0};
   BodyFrame r;
   BodyState state;
-  state.orientation = turn_of(axis, 1.1);
+  state.orientation = rotation_by(axis, 1.1);
   r.set(state);
   // Rodrigues
   const V expected = std::cos(1.1) * v + std::sin(1.1) * cross(axis, v) +
@@ -44,7 +44,7 @@ TEST(BodyRotation, TurnsAndTurnsBack)
 }
 
 // What contacts of second order see: the rate at which a point moves in the axes of the body.
-TEST(BodyMoment, SeesVelocitiesInTheFrameOfTheBody)
+TEST(BodyKinematics, SeesVelocitiesInTheFrameOfTheBody)
 {
   const auto turning = PrescribedMotion::rotate({0.5, 0.0, 1.0}, {0.0, 0.6, 0.8}, 3.0);
   const V v{0.3, -1.0, 0.7}, start{1.0, 2.0, 3.0}, x{0.2, 0.9, -0.4};
@@ -55,14 +55,14 @@ TEST(BodyMoment, SeesVelocitiesInTheFrameOfTheBody)
     frame.set(turning.at(t, start));
     return frame.point_to_body(x + (t - 0.7) * v);
   };
-  BodyMoment moment;
-  moment.set(turning.at(0.7, start));
+  BodyKinematics kinematics;
+  kinematics.set(turning.at(0.7, start));
   const V seen = 0.5 / h * (place(0.7 + h) - place(0.7 - h));
-  EXPECT_NEAR(length(moment.velocity_seen(v, x) - seen), 0.0, 1e-8);
-  EXPECT_NEAR(length(moment.omega_seen(moment.omega)), 0.0, 1e-15);
+  EXPECT_NEAR(length(kinematics.velocity_seen(v, x) - seen), 0.0, 1e-8);
+  EXPECT_NEAR(length(kinematics.omega_seen(kinematics.omega)), 0.0, 1e-15);
 }
 
-TEST(BodyMoment, HalfWayOfATurn)
+TEST(BodyKinematics, HalfWayOfATurn)
 {
   const auto turning = PrescribedMotion::rotate({0.5, 0.0, 1.0}, {0.0, 0.6, 0.8}, 3.0);
   const V start{1.0, 2.0, 3.0};
@@ -112,10 +112,10 @@ TEST(BodyMotion, GuidedBodyReachesTheGivenBits)
 {
   BodyState state, target;
   target.position = {1.0 / 3.0, 0.1, -0.7};
-  target.orientation = turn_of({0.0, 0.0, 1.0}, 0.9);
+  target.orientation = rotation_by({0.0, 0.0, 1.0}, 0.9);
   target.velocity = {1.0, 2.0, 3.0};
   target.omega = {0.0, 0.0, 0.5};
-  GuidedMotion guide;
+  ExternalMotion guide;
   guide.guide(state, target, 4);
   const double way[] = {0.25, 0.5, 0.75};
   for (const double w : way) {
@@ -124,9 +124,9 @@ TEST(BodyMotion, GuidedBodyReachesTheGivenBits)
     EXPECT_NEAR(state.orientation.angularDistance(one), 0.9 * w, 1e-14);
     EXPECT_NEAR(length(state.velocity - w * target.velocity), 0.0, 1e-15);
   }
-  double saved[GuidedMotion::size];
+  double saved[ExternalMotion::size];
   guide.to_array(saved);
-  GuidedMotion restarted;
+  ExternalMotion restarted;
   restarted.from_array(saved);
   restarted.advance(state, 0.1);
   double found[BodyState::size], expected[BodyState::size];
@@ -143,7 +143,7 @@ TEST(BodyMotion, LargestDisplacementBounds)
   a.moves = b.moves = true;
   BodyState s;
   s.position = {0.1, 0.0, 0.0};
-  s.orientation = turn_of({0, 1, 0}, 0.05);
+  s.orientation = rotation_by({0, 1, 0}, 0.05);
   b.set(s);
   double most = 0.0;
   for (int k = 0; k < 64; k++) {
@@ -207,7 +207,7 @@ TEST(RigidBodyTest, EnergyDoesNotDrift)
     body.inertia[2] = 2.5;
     body.locked[4] = lock;
     BodyState state;
-    state.orientation = turn_of({1.0, 0.3, 0.5}, 0.4);
+    state.orientation = rotation_by({1.0, 0.3, 0.5}, 0.4);
     state.omega = {1.5, lock ? 0.0 : 0.2, 0.3};
     const double e0 = body.kinetic_energy(state);
     const V l0 = body.angular_momentum(state);
@@ -255,7 +255,7 @@ TEST(RigidBodyTest, LockedFreedomsStay)
   body.inertia[2] = 2.5;
   body.locked[0] = body.locked[2] = body.locked[3] = body.locked[5] = true;
   BodyState state;
-  state.orientation = turn_of({1, 0, 0}, 0.3);
+  state.orientation = rotation_by({1, 0, 0}, 0.3);
   const RigidBody free_body = body;
   for (int n = 0; n < 100; n++) body.advance(state, {1, 1, 1}, {1, 1, 1}, 1e-2);
   EXPECT_EQ(state.position.x, 0.0);

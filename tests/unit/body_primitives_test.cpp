@@ -153,7 +153,7 @@ TEST(Primitives, CylinderMantleCapsAndRim)
   f = contacts_of(outside, {1.3, 0.0, 2.4}, 0.6);    // rim: 0.5 away
   ASSERT_EQ(f.count, 1);
   expect_contact(f.contact[0], {0.6, 0.0, 0.8}, 0.1);
-  f = contacts_of(inside, {0.0, -0.8, 1.85}, 0.3);    // where mantle and cap meet
+  f = contacts_of(inside, {0.0, -0.8, 1.85}, 0.3);    // where lateral surface and cap meet
   ASSERT_EQ(f.count, 2);
   expect_contact(f.contact[0], {0, 0, -1}, 0.15);
   expect_contact(f.contact[1], {0, 1, 0}, 0.1);

@@ -133,8 +133,8 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
       const int slot = order.slot_of_atom[i];
       for (int d = 0; d < 3; d++) {
         ASSERT_EQ(records.load[records.stride * slot].c[d], force[i][d]) << i;
-        const double its_torque = records.stride == 2 ? records.torque(slot)[d] : torque[i][d];
-        ASSERT_EQ(its_torque, torque[i][d]) << i;
+        const double expected_torque = records.stride == 2 ? records.torque(slot)[d] : torque[i][d];
+        ASSERT_EQ(expected_torque, torque[i][d]) << i;
       }
     }
   }
@@ -189,12 +189,12 @@ TEST_P(BodyRecordsTest, SameBitsAsInArrays)
       threaded.threads = n % 3 == 1 ? 3 : 1;
       // now and then a step is made in the arrays, by the same contacts
       const bool stays = n % 5 != 4;
-      const std::vector<Vector> its_force = force, its_torque = torque;
+      const std::vector<Vector> expected_force = force, expected_torque = torque;
       const BodyLoad found = stays && n % 3 == 2 ? add_in_ranges(body, step)
                                                  : body.in_records.compute(*body.shape, body.frame,
                                                                            view(stays), threaded);
-      force = its_force;
-      torque = its_torque;
+      force = expected_force;
+      torque = expected_torque;
       ASSERT_EQ(found.contacts, expected.contacts);
       expect_near(found.force, expected.force, 1e4 * found.contacts);
       expect_near(found.torque, expected.torque, 1e5 * found.contacts);

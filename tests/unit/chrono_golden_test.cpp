@@ -22,7 +22,7 @@
 
 using namespace Talus;
 using namespace named;
-using namespace twin;
+using namespace reference;
 
 namespace {
 
@@ -194,17 +194,18 @@ class Scene : public TwoSpheres {
     s.normal = vector(contact_normal());
     s.surface_rotation = vector(body[0].radius * body[0].omega + body[1].radius * body[1].omega);
     s.relative_omega = vector(body[0].omega - body[1].omega);
-    s.circle = batch.circle[0];
+    s.intersection_radius = batch.intersection_radius[0];
     s.delayed_force = normal_force();
-    const ContactLaw its = law;
-    const ContactCoefficients row = row_of(its, coefficients);
+    const ContactLaw first_order = law;
+    const ContactCoefficients row = row_of(first_order, coefficients);
     for (Stage stage : {Stage::ROLLING, Stage::TWISTING})
-      its[stage].one(s, its.coefficients(stage, row), nullptr, dt);
-    const double moment[3] = {s.moment.x, s.moment.y, s.moment.z},
+      first_order[stage].one(s, first_order.coefficients(stage, row), nullptr, dt);
+    const double torque_per_radius[3] = {s.torque_per_radius.x, s.torque_per_radius.y,
+                                         s.torque_per_radius.z},
                  twisting_torque[3] = {s.twisting_torque.x, s.twisting_torque.y,
                                        s.twisting_torque.z};
     for (int d = 0; d < 3; d++) {
-      batch.moment[d][0] += moment[d];
+      batch.torque_per_radius[d][0] += torque_per_radius[d];
       batch.twisting_torque[d][0] += twisting_torque[d];
     }
   }

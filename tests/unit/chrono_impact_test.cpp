@@ -14,7 +14,7 @@
 
 using namespace Talus;
 using namespace named;
-using namespace twin;
+using namespace reference;
 
 namespace {
 

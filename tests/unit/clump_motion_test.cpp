@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Clumps one by one and eight at a time, free rotation, and the twin in RigidBody.
+// Clumps one by one and eight at a time, free rotation, and the reference in RigidBody.
 
 #include "base/lanes.h"
 #include "body/motion/clump_motion.h"
@@ -24,8 +24,8 @@ ClumpState<double> top(double spin)
   s.position = {0.3, -2.0, 7.0};
   s.velocity = {1.0, 0.2, -0.7};
   s.momentum = {-0.13 * spin, 0.02 * spin, -0.2475 * spin};
-  s.turn = Turn<double>{0.3, 0.1, 0.7, -0.2}.normalized();
-  s.axes = s.turn.axes();
+  s.quat = Quaternion<double>{0.3, 0.1, 0.7, -0.2}.normalized();
+  s.axes = s.quat.axes();
   s.omega = s.omega_now();
   return s;
 }
@@ -54,10 +54,10 @@ ClumpState<Vec8> eight(const ClumpState<double> *of)
   s.position = vector([](const One &o) { return o.position; });
   s.velocity = vector([](const One &o) { return o.velocity; });
   s.momentum = vector([](const One &o) { return o.momentum; });
-  s.turn = {
-      lane([](const One &o) { return o.turn.w; }), lane([](const One &o) { return o.turn.x; }),
-      lane([](const One &o) { return o.turn.y; }), lane([](const One &o) { return o.turn.z; })};
-  s.axes = s.turn.axes();
+  s.quat = {
+      lane([](const One &o) { return o.quat.w; }), lane([](const One &o) { return o.quat.x; }),
+      lane([](const One &o) { return o.quat.y; }), lane([](const One &o) { return o.quat.z; })};
+  s.axes = s.quat.axes();
   s.omega = s.omega_now();
   return s;
 }
@@ -82,15 +82,15 @@ TEST(ClumpMotion, EightAtATimeHaveTheBitsOfOneByOne)
   };
   for (int step = 0; step < 20; step++) {
     motion(all);
-    for (ClumpState<double> &its : one) motion(its);
+    for (ClumpState<double> &clump : one) motion(clump);
   }
   for (int k = 0; k < lanes; k++) {
     expect_lane(all.position.x, k, one[k].position.x);
     expect_lane(all.velocity.y, k, one[k].velocity.y);
     expect_lane(all.momentum.z, k, one[k].momentum.z);
     expect_lane(all.omega.x, k, one[k].omega.x);
-    expect_lane(all.turn.w, k, one[k].turn.w);
-    expect_lane(all.turn.z, k, one[k].turn.z);
+    expect_lane(all.quat.w, k, one[k].quat.w);
+    expect_lane(all.quat.z, k, one[k].quat.z);
   }
 }
 
@@ -142,7 +142,7 @@ TEST(ClumpMotion, AllBodiesTurnInOneWay)
   const double moments[3] = {0.1, 0.25, 0.3};
   std::copy(moments, moments + 3, body.inertia);
   BodyState state;
-  state.orientation = {s.turn.w, s.turn.x, s.turn.y, s.turn.z};
+  state.orientation = {s.quat.w, s.quat.x, s.quat.y, s.quat.z};
   state.omega = s.omega;
   state.velocity = s.velocity;
   state.position = s.position;
@@ -158,8 +158,8 @@ TEST(ClumpMotion, AllBodiesTurnInOneWay)
     body.advance(state, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.01);
     other.advance(q, omega, {0.0, 0.0, 0.0}, 0.01);
   }
-  EXPECT_NEAR(s.turn.w, state.orientation.w(), 1e-11);
-  EXPECT_NEAR(s.turn.y, state.orientation.y(), 1e-11);
+  EXPECT_NEAR(s.quat.w, state.orientation.w(), 1e-11);
+  EXPECT_NEAR(s.quat.y, state.orientation.y(), 1e-11);
   EXPECT_NEAR(s.omega.x, state.omega.x, 1e-11);
   EXPECT_NEAR(s.position.z, state.position.z, 1e-11);
   EXPECT_LT(length(omega - s.omega), 1e-11);
@@ -169,7 +169,7 @@ TEST(ClumpMotion, AllBodiesTurnInOneWay)
 TEST(ClumpMotion, SmallAndLargeAnglesMeet)
 {
   for (const double speed : {6.3, 6.33}) {    // on both sides of the end of the series
-    const Turn<double> t = turn_in(Vector3<double>{0.0, speed, 0.0}, 0.01);
+    const Quaternion<double> t = rotation_in(Vector3<double>{0.0, speed, 0.0}, 0.01);
     EXPECT_NEAR(t.w, std::cos(0.005 * speed), 1e-16);
     EXPECT_NEAR(t.y, std::sin(0.005 * speed), 1e-16);
   }

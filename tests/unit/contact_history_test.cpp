@@ -43,13 +43,13 @@ TEST(ContactHistory, SurvivesKeysThatTurnEveryPairRound)
   RandomSource random(1);
   Packing p = random_packing(200, random);
   TestRank rank(history_laws());
-  BruteForce twin;
+  BruteForce reference;
   rebuild(rank, p, 0.5, random);
   for (int step = 0; step < 3; step++) rank.compute(p, dt, true);
-  twin.compute(p, history_laws(), dt, true, false);
+  reference.compute(p, history_laws(), dt, true, false);
 
   std::map<std::pair<int, int>, Record> before;
-  for (const auto &contact : twin.contacts) {
+  for (const auto &contact : reference.contacts) {
     const auto [i, j] = contact.first;
     before[{i, j}] = rank.history_of(i, j);
     ASSERT_FALSE(is_zero(before[{i, j}]));
@@ -99,12 +99,12 @@ TEST(ContactHistory, FollowsParticlesThatGetOtherTags)
   RandomSource random(8);
   Packing p = random_packing(200, random);
   TestRank rank(history_laws());
-  BruteForce twin;
+  BruteForce reference;
   rebuild(rank, p, 0.5, random);
   rank.compute(p, dt, true);
-  twin.compute(p, history_laws(), dt, true, false);
+  reference.compute(p, history_laws(), dt, true, false);
   std::map<std::pair<int, int>, Record> before;
-  for (const auto &contact : twin.contacts)
+  for (const auto &contact : reference.contacts)
     before[contact.first] = rank.history_of(contact.first.first, contact.first.second);
 
   Luggage luggage;
@@ -122,21 +122,21 @@ TEST(ContactHistory, FollowsParticlesThatGetOtherTags)
   EXPECT_GT(forgotten, 0);
 }
 
-TEST(ContactHistory, FollowsTheSlowTwinOverRebuilds)
+TEST(ContactHistory, FollowsTheSlowReferenceOverRebuilds)
 {
   RandomSource random(2);
   Packing p = random_packing(200, random);
   const LawTable laws = mixed_laws();
   TestRank rank(laws);
-  BruteForce twin;
+  BruteForce reference;
   for (int step = 0; step < 20; step++) {
     if (step % 5 == 0) {
       p.refresh_keys(0.3 + 0.05 * step);
       rebuild(rank, p, 1.5, random);
     }
     rank.compute(p, dt, true);
-    twin.compute(p, laws, dt, true, false);
-    for (const auto &[pair, contact] : twin.contacts) {
+    reference.compute(p, laws, dt, true, false);
+    for (const auto &[pair, contact] : reference.contacts) {
       const int row = laws.row(p.type[pair.first], p.type[pair.second]);
       const Record h = rank.history_of(pair.first, pair.second);
       if (!laws.law(row).has_history()) {
@@ -202,16 +202,16 @@ TEST(ContactHistory, OnlyAdvancingStepsChangeIt)
   RandomSource random(6);
   Packing p = random_packing(100, random);
   TestRank rank(history_laws());
-  BruteForce twin;
+  BruteForce reference;
   rebuild(rank, p, 0.5, random);
   rank.compute(p, dt, true);
-  twin.compute(p, history_laws(), dt, true, false);
+  reference.compute(p, history_laws(), dt, true, false);
   const std::vector<Vector> force = rank.force;
   for (int repeat = 0; repeat < 3; repeat++) {
     rank.compute(p, dt, false);
     EXPECT_EQ(rank.force, force);    // set-up after a restart: the same force again
   }
-  for (const auto &[pair, contact] : twin.contacts) {
+  for (const auto &[pair, contact] : reference.contacts) {
     const Record h = rank.history_of(pair.first, pair.second);
     for (int d = 0; d < 3; d++)
       ASSERT_NEAR(h.c[d], contact.out.history[d], 1e-12 * contact.out.history_scale);

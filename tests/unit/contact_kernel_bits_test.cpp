@@ -22,7 +22,7 @@ constexpr double dt = 2e-5;
 constexpr int width = ContactBatch::width;
 
 struct Result {
-  Vector force, moment, history;
+  Vector force, torque_per_radius, history;
   double sliding;
 };
 
@@ -33,7 +33,7 @@ bool same_bits(const Result &a, const Result &b)
 
 Result result_of(const ContactBatch &batch, int lane)
 {
-  return {slow::lane_of(batch.force, lane), slow::lane_of(batch.moment, lane),
+  return {slow::lane_of(batch.force, lane), slow::lane_of(batch.torque_per_radius, lane),
           slow::lane_of(batch.history, lane), batch.history[3][lane]};
 }
 
@@ -101,10 +101,11 @@ TEST_P(KernelBits, QueriesAgreeWithKernels)
     const HistoryValues h{{c.history[0], c.history[1], c.history[2], c.sliding ? 1.0 : 0.0}};
     const ContactLanes<double> query =
         single_contact(law, row_of(law, p), slow::state_of(c), dt, h);
-    const Result other{{query.force.x, query.force.y, query.force.z},
-                       {query.moment.x, query.moment.y, query.moment.z},
-                       c.history,
-                       h[3]};
+    const Result other{
+        {query.force.x, query.force.y, query.force.z},
+        {query.torque_per_radius.x, query.torque_per_radius.y, query.torque_per_radius.z},
+        c.history,
+        h[3]};
     ASSERT_TRUE(same_bits(kernel, other)) << n;
   }
 }
@@ -188,7 +189,7 @@ TEST_P(KernelBits, SwappingTheBodiesNegatesTheForceExactly)
     const Result a = run_in_lane(batch, n % width, law, c, p, true, advance);
     const Result b = run_in_lane(batch, (n + 11) % width, law, swapped, p, true, advance);
     ASSERT_EQ(a.force, negated(b.force)) << n;
-    ASSERT_EQ(a.moment, b.moment) << n;
+    ASSERT_EQ(a.torque_per_radius, b.torque_per_radius) << n;
     ASSERT_EQ(a.history, negated(b.history)) << n;
     ASSERT_EQ(a.sliding, b.sliding) << n;
   }

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Every kernel against the slow twin: forces, torques and histories of random contacts, ordinary
-// and degenerate. Errors are measured relative to the sum of the magnitudes of the terms that make
-// a result (Outcome::force_scale, history_scale): a small difference of large terms cannot be
-// better than these.
+// Every kernel against the slow reference: forces, torques and histories of random contacts,
+// ordinary and degenerate. Errors are measured relative to the sum of the magnitudes of the terms
+// that make a result (Outcome::force_scale, history_scale): a small difference of large terms
+// cannot be better than these.
 
 #include "random_contact.h"
 
@@ -47,10 +47,11 @@ double error_of_lane(const ContactBatch &batch, int lane, const Contact &c, cons
 {
   double worst = error_of(slow::lane_of(batch.force, lane), expected.force, expected.force_scale);
   if (law.has_friction()) {
-    const Vector moment = slow::lane_of(batch.moment, lane);
+    const Vector torque_per_radius = slow::lane_of(batch.torque_per_radius, lane);
     for (int b = 0; b < 2; b++) {
       const double r = c.radius[b];
-      const Vector torque{-r * moment[0], -r * moment[1], -r * moment[2]};
+      const Vector torque{-r * torque_per_radius[0], -r * torque_per_radius[1],
+                          -r * torque_per_radius[2]};
       worst = std::max(worst, error_of(torque, expected.torque[b], r * expected.force_scale));
     }
   }
@@ -133,7 +134,7 @@ Coverage compare_kernel(NamedLaw law, bool limit_damping, bool uniform, bool adv
 
 class ContactLawTest : public testing::TestWithParam<NamedLaw> {};
 
-TEST_P(ContactLawTest, AgreesWithSlowTwin)
+TEST_P(ContactLawTest, AgreesWithSlowReference)
 {
   const NamedLaw law = GetParam();
   for (bool limit_damping : {false, true})
@@ -189,7 +190,7 @@ TEST(ContactLaw, CoincidentCentersExertNoForce)
       const ContactLanes<double> out =
           single_contact(law, row_of(law, p), slow::state_of(c), 1e-5, h);
       ASSERT_EQ(dot(out.force, out.force), 0.0) << slow::title(law);
-      ASSERT_EQ(dot(out.moment, out.moment), 0.0) << slow::title(law);
+      ASSERT_EQ(dot(out.torque_per_radius, out.torque_per_radius), 0.0) << slow::title(law);
     }
 }
 

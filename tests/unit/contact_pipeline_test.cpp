@@ -38,26 +38,26 @@ bool close(const Vector &a, const Vector &b, double scale)
   return norm(axpy(-1.0, b, a)) <= tolerance * scale;    // false if anything is not a number
 }
 
-void expect_same_sums(const TestRank &rank, const BruteForce &slow_twin, const Packing &p)
+void expect_same_sums(const TestRank &rank, const BruteForce &slow_reference, const Packing &p)
 {
-  const BruteForce::Sums sums = slow_twin.sums(p.size());
+  const BruteForce::Sums sums = slow_reference.sums(p.size());
   for (int i = 0; i < p.size(); i++) {
     ASSERT_TRUE(close(rank.force[i], sums.force[i], sums.scale[i])) << "force on " << i;
     ASSERT_TRUE(close(rank.torque[i], sums.torque[i], sums.scale[i])) << "torque on " << i;
   }
 }
 
-void expect_same_contacts(const TestRank &rank, const BruteForce &slow_twin, const Packing &p,
+void expect_same_contacts(const TestRank &rank, const BruteForce &slow_reference, const Packing &p,
                           bool with_history)
 {
-  ASSERT_EQ(rank.report.size(), slow_twin.contacts.size());
-  ASSERT_EQ(rank.pipeline.count_contacts(), static_cast<double>(slow_twin.contacts.size()));
+  ASSERT_EQ(rank.tally.size(), slow_reference.contacts.size());
+  ASSERT_EQ(rank.pipeline.count_contacts(), static_cast<double>(slow_reference.contacts.size()));
   std::set<std::pair<int, int>> seen;
-  for (const ReportedContact &r : rank.report) {
+  for (const TalliedContact &r : rank.tally) {
     const int i = rank.particle[r.i], j = rank.particle[r.j];
     ASSERT_TRUE(seen.insert(std::minmax(i, j)).second) << "reported twice";
-    const auto found = slow_twin.contacts.find(std::minmax(i, j));
-    ASSERT_NE(found, slow_twin.contacts.end()) << "reported without contact";
+    const auto found = slow_reference.contacts.find(std::minmax(i, j));
+    ASSERT_NE(found, slow_reference.contacts.end()) << "reported without contact";
     const PairOutcome &expected = found->second;
     const double side = i < j ? 1.0 : -1.0;
     for (int d = 0; d < 3; d++) {
@@ -84,25 +84,26 @@ TEST_P(Pipeline, AgreesWithBruteForce)
     RandomSource random(weighted ? 3 : 4);
     Packing p = random_packing(300, random);
     TestRank rank(laws);
-    BruteForce twin;
+    BruteForce reference;
     rank.rebuild(p, everyone(p), candidates(p, 1.0, weighted), {}, random);
     EXPECT_EQ(rank.pipeline.count_candidates(),
               static_cast<double>(candidates(p, 1.0, weighted).size()));
     for (int step = 0; step < 12; step++) {
       const bool advance = step != 0 && step != 6;    // as in the set-up of a run
       rank.compute(p, dt, advance);
-      twin.compute(p, laws, dt, advance, weighted);
-      ASSERT_GT(twin.contacts.size(), 500U);
-      ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p)) << "step " << step;
-      ASSERT_NO_FATAL_FAILURE(expect_same_contacts(rank, twin, p, laws.has_history() && advance))
+      reference.compute(p, laws, dt, advance, weighted);
+      ASSERT_GT(reference.contacts.size(), 500U);
+      ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, reference, p)) << "step " << step;
+      ASSERT_NO_FATAL_FAILURE(
+          expect_same_contacts(rank, reference, p, laws.has_history() && advance))
           << "step " << step;
       p.move(20.0 * dt, 0.2, random);
     }
   }
 }
 
-// Between runs pairs stay, also where memory that is much is given back at rebuilds; what is asked about them then
-// is what it was in the last step.
+// Between runs pairs stay, also where large memory is released at rebuilds; what is asked about
+// them then is what it was in the last step.
 TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
 {
   const auto survey = [](const ContactPipeline &contacts) {
@@ -118,7 +119,7 @@ TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
   RandomSource random(6);
   Packing p = random_packing(60, random);
   TestRank rank(GetParam().laws);
-  rank.pipeline.set_worth_giving_back(0.0);
+  rank.pipeline.set_release_threshold(0.0);
   rank.rebuild(p, everyone(p), candidates(p, 1.0, false), {}, random);
   std::vector<double> before;
   for (int step = 0; step < 2; step++) {
@@ -147,13 +148,13 @@ TEST_P(Pipeline, HandlesAnyNumberOfContacts)
   for (int n = 1; n <= 60; n++) {
     const Packing p = random_packing(n, random);
     TestRank rank(laws);
-    BruteForce twin;
+    BruteForce reference;
     rank.rebuild(p, everyone(p), candidates(p, 0.3, false), {}, random);
     rank.compute(p, dt, true);
-    twin.compute(p, laws, dt, true, false);
-    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p)) << twin.contacts.size();
-    ASSERT_NO_FATAL_FAILURE(expect_same_contacts(rank, twin, p, laws.has_history()));
-    counts.insert(twin.contacts.size() % 8);
+    reference.compute(p, laws, dt, true, false);
+    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, reference, p)) << reference.contacts.size();
+    ASSERT_NO_FATAL_FAILURE(expect_same_contacts(rank, reference, p, laws.has_history()));
+    counts.insert(reference.contacts.size() % 8);
   }
   EXPECT_EQ(counts.size(), 8U);
 }
@@ -168,7 +169,7 @@ TEST_P(Pipeline, EmptyRank)
     rank.depart(luggage);
     rank.rebuild(p, {}, {}, luggage, random);
     rank.compute(p, dt, true);
-    EXPECT_TRUE(rank.report.empty());
+    EXPECT_TRUE(rank.tally.empty());
     EXPECT_EQ(rank.pipeline.count_contacts(), 0.0);
     EXPECT_EQ(rank.pipeline.count_candidates(), 0.0);
   }
@@ -180,13 +181,13 @@ TEST_P(Pipeline, CoincidentCentersGiveNoForce)
   Packing p = random_packing(40, random);
   for (int i = 0; i < 40; i += 2) p.x[i] = p.x[i + 1];
   TestRank rank(GetParam().laws);
-  BruteForce twin;
+  BruteForce reference;
   rank.rebuild(p, everyone(p), candidates(p, 1.0, false), {}, random);
   for (int step = 0; step < 3; step++) {
     rank.compute(p, dt, true);
-    twin.compute(p, GetParam().laws, dt, true, false);
-    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, twin, p));
-    EXPECT_EQ(rank.pipeline.count_contacts(), static_cast<double>(twin.contacts.size()));
+    reference.compute(p, GetParam().laws, dt, true, false);
+    ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, reference, p));
+    EXPECT_EQ(rank.pipeline.count_contacts(), static_cast<double>(reference.contacts.size()));
   }
 }
 
@@ -194,7 +195,7 @@ TEST_P(Pipeline, CoincidentCentersGiveNoForce)
 std::map<int, std::vector<int>> partners_in_order(const TestRank &rank)
 {
   std::map<int, std::vector<int>> partners;
-  for (const ReportedContact &r : rank.report) {
+  for (const TalliedContact &r : rank.tally) {
     EXPECT_TRUE(r.for_i || r.for_j);
     if (r.for_i && r.i < rank.owned) partners[rank.particle[r.i]].push_back(rank.particle[r.j]);
     if (r.for_j && r.j < rank.owned) partners[rank.particle[r.j]].push_back(rank.particle[r.i]);
@@ -225,7 +226,7 @@ TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
     EXPECT_TRUE(share > 0.2 && share < 1.0) << share;
     for (int step = 0; step < 3; step++) {
       for (TestRank *rank : {&simple, &divided}) rank->compute(p, dt, true);
-      ASSERT_GT(simple.report.size(), 200U);
+      ASSERT_GT(simple.tally.size(), 200U);
       EXPECT_EQ(divided.pipeline.count_contacts(), simple.pipeline.count_contacts());
       EXPECT_EQ(partners_in_order(divided), partners_in_order(simple));
       EXPECT_EQ(divided.force, simple.force);
@@ -244,7 +245,7 @@ TEST(ContactPipeline, TakesOnlyWhatTheSceneNeeds)
   ContactPipeline pipeline;
   pipeline.set_laws(laws);
   EXPECT_FALSE(pipeline.keeps_history());
-  EXPECT_FALSE(pipeline.keeps_spins());
+  EXPECT_FALSE(pipeline.keeps_omega());
   NeighborLists lists(2);
   lists.add(1, 0, 1.0);
   pipeline.set_pairs({2, {0, 0}, {1, 2}, nullptr}, lists.view());
@@ -296,7 +297,7 @@ TEST(ContactPipeline, GoesOnAfterMemoryWasGivenBack)
   const std::vector<double> first = forces(true), before = forces(true);
   ASSERT_TRUE(first != before);    // there is a history
   const double used = pipeline.memory_usage();
-  ASSERT_GT(used, worth_giving_back);
+  ASSERT_GT(used, release_threshold);
   pipeline.keep_history(store, {false, false}, false);
   pipeline.release();
   EXPECT_LT(pipeline.memory_usage(), 0.6 * used);    // the states of the particles stay

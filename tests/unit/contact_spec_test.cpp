@@ -23,7 +23,7 @@ ContactSpec with_law(NamedLaw law)
   return s;
 }
 
-/// All numbers, also those of laws that are not asked for: nobody minds.
+/// All numbers, also those of laws that are not used: they are ignored.
 ContactSpec numbers(double kn, double gn, double kt, double gt)
 {
   ContactSpec s = with_law({Normal::HERTZ, Tangential::MULTISTEP, true});

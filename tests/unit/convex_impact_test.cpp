@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Random impacts of convex bodies, moved by a twin of their own: what is kept.
+// Random impacts of convex bodies, moved by a reference implementation: what is conserved.
 
 #include "flying_body.h"
 #include "shape/convex/collide.h"

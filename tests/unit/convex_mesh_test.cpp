@@ -195,9 +195,9 @@ TEST(ConvexMesh, InsideOfABoxIsItsFaces)
       for (const double s : {1.0, -1.0})
         for (const Vector n_of : {Vector{s, 0, 0}, Vector{0, s, 0}, Vector{0, 0, s}}) {
           collide_plane(body, pose, n_of, -2.0, wall);
-          const Load its = load_of(wall);
-          expected.force = expected.force + its.force;
-          expected.torque = expected.torque + its.torque;
+          const Load load = load_of(wall);
+          expected.force = expected.force + load.force;
+          expected.torque = expected.torque + load.torque;
         }
       touching += box.touch(body, pose);
       EXPECT_LT(difference(load_of(box.contacts), expected), 1e-12) << n << " " << radius;

@@ -1,17 +1,17 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // A face-centered crystal of 108 spheres of diameter 1 that overlap a little, with a spin each: 12
-// contacts hold a sphere inside. For second_order_twin.h.
+// contacts hold a sphere inside. For second_order_reference.h.
 
 #ifndef TALUS_TESTS_CRYSTAL_OF_SPHERES_H
 #define TALUS_TESTS_CRYSTAL_OF_SPHERES_H
 
-#include "second_order_twin.h"
+#include "second_order_reference.h"
 
 #include <cmath>
 #include <vector>
 
-namespace Twin {
+namespace Reference {
 
 inline std::vector<Particle> crystal_of_spheres()
 {
@@ -40,6 +40,6 @@ inline double spin_of(const std::vector<Particle> &particles)
   return std::sqrt(sum / static_cast<double>(particles.size()));
 }
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

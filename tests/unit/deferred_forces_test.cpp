@@ -30,7 +30,7 @@ bool same(const Record &a, const Record &b)
 }
 
 struct OneContact {
-  Record force, moment, twisting_torque;
+  Record force, torque_per_radius, twisting_torque;
 };
 
 /// Of each pair that touches, by slots.
@@ -50,13 +50,13 @@ void add(Record &sum, const Record &one, double sign)
   for (int d = 0; d < 4; d++) sum.c[d] += sign * one.c[d];
 }
 
-void add_contact(ParticleRecords &sums, const OneContact &its, int slot, bool is_first)
+void add_contact(ParticleRecords &sums, const OneContact &contact, int slot, bool is_first)
 {
   const double sign = is_first ? 1.0 : -1.0;
   Record *load = &sums.load[sums.stride * slot];
-  add(load[0], its.force, sign);
-  if (sums.stride == 2) add(load[1], its.moment, 1.0);
-  if (!sums.twisting_torque.empty()) add(sums.twisting_torque[slot], its.twisting_torque, sign);
+  add(load[0], contact.force, sign);
+  if (sums.stride == 2) add(load[1], contact.torque_per_radius, 1.0);
+  if (!sums.twisting_torque.empty()) add(sums.twisting_torque[slot], contact.twisting_torque, sign);
 }
 
 ParticleRecords cleared(int particles, bool rotation, bool twisting_torques)
@@ -69,9 +69,9 @@ ParticleRecords cleared(int particles, bool rotation, bool twisting_torques)
 
 ParticleRecords slow_sums(const Contacts &contacts, ParticleRecords sums)
 {
-  for (const auto &[slots, its] : contacts) {
-    add_contact(sums, its, slots.first, true);
-    add_contact(sums, its, slots.second, false);
+  for (const auto &[slots, contact] : contacts) {
+    add_contact(sums, contact, slots.first, true);
+    add_contact(sums, contact, slots.second, false);
   }
   return sums;
 }
@@ -86,7 +86,7 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
   /// What a chunk does, in the simplest way.
   void compute_chunk(int c, const Contacts &contacts, ParticleRecords &sums)
   {
-    const PairList &list = its.lists[c];
+    const PairList &list = divided.lists[c];
     std::size_t place = deferred.first_place(c);
     for (std::uint32_t n = 0; n < list.num_pairs(); n++) {
       const int first = list.first[n], second = list.second[n];
@@ -96,7 +96,7 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
       const bool at_frontier = list.defers(first) || list.defers(second);
       if (touches && at_frontier)
         deferred.put(place, list.is_foreign(first),
-                     {load4(one.force), load4(one.moment), load4(one.twisting_torque)});
+                     {load4(one.force), load4(one.torque_per_radius), load4(one.twisting_torque)});
       place += at_frontier;
       if (!touches) continue;
       if (!list.is_late() && !list.is_foreign(first)) add_contact(sums, one, first, true);
@@ -106,7 +106,7 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
   }
 
   RandomSource random{1};
-  Divided its{200, GetParam().threads, GetParam().two_phases, random};
+  Divided divided{200, GetParam().threads, GetParam().two_phases, random};
   DeferredForces deferred;
 };
 
@@ -114,18 +114,19 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
 {
   const Kind kind = GetParam();
   for (int rebuild = 0; rebuild < 2; rebuild++) {
-    deferred.collect(its.order, its.work, kind.threads, [this](int c) { return &its.lists[c]; });
+    deferred.collect(divided.order, divided.work, kind.threads,
+                     [this](int c) { return &divided.lists[c]; });
     deferred.make_room(cleared(1, kind.rotation, kind.twisting_torques));
     for (const double touching : {0.6, 0.1, 1.0, 0.5, 0.0}) {    // contacts begin and end
-      const Contacts contacts = random_contacts(its.pairs, touching, random);
-      ParticleRecords sums = cleared(its.order.size(), kind.rotation, kind.twisting_torques);
+      const Contacts contacts = random_contacts(divided.pairs, touching, random);
+      ParticleRecords sums = cleared(divided.order.size(), kind.rotation, kind.twisting_torques);
       const ParticleRecords expected = slow_sums(contacts, sums);
       deferred.begin_step();
-      for (int c = its.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
+      for (int c = divided.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
       streams_are_done();
       for (int t = 0; t < kind.threads; t++) deferred.add(t, sums);
-      for (int s = 0; s < its.order.size(); s++) {
-        if (!its.order.owns_slot(s)) continue;
+      for (int s = 0; s < divided.order.size(); s++) {
+        if (!divided.order.owns_slot(s)) continue;
         for (std::size_t k = sums.stride * s; k < sums.stride * (s + 1); k++)
           ASSERT_TRUE(same(sums.load[k], expected.load[k])) << s;
         if (kind.twisting_torques) {
@@ -147,9 +148,9 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DeferredForcesOf,
 TEST(DeferredForces, OrderOfSumsShows)
 {
   RandomSource random(2);
-  const Divided its(200, 1, false, random);
-  const Contacts contacts = random_contacts(its.pairs, 1.0, random);
-  const ParticleRecords zero = cleared(its.order.size(), true, false);
+  const Divided divided(200, 1, false, random);
+  const Contacts contacts = random_contacts(divided.pairs, 1.0, random);
+  const ParticleRecords zero = cleared(divided.order.size(), true, false);
   const ParticleRecords sums = slow_sums(contacts, zero);
   ParticleRecords others = zero;
   for (auto it = contacts.rbegin(); it != contacts.rend(); ++it) {

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A convex body of density 1 that flies, moved by a twin of the code's own motion.
+// A freely moving convex body of density 1, moved by a reference implementation of the motion.
 
 #ifndef TALUS_TESTS_FLYING_BODY_H
 #define TALUS_TESTS_FLYING_BODY_H

@@ -82,7 +82,7 @@ TEST(FreeRotation, SymmetricBodiesTurnExactly)
   }
   Body cube(2.0, 2.0, 2.0, oblique);
   const V omega = cube.omega;
-  const Eigen::Quaterniond expected = turn_of(omega, 1.5) * cube.q;
+  const Eigen::Quaterniond expected = rotation_by(omega, 1.5) * cube.q;
   cube.turn(15, 0.1);
   EXPECT_LT(length(cube.omega - omega), 1e-13);
   EXPECT_LT(cube.q.angularDistance(expected), 1e-13);

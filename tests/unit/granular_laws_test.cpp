@@ -4,10 +4,10 @@
 // forces are those of the stored energies, and what is known of JKR. (That the numbers are those of LAMMPS is shown by
 // the scripts in tests/style.)
 
-#include "laws/circle_of_intersection.h"
 #include "laws/contact_energy.h"
 #include "laws/contact_kernel.h"
 #include "laws/fused_kernels.h"
+#include "laws/intersection_radius.h"
 #include "laws/law_list.h"
 #include "material/contact_spec.h"
 #include "random_source.h"
@@ -29,7 +29,7 @@ struct Drawn {
   ContactSpec spec;
   ContactCoefficients row;
   ContactState<double> state;
-  HistoryValues memory;
+  HistoryValues history;
 };
 
 const char *one_of(RandomSource &random, std::initializer_list<const char *> names)
@@ -84,7 +84,7 @@ ContactState<double> state_of(const double (&r)[2], const Vector3<double> &n, do
   s.inverse_mass = 1.0 / (r[0] * r[0] * r[0]) + 1.0 / (r[1] * r[1] * r[1]);
   s.inverse_radius = 1.0 / r[0] + 1.0 / r[1];
   s.inverse_distance = 1.0 / (r[0] + r[1] - overlap);
-  s.circle = circle_of_intersection(r[a], r[b], overlap);
+  s.intersection_radius = intersection_radius_of(r[a], r[b], overlap);
   s.arm_loss = overlap / (r[0] + r[1]);
   s.arm_difference = 0.5 * s.arm_loss * (r[b] - r[a]);
   return s;
@@ -110,20 +110,20 @@ class GranularLaws : public testing::Test {
     const Vector3<double> normal{n[0], n[1], n[2]};
     const Vector3<double> v[2] = {random_vector(random, 0.5), random_vector(random, 0.5)};
     const Vector3<double> w[2] = {random_vector(random, 20.0), random_vector(random, 20.0)};
-    const double reach = reach_of(drawn.spec.law, drawn.row, r[0], r[1]);
+    const double reach = pulloff_distance_of(drawn.spec.law, drawn.row, r[0], r[1]);
     const double overlap = random.chance(0.3) ? -0.9 * reach : smaller * random.decade(-5.0, -1.0);
     if (overlap <= 0.0 && reach == 0.0) return next();
     drawn.state = state_of(r, normal, overlap, v, w, false);
     other = state_of(r, normal, overlap, v, w, true);
-    for (double &value : drawn.memory) value = 0.0;
+    for (double &value : drawn.history) value = 0.0;
     if (random.chance(0.8)) {
       const double scale = random.decade(-7.0, -3.0);
-      for (double &value : drawn.memory) value = scale * random.uniform(-1.0, 1.0);
-      drawn.memory[3] = std::fabs(drawn.memory[3]) * 100.0;
+      for (double &value : drawn.history) value = scale * random.uniform(-1.0, 1.0);
+      drawn.history[3] = std::fabs(drawn.history[3]) * 100.0;
     }
   }
 
-  void put(int lane, const ContactState<double> &s, const HistoryValues &memory)
+  void put(int lane, const ContactState<double> &s, const HistoryValues &history)
   {
     const auto set = [lane](double(&to)[3][width], const Vector3<double> &v) {
       to[0][lane] = v.x;
@@ -137,28 +137,28 @@ class GranularLaws : public testing::Test {
     batch.overlap[lane] = s.overlap;
     batch.inverse_mass[lane] = s.inverse_mass;
     batch.inverse_radius[lane] = s.inverse_radius;
-    batch.circle[lane] = s.circle;
+    batch.intersection_radius[lane] = s.intersection_radius;
     batch.inverse_distance[lane] = s.inverse_distance;
     batch.arm_loss[lane] = s.arm_loss;
     batch.arm_difference[lane] = s.arm_difference;
     batch.coefficients[lane] = 0;
-    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][lane] = memory[n];
+    for (int n = 0; n < ContactBatch::history_size; n++) batch.history[n][lane] = history[n];
   }
 
   struct Result {
-    double force[3], moment[3], torque[3], history[ContactBatch::history_size];
+    double force[3], torque_per_radius[3], torque[3], history[ContactBatch::history_size];
   };
-  Result run(int lane, const ContactState<double> &s, const HistoryValues &memory, bool uniform,
+  Result run(int lane, const ContactState<double> &s, const HistoryValues &history, bool uniform,
              bool advance)
   {
-    put(lane, s, memory);
+    put(lane, s, history);
     const int begin = lane / lanes * lanes;
     for (int k = begin; k < begin + lanes; k++) batch.coefficients[k] = 0;
     contact_kernel(drawn.spec.law, uniform, advance)(batch, begin, begin + lanes, &drawn.row, dt);
     Result r;
     for (int d = 0; d < 3; d++) {
       r.force[d] = batch.force[d][lane];
-      r.moment[d] = batch.moment[d][lane];
+      r.torque_per_radius[d] = batch.torque_per_radius[d][lane];
       r.torque[d] = batch.twisting_torque[d][lane];
     }
     for (int n = 0; n < ContactBatch::history_size; n++) r.history[n] = batch.history[n][lane];
@@ -176,16 +176,17 @@ TEST_F(GranularLaws, DoNotDependOnLaneKernelOrPath)
 {
   for (int n = 0; n < 3000; n++) {
     next();
-    const Result first = run(0, drawn.state, drawn.memory, true, true);
+    const Result first = run(0, drawn.state, drawn.history, true, true);
     for (int lane = 1; lane < width; lane += 7) {
-      const Result again = run(lane, drawn.state, drawn.memory, lane % 2 == 0, true);
+      const Result again = run(lane, drawn.state, drawn.history, lane % 2 == 0, true);
       ASSERT_EQ(std::memcmp(&first, &again, sizeof first), 0) << title();
     }
-    const Result read = run(5, drawn.state, drawn.memory, true, false);
+    const Result read = run(5, drawn.state, drawn.history, true, false);
     const ContactLanes<double> query =
-        single_contact(drawn.spec.law, drawn.row, drawn.state, dt, drawn.memory);
-    const Vector3<double> *const found[] = {&query.force, &query.moment, &query.twisting_torque};
-    const double *const expected[] = {read.force, read.moment, read.torque};
+        single_contact(drawn.spec.law, drawn.row, drawn.state, dt, drawn.history);
+    const Vector3<double> *const found[] = {&query.force, &query.torque_per_radius,
+                                            &query.twisting_torque};
+    const double *const expected[] = {read.force, read.torque_per_radius, read.torque};
     for (int v = 0; v < 3; v++) {
       ASSERT_EQ(found[v]->x, expected[v][0]) << title();
       ASSERT_EQ(found[v]->y, expected[v][1]) << title();
@@ -209,16 +210,20 @@ TEST_F(GranularLaws, FusedKernelsAreTheirStages)
         next();
         if (!law.normal().lasts_beyond_contact)
           drawn.state.overlap = std::fabs(drawn.state.overlap);
-        put(lane, drawn.state, drawn.memory);
+        put(lane, drawn.state, drawn.history);
       }
       ContactBatch staged = batch;
       const int end = lanes * (1 + n % (width / lanes));
       contact_kernel(law, true, true)(batch, 0, end, &row, dt);
       staged_kernel(law, true, true)(staged, 0, end, &row, dt);
       ASSERT_EQ(std::memcmp(batch.force, staged.force, sizeof batch.force), 0) << describe_law(law);
-      ASSERT_EQ(std::memcmp(batch.moment, staged.moment, sizeof batch.moment), 0)
+      ASSERT_EQ(std::memcmp(batch.torque_per_radius, staged.torque_per_radius,
+                            sizeof batch.torque_per_radius),
+                0)
           << describe_law(law);
-      ASSERT_EQ(std::memcmp(batch.twisting_torque, staged.twisting_torque, sizeof batch.moment), 0);
+      ASSERT_EQ(std::memcmp(batch.twisting_torque, staged.twisting_torque,
+                            sizeof batch.torque_per_radius),
+                0);
       ASSERT_EQ(std::memcmp(batch.history, staged.history, sizeof batch.history), 0)
           << describe_law(law);
     }
@@ -232,15 +237,15 @@ TEST_F(GranularLaws, ForceIsReproducedFromTheStoredHistory)
   int with_history = 0;
   for (int n = 0; n < 20000; n++) {
     next();
-    const Result before = run(n % width, drawn.state, drawn.memory, true, true);
+    const Result before = run(n % width, drawn.state, drawn.history, true, true);
     HistoryValues stored;
     std::memcpy(stored.data(), before.history, sizeof stored);
     with_history += drawn.spec.law.has_history();
     const Result after = run((n + 3) % width, drawn.state, stored, false, false);
     ASSERT_EQ(std::memcmp(&before, &after, sizeof before), 0)
         << title() << " " << n << ": torque " << before.torque[0] << " " << after.torque[0]
-        << ", force " << before.force[0] << " " << after.force[0] << ", moment " << before.moment[0]
-        << " " << after.moment[0];
+        << ", force " << before.force[0] << " " << after.force[0] << ", moment "
+        << before.torque_per_radius[0] << " " << after.torque_per_radius[0];
   }
   EXPECT_GT(with_history, 10000);
 }
@@ -249,13 +254,13 @@ TEST_F(GranularLaws, SwappingTheBodiesNegatesForceAndTorqueExactly)
 {
   for (int n = 0; n < 20000; n++) {
     next();
-    HistoryValues mirrored = drawn.memory;
+    HistoryValues mirrored = drawn.history;
     for (int d = 0; d < 3; d++) mirrored[d] = -mirrored[d];
-    const Result a = run(n % width, drawn.state, drawn.memory, true, true);
+    const Result a = run(n % width, drawn.state, drawn.history, true, true);
     const Result b = run((n + 11) % width, other, mirrored, true, true);
     for (int d = 0; d < 3; d++) {
       ASSERT_EQ(a.force[d], -b.force[d]) << title();
-      ASSERT_EQ(a.moment[d], b.moment[d]) << title();
+      ASSERT_EQ(a.torque_per_radius[d], b.torque_per_radius[d]) << title();
       ASSERT_EQ(a.torque[d], -b.torque[d]) << title();
       ASSERT_EQ(a.history[d], -b.history[d]) << title();
     }
@@ -273,15 +278,16 @@ TEST_F(GranularLaws, FrictionActsInTheMiddleOfTheOverlap)
     drawn.spec.law.choose(Stage::TWISTING, find_law(Stage::TWISTING, "none"));
     drawn.row = contact_coefficients(drawn.spec, drawn.spec, FrictionMix::MINIMUM);
     const ContactState<double> &s = drawn.state;
-    const ContactLanes<double> out = single_contact(drawn.spec.law, drawn.row, s, dt, drawn.memory);
+    const ContactLanes<double> out =
+        single_contact(drawn.spec.law, drawn.row, s, dt, drawn.history);
     const double sum = 1.0 / s.inverse_distance + s.overlap;
     const double r1 = 0.5 * (sum - s.arm_difference / (0.5 * s.arm_loss)), r2 = sum - r1;
-    const Vector3<double> moment = cross(s.normal, out.tangential);
-    const Vector3<double> on_first = -r1 * out.moment + out.twisting_torque,
-                          on_second = -r2 * out.moment - out.twisting_torque;
-    const Vector3<double> errors[] = {on_first + (r1 - 0.5 * s.overlap) * moment,
-                                      on_second + (r2 - 0.5 * s.overlap) * moment};
-    const double size = std::sqrt(dot(moment, moment)) * sum;
+    const Vector3<double> torque_per_radius = cross(s.normal, out.tangential);
+    const Vector3<double> on_first = -r1 * out.torque_per_radius + out.twisting_torque,
+                          on_second = -r2 * out.torque_per_radius - out.twisting_torque;
+    const Vector3<double> errors[] = {on_first + (r1 - 0.5 * s.overlap) * torque_per_radius,
+                                      on_second + (r2 - 0.5 * s.overlap) * torque_per_radius};
+    const double size = std::sqrt(dot(torque_per_radius, torque_per_radius)) * sum;
     for (const auto &error : errors)
       ASSERT_LE(std::sqrt(dot(error, error)), 1e-11 * size) << title();
   }
@@ -307,7 +313,8 @@ TEST_F(GranularLaws, NormalForceAndStiffnessAreDerivativesOfTheEnergy)
       spec.law.choose(Stage::NORMAL, find_law(Stage::NORMAL, name));
       spec.law.choose(Stage::DAMPING, find_law(Stage::DAMPING, "none"));
       const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
-      const double radius = 0.02, reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
+      const double radius = 0.02,
+                   reach = pulloff_distance_of(spec.law, row, 2.0 * radius, 2.0 * radius);
       const double overlap = random.uniform(-0.9 * reach, 0.1 * radius),
                    h = 1e-5 * (overlap + reach);
       if (overlap - h <= 0.0 && reach == 0.0) continue;
@@ -338,16 +345,17 @@ TEST_F(GranularLaws, JkrPullsOffWith3PiGammaR)
     const double gamma = spec.given["gamma"] = random.decade(-2.0, 1.0);
     const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
     const double radius = random.decade(-4.0, -1.0),
-                 reach = reach_of(spec.law, row, 2.0 * radius, 2.0 * radius);
-    const double pull_off = 3.0 * pi * gamma * radius;
+                 reach = pulloff_distance_of(spec.law, row, 2.0 * radius, 2.0 * radius);
+    const double pulloff_force = 3.0 * pi * gamma * radius;
     double strongest = 0.0;
     for (int k = 0; k <= 20000; k++)
       strongest =
           std::min(strongest, at_overlap(spec, row, radius, (k / 20000.0 - 1.0) * reach).elastic);
-    EXPECT_NEAR(-strongest, pull_off, 1e-7 * pull_off);
-    EXPECT_NEAR(-at_overlap(spec, row, radius, 0.0).elastic, 8.0 / 9.0 * pull_off,
-                1e-12 * pull_off);
-    EXPECT_NEAR(-at_overlap(spec, row, radius, -reach).elastic, pull_off, 1e-7 * pull_off);
+    EXPECT_NEAR(-strongest, pulloff_force, 1e-7 * pulloff_force);
+    EXPECT_NEAR(-at_overlap(spec, row, radius, 0.0).elastic, 8.0 / 9.0 * pulloff_force,
+                1e-12 * pulloff_force);
+    EXPECT_NEAR(-at_overlap(spec, row, radius, -reach).elastic, pulloff_force,
+                1e-7 * pulloff_force);
   }
 }
 

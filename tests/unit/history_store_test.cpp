@@ -172,7 +172,7 @@ TEST_P(Rebuilds, KeepTheHistoryOfEveryContact)
   Rank::Luggage all;
   for (int round = 0; round < 25; round++) {
     choose_pairs();
-    // of contacts whose pair is gone nobody knows any more
+    // contacts whose pair is gone are dropped
     for (auto h = world.histories.begin(); h != world.histories.end();)
       h = world.pairs.count(h->first) ? std::next(h) : world.histories.erase(h);
     for (Rank &rank : ranks) rank.rebuild(world, all, random);

@@ -31,17 +31,17 @@ TEST(InstructionSets, WhatAllRanksCanRunIsAccepted)
 {
   for (int fastest = 0; fastest < num_instruction_sets; fastest++)
     for (int asked = 0; asked <= fastest; asked++)
-      EXPECT_EQ(complaint_about_isa(instruction_sets[asked], fastest), "");
+      EXPECT_EQ(problem_of_isa(instruction_sets[asked], fastest), "");
 }
 
 TEST(InstructionSets, ComplaintsNameVariableWordAndCure)
 {
-  EXPECT_EQ(complaint_about_isa("sse2", 2),
+  EXPECT_EQ(problem_of_isa("sse2", 2),
             "the environment variable TALUS_ISA is 'sse2', which is no instruction set of Talus; "
             "use one of: baseline, avx2, avx512; or unset it, and Talus takes the fastest of them");
   EXPECT_EQ(
-      complaint_about_isa("avx512", 1),
+      problem_of_isa("avx512", 1),
       "the environment variable TALUS_ISA is 'avx512', which not all ranks of this run can "
       "execute; use one of: baseline, avx2; or unset it, and Talus takes the fastest of them");
-  EXPECT_NE(complaint_about_isa("avx2", 0), "");
+  EXPECT_NE(problem_of_isa("avx2", 0), "");
 }

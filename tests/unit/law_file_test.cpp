@@ -91,14 +91,14 @@ TEST(LawFile, NoticesThatItEndsEarly)
 
 TEST(LawFile, RefusesOtherVersions)
 {
-  EXPECT_EQ(complaint_about_law_file(law_file_mark, law_file_version), "");
-  EXPECT_EQ(complaint_about_law_file(law_file_mark, oldest_law_file), "");
-  EXPECT_NE(complaint_about_law_file(0, 0).find(
+  EXPECT_EQ(problem_of_law_file(law_file_mark, law_file_version), "");
+  EXPECT_EQ(problem_of_law_file(law_file_mark, oldest_law_file), "");
+  EXPECT_NE(problem_of_law_file(0, 0).find(
                 "before they had versions, this Talus reads versions 2 to 3: write a data file"),
             std::string::npos);
-  EXPECT_NE(complaint_about_law_file(law_file_mark, 7)
-                .find("of version 7, this Talus reads versions 2 to 3"),
-            std::string::npos);
+  EXPECT_NE(
+      problem_of_law_file(law_file_mark, 7).find("of version 7, this Talus reads versions 2 to 3"),
+      std::string::npos);
 }
 
 TEST(Words, ChooseTheRuleOfSlip)

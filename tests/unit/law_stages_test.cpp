@@ -14,7 +14,7 @@
 
 using namespace Talus;
 using namespace named;
-using namespace twin;
+using namespace reference;
 
 namespace {
 
@@ -33,26 +33,26 @@ TEST(FusedKernels, AreTheirStages)
   for (const ContactLaw &law : laws) {
     if (law.tangential().lever_arms) continue;      // granular_laws_test
     if (law.tangential().second_order) continue;    // second_order_laws_test
-    NamedLaw its = named_law(law);
-    ASSERT_EQ(its.law(), law);
-    ASSERT_FALSE(contact_kernel(law, true, true) == staged_kernel(law, true, true)) << title(its);
+    NamedLaw named = named_law(law);
+    ASSERT_EQ(named.law(), law);
+    ASSERT_FALSE(contact_kernel(law, true, true) == staged_kernel(law, true, true)) << title(named);
     for (int n = 0; n < 2000; n++) {
-      const ContactSpec spec = random_spec(random, its, random.chance(0.3));
+      const ContactSpec spec = random_spec(random, named, random.chance(0.3));
       const Composite mixed = compose(spec, spec, FrictionMix::MINIMUM);
       const ContactCoefficients row = contact_coefficients(spec, spec, FrictionMix::MINIMUM);
       const double dt = random.decade(-6.0, -3.0);
       fused.clear();
       for (int lane = 0; lane < ContactBatch::width; lane++)
-        put(fused, lane, random_contact(random, its, mixed, dt), 0);
+        put(fused, lane, random_contact(random, named, mixed, dt), 0);
       staged = fused;
       const int end = lanes * (1 + n % (ContactBatch::width / lanes));
       contact_kernel(law, true, true)(fused, 0, end, &row, dt);
       staged_kernel(law, true, true)(staged, 0, end, &row, dt);
-      ASSERT_TRUE(same_bits(fused.force, staged.force)) << title(its);
+      ASSERT_TRUE(same_bits(fused.force, staged.force)) << title(named);
       if (law.has_friction()) {
-        ASSERT_TRUE(same_bits(fused.moment, staged.moment)) << title(its);
+        ASSERT_TRUE(same_bits(fused.torque_per_radius, staged.torque_per_radius)) << title(named);
       }
-      ASSERT_TRUE(same_bits(fused.history, staged.history)) << title(its);
+      ASSERT_TRUE(same_bits(fused.history, staged.history)) << title(named);
     }
   }
 }
@@ -77,19 +77,19 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)
 {
   const NamedLaw law{Normal::HERTZ, Tangential::MULTISTEP, true, false, Adhesion::DMT};
-  const ContactLaw its = law;
-  EXPECT_EQ(its.first_coefficient(Stage::NORMAL), 0);
-  EXPECT_EQ(its.first_coefficient(Stage::DAMPING), 2);
-  EXPECT_EQ(its.first_coefficient(Stage::TANGENTIAL), 5);
-  EXPECT_EQ(its.first_coefficient(Stage::ROLLING), 6);
-  EXPECT_EQ(its.num_coefficients(), 11);
+  const ContactLaw first_order = law;
+  EXPECT_EQ(first_order.first_coefficient(Stage::NORMAL), 0);
+  EXPECT_EQ(first_order.first_coefficient(Stage::DAMPING), 2);
+  EXPECT_EQ(first_order.first_coefficient(Stage::TANGENTIAL), 5);
+  EXPECT_EQ(first_order.first_coefficient(Stage::ROLLING), 6);
+  EXPECT_EQ(first_order.num_coefficients(), 11);
   Numbers numbers;
   numbers.mu = 0.5;
   numbers.mu_roll = 0.1;
-  const ContactCoefficients row = row_of(its, numbers);
-  EXPECT_EQ(its.coefficient(Stage::TANGENTIAL, "mu", row), 0.5);
-  EXPECT_EQ(its.coefficient(Stage::ROLLING, "mu_r", row), 0.1);
-  EXPECT_EQ(its.coefficient(Stage::ROLLING, "mu", row), 0.0);
+  const ContactCoefficients row = row_of(first_order, numbers);
+  EXPECT_EQ(first_order.coefficient(Stage::TANGENTIAL, "mu", row), 0.5);
+  EXPECT_EQ(first_order.coefficient(Stage::ROLLING, "mu_r", row), 0.1);
+  EXPECT_EQ(first_order.coefficient(Stage::ROLLING, "mu", row), 0.0);
 }
 
 TEST(Laws, OnlyWhatALawRemembersHasAPlace)
@@ -102,7 +102,7 @@ TEST(Laws, OnlyWhatALawRemembersHasAPlace)
   EXPECT_EQ(size({Normal::HOOKE_MATERIAL, Tangential::ONESTEP}), 0);
   const HistoryLayout layout = NamedLaw{Normal::HOOKE_MATERIAL, Tangential::SLIDER}.law().history();
   EXPECT_TRUE(layout.keeps_impact);
-  const HistoryPlaces expected{0, 1, 2, 3};
+  const HistoryIndices expected{0, 1, 2, 3};
   EXPECT_EQ(layout.of_stage[static_cast<int>(Stage::TANGENTIAL)], expected);
   EXPECT_EQ(layout.impact[0], 4);
 }
@@ -121,13 +121,13 @@ TEST(Laws, StoreTheEnergyOfTheirSprings)
   s.normal = {1.0, 0.0, 0.0};
   s.overlap = 0.5;
   s.inverse_mass = s.inverse_radius = 1.0;
-  SurveyedContact e;
-  survey_contact(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}}, Ask::ENERGIES, e);
+  ContactReport e;
+  report_contact(law, row_of(law, c), s, 1e-3, {{0.0, 0.3, 0.4}}, ContactData::ENERGIES, e);
   EXPECT_DOUBLE_EQ(e.stored.normal, 0.5 * 4.0 * 0.25 - 0.25 * 0.5);
   EXPECT_DOUBLE_EQ(e.stored.tangential, 0.5 * 2.0 * 0.25);
   EXPECT_EQ(e.stored.resistance, 0.0);
   law.normal = Normal::HERTZ;
-  survey_contact(law, row_of(law, c), s, 1e-3, {}, Ask::ALL, e);
+  report_contact(law, row_of(law, c), s, 1e-3, {}, ContactData::ALL, e);
   EXPECT_NEAR(e.stored.normal, 0.4 * 4.0 * std::sqrt(0.5) * 0.25 - 0.125, 1e-15);
 }
 

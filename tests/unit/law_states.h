@@ -5,15 +5,15 @@
 #ifndef TALUS_TEST_LAW_STATES_H
 #define TALUS_TEST_LAW_STATES_H
 
-#include "law_twin.h"
-#include "laws/circle_of_intersection.h"
+#include "law_reference.h"
 #include "laws/contact_kernel.h"
+#include "laws/intersection_radius.h"
 #include "random_source.h"
 
 #include <string>
 #include <vector>
 
-namespace twin {
+namespace reference {
 
 using Talus::ContactSpec;
 
@@ -230,7 +230,7 @@ inline Talus::ContactState<double> state_of(const Contact &c)
   s.relative_omega = {relative[0], relative[1], relative[2]};
   const bool apart = norm(c.normal) > 0;    // from the sum of radii, as the kernels' callers
   s.inverse_distance = apart ? 1.0 / (r[0] + r[1] - s.overlap) : 0.0;
-  s.circle = Talus::circle_of_intersection(r[0], r[1], s.overlap);
+  s.intersection_radius = Talus::intersection_radius_of(r[0], r[1], s.overlap);
   return s;
 }
 
@@ -260,12 +260,12 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   put(batch.surface_rotation, lane, s.surface_rotation);
   put(batch.relative_omega, lane, s.relative_omega);
   for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h[n];
-  for (Lanes *result : {&batch.force, &batch.moment, &batch.twisting_torque})
+  for (Lanes *result : {&batch.force, &batch.torque_per_radius, &batch.twisting_torque})
     put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;
   batch.inverse_radius[lane] = s.inverse_radius;
-  batch.circle[lane] = s.circle;
+  batch.intersection_radius[lane] = s.intersection_radius;
   batch.inverse_distance[lane] = s.inverse_distance;
   batch.coefficients[lane] = row;
 }
@@ -276,6 +276,6 @@ inline Vector lane_of(const double (*v)[Talus::ContactBatch::width], int lane)
   return {v[0][lane], v[1][lane], v[2][lane]};
 }
 
-}    // namespace twin
+}    // namespace reference
 
 #endif

@@ -2,8 +2,8 @@
 //
 // Friction laws that `order 2` of the integrator refuses because of what they are: the solution to
 // which they converge with the time step is not the one that is seen at usual time steps, or it has
-// no friction. A slow twin of one contact: a sphere of mass 1 and radius 1 that meets a plane, the
-// leapfrog, forces and rules as in doc/contact_laws.md.
+// no friction. A slow reference of one contact: a sphere of mass 1 and radius 1 that meets a plane,
+// the leapfrog, forces and rules as in doc/contact_laws.md.
 
 #include <gtest/gtest.h>
 

@@ -380,14 +380,14 @@ TEST(MeshReportTest, SaysWhatIsWrong)
   EXPECT_EQ(broken.report().first_degenerate, 5);
   EXPECT_EQ(broken.report().duplicate, 1);
   EXPECT_EQ(broken.report().first_duplicate, 6);
-  EXPECT_EQ(broken.report().crowded_edges, 1);
-  EXPECT_EQ(broken.report().first_crowded, 7);
+  EXPECT_EQ(broken.report().nonmanifold_edges, 1);
+  EXPECT_EQ(broken.report().first_nonmanifold, 7);
   EXPECT_EQ(broken.report().open_edges, 2);
   EXPECT_EQ(broken.number_in_file(4), 6);
 
   std::vector<Triangle> turned = tetrahedron;
   std::swap(turned[3].corner[0], turned[3].corner[1]);
-  EXPECT_EQ(TriangleMesh(turned).report().turned_edges, 3);
+  EXPECT_EQ(TriangleMesh(turned).report().inconsistent_edges, 3);
   const std::vector<Triangle> flat{{{a, b, 2.0 * b}}};
   EXPECT_THROW(TriangleMesh{flat}, std::runtime_error);
 }

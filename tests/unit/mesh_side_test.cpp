@@ -44,7 +44,7 @@ std::vector<Triangle> box(const V &low, const V &high, int n)
   return soup;
 }
 
-/// The mantle of a cylinder about z of facets, normals outward.
+/// The lateral surface of a cylinder about z of facets, normals outward.
 std::vector<Triangle> pipe(int facets)
 {
   const auto at = [facets](int k, double z) {
@@ -139,10 +139,10 @@ TEST(MeshSides, TrianglesOfAnyOrientationActAsOneSurface)
   for (int trial = 0; trial < 6; trial++) {
     std::vector<Triangle> soup = good;
     shuffle_sides(soup, random);
-    EXPECT_GT(TriangleMesh(soup).report().turned_edges, 50);
+    EXPECT_GT(TriangleMesh(soup).report().inconsistent_edges, 50);
     MeshShape mesh(TriangleMesh(soup, true), MeshSide::BOTH);
     EXPECT_TRUE(mesh.surface().report().closed());
-    EXPECT_GT(mesh.surface().report().mended_edges, 50);
+    EXPECT_GT(mesh.surface().report().repaired_edges, 50);
     for (const bool inside : {false, true}) {
       mesh.set_side(mesh.side_within(inside));
       int touched = 0;
@@ -275,7 +275,7 @@ TEST(MeshSides, AStripWithATwistHasNoSides)
     soup.push_back({{a, c, d}});
   }
   const TriangleMesh strip(soup, true);
-  EXPECT_EQ(strip.report().turned_edges, 1);
+  EXPECT_EQ(strip.report().inconsistent_edges, 1);
   EXPECT_FALSE(strip.report().closed());
 }
 

@@ -78,7 +78,7 @@ TEST(MotionForecast, WarnsOneStepAhead)
 }
 
 // A list that is kept serves until the next check: particles at constant velocity are never outside
-// in between, and with steps in mind the list is not made anew at every check either.
+// in between, and with steps in mind the list is not rebuilt at every check either.
 TEST(MotionForecast, SeesAsFarAsTheNextCheck)
 {
   for (const int every : {1, 2, 7, 20}) {

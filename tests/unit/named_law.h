@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Laws and coefficients as the slow twins know them: by name, and all numbers side by side.
+// Laws and coefficients as the slow references know them: by name, and all numbers side by side.
 
 #ifndef TALUS_TEST_NAMED_LAW_H
 #define TALUS_TEST_NAMED_LAW_H
@@ -81,9 +81,9 @@ struct NamedLaw {
 
   ContactLaw law() const
   {
-    ContactLaw its;
+    ContactLaw law;
     const auto choose = [&](Stage stage, const char *name) {
-      its.choose(stage, Talus::find_law(stage, name));
+      law.choose(stage, Talus::find_law(stage, name));
     };
     choose(Stage::NORMAL, name_of(normal));
     choose(Stage::DAMPING, damping_of(normal));
@@ -91,7 +91,7 @@ struct NamedLaw {
     choose(Stage::ROLLING, !resists ? "none" : delayed ? "delayed" : "holding");
     choose(Stage::TWISTING, !resists ? "none" : delayed ? "delayed" : "stopping");
     choose(Stage::COHESION, name_of(adhesion));
-    return its;
+    return law;
   }
   operator ContactLaw() const { return law(); }
 
@@ -140,9 +140,9 @@ void for_each_coefficient(const ContactLaw &law, Row &row, Numbers &numbers, Vis
 {
   int place = 0;
   for (int s = 0; s < Talus::num_stages; s++) {
-    const Talus::Law &its = law[static_cast<Stage>(s)];
-    for (int n = 0; n < its.num_coefficients; n++)
-      visit(row.c[place++], number(numbers, its.coefficients[n].name));
+    const Talus::Law &stage_law = law[static_cast<Stage>(s)];
+    for (int n = 0; n < stage_law.num_coefficients; n++)
+      visit(row.c[place++], number(numbers, stage_law.coefficients[n].name));
   }
 }
 
@@ -163,14 +163,14 @@ inline Numbers numbers_of(const ContactLaw &law, const ContactCoefficients &row)
 /// Which of the combinations of normal and tangential law it is.
 inline NamedLaw named_law(const ContactLaw &law)
 {
-  NamedLaw its;
+  NamedLaw found;
   for (int n = 0; n < num_normal_laws; n++)
     if (name_of(static_cast<Normal>(n)) == std::string(law.normal().name))
-      its.normal = static_cast<Normal>(n);
+      found.normal = static_cast<Normal>(n);
   for (int t = 0; t < num_tangential_laws; t++)
     if (name_of(static_cast<Tangential>(t)) == std::string(law.tangential().name))
-      its.tangential = static_cast<Tangential>(t);
-  return its;
+      found.tangential = static_cast<Tangential>(t);
+  return found;
 }
 
 /// A pair of types gets a law with these numbers.

@@ -40,8 +40,8 @@ class Machine {
     }
   }
 
-  /// Distributes the particles anew, at random, in slabs or so that most of them stay, and rebuilds
-  /// all pairs. With `keep`, histories of those that stay are kept as they stand.
+  /// Distributes the particles again, at random, in slabs or so that most of them stay, and
+  /// rebuilds all pairs. With `keep`, histories of those that stay are kept as they stand.
   enum Way { AT_RANDOM, SLABS, MOST_STAY };
   void rebuild(const Packing &p, Way way, bool keep = false)
   {
@@ -85,10 +85,10 @@ class Machine {
   }
 
   /// Histories of all contacts as their particles see them, from the ranks that own these.
-  std::vector<Vector> histories(const BruteForce &twin) const
+  std::vector<Vector> histories(const BruteForce &reference) const
   {
     std::vector<Vector> all;
-    for (const auto &contact : twin.contacts)
+    for (const auto &contact : reference.contacts)
       for (const auto &[i, j] :
            {contact.first, std::pair(contact.first.second, contact.first.first)})
         for (const TestRank &rank : ranks)
@@ -140,7 +140,7 @@ void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interva
   Packing p = random_packing(200, random);
   Machine a(ranks_a, laws, 1), b(ranks_b, laws, 2);
   b.divide(division.threads, division.two_phases);
-  BruteForce twin;
+  BruteForce reference;
   for (int step = 0; step < 12; step++) {
     const bool refresh = step % 4 == 0;
     if (refresh) {
@@ -155,8 +155,8 @@ void run_and_compare(const LawTable &laws, int ranks_a, int ranks_b, int interva
     b.compute(p, step > 0);
     ASSERT_GT(a.contacts, 300.0);
     ASSERT_NO_FATAL_FAILURE(expect_same(a, b)) << "step " << step;
-    twin.compute(p, laws, dt, step > 0, true);
-    ASSERT_TRUE(same_bits(a.histories(twin), b.histories(twin))) << "step " << step;
+    reference.compute(p, laws, dt, step > 0, true);
+    ASSERT_TRUE(same_bits(a.histories(reference), b.histories(reference))) << "step " << step;
     p.move(10.0 * dt, 0.2, random);
   }
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-using namespace Twin;
+using namespace Reference;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A random polydisperse packing and its slow twin: all contacts found and added by brute force,
-// histories kept in a map. Particles are known by their place in the arrays; hosts may number them
-// differently.
+// A random polydisperse packing and its slow reference: all contacts found and added by brute
+// force, histories kept in a map. Particles are known by their place in the arrays; hosts may
+// number them differently.
 
 #ifndef TALUS_TEST_PACKING_H
 #define TALUS_TEST_PACKING_H

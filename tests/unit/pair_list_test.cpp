@@ -95,27 +95,27 @@ TEST(PairList, ChunksHoldEveryPairOnce)
   RandomSource random(3);
   for (int threads : {1, 2, 3, 8})
     for (bool two_phases : {false, true}) {
-      const Divided its(200, threads, two_phases, random);
+      const Divided divided(200, threads, two_phases, random);
       BySlots<int> found;
-      for (int c = 0; c < its.work.num_chunks(); c++) {
-        const PairList &list = its.lists[c];
+      for (int c = 0; c < divided.work.num_chunks(); c++) {
+        const PairList &list = divided.lists[c];
         for (std::int64_t n = 0; n < list.num_pairs(); n++) {
           const std::pair<int, int> slots{list.first[n], list.second[n]};
           found[slots]++;
-          ASSERT_EQ(its.work.chunk_with_pair(slots.first, slots.second), c);
+          ASSERT_EQ(divided.work.chunk_with_pair(slots.first, slots.second), c);
           ASSERT_EQ(list.find(slots.second, slots.first), n);
-          ASSERT_EQ(list.weighted() ? list.weights[n] : 1.0, its.pairs.by_slots.at(slots));
+          ASSERT_EQ(list.weighted() ? list.weights[n] : 1.0, divided.pairs.by_slots.at(slots));
           ASSERT_TRUE(list.slots().holds(slots.second));
           ASSERT_EQ(list.is_foreign(slots.first), !list.slots().holds(slots.first));
           const bool with_ghost =
-              !its.order.owns_slot(slots.first) || !its.order.owns_slot(slots.second);
+              !divided.order.owns_slot(slots.first) || !divided.order.owns_slot(slots.second);
           ASSERT_EQ(list.is_late(), two_phases && with_ghost);
           if (n == 0) continue;
           const std::pair<int, int> before{list.first[n - 1], list.second[n - 1]};
           ASSERT_TRUE(InOrder()(before, slots));
         }
       }
-      ASSERT_EQ(found.size(), its.pairs.by_slots.size());
+      ASSERT_EQ(found.size(), divided.pairs.by_slots.size());
       for (const auto &one : found) ASSERT_EQ(one.second, 1);
     }
 }
@@ -125,16 +125,16 @@ TEST(PairList, FrontierIsWhereForcesAreDeferred)
   RandomSource random(4);
   for (int threads : {1, 2, 5})
     for (bool two_phases : {false, true}) {
-      const Divided its(200, threads, two_phases, random);
+      const Divided divided(200, threads, two_phases, random);
       std::size_t at_frontier = 0;
-      for (const PairList &list : its.lists) {
+      for (const PairList &list : divided.lists) {
         std::set<int> foreign;
         std::vector<std::uint32_t> frontier;
         for (std::uint32_t c = 0; c < list.num_pairs(); c++) {
           bool deferred = false;
           for (const int slot : {list.first[c], list.second[c]}) {
             const bool is_foreign = !list.slots().holds(slot);
-            const bool has_late = two_phases && its.work.is_late(slot);
+            const bool has_late = two_phases && divided.work.is_late(slot);
             if (is_foreign) foreign.insert(slot);
             ASSERT_EQ(list.has_late(slot), has_late);
             ASSERT_EQ(list.defers(slot), is_foreign || has_late);
@@ -162,9 +162,9 @@ TEST(PairList, FrontierIsWhereForcesAreDeferred)
 TEST(PairList, PrefetchesForeignParticlesWhereTheyComeFirst)
 {
   RandomSource random(7);
-  const Divided its(300, 3, false, random);
+  const Divided divided(300, 3, false, random);
   std::size_t prefetched = 0;
-  for (const PairList &list : its.lists) {
+  for (const PairList &list : divided.lists) {
     std::set<int> seen;
     std::vector<std::pair<std::uint32_t, int>> expected, found;
     for (std::uint32_t c = 0; c < list.num_pairs(); c++)
@@ -180,8 +180,8 @@ TEST(PairList, PrefetchesForeignParticlesWhereTheyComeFirst)
 TEST(PairList, PrefetchesAllOfLatePairs)
 {
   RandomSource random(8);
-  const Divided its(300, 2, true, random);
-  for (const PairList &list : its.lists) {
+  const Divided divided(300, 2, true, random);
+  for (const PairList &list : divided.lists) {
     if (!list.is_late()) continue;
     std::set<int> wanted, prefetched;
     for (std::int64_t c = 0; c < list.num_pairs(); c++)
@@ -197,10 +197,10 @@ TEST(PairList, ReadsCopiesOfForeignParticles)
 {
   RandomSource random(9);
   for (bool two_phases : {false, true}) {
-    Divided its(300, 3, two_phases, random);
-    std::vector<int> copy(its.order.size());
-    for (int s = 0; s < its.order.size(); s++) copy[s] = 1000 + s;
-    for (PairList &list : its.lists) {
+    Divided divided(300, 3, two_phases, random);
+    std::vector<int> copy(divided.order.size());
+    for (int s = 0; s < divided.order.size(); s++) copy[s] = 1000 + s;
+    for (PairList &list : divided.lists) {
       list.read_copies(copy);
       for (std::int64_t c = 0; c < list.num_pairs(); c++) {
         const int first = list.first[c];

@@ -45,21 +45,21 @@ struct Scene {
 void expect_rows(const PairRows &rows, const ParticleOrder &order, Rows expected)
 {
   for (int s = 0; s < order.size(); s++) {
-    const auto &its = expected[s];
-    ASSERT_EQ(rows.size(s), static_cast<int>(its.size()));
-    std::vector<int> firsts(its.size(), -1), without_scales = firsts;
-    std::vector<double> scales(its.size(), -1.0);
+    const auto &row = expected[s];
+    ASSERT_EQ(rows.size(s), static_cast<int>(row.size()));
+    std::vector<int> firsts(row.size(), -1), without_scales = firsts;
+    std::vector<double> scales(row.size(), -1.0);
     rows.copy(s, firsts.data(), scales.data());
     rows.copy(s, without_scales.data(), nullptr);
     EXPECT_EQ(without_scales, firsts);
     std::size_t n = 0;
-    for (const auto &[first, scale] : its) {
+    for (const auto &[first, scale] : row) {
       EXPECT_EQ(firsts[n], first);
       EXPECT_EQ(scales[n++], scale);
     }
     std::map<int, double> visited;
     rows.for_each(s, [&](int first, double scale) { visited[first] = scale; });
-    EXPECT_EQ(visited, its);
+    EXPECT_EQ(visited, row);
   }
 }
 

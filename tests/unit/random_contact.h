@@ -18,7 +18,7 @@ namespace slow {
 
 inline const double infinity = std::numeric_limits<double>::infinity();
 
-/// The laws of the twin in slow_contact.h: those that the stock styles have as well.
+/// The laws of the reference in slow_contact.h: those that the stock styles have as well.
 inline std::vector<named::NamedLaw> all_laws()
 {
   using N = named::Normal;
@@ -156,7 +156,7 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
     batch.velocity[d][lane] = velocity[d];
     batch.surface_rotation[d][lane] = spin[d];
     batch.history[d][lane] = c.history[d];
-    batch.force[d][lane] = batch.moment[d][lane] = 0.0;
+    batch.force[d][lane] = batch.torque_per_radius[d][lane] = 0.0;
   }
   batch.overlap[lane] = s.overlap;
   batch.inverse_mass[lane] = s.inverse_mass;

@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Steps that are made in the records must have the bits of steps through the host's arrays, with
-// any division of the work, whoever is sent, and whenever the host looks at the particles. The twin
-// is the plain loop of the integrator around a pipeline that reads and delivers in every step.
+// any division of the work, whoever is sent, and whenever the host looks at the particles. The
+// reference is the plain loop of the integrator around a pipeline that reads and delivers in every
+// step.
 
 #include "neighbor_lists.h"
 #include "packing.h"
@@ -59,7 +60,7 @@ struct Host {
     const double per_mass = with.kick * (1.0 / mass[i]), inverse_radius = 1.0 / radius[i];
     const double per_inertia = per_mass * (inverse_radius * inverse_radius) * (1.0 / with.inertia);
     for (int k = 3 * i; k < 3 * i + 3; k++) {
-      v[k] += per_mass * f[k] + with.fall[k - 3 * i];
+      v[k] += per_mass * f[k] + with.gravity_kick[k - 3 * i];
       omega[k] += per_inertia * torque[k];
       if (drifts) x[k] += with.dt * v[k];
     }
@@ -98,7 +99,7 @@ struct Division {
 
 class RecordSteps : public testing::TestWithParam<Division> {
  protected:
-  RecordSteps() : p(packing(random)), twin(p), host(p)
+  RecordSteps() : p(packing(random)), reference(p), host(p)
   {
     const LawTable laws = mixed_laws();
     for (ContactPipeline *pipeline : {&slow, &fast}) pipeline->set_laws(laws);
@@ -130,7 +131,8 @@ class RecordSteps : public testing::TestWithParam<Division> {
   void advance()
   {
     if (!fast.can_move())
-      fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent, twin_then.data());
+      fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent,
+                           reference_then.data());
     fast.advance({euler});
   }
 
@@ -139,17 +141,18 @@ class RecordSteps : public testing::TestWithParam<Division> {
   {
     ContactStep keep{euler.dt, true};
     keep.deliver = false;
-    compute(slow, twin, {euler.dt, true});
+    compute(slow, reference, {euler.dt, true});
     compute(fast, host, keep);
     advance();
-    twin.step([this](int i) { return moves(i); });
+    reference.step([this](int i) { return moves(i); });
     return keep;
   }
 
   RandomSource random{21};
   Packing p;
-  Host twin, host;
-  std::vector<double> twin_then = twin.x;    // where particles were when the pairs were made
+  Host reference, host;
+  std::vector<double> reference_then =
+      reference.x;    // where particles were when the pairs were made
   HistoryStore nothing_kept;
   ContactPipeline slow, fast;
   std::vector<int> sent;
@@ -162,9 +165,9 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     const auto in = [&](int step) {
       return std::find(looked_at.begin(), looked_at.end(), step) != looked_at.end();
     };
-    if (n > 0) twin.step([this](int i) { return moves(i); });
-    twin.clear_forces();
-    compute(slow, twin, {euler.dt, n > 0});
+    if (n > 0) reference.step([this](int i) { return moves(i); });
+    reference.clear_forces();
+    compute(slow, reference, {euler.dt, n > 0});
 
     const bool held = fast.holds_state();
     ASSERT_EQ(held, n > 0 && !in(n - 1));
@@ -173,9 +176,9 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     else if (n > 0)
       host.step([this](int i) { return moves(i); });
     if (held) {    // what is sent is there before forces are computed
-      fast.show_state(sent, host.view());
+      fast.copy_states_to_arrays(sent, host.view());
       for (const int i : sent)
-        for (int k = 3 * i; k < 3 * i + 3; k++) ASSERT_EQ(host.x[k], twin.x[k]);
+        for (int k = 3 * i; k < 3 * i + 3; k++) ASSERT_EQ(host.x[k], reference.x[k]);
     }
     host.clear_forces();
     ContactStep step{euler.dt, n > 0};
@@ -183,8 +186,8 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     step.deliver = in(n);
     compute(fast, host, step);
     if (in(n)) {
-      ASSERT_TRUE(same_state(host, twin)) << n;
-      ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
+      ASSERT_TRUE(same_state(host, reference)) << n;
+      ASSERT_TRUE(same_rows(host.f, reference.f) && same_rows(host.torque, reference.torque)) << n;
     } else {
       host.spoil();
     }
@@ -196,21 +199,21 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
   for (const bool in_the_middle : {false, true}) {
     ContactStep keep{euler.dt, true};
     keep.deliver = false;
-    compute(slow, twin, {euler.dt, true});
+    compute(slow, reference, {euler.dt, true});
     compute(fast, host, keep);
     host.spoil();
     if (in_the_middle) {
       advance();
-      twin.step([this](int i) { return moves(i); });
+      reference.step([this](int i) { return moves(i); });
     }
     fast.return_state(host.view(), !in_the_middle);
     EXPECT_FALSE(fast.holds_state());
-    EXPECT_TRUE(same_state(host, twin));
+    EXPECT_TRUE(same_state(host, reference));
     if (!in_the_middle) {
-      EXPECT_TRUE(same_rows(host.f, twin.f));
-      EXPECT_TRUE(same_rows(host.torque, twin.torque));
+      EXPECT_TRUE(same_rows(host.f, reference.f));
+      EXPECT_TRUE(same_rows(host.torque, reference.torque));
     }
-    for (Host *one : {&twin, &host}) one->clear_forces();
+    for (Host *one : {&reference, &host}) one->clear_forces();
   }
 }
 
@@ -233,15 +236,15 @@ TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
   for (int n = 0; n < 30; n++) {
     const bool looked_at = n % 6 == 0 || n == 7;
     if (n > 0)
-      for (int i = 0; i < twin.n; i++)
-        if (mover(i) >= 0) twin.kick(i, steps[mover(i)], true);
-    twin.clear_forces();
-    compute(slow, twin, {euler.dt, n > 0});
-    end_step(twin);
+      for (int i = 0; i < reference.n; i++)
+        if (mover(i) >= 0) reference.kick(i, steps[mover(i)], true);
+    reference.clear_forces();
+    compute(slow, reference, {euler.dt, n > 0});
+    end_step(reference);
 
     const bool held = fast.holds_state();
     if (held) {
-      if (!fast.can_move()) fast.prepare_to_move(mover, sent, twin_then.data());
+      if (!fast.can_move()) fast.prepare_to_move(mover, sent, reference_then.data());
       fast.advance(steps);
       EXPECT_TRUE(fast.is_moving());
     } else if (n > 0) {
@@ -258,8 +261,8 @@ TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
       continue;
     }
     end_step(host);
-    ASSERT_TRUE(same_state(host, twin)) << n;
-    ASSERT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque)) << n;
+    ASSERT_TRUE(same_state(host, reference)) << n;
+    ASSERT_TRUE(same_rows(host.f, reference.f) && same_rows(host.torque, reference.torque)) << n;
   }
 }
 
@@ -270,11 +273,12 @@ TEST_P(RecordSteps, BeginSumsWithTheWeights)
   compute(slow, bare, {euler.dt, false});
   slow.set_gravity(g);
   slow.set_weightless([](int i) { return i % 4 == 1; });
-  compute(slow, twin, {euler.dt, false});
-  for (int i = 0; i < twin.n; i++) {
-    const double weight = i % 4 == 1 ? 0.0 : -5.0 * twin.mass[i], f = bare.f[3 * i + 2];
-    EXPECT_EQ(twin.f[3 * i], bare.f[3 * i]);
-    EXPECT_NEAR(twin.f[3 * i + 2], f + weight, 1e-12 * (std::abs(f) + std::abs(weight) + 1.0)) << i;
+  compute(slow, reference, {euler.dt, false});
+  for (int i = 0; i < reference.n; i++) {
+    const double weight = i % 4 == 1 ? 0.0 : -5.0 * reference.mass[i], f = bare.f[3 * i + 2];
+    EXPECT_EQ(reference.f[3 * i], bare.f[3 * i]);
+    EXPECT_NEAR(reference.f[3 * i + 2], f + weight, 1e-12 * (std::abs(f) + std::abs(weight) + 1.0))
+        << i;
   }
 }
 
@@ -285,15 +289,15 @@ TEST_P(RecordStepsInTwoPhases, ReturnTheStateBetweenThem)
   ASSERT_TRUE(fast.in_two_phases());
   ContactStep keep{euler.dt, true};
   keep.deliver = false;
-  compute(slow, twin, {euler.dt, true});
+  compute(slow, reference, {euler.dt, true});
   compute(fast, host, keep);
   host.spoil();
   advance();
-  twin.step([this](int i) { return moves(i); });
+  reference.step([this](int i) { return moves(i); });
   keep.read = false;
   fast.compute_early(host.view(), keep);    // then an error comes
   fast.return_state(host.view(), false);
-  EXPECT_TRUE(same_state(host, twin));
+  EXPECT_TRUE(same_state(host, reference));
 }
 
 TEST_P(RecordSteps, TellHowFarParticlesGo)
@@ -308,9 +312,9 @@ TEST_P(RecordSteps, TellHowFarParticlesGo)
                      (a[2] - b[2]) * (a[2] - b[2]));
   };
   const double nothing[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < twin.n; i++) {
-    const double d = length(&twin.x[3 * i], &twin_then[3 * i]);
-    const double speed = length(&twin.v[3 * i], nothing);
+  for (int i = 0; i < reference.n; i++) {
+    const double d = length(&reference.x[3 * i], &reference_then[3 * i]);
+    const double speed = length(&reference.v[3 * i], nothing);
     expected.join({d, speed});
   }
   const RecordTravel travel = fast.travel();
@@ -323,33 +327,33 @@ TEST_P(RecordSteps, TakeTorquesOfOthers)
 {
   ContactStep keep{euler.dt, true};
   keep.deliver = false;
-  compute(slow, twin, {euler.dt, true});
+  compute(slow, reference, {euler.dt, true});
   compute(fast, host, keep);
   ParticleRecords &records = fast.records();
-  for (int i = 0; i < twin.n; i += 3) {
+  for (int i = 0; i < reference.n; i += 3) {
     const int s = fast.particle_order().slot_of_atom[i];
     for (int time = 0; time < 2; time++) {
       records.settle_torque(s);
       records.load[2 * s + 1].c[1] += 0.25;
       records.load[2 * s].c[0] -= 0.5;
-      twin.torque[3 * i + 1] += 0.25;
-      twin.f[3 * i] -= 0.5;
+      reference.torque[3 * i + 1] += 0.25;
+      reference.f[3 * i] -= 0.5;
     }
   }
   advance();
-  twin.step([this](int i) { return moves(i); });
+  reference.step([this](int i) { return moves(i); });
   fast.return_state(host.view(), false);
-  EXPECT_TRUE(same_state(host, twin));
+  EXPECT_TRUE(same_state(host, reference));
 }
 
 TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
 {
   ContactStep keep = keep_and_move();
-  twin.clear_forces();
-  compute(slow, twin, {euler.dt, true});
+  reference.clear_forces();
+  compute(slow, reference, {euler.dt, true});
 
   const ParticleOrder &order = fast.particle_order();
-  std::vector<Record> sums(twin.n);
+  std::vector<Record> sums(reference.n);
   const std::function<void(int, int, int)> more = [&](int, int begin, int end) {
     for (int s = begin; s < end; s++) {
       Record &force = fast.records().load[2 * static_cast<std::size_t>(s)];
@@ -358,14 +362,14 @@ TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
     }
   };
   keep.read = false;
-  keep.add_more = &more;
+  keep.add_other_forces = &more;
   compute(fast, host, keep);
-  for (int i = 0; i < twin.n; i++) {
-    for (int d = 0; d < 3; d++) ASSERT_EQ(sums[i].c[d], twin.f[3 * i + d]) << i;
-    twin.f[3 * i + 2] += 0.5;
+  for (int i = 0; i < reference.n; i++) {
+    for (int d = 0; d < 3; d++) ASSERT_EQ(sums[i].c[d], reference.f[3 * i + d]) << i;
+    reference.f[3 * i + 2] += 0.5;
   }
   fast.return_state(host.view(), true);
-  EXPECT_TRUE(same_rows(host.f, twin.f) && same_rows(host.torque, twin.torque));
+  EXPECT_TRUE(same_rows(host.f, reference.f) && same_rows(host.torque, reference.torque));
 }
 
 constexpr Division two_phases{1, true, false, true}, two_phases_on_threads{2, true, true, true};

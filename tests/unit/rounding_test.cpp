@@ -21,13 +21,13 @@ template <int bits> void expect_rounded()
 {
   RandomSource random(bits);
   for (int n = 0; n < 10000; n++) {
-    const double number = some_number(random), its = rounded<bits>(number);
+    const double number = some_number(random), result = rounded<bits>(number);
     int exponent;
-    const double mantissa = std::ldexp(std::frexp(its, &exponent), bits);
+    const double mantissa = std::ldexp(std::frexp(result, &exponent), bits);
     EXPECT_EQ(mantissa, std::round(mantissa)) << "no more bits";
-    EXPECT_LE(std::fabs(its - number), std::ldexp(std::fabs(number), -bits));
-    EXPECT_EQ(rounded<bits>(its), its);
-    EXPECT_EQ(rounded<bits>(splat<Vec8>(number))[3], its);
+    EXPECT_LE(std::fabs(result - number), std::ldexp(std::fabs(number), -bits));
+    EXPECT_EQ(rounded<bits>(result), result);
+    EXPECT_EQ(rounded<bits>(splat<Vec8>(number))[3], result);
   }
   EXPECT_EQ(rounded<bits>(0.0), 0.0);
 }
@@ -45,10 +45,10 @@ TEST(Rounding, OfAShareBesideANumber)
   RandomSource random(3);
   for (int n = 0; n < 10000; n++) {
     const double number = rounded<26>(some_number(random)), share = random.uniform(-1.0, 1.0);
-    const double its = rounded_share<26>(share, number);
-    EXPECT_NEAR(its, share, std::ldexp(1.0, -25));
-    EXPECT_EQ(rounded_share<26>(its, number), its);
-    EXPECT_EQ(rounded_share<26>(splat<Vec8>(share), splat<Vec8>(number))[3], its);
+    const double result = rounded_share<26>(share, number);
+    EXPECT_NEAR(result, share, std::ldexp(1.0, -25));
+    EXPECT_EQ(rounded_share<26>(result, number), result);
+    EXPECT_EQ(rounded_share<26>(splat<Vec8>(share), splat<Vec8>(number))[3], result);
     EXPECT_EQ(rounded_share<26>(share, 0.0), share);
   }
 }

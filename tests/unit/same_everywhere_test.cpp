@@ -3,7 +3,7 @@
 // The same bits from every compiler, every instruction set and every processor: digests of scenes
 // with pairs, laws, large bodies, shapes and order 2. The numbers below are those of the first
 // compiler (GCC 12, AVX-512). They change only where the physics or its rounding is changed on
-// purpose; then they are to be taken anew from the messages of this test, with any compiler, and
+// purpose; then they are to be taken again from the messages of this test, with any compiler, and
 // must be the same with all others.
 //
 // Some laws use pow, tanh and the like of the C library. glibc computes those with the same bits
@@ -79,14 +79,14 @@ class Laws {
 
   void add(const named::NamedLaw &law)
   {
-    for (const named::NamedLaw &its : twin::variants(law)) {
-      const ContactSpec spec = twin::random_spec(random, its, random.chance(0.3));
-      ContactLaw used = its;
+    for (const named::NamedLaw &variant : reference::variants(law)) {
+      const ContactSpec spec = reference::random_spec(random, variant, random.chance(0.3));
+      ContactLaw used = variant;
       if (second_order) {
         if (!reason_against_second_order(used, Engine::row_of(spec)).empty()) continue;
         used = second_order_law(used);
       }
-      for (int n = 0; n < 4; n++) run(its, used, spec);
+      for (int n = 0; n < 4; n++) run(variant, used, spec);
     }
   }
 
@@ -97,9 +97,9 @@ class Laws {
   void run(const named::NamedLaw &law, const ContactLaw &used, const ContactSpec &spec)
   {
     const ContactCoefficients row = Engine::row_of(spec);
-    const twin::Composite both = twin::compose(spec, spec, FrictionMix::MINIMUM);
+    const reference::Composite both = reference::compose(spec, spec, FrictionMix::MINIMUM);
     for (int lane = 0; lane < lanes; lane++) {
-      twin::put(batch, lane, twin::random_contact(random, law, both, dt), 0);
+      reference::put(batch, lane, reference::random_contact(random, law, both, dt), 0);
       if (second_order)    // whose memory has other places
         for (auto &value : batch.history) value[lane] = 0.0;
     }
@@ -107,7 +107,7 @@ class Laws {
     for (int lane = 0; lane < lanes; lane++) {
       for (int d = 0; d < 3; d++) {
         digest.add(batch.force[d][lane]);
-        if (used.has_friction()) digest.add(batch.moment[d][lane]);
+        if (used.has_friction()) digest.add(batch.torque_per_radius[d][lane]);
         if (used.twists()) digest.add(batch.twisting_torque[d][lane]);
       }
       const int places = std::max(8, used.history().size);
@@ -127,7 +127,7 @@ TEST(SameEverywhere, Laws)
   const std::uint64_t expected[] = {0x10e8113eff559a58U, 0x74f87a82984006d1U};
   for (const bool second : {false, true}) {
     Laws laws(second);
-    for (const named::NamedLaw &law : twin::law_pairs()) laws.add(law);
+    for (const named::NamedLaw &law : reference::law_pairs()) laws.add(law);
     EXPECT_GT(laws.count, 1000);
     expect_digest(expected[second], laws.digest, second ? "order 2" : "order 1");
   }
@@ -151,12 +151,12 @@ TEST(SameEverywhere, ImpactsOfGranularLaws)
        0x6cfa20fc9e026294U},
       {"hertz/material 1e7 0.5 0.3 tangential mindlin NULL 1.0 0.4", true, 0x1fc0566382df21a2U},
   };
-  for (const auto &its : cases) {
-    Twin::System start;
+  for (const auto &one : cases) {
+    Reference::System start;
     start.gravity = {0, 0, -9.81};
     start.planes = {{{0, 0, 0}, {0, 0, 1}}};
     for (int n = 0; n < 3; n++) {
-      Twin::Particle p;
+      Reference::Particle p;
       p.x = {0.03 * n, 0.02 * n * n, 0.5 + 0.999 * n};
       p.v = {0.1 * n, -0.2, -0.3};
       p.w = {1.0, 0.3 * n, -0.7};
@@ -164,11 +164,11 @@ TEST(SameEverywhere, ImpactsOfGranularLaws)
       start.particles.push_back(p);
     }
     Digest digest;
-    const Engine::Kernels kernels(its.words, its.second);
+    const Engine::Kernels kernels(one.words, one.second);
     const Engine::Motion motion(kernels, start, 0.1, 400);
-    for (const Twin::Particle &p : motion.result())
-      for (const Twin::Vec &v : {p.x, p.v, p.w}) digest.add(Vector3<double>{v.x, v.y, v.z});
-    expect_digest(its.expected, digest, its.words);
+    for (const Reference::Particle &p : motion.result())
+      for (const Reference::Vec &v : {p.x, p.v, p.w}) digest.add(Vector3<double>{v.x, v.y, v.z});
+    expect_digest(one.expected, digest, one.words);
   }
 }
 
@@ -238,10 +238,10 @@ TEST(SameEverywhere, Bodies)
                {"box", &box, {0xc34c1f67602a305eU, 0x387425819b4fd50bU}},
                {"drum", &drum, {0xcb6f2b4e9ad07c20U, 0x800aaccee3553503U}},
                {"mesh", &mesh, {0xa37acc0f4cf16256U, 0x463959869cc47223U}}};
-  for (const auto &its : cases)
+  for (const auto &one : cases)
     for (const bool moves : {false, true})
-      expect_digest(its.expected[moves], of_body(*its.shape, moves),
-                    std::string(its.name) + (moves ? ", moving" : ""));
+      expect_digest(one.expected[moves], of_body(*one.shape, moves),
+                    std::string(one.name) + (moves ? ", moving" : ""));
 }
 
 /* Two convex bodies that meet, sharp and rounded. */

@@ -1,16 +1,16 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Spheres and planes of second_order_twin.h with the laws of the engine: every pair in every step,
-// the contacts side by side in one batch.
+// Spheres and planes of second_order_reference.h with the laws of the engine: every pair in every
+// step, the contacts side by side in one batch.
 
 #ifndef TALUS_TESTS_SECOND_ORDER_ENGINE_H
 #define TALUS_TESTS_SECOND_ORDER_ENGINE_H
 
-#include "second_order_twin.h"
+#include "second_order_reference.h"
 
 #include "base/words.h"
-#include "laws/circle_of_intersection.h"
 #include "laws/contact_words.h"
+#include "laws/intersection_radius.h"
 #include "laws/second_order_laws.h"
 #include "laws/tangential/end_of_contact.h"
 #include "material/contact_spec.h"
@@ -75,9 +75,9 @@ class Motion {
  public:
   /// From the state of `start` on for `time` in `steps` steps; its law counts for nothing.
   /// `repeats`: after each step the forces are found once more as in a set-up, see sets_up_alike().
-  Motion(const Kernels &its, const Twin::System &start, double time, int steps,
+  Motion(const Kernels &law_kernels, const Reference::System &start, double time, int steps,
          bool repeats = false) :
-      kernels(its),
+      kernels(law_kernels),
       gravity(start.gravity), particles(start.particles), planes(start.planes), dt(time / steps)
   {
     contacts.resize(particles.size() * (particles.size() + planes.size()));
@@ -86,15 +86,16 @@ class Motion {
          {batch.normal, batch.velocity, batch.surface_rotation, batch.relative_omega,
           batch.velocity_change, batch.rotation_change, batch.omega_change})
       for (int d = 0; d < 3; d++) filled.push_back(vectors[d]);
-    for (double *value : {batch.arm_loss, batch.arm_difference, batch.circle, batch.overlap,
-                          batch.inverse_mass, batch.inverse_radius, batch.inverse_distance})
+    for (double *value :
+         {batch.arm_loss, batch.arm_difference, batch.intersection_radius, batch.overlap,
+          batch.inverse_mass, batch.inverse_radius, batch.inverse_distance})
       filled.push_back(value);
     for (auto &value : batch.history) filled.push_back(value);
     compute(false);
     for (int n = 0; n < steps; n++) {
       const double kick = lag + 0.5 * dt;
       lag = 0.5 * dt;
-      for (Twin::Particle &p : particles) {
+      for (Reference::Particle &p : particles) {
         p.v = p.v + kick * p.a;
         p.w = p.w + kick * p.alpha;
         p.x = p.x + dt * p.v;
@@ -103,13 +104,13 @@ class Motion {
       compute(true);
       if (repeats) set_up_again();
     }
-    for (Twin::Particle &p : particles) {
+    for (Reference::Particle &p : particles) {
       p.v = p.v + lag * p.a;
       p.w = p.w + lag * p.alpha;
     }
   }
 
-  const std::vector<Twin::Particle> &result() const { return particles; }
+  const std::vector<Reference::Particle> &result() const { return particles; }
   /// A set-up at any step has found the same forces, bit for bit, and left the histories alone.
   bool sets_up_alike() const { return alike; }
 
@@ -120,35 +121,35 @@ class Motion {
   };
   struct Lane {
     Contact *contact;
-    Twin::Particle *i, *j;    // j: nullptr for a plane
-    Twin::Vec r;              // from j or the plane to i
+    Reference::Particle *i, *j;    // j: nullptr for a plane
+    Reference::Vec r;              // from j or the plane to i
   };
 
-  static void set(double (&to)[3][ContactBatch::width], std::size_t lane, Twin::Vec v)
+  static void set(double (&to)[3][ContactBatch::width], std::size_t lane, Reference::Vec v)
   {
     to[0][lane] = v.x;
     to[1][lane] = v.y;
     to[2][lane] = v.z;
   }
-  static Twin::Vec get(const double (&from)[3][ContactBatch::width], std::size_t lane)
+  static Reference::Vec get(const double (&from)[3][ContactBatch::width], std::size_t lane)
   {
     return {from[0][lane], from[1][lane], from[2][lane]};
   }
 
   void compute(bool advance)
   {
-    for (Twin::Particle &p : particles) p.force = p.torque = Twin::Vec{};
+    for (Reference::Particle &p : particles) p.force = p.torque = Reference::Vec{};
     std::size_t place = 0;
     for (std::size_t i = 0; i < particles.size(); i++) {
       for (std::size_t j = 0; j < i; j++)
         meet(contacts[place++], particles[j], &particles[i], particles[j].x - particles[i].x,
              advance);
-      for (const Twin::Plane &p : planes)
+      for (const Reference::Plane &p : planes)
         meet(contacts[place++], particles[i], nullptr,
              dot(particles[i].x - p.point, p.normal) * p.normal, advance);
     }
     if (!used.empty()) flush(advance);
-    for (Twin::Particle &p : particles) {
+    for (Reference::Particle &p : particles) {
       p.a = gravity + (1.0 / p.mass) * p.force;
       p.alpha = (1.0 / p.inertia()) * p.torque;
     }
@@ -157,13 +158,14 @@ class Motion {
   static double square(double a) { return a * a; }
 
   /// How far a contact lasts beyond zero overlap.
-  double beyond(const Twin::Particle &i, const Twin::Particle *j) const
+  double beyond(const Reference::Particle &i, const Reference::Particle *j) const
   {
     const double radius = j ? i.radius * j->radius / (i.radius + j->radius) : i.radius;
-    return Talus::reach_of(kernels.law, kernels.row, radius);
+    return Talus::pulloff_distance_of(kernels.law, kernels.row, radius);
   }
 
-  void meet(Contact &contact, Twin::Particle &i, Twin::Particle *j, Twin::Vec r, bool advance)
+  void meet(Contact &contact, Reference::Particle &i, Reference::Particle *j, Reference::Vec r,
+            bool advance)
   {
     const double rj = j ? j->radius : 0.0, reach = i.radius + rj;
     const double squared = dot(r, r);
@@ -180,30 +182,30 @@ class Motion {
     if (used.size() == ContactBatch::width) flush(advance);
   }
 
-  void fill(std::size_t k, const Lane &its)
+  void fill(std::size_t k, const Lane &lane)
   {
-    const Twin::Particle none{}, &i = *its.i, &other = its.j ? *its.j : none;
-    const double rj = its.j ? other.radius : 0.0, mass_j = its.j ? 1.0 / other.mass : 0.0;
-    const double reach = i.radius + rj, distance = length(its.r), d = reach - distance;
-    set(batch.normal, k, (1.0 / distance) * its.r);
+    const Reference::Particle none{}, &i = *lane.i, &other = lane.j ? *lane.j : none;
+    const double rj = lane.j ? other.radius : 0.0, mass_j = lane.j ? 1.0 / other.mass : 0.0;
+    const double reach = i.radius + rj, distance = length(lane.r), d = reach - distance;
+    set(batch.normal, k, (1.0 / distance) * lane.r);
     set(batch.velocity, k, i.v - other.v);
     set(batch.surface_rotation, k, i.radius * i.w + rj * other.w);
     set(batch.relative_omega, k, i.w - other.w);
     set(batch.velocity_change, k, lag * (i.a - other.a));
     set(batch.rotation_change, k, lag * (i.radius * i.alpha + rj * other.alpha));
     set(batch.omega_change, k, lag * (i.alpha - other.alpha));
-    batch.arm_loss[k] = its.j ? d / reach : 0.0;
-    batch.arm_difference[k] = its.j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
+    batch.arm_loss[k] = lane.j ? d / reach : 0.0;
+    batch.arm_difference[k] = lane.j ? 0.5 * batch.arm_loss[k] * (rj - i.radius) : 0.0;
     const double in_plane = 2.0 * i.radius * d - d * d;
-    batch.circle[k] =
-        its.j ? Talus::circle_of_intersection(i.radius, rj, d) : std::sqrt(std::max(in_plane, 0.0));
+    batch.intersection_radius[k] = lane.j ? Talus::intersection_radius_of(i.radius, rj, d)
+                                          : std::sqrt(std::max(in_plane, 0.0));
     batch.lag = lag;
     batch.overlap[k] = d;
     batch.inverse_mass[k] = 1.0 / i.mass + mass_j;
-    batch.inverse_radius[k] = 1.0 / i.radius + (its.j ? 1.0 / rj : 0.0);
-    batch.inverse_distance[k] = its.j ? 1.0 / distance : 0.0;
+    batch.inverse_radius[k] = 1.0 / i.radius + (lane.j ? 1.0 / rj : 0.0);
+    batch.inverse_distance[k] = lane.j ? 1.0 / distance : 0.0;
     for (int n = 0; n < ContactBatch::history_size; n++)
-      batch.history[n][k] = its.contact->history[n];
+      batch.history[n][k] = lane.contact->history[n];
   }
 
   void flush(bool advance)
@@ -216,24 +218,26 @@ class Motion {
       std::fill(value + used.size(), value + end, value[used.size() - 1]);
     (advance ? kernels.advancing : kernels.reading)(batch, 0, end, &kernels.row, dt);
     for (std::size_t k = 0; k < used.size(); k++) {
-      const Lane &its = used[k];
+      const Lane &lane = used[k];
       for (int n = 0; n < ContactBatch::history_size && advance; n++)
-        its.contact->history[n] = batch.history[n][k];
-      const Twin::Vec force = get(batch.force, k);
-      const Twin::Vec moment = kernels.law.has_friction() ? get(batch.moment, k) : Twin::Vec{};
-      const Twin::Vec twist = kernels.law.twists() ? get(batch.twisting_torque, k) : Twin::Vec{};
-      its.i->force = its.i->force + force;
-      its.i->torque = its.i->torque - its.i->radius * moment + twist;
-      if (!its.j) continue;
-      its.j->force = its.j->force - force;
-      its.j->torque = its.j->torque - its.j->radius * moment - twist;
+        lane.contact->history[n] = batch.history[n][k];
+      const Reference::Vec force = get(batch.force, k);
+      const Reference::Vec torque_per_radius =
+          kernels.law.has_friction() ? get(batch.torque_per_radius, k) : Reference::Vec{};
+      const Reference::Vec twist =
+          kernels.law.twists() ? get(batch.twisting_torque, k) : Reference::Vec{};
+      lane.i->force = lane.i->force + force;
+      lane.i->torque = lane.i->torque - lane.i->radius * torque_per_radius + twist;
+      if (!lane.j) continue;
+      lane.j->force = lane.j->force - force;
+      lane.j->torque = lane.j->torque - lane.j->radius * torque_per_radius - twist;
     }
     used.clear();
   }
 
   void set_up_again()
   {
-    const std::vector<Twin::Particle> after = std::exchange(particles, before);
+    const std::vector<Reference::Particle> after = std::exchange(particles, before);
     const std::vector<Contact> known = contacts;
     compute(false);
     for (std::size_t n = 0; n < after.size(); n++)
@@ -243,12 +247,15 @@ class Motion {
                                   contacts[n].history);
     particles = after;
   }
-  static bool same(Twin::Vec a, Twin::Vec b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  static bool same(Reference::Vec a, Reference::Vec b)
+  {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
 
   const Kernels &kernels;
-  Twin::Vec gravity;
-  std::vector<Twin::Particle> particles, before;
-  std::vector<Twin::Plane> planes;
+  Reference::Vec gravity;
+  std::vector<Reference::Particle> particles, before;
+  std::vector<Reference::Plane> planes;
   std::vector<Contact> contacts;
   ContactBatch batch;
   std::vector<Lane> used;

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The laws of second order against the twin that shares no code with them, over whole impacts of
-// two spheres and of a sphere and a plane: every step makes the same forces.
+// The laws of second order against the reference that shares no code with them, over whole impacts
+// of two spheres and of a sphere and a plane: every step makes the same forces.
 
 #include "crystal_of_spheres.h"
 #include "random_source.h"
@@ -20,9 +20,9 @@
 
 namespace {
 
-Twin::Particle sphere(Twin::Vec x, Twin::Vec v, Twin::Vec w, double radius)
+Reference::Particle sphere(Reference::Vec x, Reference::Vec v, Reference::Vec w, double radius)
 {
-  Twin::Particle p;
+  Reference::Particle p;
   p.x = x;
   p.v = v;
   p.w = w;
@@ -31,17 +31,17 @@ Twin::Particle sphere(Twin::Vec x, Twin::Vec v, Twin::Vec w, double radius)
   return p;
 }
 
-Twin::System pair()
+Reference::System pair()
 {
-  Twin::System start;
+  Reference::System start;
   start.particles = {sphere({-0.505, -0.1, 0.05}, {0.5, 0.4, 0.1}, {1, 2, -3}, 0.5),
                      sphere({0.405, 0.1, -0.02}, {-0.5, -0.4, 0.2}, {-2, 0.5, 1.5}, 0.4)};
   return start;
 }
 
-Twin::System on_plane()
+Reference::System on_plane()
 {
-  Twin::System start;
+  Reference::System start;
   start.gravity = {0, 0, -9.81};
   start.planes = {{{0, 0, 0}, {0, 0, 1}}};
   start.particles = {sphere({0, 0, 0.51}, {0.3, 0.1, -0.5}, {0, 3, 1}, 0.5)};
@@ -49,7 +49,7 @@ Twin::System on_plane()
 }
 
 /// zeta is a polynomial here, to 4e-8 of the force of one step; `times` of its error are allowed.
-void expect_same(Twin::System start, const Twin::Law &law, const std::string &words,
+void expect_same(Reference::System start, const Reference::Law &law, const std::string &words,
                  double times = 1.0)
 {
   SCOPED_TRACE(words);
@@ -59,11 +59,11 @@ void expect_same(Twin::System start, const Twin::Law &law, const std::string &wo
   for (int steps : {60, 61, 157, 400}) {
     const Engine::Motion engine(kernels, start, time, steps, true);
     EXPECT_TRUE(engine.sets_up_alike()) << steps;
-    Twin::System twin = start;
-    twin.law = law;
-    twin.run(time, steps);
+    Reference::System reference = start;
+    reference.law = law;
+    reference.run(time, steps);
     for (std::size_t n = 0; n < start.particles.size(); n++) {
-      const Twin::Particle &a = engine.result()[n], &b = twin.particles[n];
+      const Reference::Particle &a = engine.result()[n], &b = reference.particles[n];
       EXPECT_LT(length(a.x - b.x), times * 1e-9) << steps;
       EXPECT_LT(length(a.v - b.v), times * 1e-8) << steps;
       EXPECT_LT(length(a.w - b.w), times * 1e-7) << steps;
@@ -71,17 +71,17 @@ void expect_same(Twin::System start, const Twin::Law &law, const std::string &wo
   }
 }
 
-void expect_same(const Twin::Law &law, const std::string &words, double times = 1.0)
+void expect_same(const Reference::Law &law, const std::string &words, double times = 1.0)
 {
   expect_same(pair(), law, words, times);
   expect_same(on_plane(), law, words, times);
 }
 
-Twin::Law numbers(bool hertz, double kn, double gn, double mu)
+Reference::Law numbers(bool hertz, double kn, double gn, double mu)
 {
-  Twin::Law law;
+  Reference::Law law;
   law.hertz = hertz;
-  law.damping = hertz ? Twin::Damping::RADIUS : Twin::Damping::MASS;
+  law.damping = hertz ? Reference::Damping::RADIUS : Reference::Damping::MASS;
   law.kn = kn;
   law.gn = gn;
   law.kt = 2.0 / 7.0 * kn;
@@ -97,10 +97,10 @@ const char *const fused_words[] = {
     "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint limit_damping",
     "hertz/material 1e5 0.6 0.3 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"};
 
-enum class Its { MIDDLE, BEGIN, END };    // what a contact is in
+enum class Phase { MIDDLE, BEGIN, END };    // what a contact is in
 
 /// Spheres of radius about 1/2 in which they stick, slide, and are held at zero by damping.
-void put(ContactBatch &b, int k, RandomSource &random, Its its, double dt)
+void put(ContactBatch &b, int k, RandomSource &random, Phase phase, double dt)
 {
   const auto set = [k](double(&to)[3][ContactBatch::width], const std::array<double, 3> &v) {
     for (int d = 0; d < 3; d++) to[d][k] = v[d];
@@ -110,8 +110,8 @@ void put(ContactBatch &b, int k, RandomSource &random, Its its, double dt)
   std::array<double, 3> v = random.in_cube(0.5 * speed);
   const double along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
   double wanted = random.uniform(-speed, speed), overlap = random.decade(-5.0, -2.0);
-  if (its == Its::BEGIN) overlap = -dt * (wanted = -speed) * random.uniform(0.0, 1.0);
-  if (its == Its::END) overlap = -dt * (wanted = speed) * random.uniform(0.0, 1.0);
+  if (phase == Phase::BEGIN) overlap = -dt * (wanted = -speed) * random.uniform(0.0, 1.0);
+  if (phase == Phase::END) overlap = -dt * (wanted = speed) * random.uniform(0.0, 1.0);
   for (int d = 0; d < 3; d++) v[d] += (wanted - along) * n[d];
   set(b.normal, n);
   set(b.velocity, v);
@@ -123,9 +123,9 @@ void put(ContactBatch &b, int k, RandomSource &random, Its its, double dt)
   b.inverse_radius[k] = random.uniform(2.0, 6.0);
   b.inverse_distance[k] = random.chance(0.2) ? 0.0 : random.uniform(0.9, 1.1);
   const std::array<double, 3> spring = random.in_cube(random.decade(-6.0, -2.0));
-  for (int d = 0; d < 3; d++) b.history[d][k] = its == Its::BEGIN ? 0.0 : spring[d];
+  for (int d = 0; d < 3; d++) b.history[d][k] = phase == Phase::BEGIN ? 0.0 : spring[d];
   const double force = random.chance(0.1) ? 1.0e-200 : random.decade(0.0, 3.0);
-  b.history[3][k] = its == Its::BEGIN ? 0.0 : -force;
+  b.history[3][k] = phase == Phase::BEGIN ? 0.0 : -force;
 }
 
 bool same_bits(const ContactBatch &a, const ContactBatch &b, int k, bool works)
@@ -135,8 +135,8 @@ bool same_bits(const ContactBatch &a, const ContactBatch &b, int k, bool works)
       if (std::memcmp(&x[n][k], &y[n][k], sizeof(double)) != 0) return false;
     return true;
   };
-  return same(a.force, b.force) && same(a.moment, b.moment) && same(a.history, b.history) &&
-         (!works || same(a.work, b.work));
+  return same(a.force, b.force) && same(a.torque_per_radius, b.torque_per_radius) &&
+         same(a.history, b.history) && (!works || same(a.work, b.work));
 }
 
 }    // namespace
@@ -148,23 +148,24 @@ TEST(SecondOrderLaws, FusedAreTheirStages)
   RandomSource random(7);
   const double dt = 1.0e-3;
   for (const char *words : fused_words) {
-    const Engine::Kernels its(words);
-    ASSERT_FALSE(its.advancing == Talus::staged_kernel(its.law, true, true)) << words;
+    const Engine::Kernels kernels(words);
+    ASSERT_FALSE(kernels.advancing == Talus::staged_kernel(kernels.law, true, true)) << words;
     for (int turn = 0; turn < 400; turn++) {
       ContactBatch batch[2];
       for (ContactBatch &one : batch) one.clear();
-      for (int k = 0; k < ContactBatch::width; k++) put(batch[0], k, random, Its::MIDDLE, dt);
+      for (int k = 0; k < ContactBatch::width; k++) put(batch[0], k, random, Phase::MIDDLE, dt);
       batch[0].lag = 0.5 * dt;
       batch[1] = batch[0];
       for (int k = Talus::lanes - 1; k < ContactBatch::width; k += Talus::lanes)
-        put(batch[1], k, random, random.chance(0.5) ? Its::BEGIN : Its::END, dt);
+        put(batch[1], k, random, random.chance(0.5) ? Phase::BEGIN : Phase::END, dt);
       ContactBatch fused[2];
       for (int n = 0; n < 2; n++)
         for (bool works : {false, true}) {
           ContactBatch staged = fused[n] = batch[n];
           const auto kernel = works ? Talus::accounting_kernel : Talus::contact_kernel;
-          kernel(its.law, true, true)(fused[n], 0, ContactBatch::width, &its.row, dt);
-          Talus::staged_kernel(its.law, true, true)(staged, 0, ContactBatch::width, &its.row, dt);
+          kernel(kernels.law, true, true)(fused[n], 0, ContactBatch::width, &kernels.row, dt);
+          Talus::staged_kernel(kernels.law, true, true)(staged, 0, ContactBatch::width,
+                                                        &kernels.row, dt);
           for (int k = 0; k < ContactBatch::width; k++)
             ASSERT_TRUE(same_bits(fused[n], staged, k, false)) << words << " lane " << k;
         }
@@ -180,28 +181,30 @@ TEST(SecondOrderLaws, FusedAreTheirStages)
 // left.
 TEST(SecondOrderLaws, WhatHasEndedStoresNothing)
 {
-  const Engine::Kernels its("hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint "
-                            "adhesion constant 1 limit_damping");
+  const Engine::Kernels kernels(
+      "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint "
+      "adhesion constant 1 limit_damping");
   Talus::ContactState<double> state;
   state.normal = {0.0, 0.0, 1.0};
   state.velocity = {0.1, 0.0, 1.0};
   state.inverse_mass = state.inverse_radius = 4.0;
   state.inverse_distance = 1.0;
   state.lag = 5e-4;
-  const Talus::HistoryValues memory{{1e-4, 2e-4, 0.0, 3.0}};
-  for (const Talus::Ask ask : {Talus::Ask::ENERGIES, Talus::Ask::ALL}) {
-    Talus::SurveyedContact found;
+  const Talus::HistoryValues history{{1e-4, 2e-4, 0.0, 3.0}};
+  for (const Talus::ContactData requested :
+       {Talus::ContactData::ENERGIES, Talus::ContactData::ALL}) {
+    Talus::ContactReport found;
     state.overlap = -1e-5;
-    Talus::survey_contact(its.law, its.row, state, 1e-3, memory, ask, found);
+    Talus::report_contact(kernels.law, kernels.row, state, 1e-3, history, requested, found);
     EXPECT_EQ(found.stored.total(), 0.0);
     state.overlap = 1e-5;
-    Talus::survey_contact(its.law, its.row, state, 1e-3, memory, ask, found);
+    Talus::report_contact(kernels.law, kernels.row, state, 1e-3, history, requested, found);
     EXPECT_NE(found.stored.normal, 0.0);
     EXPECT_GT(found.stored.tangential, 0.0);
   }
 }
 
-TEST(SecondOrderLaws, AreThoseOfTheTwin)
+TEST(SecondOrderLaws, AreThoseOfTheReference)
 {
   expect_same(numbers(false, 2e4, 80, 0.3),
               "hooke 2e4 80 tangential multistep NULL NULL 0.3 slider midpoint limit_damping");
@@ -209,8 +212,8 @@ TEST(SecondOrderLaws, AreThoseOfTheTwin)
               "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint limit_damping");
   expect_same(numbers(true, 1.75e5, 400, 5.0),
               "hertz 1.75e5 400 tangential multistep NULL NULL 5 slider midpoint limit_damping");
-  Twin::Law stiff = numbers(true, 1.75e5, 80, 0.3);
-  stiff.damping = Twin::Damping::MASS;
+  Reference::Law stiff = numbers(true, 1.75e5, 80, 0.3);
+  stiff.damping = Reference::Damping::MASS;
   expect_same(stiff, "hertz 1.75e5 80 damping mass_velocity tangential multistep NULL NULL 0.3 "
                      "slider midpoint limit_damping");
   expect_same(numbers(true, 1.75e5, 0, 0.2),
@@ -222,7 +225,7 @@ TEST(SecondOrderLaws, AreThoseOfTheTwin)
 TEST(SecondOrderLaws, WithAdhesion)
 {
   for (double mu : {0.0, 0.3}) {
-    Twin::Law law = numbers(true, 1.75e5, 400, mu);
+    Reference::Law law = numbers(true, 1.75e5, 400, mu);
     law.adhesion = 3.0;
     const std::string friction =
         mu > 0.0 ? " tangential multistep NULL NULL 0.3 slider midpoint" : "";
@@ -238,7 +241,7 @@ TEST(SecondOrderLaws, WithResistanceToRollingAndSpinning)
   for (double mu : {0.02, 0.1, 0.3}) {
     const std::string resistance =
         " rolling " + std::to_string(mu) + " spinning " + std::to_string(mu) + " limit_damping";
-    Twin::Law law = numbers(true, 1.75e5, 400, 0.3);
+    Reference::Law law = numbers(true, 1.75e5, 400, 0.3);
     law.resistance.mu_r = law.resistance.mu_s = mu;
     expect_same(law,
                 "hertz 1.75e5 400 tangential multistep NULL NULL 0.3 slider midpoint" + resistance);
@@ -252,7 +255,8 @@ TEST(SecondOrderLaws, WithSpringsOfRolling)
 {
   for (const char *gamma : {"0", "0.3", "4"})
     for (bool is_hertz : {false, true}) {
-      Twin::Law law = is_hertz ? numbers(true, 1.75e5, 400, 0.3) : numbers(false, 2e4, 80, 0.3);
+      Reference::Law law =
+          is_hertz ? numbers(true, 1.75e5, 400, 0.3) : numbers(false, 2e4, 80, 0.3);
       law.resistance.k_roll = 2000.0;
       law.resistance.gamma_roll = std::stod(gamma);
       law.resistance.mu_roll = 0.1;
@@ -266,9 +270,9 @@ TEST(SecondOrderLaws, WithSpringsOfRolling)
 
 TEST(SecondOrderLaws, WithDampingOfTheStiffness)
 {
-  Twin::Law law = numbers(true, 0, 0, 0.4);
+  Reference::Law law = numbers(true, 0, 0, 0.4);
   const double young = 1e5, nu = 0.3;
-  law.damping = Twin::Damping::ROOT;
+  law.damping = Reference::Damping::ROOT;
   law.kn = 4.0 / 3.0 * young / (2.0 * (1.0 - nu * nu));
   law.kt = 8.0 * young / (4.0 * (2.0 - nu) * (1.0 + nu));
   const Engine::Kernels kernels(
@@ -285,10 +289,10 @@ TEST(SecondOrderLaws, HeldRotationsOfACrystalComeToRest)
 {
   const Engine::Kernels kernels("hooke 2e4 80 adhesion constant 10 rolling 0.1 spinning 0.1 "
                                 "limit_damping");
-  Twin::System crystal;
-  crystal.particles = Twin::crystal_of_spheres();
-  EXPECT_GT(Twin::spin_of(crystal.particles), 1e-2);
-  EXPECT_LT(Twin::spin_of(Engine::Motion(kernels, crystal, 0.08, 200).result()), 1e-4);
+  Reference::System crystal;
+  crystal.particles = Reference::crystal_of_spheres();
+  EXPECT_GT(Reference::spin_of(crystal.particles), 1e-2);
+  EXPECT_LT(Reference::spin_of(Engine::Motion(kernels, crystal, 0.08, 200).result()), 1e-4);
 }
 
 TEST(SecondOrderLaws, OthersAreRefusedWithTheCure)

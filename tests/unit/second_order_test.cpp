@@ -1,19 +1,19 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The order in the time step of contacts that dissipate, with the five measures of
-// second_order_twin.h and without them. Errors of position, velocity and spin (as speed of the
+// second_order_reference.h and without them. Errors of position, velocity and spin (as speed of the
 // surface) at the end, root mean square over particles and over five nearby numbers of steps:
 // where in a step a contact begins must not matter.
 
 #include "crystal_of_spheres.h"
-#include "second_order_twin.h"
+#include "second_order_reference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-using namespace Twin;
+using namespace Reference;
 
 namespace {
 
@@ -123,10 +123,10 @@ Scene cluster(const Law &law)
 
 System result(const Scene &scene, const Measures &measures, int steps)
 {
-  System its = scene.start;
-  its.with = measures;
-  its.run(scene.time, steps);
-  return its;
+  System system = scene.start;
+  system.with = measures;
+  system.run(scene.time, steps);
+  return system;
 }
 
 double square(Vec v)

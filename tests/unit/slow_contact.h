@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The slow twin of the contact kernels: one contact of two bodies in plain scalar code, written
-// from the equations and from the logic of the stock gran/hooke/history and gran/hertz/history,
-// sharing no line with src/contact. It works on the bodies (arms, surface points, torques), not on
-// the reduced state.
+// The slow reference of the contact kernels: one contact of two bodies in plain scalar code,
+// written from the equations and from the logic of the stock gran/hooke/history and
+// gran/hertz/history, sharing no line with src/contact. It works on the bodies (arms, surface
+// points, torques), not on the reduced state.
 
 #ifndef TALUS_TEST_SLOW_CONTACT_H
 #define TALUS_TEST_SLOW_CONTACT_H

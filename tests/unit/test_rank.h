@@ -27,7 +27,7 @@ class TestRank {
   std::vector<int> particle;    ///< host's number -> particle of the packing, owned ones first
   int owned = 0;
   std::vector<Vector> force, torque;    ///< by particle of the packing; of owned ones
-  std::vector<Talus::ReportedContact> report;
+  std::vector<Talus::TalliedContact> tally;
 
   explicit TestRank(const Talus::LawTable &laws, int rank = 0) : store(rank)
   {
@@ -123,9 +123,9 @@ class TestRank {
     const Talus::ParticleView view{x.data(),      v.data(),    omega.data(),
                                    radius.data(), mass.data(), mass_override.data(),
                                    f.data(),      t.data()};
-    report.clear();
-    const std::function<void(const Talus::ReportedContact &)> keep =
-        [this](const Talus::ReportedContact &contact) { report.push_back(contact); };
+    tally.clear();
+    const std::function<void(const Talus::TalliedContact &)> keep =
+        [this](const Talus::TalliedContact &contact) { tally.push_back(contact); };
     run(view, {dt, advance, reports ? &keep : nullptr});
 
     force.assign(p.size(), Vector{});

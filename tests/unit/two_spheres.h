@@ -5,13 +5,13 @@
 #ifndef TALUS_TEST_TWO_SPHERES_H
 #define TALUS_TEST_TWO_SPHERES_H
 
-#include "laws/circle_of_intersection.h"
+#include "laws/intersection_radius.h"
 #include "named_law.h"
 
 #include <array>
 #include <cmath>
 
-namespace twin {
+namespace reference {
 
 using Triple = std::array<double, 3>;
 
@@ -67,7 +67,7 @@ class TwoSpheres {
   void compute()
   {
     for (int d = 0; d < 3; d++)
-      batch.force[d][0] = batch.moment[d][0] = batch.twisting_torque[d][0] = 0.0;
+      batch.force[d][0] = batch.torque_per_radius[d][0] = batch.twisting_torque[d][0] = 0.0;
     if (overlap() <= 0.0) {
       for (int d = 0; d < 3; d++) batch.history[d][0] = batch.history[4 + d][0] = 0.0;
       batch.history[3][0] = 0.0;
@@ -88,7 +88,8 @@ class TwoSpheres {
       Sphere &s = body[b];
       const double sign = b == 0 ? 1.0 : -1.0;
       s.force = sign * lane(batch.force);
-      const Triple torque = -s.radius * lane(batch.moment) + sign * lane(batch.twisting_torque);
+      const Triple torque =
+          -s.radius * lane(batch.torque_per_radius) + sign * lane(batch.twisting_torque);
       s.v = s.v + dt * (gravity + (1.0 / s.mass) * s.force);
       s.omega = s.omega + (dt / (0.4 * s.mass * s.radius * s.radius)) * torque;
       s.x = s.x + dt * s.v;
@@ -112,10 +113,10 @@ class TwoSpheres {
     batch.inverse_mass[0] = 1.0 / effective_mass();
     batch.inverse_radius[0] = 1.0 / effective_radius();
     batch.inverse_distance[0] = 1.0 / norm(separation());
-    batch.circle[0] = Talus::circle_of_intersection(a.radius, b.radius, overlap());
+    batch.intersection_radius[0] = Talus::intersection_radius_of(a.radius, b.radius, overlap());
   }
 };
 
-}    // namespace twin
+}    // namespace reference
 
 #endif

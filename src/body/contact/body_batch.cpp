@@ -42,9 +42,9 @@ void BodyBatch::start()
   work = EnergyByCause{};
 }
 
-void BodyBatch::compute(const BodyTask &its_task, std::size_t begin, std::size_t last)
+void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t last)
 {
-  task = &its_task;
+  task = &new_task;
   touching = 0.0;
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
   const bool by_parts = task->shape.most_contacts() > 1;
@@ -107,17 +107,19 @@ const EightSpheres &BodyBatch::spheres_in_body()
 
 unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 {
-  const EightSpheres &its = spheres_in_body();
+  const EightSpheres &in_body = spheres_in_body();
   if (law.tangential().second_order) {
-    const unsigned bits = task->shape.touches_eight(its, high, contacts);
-    const unsigned ours = (1U << high) - (1U << low);    // others may be changed by other threads
-    return bits | just_ended(first, its, task->history.touched(first / width) & ours & ~bits);
+    const unsigned bits = task->shape.touches_eight(in_body, high, contacts);
+    const unsigned of_this_thread =
+        (1U << high) - (1U << low);    // others may be changed by other threads
+    return bits | just_ended(first, in_body,
+                             task->history.touched(first / width) & of_this_thread & ~bits);
   }
-  if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(its, high, contacts);
+  if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(in_body, high, contacts);
   double reach[width] = {};
-  widened = its;
+  widened = in_body;
   for (int k = 0; k < high; k++) {
-    reach[k] = task->reach_of(first + k, its.radius[k]);
+    reach[k] = task->pulloff_distance_of(first + k, in_body.radius[k]);
     widened.radius[k] += reach[k];
   }
   unsigned bits = task->shape.touches_eight(widened, high, contacts);
@@ -133,7 +135,7 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 /* Of those contacts that were there, `bits`, those that last for the step in which they end: looked
    for with radii twice as large. */
 
-unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &its, unsigned bits)
+unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits)
 {
   unsigned ended = 0;
   for (unsigned rest = bits; rest; rest &= rest - 1U) {
@@ -141,14 +143,14 @@ unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &its, unsig
     if (has_just_ended(task->history.record(first + k).c[3], task->advance)) ended |= 1U << k;
   }
   if (!ended) return 0;
-  widened = its;
+  widened = in_body;
   for (int k = 0; k < width; k++) widened.radius[k] *= 2.0;
   EightContacts far;
   ended &= task->shape.touches_eight(widened, width, far);
   for (unsigned rest = ended; rest; rest &= rest - 1U) {
     const int k = __builtin_ctz(rest);
     for (int d = 0; d < 3; d++) contacts.normal[d][k] = far.normal[d][k];
-    contacts.overlap[k] = far.overlap[k] - its.radius[k];
+    contacts.overlap[k] = far.overlap[k] - in_body.radius[k];
   }
   return ended;
 }
@@ -184,7 +186,10 @@ class EndsOfContacts : public BodyHistory::Ends {
       task(task), c(c), x(x), r(r)
   {
   }
-  bool lasts(const Record &its) const override { return has_just_ended(its.c[3], task.advance); }
+  bool lasts(const Record &history) const override
+  {
+    return has_just_ended(history.c[3], task.advance);
+  }
   int look_further(SurfaceContact *found) const override
   {
     constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
@@ -212,7 +217,7 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
   const int i = task->index[c];
   const Vector3<double> place_now = view.position_at(i), x = task->frame.point_to_body(place_now);
   const double r = view.radius_at(i);
-  const double reach = law.normal().lasts_beyond_contact ? task->reach_of(c, r) : 0.0;
+  const double reach = law.normal().lasts_beyond_contact ? task->pulloff_distance_of(c, r) : 0.0;
   SurfaceContact found[LargeBodyShape::max_contacts];
   bool may_touch;
   const NearParts near = task->candidates.parts_near(c, x, r + reach, may_touch);
@@ -257,7 +262,7 @@ void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x
   candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
   slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
   part_of_lane[filled] = contact.part;
-  if (turns()) set_turn(filled, contact.normal, normal_before);
+  if (needs_normal_changes()) set_normal_change(filled, contact.normal, normal_before);
   if (++filled == ContactBatch::width) flush();
 }
 
@@ -271,8 +276,8 @@ void BodyBatch::flush()
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
   gather();
   batch.lag = task->lag;
-  if (task->survey) {
-    survey();
+  if (task->report) {
+    report();
     filled = 0;
     return;
   }
@@ -280,7 +285,7 @@ void BodyBatch::flush()
   if (task->with_history && task->advance) keep_histories();
   if (task->account) account();
   if (task->record_parts) record_parts();
-  if (task->frame.turned) turn_to_space();
+  if (task->frame.turned) rotate_to_space();
   add_to_particles();
   add_load();
   if (task->virial) add_virials();
@@ -291,34 +296,34 @@ void BodyBatch::flush()
 void BodyBatch::account()
 {
   for (int lane = 0; lane < filled; lane++) {
-    const EnergyByCause its = work_of_lane(batch, lane);
-    work += its;
-    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), its, 1.0);
+    const EnergyByCause contact_work = work_of_lane(batch, lane);
+    work += contact_work;
+    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), contact_work, 1.0);
   }
 }
 
-void BodyBatch::survey() const
+void BodyBatch::report() const
 {
   const BodyFrame &frame = task->frame;
   const bool by_parts = task->shape.most_contacts() > 1;
   for (int lane = 0; lane < filled; lane++) {
-    HistoryValues memory{};
-    for (int n = 0; n < 4 * task->history_records; n++) memory[n] = batch.history[n][lane];
-    SurveyedContact found;
+    HistoryValues history{};
+    for (int n = 0; n < 4 * task->history_records; n++) history[n] = batch.history[n][lane];
+    ContactReport found;
     found.i = task->candidates.atom(candidate_of_lane[lane]);
     if (by_parts) found.part = part_of_lane[lane];
     found.normal = lane_of(batch.normal, lane);
     found.overlap = batch.overlap[lane];
-    survey_contact(law, task->laws.coefficients(batch.coefficients[lane]),
-                   state_of_lane(batch, lane), task->dt, memory, task->ask, found);
+    report_contact(law, task->laws.coefficients(batch.coefficients[lane]),
+                   state_of_lane(batch, lane), task->dt, history, task->requested, found);
     if (frame.turned) {
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);
-      found.moment = frame.to_space(found.moment);
+      found.torque_per_radius = frame.to_space(found.torque_per_radius);
       found.twisting_torque = frame.to_space(found.twisting_torque);
     }
     found.set_arms_of_spheres(radius[lane], 0.0);
-    (*task->survey)(found);
+    (*task->report)(found);
   }
 }
 

@@ -1,10 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contacts of particles with one large body on their way through the laws: one batch for each
-// thread, eight contacts at a time. Everything is computed in the frame of the body, where the body
-// is at rest and the histories turn with it; forces are turned back. body_batch.cpp finds the
-// contacts and runs the laws, body_batch_lanes.cpp fetches what laws read of particles and hands
-// out what they yield.
+// Contact forces between particles and one large body: one batch for each thread, eight contacts at
+// a time. Everything is computed in the frame of the body, in which the body is at rest and
+// histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
+// laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
@@ -26,7 +25,7 @@
 
 namespace Talus {
 
-/// What a part of the body felt in one step.
+/// Force of one contact on a part of the body in one step.
 struct TouchedPart {
   int part;
   double normal_force;      ///< > 0: pressed
@@ -52,16 +51,19 @@ struct BodyTask {
   bool record_parts;
   const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
   double *virial;                ///< see BodyStep
-  /// nullptr, or is called with each contact, by one thread, instead of adding forces.
-  const std::function<void(const SurveyedContact &)> *survey;
-  Ask ask = Ask::ALL;
+  /// If not nullptr: called with each contact, by one thread, instead of adding forces.
+  const std::function<void(const ContactReport &)> *report;
+  ContactData requested = ContactData::ALL;
   bool with_history;      ///< of any law
   int history_records;    ///< see LawTable
 
   static constexpr int spare = 128;
 
   /// How far a contact of a candidate that has begun lasts beyond zero overlap (length).
-  double reach_of(std::size_t c, double radius) const { return laws.reach(row_of(c), radius); }
+  double pulloff_distance_of(std::size_t c, double radius) const
+  {
+    return laws.pulloff_distance(row_of(c), radius);
+  }
 
   /// Row of the table for a candidate; types are not read where all have the same law.
   int row_of(std::size_t c) const
@@ -99,7 +101,7 @@ class BodyBatch {
   void load_spheres(const int *index, int low, int high);
   const EightSpheres &spheres_in_body();
   unsigned touching_eight(std::size_t first, int low, int high);
-  unsigned just_ended(std::size_t first, const EightSpheres &its, unsigned bits);
+  unsigned just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
   void look_at_parts(std::size_t candidate, std::size_t last);
@@ -108,7 +110,7 @@ class BodyBatch {
               const SurfaceContact &contact, const Vector3<double> &normal_before);
   void flush();
   void account();
-  void survey() const;
+  void report() const;
   void record_parts();
 
   // lanes
@@ -119,10 +121,10 @@ class BodyBatch {
   void see_from_body(Motion &m, int k);
   void run_past(Motion &m, int k);
   Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;
-  void gather_turns(int k);
-  void set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before);
+  void gather_normal_changes(int k);
+  void set_normal_change(int lane, const Vector3<double> &normal, const Vector3<double> &before);
   /// Its laws ask for what normals have turned in the last step.
-  bool turns() const
+  bool needs_normal_changes() const
   {
     return law.tangential().second_order && law.has_friction() && task->history.keeps_normals();
   }
@@ -130,7 +132,7 @@ class BodyBatch {
   void gather_resistance();
   void gather_coefficients();
   void keep_histories();
-  void turn_to_space();
+  void rotate_to_space();
   EightRows torques(int k) const;
   void add_to_particles();
   void add_load();

@@ -72,7 +72,7 @@ void BodyBatch::gather()
       store_at(batch.relative_omega, k, m.omega);
       store_at(batch.omega_change, k, m.inverse_radius * vector_at(batch.rotation_change, k));
     }
-    if (turns() && !task->history.several()) gather_turns(k);
+    if (needs_normal_changes() && !task->history.several()) gather_normal_changes(k);
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
@@ -112,11 +112,11 @@ void BodyBatch::run_past(Motion &m, int k)
   }
   alignas(64) double before[3][lanes];
   for (int q = 0; q < lanes; q++) {
-    const Vector3<double> its =
+    const Vector3<double> normal =
         normal_before(k + q, {m.velocity.x[q], m.velocity.y[q], m.velocity.z[q]});
-    before[0][q] = its.x;
-    before[1][q] = its.y;
-    before[2][q] = its.z;
+    before[0][q] = normal.x;
+    before[1][q] = normal.y;
+    before[2][q] = normal.z;
   }
   const Vector3<Vec8> n_before{load8(before[0]), load8(before[1]), load8(before[2])};
   const Vector3<Vec8> then = surface - dot(surface, n_before) * n_before;
@@ -124,8 +124,8 @@ void BodyBatch::run_past(Motion &m, int k)
   store_at(batch.velocity_change, k, vector_at(batch.velocity_change, k) - (now - then));
 }
 
-/* At the time of the velocities; a contact that was not there has the normal of now. It is looked
-   for and not remembered, so that a run that is set up finds the same bits. */
+/* At the time of the velocities; a contact that was not there has the normal of now. It is computed
+   and not stored, so that the setup of a run finds the same bits. */
 
 Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &velocity) const
 {
@@ -178,21 +178,22 @@ void BodyBatch::gather_changes(const int *index, int k)
 /* Of shapes with several contacts it is known since they were found. Lanes behind the last contact
    have the geometry of others. */
 
-void BodyBatch::gather_turns(int k)
+void BodyBatch::gather_normal_changes(int k)
 {
   for (int q = k; q < std::min(k + lanes, filled); q++) {
     const Vector3<double> n{batch.normal[0][q], batch.normal[1][q], batch.normal[2][q]};
-    set_turn(q, n, task->history.replace_normal(slots()[q], n));
+    set_normal_change(q, n, task->history.replace_normal(slots()[q], n));
   }
 }
 
-void BodyBatch::set_turn(int lane, const Vector3<double> &normal, const Vector3<double> &before)
+void BodyBatch::set_normal_change(int lane, const Vector3<double> &normal,
+                                  const Vector3<double> &before)
 {
   const bool known = before.x != 0.0 || before.y != 0.0 || before.z != 0.0;
-  const Vector3<double> turn = known ? normal - before : Vector3<double>{0.0, 0.0, 0.0};
-  batch.turn[0][lane] = turn.x;
-  batch.turn[1][lane] = turn.y;
-  batch.turn[2][lane] = turn.z;
+  const Vector3<double> change = known ? normal - before : Vector3<double>{0.0, 0.0, 0.0};
+  batch.normal_change[0][lane] = change.x;
+  batch.normal_change[1][lane] = change.y;
+  batch.normal_change[2][lane] = change.z;
 }
 
 void BodyBatch::gather_histories(int k)
@@ -213,7 +214,7 @@ void BodyBatch::gather_resistance()
   for (int k = 0; k < end; k += lanes) {
     const Vec8 r = load8(&radius[k]), d = load8(&batch.overlap[k]);
     const Vec8 square = 2.0 * r * d - d * d;
-    store(&batch.circle[k], square_root(select(square < zero, zero, square)));
+    store(&batch.intersection_radius[k], square_root(select(square < zero, zero, square)));
   }
 }
 
@@ -236,24 +237,24 @@ void BodyBatch::keep_histories()
     }
 }
 
-/* From here on normals, forces, moments and twisting torques are in the axes of space. */
+/* From here on normals, forces and torques are in space axes. */
 
-void BodyBatch::turn_to_space()
+void BodyBatch::rotate_to_space()
 {
   for (int k = 0; k < end; k += lanes) {
-    const auto turn = [&](Lanes &v) { store_at(v, k, task->frame.to_space(vector_at(v, k))); };
-    turn(batch.normal);
-    turn(batch.force);
-    if (law.has_friction()) turn(batch.moment);
-    if (law.resists()) turn(batch.twisting_torque);
+    const auto rotate = [&](Lanes &v) { store_at(v, k, task->frame.to_space(vector_at(v, k))); };
+    rotate(batch.normal);
+    rotate(batch.force);
+    if (law.has_friction()) rotate(batch.torque_per_radius);
+    if (law.resists()) rotate(batch.twisting_torque);
   }
 }
 
-/* twisting torque - r moment */
+/* twisting_torque - r torque_per_radius */
 
 EightRows BodyBatch::torques(int k) const
 {
-  Vector3<Vec8> torque = -load8(&radius[k]) * vector_at(batch.moment, k);
+  Vector3<Vec8> torque = -load8(&radius[k]) * vector_at(batch.torque_per_radius, k);
   if (law.resists()) torque = vector_at(batch.twisting_torque, k) + torque;
   return rows_of(torque, Vec8{});
 }
@@ -275,7 +276,7 @@ void BodyBatch::add_to_particles()
 
 void BodyBatch::add_load()
 {
-  for (auto *vector : {batch.force, batch.moment, batch.twisting_torque})
+  for (auto *vector : {batch.force, batch.torque_per_radius, batch.twisting_torque})
     for (int d = 0; d < 3; d++) std::fill(vector[d] + filled, vector[d] + end, 0.0);
   const BodyFrame &frame = task->frame;
   const Vector3<Vec8> about = in_all_lanes<Vec8>(frame.moves ? frame.state.position : frame.origin);
@@ -286,7 +287,7 @@ void BodyBatch::add_load()
     Vector3<Vec8> torque = -cross(arm, force);
     if (law.resists())
       torque = torque - (vector_at(batch.twisting_torque, k) -
-                         r * (vector_at(batch.moment, k) - cross(normal, force)));
+                         r * (vector_at(batch.torque_per_radius, k) - cross(normal, force)));
     load_of_lanes[0] = load_of_lanes[0] - force;
     load_of_lanes[1] = load_of_lanes[1] + torque;
     for (int q = 0; q < std::min(lanes, filled - k) && task->exact; q++)

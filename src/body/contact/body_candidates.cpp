@@ -10,7 +10,7 @@
 namespace Talus {
 namespace {
 
-// A body may go half a skin before its list is made anew; particles may each go half a skin in one
+// A body may go half a skin before its list is rebuilt; particles may each go half a skin in one
 // direction before the rebuild that the list is made after, and half a skin in the other.
 constexpr double free_way = 0.5;
 
@@ -65,19 +65,19 @@ void BodyCandidates::list_near(const Search &search, int threads)
   };
   std::vector<Found> found(threads);
   in_ranges(search.view.owned(), threads, [&](int t, int begin, int end) {
-    Found its;
+    Found of_thread;
     for (int i = begin; i < end; i++) {
       if (!search.wants(i)) continue;
       const Vector3<double> x = search.place(i);
       const double reach = search.reach(i);
-      its.farthest = std::max(its.farthest, search.farthest(x, reach));
-      if (search.shape.distance_bound(x) < reach) its.near.push_back(i);
+      of_thread.farthest = std::max(of_thread.farthest, search.farthest(x, reach));
+      if (search.shape.distance_bound(x) < reach) of_thread.near.push_back(i);
     }
-    found[t] = std::move(its);
+    found[t] = std::move(of_thread);
   });
-  for (const Found &its : found) {
-    particles.insert(particles.end(), its.near.begin(), its.near.end());
-    listed_reach = std::max(listed_reach, its.farthest);
+  for (const Found &of_thread : found) {
+    particles.insert(particles.end(), of_thread.near.begin(), of_thread.near.end());
+    listed_reach = std::max(listed_reach, of_thread.farthest);
   }
 }
 

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The owned particles of a rank that may touch a large body before they are listed anew, and of
+// The owned particles of a rank that may touch a large body before they are listed again, and of
 // shapes with parts which of these are near each of them.
 
 #ifndef TALUS_BODY_CONTACT_BODY_CANDIDATES_H
@@ -24,7 +24,7 @@ class BodyCandidates {
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
             const int *mask, int group, double skin, double beyond, int threads);
 
-  /// The body has moved so far that particles must be listed anew.
+  /// The body has moved so far that particles must be listed again.
   bool are_stale(const BodyFrame &frame, double skin) const;
 
   /// The box, in the frame of the body, around all that list() may ask the shape for until the next
@@ -38,7 +38,7 @@ class BodyCandidates {
   double reach() const { return listed_reach; }
 
   std::size_t size() const { return particles.size(); }
-  /// Host's indices.
+  /// Local indices.
   const std::vector<int> &atoms() const { return particles; }
   int atom(std::size_t c) const { return particles[c]; }
   /// How many contacts each may have at the same time; only of shapes with several.

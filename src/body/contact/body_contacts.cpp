@@ -11,9 +11,9 @@ namespace Talus {
 
 void BodyFindings::join(const BodyFindings &other)
 {
-  for (Worst BodyFindings::*its :
+  for (Worst BodyFindings::*finding :
        {&BodyFindings::overlap, &BodyFindings::speed, &BodyFindings::passed, &BodyFindings::idle})
-    if ((other.*its).value > (this->*its).value) this->*its = other.*its;
+    if ((other.*finding).value > (this->*finding).value) this->*finding = other.*finding;
 }
 
 void BodyContacts::set_laws(const LawTable &table)
@@ -43,17 +43,20 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin, int threads)
 {
   index.clear();
-  candidates.list(shape, frame, view, mask, group, skin, largest_reach(view, mask, group), threads);
+  candidates.list(shape, frame, view, mask, group, skin,
+                  largest_pulloff_distance(view, mask, group), threads);
   if (with_history) history.follow(candidates.atoms(), candidates.room());
 }
 
-double BodyContacts::largest_reach(const ParticleState &view, const int *mask, int group) const
+double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,
+                                              int group) const
 {
   double largest = 0.0;
   if (!laws.lasts_beyond_contact()) return largest;
   for (int i = 0; i < view.owned(); i++)
     if (mask[i] & group)
-      largest = std::max(largest, laws.reach(laws.row(view.type(i), view.type(i)), view.radius(i)));
+      largest = std::max(
+          largest, laws.pulloff_distance(laws.row(view.type(i), view.type(i)), view.radius(i)));
   return largest;
 }
 
@@ -89,7 +92,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.account,
           step.virial,
           nullptr,
-          Ask::ALL,
+          ContactData::ALL,
           with_history,
           laws.history_records()};
 }
@@ -171,7 +174,7 @@ EnergyByCause BodyContacts::static_work() const
 /* Contacts are found where they have been found before, so that their histories stay. */
 
 void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                                    const ParticleState &view, double dt, Ask ask,
+                                    const ParticleState &view, double dt, ContactData requested,
                                     const VisitContact &visit)
 {
   index_candidates(shape, view);
@@ -179,13 +182,13 @@ void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame
   step.dt = dt;
   step.advance = false;
   BodyTask task = task_of(shape, frame, view, step);
-  task.survey = &visit;
-  task.ask = ask;
+  task.report = &visit;
+  task.requested = requested;
   BodyBatch{}.compute(task, 0, candidates.size());
 }
 
-BodyFindings BodyContacts::look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
-                                            const ParticleState &view, int threads) const
+BodyFindings BodyContacts::find_worst(const LargeBodyShape &shape, const BodyFrame &frame,
+                                      const ParticleState &view, int threads) const
 {
   if (!shape.thread_safe()) threads = 1;
   std::vector<BodyFindings> found(threads);
@@ -193,7 +196,7 @@ BodyFindings BodyContacts::look_for_trouble(const LargeBodyShape &shape, const B
     found[t] = findings_in(shape, frame, view, first_of(t, threads), first_of(t + 1, threads));
   });
   BodyFindings most;
-  for (const BodyFindings &its : found) most.join(its);
+  for (const BodyFindings &findings : found) most.join(findings);
   return most;
 }
 
@@ -214,19 +217,20 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     const int count = !several    ? static_cast<int>(shape.touches(x, radius, *found))
                       : may_touch ? shape.find_contacts(x, radius, near, found)
                                   : 0;
-    BodyFindings its;
+    BodyFindings of_particle;
     for (int k = 0; k < count; k++)
-      if (const double overlap = found[k].overlap / radius; overlap > its.overlap.value)
-        its.overlap = {overlap, i, found[k].part};
+      if (const double overlap = found[k].overlap / radius; overlap > of_particle.overlap.value)
+        of_particle.overlap = {overlap, i, found[k].part};
     const Vector3<double> v = view.velocity(i);
-    its.speed = {length(frame.moves ? v - frame.velocity_at(place) : v) / radius, i, 0};
+    of_particle.speed = {length(frame.moves ? v - frame.velocity_at(place) : v) / radius, i, 0};
     if (several) {
       const Passage passage = shape.passage(candidates.listed_at(c), x, near);
-      if (passage.part >= 0) its.passed = {passage.from_acting_side ? 1.0 : 2.0, i, passage.part};
+      if (passage.part >= 0)
+        of_particle.passed = {passage.from_acting_side ? 1.0 : 2.0, i, passage.part};
       const int idle = may_touch ? shape.idle_part(x, radius, near) : -1;
-      if (idle >= 0) its.idle = {1.0, i, idle};
+      if (idle >= 0) of_particle.idle = {1.0, i, idle};
     }
-    most.join(its);
+    most.join(of_particle);
   }
   return most;
 }

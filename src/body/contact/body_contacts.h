@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contacts between the owned particles of a rank and one large body, through the same laws and
-// kernels as contacts between particles. Knows nothing of the host.
+// kernels as contacts between particles. Knows nothing of LAMMPS.
 //
 //   at a rebuild   find_candidates()
 //   every step     compute(), after find_candidates() if is_stale()
@@ -31,12 +31,12 @@ struct BodyStep {
   double *virial = nullptr;    ///< added to, six for each owned particle: xx yy zz xy xz yz
 };
 
-/// What a run warns of, among the particles of this rank that are near the body. Of equal values
-/// the first listed counts; zero without any.
+/// Largest values of what a run warns about, over the particles of this rank that are near the
+/// body; of equal values that of the particle listed first; zero without any.
 struct BodyFindings {
   struct Worst {
     double value = 0.0;
-    int particle = 0;    ///< host's index
+    int particle = 0;    ///< local index
     int part = 0;        ///< of the body
   };
   Worst overlap;    ///< over radius
@@ -65,18 +65,18 @@ class BodyContacts {
                        int threads = 1);
 
   /// How far contacts of these particles last beyond zero overlap at most (length).
-  double largest_reach(const ParticleState &view, const int *mask, int group) const;
+  double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
 
-  /// The body has moved so far that particles must be listed anew.
+  /// The body has moved so far that particles must be listed again.
   bool is_stale(const BodyFrame &frame, double skin) const
   {
     return candidates.are_stale(frame, skin);
   }
 
   /// `threads` are used for shapes that are thread_safe(). To be called also before particles are
-  /// listed anew, so that nothing passes unseen in between.
-  BodyFindings look_for_trouble(const LargeBodyShape &shape, const BodyFrame &frame,
-                                const ParticleState &view, int threads = 1) const;
+  /// listed again, so that nothing in between is missed.
+  BodyFindings find_worst(const LargeBodyShape &shape, const BodyFrame &frame,
+                          const ParticleState &view, int threads = 1) const;
 
   /// Adds the contact forces to the particles and returns their reaction. The slots of particles in
   /// the records may change only before find_candidates(), as they do at a rebuild.
@@ -95,9 +95,10 @@ class BodyContacts {
   EnergyByCause static_work() const;
 
   /// Every contact, once forces have been computed: visit(contact). `dt`: of the step.
-  using VisitContact = std::function<void(const SurveyedContact &)>;
+  using VisitContact = std::function<void(const ContactReport &)>;
   void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                        const ParticleState &view, double dt, Ask ask, const VisitContact &visit);
+                        const ParticleState &view, double dt, ContactData requested,
+                        const VisitContact &visit);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.
@@ -106,7 +107,7 @@ class BodyContacts {
   bool keeps_history() const { return with_history; }
   double memory_usage() const;
 
-  /// By particle (host's index), in scenes whose laws keep history. The owner says what it keeps,
+  /// By particle (local index), in scenes whose laws keep history. The owner says what it keeps,
   /// then grows, moves and saves it with the particles.
   BodyHistory history;
 

@@ -111,11 +111,11 @@ void BodyHistory::take_back(std::size_t c)
   const int most = with_several ? counts[c] : 1;
   if (!with_several) set_zero(c);
   int k = 0;
-  lists.for_each(owners[c], [&](const ContactLists::Contact &its) {
+  lists.for_each(owners[c], [&](const ContactLists::Contact &contact) {
     if (k == most) return;
     const std::size_t slot = first_slot(c) + k++;
-    if (with_normals) normals[slot] = {its.value[0], its.value[1], its.value[2]};
-    rows.read(slot, its.value + size_normal);
+    if (with_normals) normals[slot] = {contact.value[0], contact.value[1], contact.value[2]};
+    rows.read(slot, contact.value + size_normal);
   });
   if (!with_several && k)
     touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8), std::memory_order_relaxed);
@@ -168,10 +168,10 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
     if (ends && !ends->lasts(known.contact[k].history[0])) last &= ~(1U << k);
   }
   int left = 0;
-  const auto go_on = [&](const SurfaceContact &its, int with) {
-    found[left] = its;
+  const auto keep_contact = [&](const SurfaceContact &contact, int with) {
+    found[left] = contact;
     if (before) before[left] = with >= 0 ? known.contact[with].normal : Vector3<double>{};
-    normals[slot + left] = its.normal;
+    normals[slot + left] = contact.normal;
     if (with >= 0) {
       known.continued |= 1U << with;
       rows.set(slot + left, known.contact[with].history);
@@ -183,7 +183,7 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
   for (int n = 0; n < count; n++) {
     const bool touches = found[n].overlap > 0.0;
     const int best = known.nearest(found[n].normal, touches ? ~0U : last);
-    if (touches || best >= 0) go_on(found[n], best);
+    if (touches || best >= 0) keep_contact(found[n], best);
   }
   const std::size_t end = candidate + 1 < first.size() ? first[candidate + 1] : rows.size();
   const int room = std::min(static_cast<int>(end - slot), LargeBodyShape::max_contacts);
@@ -192,7 +192,7 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
     const int num_far = ends->look_further(far);
     for (int n = 0; n < num_far && left < room; n++) {
       const int best = far[n].overlap > 0.0 ? -1 : known.nearest(far[n].normal, last);
-      if (best >= 0) go_on(far[n], best);
+      if (best >= 0) keep_contact(far[n], best);
     }
   }
   counts[candidate] = static_cast<std::uint8_t>(left);

@@ -4,8 +4,8 @@
 // only its candidates have room for histories: slots side by side in the order of the candidates,
 // which is that in which a step reads and writes them. A candidate has as many slots as it may have
 // contacts at the same time; where that is one, its slot has its own number. With the first call
-// that moves a particle (host's index) they go to lists by particle, which follow them to other
-// places, ranks and restart files, until there are new candidates.
+// that moves a particle (local index) they are moved to lists by particle, which follow particles
+// to other indices, ranks and restart files, until there are new candidates.
 //
 //   particles are renumbered   copy(), forget(), pack(), unpack()
 //   new candidates             follow()
@@ -76,16 +76,16 @@ class BodyHistory {
   void set_values(std::size_t slot, const HistoryValues &values) { rows.read(slot, values.data()); }
 
   /// Without several(): which of the candidates 8 block ... 8 block + 7 touch now, of those whose
-  /// bits are set in `asked`. Histories of those that did and do no longer are forgotten.
+  /// bits are set in `asked`. Histories of those that touched and no longer do are cleared.
   void set_touching(std::size_t block, unsigned asked, unsigned bits)
   {
-    std::atomic<std::uint8_t> &its = touching[block];
-    const unsigned changed = (its.load(std::memory_order_relaxed) & asked) ^ bits;
+    std::atomic<std::uint8_t> &touching_bits = touching[block];
+    const unsigned changed = (touching_bits.load(std::memory_order_relaxed) & asked) ^ bits;
     if (!changed) return;
     if (const unsigned separated = changed & ~bits) clear(block, separated);
-    its.fetch_xor(static_cast<std::uint8_t>(changed), std::memory_order_relaxed);
+    touching_bits.fetch_xor(static_cast<std::uint8_t>(changed), std::memory_order_relaxed);
   }
-  /// Bits of the candidates of a block that touched when last looked at; 0 beyond the end.
+  /// Bits of the candidates of a block that touched in the last set_touching(); 0 beyond the end.
   unsigned touched(std::size_t block) const
   {
     return block < touching.size() ? touching[block].load(std::memory_order_relaxed) : 0;
@@ -143,7 +143,7 @@ class BodyHistory {
   bool with_several = false, with_normals = false;
   ContactLists lists;         // of contacts that have been put aside, or have arrived
   bool are_listed = true;     // all are
-  std::vector<int> owners;    // of candidates: host's indices
+  std::vector<int> owners;    // of candidates: local indices
   // by candidate, only with several contacts: first slot, contacts
   std::vector<std::uint32_t> first;
   std::vector<std::uint8_t> counts;

@@ -8,8 +8,8 @@
 
 namespace Talus {
 
-/// What the particles of one rank do to the body: force, and torque about its reference point, in
-/// the axes of space.
+/// Load of the particles of one rank on the body: force, and torque about its reference point, in
+/// space axes.
 struct BodyLoad {
   Vector3<double> force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
   double contacts = 0.0;

@@ -6,7 +6,7 @@
 
 namespace Talus {
 
-Eigen::Quaterniond turn_of(const Vector3<double> &omega, double dt)
+Eigen::Quaterniond rotation_by(const Vector3<double> &omega, double dt)
 {
   const double speed = length(omega);
   if (!(speed > 0.0)) return Eigen::Quaterniond::Identity();
@@ -39,7 +39,7 @@ BodyState half_way_between(const BodyState &a, const BodyState &b)
   return s;
 }
 
-void BodyMoment::set(const BodyState &s)
+void BodyKinematics::set(const BodyState &s)
 {
   position = s.position;
   rotation = s.orientation.toRotationMatrix();

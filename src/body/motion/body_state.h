@@ -10,8 +10,8 @@
 
 namespace Talus {
 
-/// The turn that an angular velocity makes in the time dt.
-Eigen::Quaterniond turn_of(const Vector3<double> &omega, double dt);
+/// Rotation by an angular velocity during dt.
+Eigen::Quaterniond rotation_by(const Vector3<double> &omega, double dt);
 
 struct BodyState {
   Vector3<double> position{0.0, 0.0, 0.0};                            ///< of the reference point
@@ -29,8 +29,8 @@ struct BodyState {
 /// Half way between two poses; velocities are not set.
 BodyState half_way_between(const BodyState &a, const BodyState &b);
 
-/// Place and velocities of a body at one time.
-struct BodyMoment {
+/// Position, rotation and velocities of a body at one time.
+struct BodyKinematics {
   Vector3<double> position{0.0, 0.0, 0.0};
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Vector3<double> velocity{0.0, 0.0, 0.0}, omega{0.0, 0.0, 0.0};
@@ -40,9 +40,10 @@ struct BodyMoment {
   template <class Real>
   Vector3<Real> velocity_seen(const Vector3<Real> &v, const Vector3<Real> &x) const
   {
-    const Vector3<Real> own = in_all_lanes<Real>(velocity) +
-                              cross(in_all_lanes<Real>(omega), x - in_all_lanes<Real>(position));
-    return rotated_back(rotation, v - own);
+    const Vector3<Real> of_body =
+        in_all_lanes<Real>(velocity) +
+        cross(in_all_lanes<Real>(omega), x - in_all_lanes<Real>(position));
+    return rotated_back(rotation, v - of_body);
   }
   template <class Real> Vector3<Real> omega_seen(const Vector3<Real> &w) const
   {
@@ -50,8 +51,9 @@ struct BodyMoment {
   }
 };
 
-/// A body as its contacts see it in one step. `moves` false: space and body share one frame, the
-/// state is not looked at. Vectors may be those of one contact (Real = double) or of eight (Vec8).
+/// State of a body in one step, as its contacts use it. `moves` false: space and body share one
+/// frame, the state is not looked at. Vectors may be those of one contact (Real = double) or of
+/// eight (Vec8).
 struct BodyFrame {
   bool moves = false;
   BodyState state;
@@ -64,9 +66,9 @@ struct BodyFrame {
   Vector3<double> velocity_change{0.0, 0.0, 0.0}, omega_change{0.0, 0.0, 0.0};
   /// Only for laws of second order: at the time of the velocities of particles, and at that of
   /// positions with velocities that are as far ahead.
-  BodyMoment half_way, present;
-  /// The surface runs past the body that stays, like a belt: frame of the body; at each contact
-  /// only the part that is tangential there counts. `runs` false: it does not.
+  BodyKinematics half_way, present;
+  /// Velocity of the surface of a body at rest, like that of a conveyor belt, in the frame of the
+  /// body; at each contact only its tangential part counts. `runs`: there is one.
   bool runs = false;
   Vector3<double> surface_velocity{0.0, 0.0, 0.0};
 

@@ -47,7 +47,7 @@ template <class Real> struct ClumpState {
                                     ///< does not turn about its axis
   Vector3<Real> position, velocity;
   Vector3<Real> momentum, omega;    ///< angular momentum and velocity
-  Turn<Real> turn;
+  Quaternion<Real> quat;
   PrincipalAxes<Real> axes;    ///< those of `turn`
 
   /// Of its angular momentum, in its present orientation.
@@ -73,15 +73,15 @@ template <class Real> struct ClumpState {
   {
     position = position + splat<Real>(dt) * velocity;
     const Vector3<Real> omega_at_first = omega_now();
-    const Turn<Real> whole = moved(turn, omega_at_first, dt);
-    const Turn<Real> half = moved(turn, omega_at_first, 0.5 * dt);
+    const Quaternion<Real> whole = moved(quat, omega_at_first, dt);
+    const Quaternion<Real> half = moved(quat, omega_at_first, 0.5 * dt);
     omega = omega_of(half.axes());
-    const Turn<Real> halves = moved(half, omega, 0.5 * dt);
+    const Quaternion<Real> halves = moved(half, omega, 0.5 * dt);
     const Real two = splat<Real>(2.0);
-    turn = Turn<Real>{two * halves.w - whole.w, two * halves.x - whole.x, two * halves.y - whole.y,
-                      two * halves.z - whole.z}
+    quat = Quaternion<Real>{two * halves.w - whole.w, two * halves.x - whole.x,
+                            two * halves.y - whole.y, two * halves.z - whole.z}
                .normalized();
-    axes = turn.axes();
+    axes = quat.axes();
   }
 
   /// position += dt velocity; the orientation goes on as in free_rotation.h, for which y has to be
@@ -90,8 +90,8 @@ template <class Real> struct ClumpState {
   {
     position = position + splat<Real>(dt) * velocity;
     const Vector3<Real> along =
-        rotate_freely(turn, momentum, axes.to_body(momentum), inverse_inertia, dt);
-    axes = turn.axes();
+        rotate_freely(quat, momentum, axes.to_body(momentum), inverse_inertia, dt);
+    axes = quat.axes();
     omega = axes.to_space(by_inertia(along));
   }
 
@@ -111,17 +111,17 @@ template <class Real> struct ClumpState {
     return {l.x * inverse_inertia.x, l.y * inverse_inertia.y, l.z * inverse_inertia.z};
   }
 
-  Vector3<Real> omega_of(const PrincipalAxes<Real> &its_axes) const
+  Vector3<Real> omega_of(const PrincipalAxes<Real> &present_axes) const
   {
-    return its_axes.to_space(by_inertia(its_axes.to_body(momentum)));
+    return present_axes.to_space(by_inertia(present_axes.to_body(momentum)));
   }
 
   /// q + h omega q/2, normalized.
-  static Turn<Real> moved(const Turn<Real> &q, const Vector3<Real> &w, double h)
+  static Quaternion<Real> moved(const Quaternion<Real> &q, const Vector3<Real> &w, double h)
   {
-    const Turn<Real> rate = Turn<Real>{Real{}, w.x, w.y, w.z} * q;
+    const Quaternion<Real> rate = Quaternion<Real>{Real{}, w.x, w.y, w.z} * q;
     const Real s = splat<Real>(0.5 * h);
-    return Turn<Real>{q.w + s * rate.w, q.x + s * rate.x, q.y + s * rate.y, q.z + s * rate.z}
+    return Quaternion<Real>{q.w + s * rate.w, q.x + s * rate.x, q.y + s * rate.y, q.z + s * rate.z}
         .normalized();
   }
 };

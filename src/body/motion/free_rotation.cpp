@@ -9,7 +9,7 @@ namespace {
 
 PrincipalAxes<double> axes_of(const Eigen::Quaterniond &q)
 {
-  return Turn<double>{q.w(), q.x(), q.y(), q.z()}.axes();
+  return Quaternion<double>{q.w(), q.x(), q.y(), q.z()}.axes();
 }
 
 Vector3<double> by_component(const Vector3<double> &a, const Vector3<double> &b)
@@ -33,18 +33,18 @@ FreeRotation::FreeRotation(const double (&moments)[3], const Eigen::Quaterniond 
   principal = (axes * Eigen::Quaterniond(sorted)).normalized();
 }
 
-void FreeRotation::turn(Eigen::Quaterniond &orientation, Vector3<double> &omega,
-                        const Vector3<double> &momentum, double dt) const
+void FreeRotation::rotate(Eigen::Quaterniond &orientation, Vector3<double> &omega,
+                          const Vector3<double> &momentum, double dt) const
 {
   if (dot(momentum, momentum) == 0.0) {
     omega = {0.0, 0.0, 0.0};
     return;
   }
   const Eigen::Quaterniond q = orientation * principal;
-  Turn<double> turn{q.w(), q.x(), q.y(), q.z()};
+  Quaternion<double> quat{q.w(), q.x(), q.y(), q.z()};
   const Vector3<double> along =
-      rotate_freely(turn, momentum, turn.axes().to_body(momentum), inverse, dt);
-  const Eigen::Quaterniond frame(turn.w, turn.x, turn.y, turn.z);
+      rotate_freely(quat, momentum, quat.axes().to_body(momentum), inverse, dt);
+  const Eigen::Quaterniond frame(quat.w, quat.x, quat.y, quat.z);
   omega = axes_of(frame).to_space(by_component(inverse, along));
   orientation = (frame * principal.conjugate()).normalized();
 }

@@ -17,7 +17,7 @@
 #define TALUS_BODY_MOTION_FREE_ROTATION_H
 
 #include "base/linear_algebra.h"
-#include "body/motion/turn.h"
+#include "body/motion/quaternion.h"
 
 namespace Talus {
 
@@ -25,7 +25,7 @@ namespace Talus {
 /// middle, to those of space, and goes on for dt. `momentum`: in the axes of space; `along`: the
 /// same in those of the body, before; returns what it is after. `inverse`: 1/moments.
 template <class Real>
-inline Vector3<Real> rotate_freely(Turn<Real> &turn, const Vector3<Real> &momentum,
+inline Vector3<Real> rotate_freely(Quaternion<Real> &quat, const Vector3<Real> &momentum,
                                    Vector3<Real> along, const Vector3<Real> &inverse, double dt)
 {
   const Real two = splat<Real>(2.0);
@@ -33,8 +33,8 @@ inline Vector3<Real> rotate_freely(Turn<Real> &turn, const Vector3<Real> &moment
     Real cosine, sine;
   };
   const auto half_angle = [](Real half) {
-    const Angle<Real> its = angle_of_square<Real>(half * half);
-    return HalfAngle{its.cosine, half * its.sine_ratio};
+    const Angle<Real> angle = angle_of_square<Real>(half * half);
+    return HalfAngle{angle.cosine, half * angle.sine_ratio};
   };
   // momentum in axes that turn, by twice a half angle
   const auto turned_back = [two](const HalfAngle &h, Real &a, Real &b) {
@@ -52,13 +52,13 @@ inline Vector3<Real> rotate_freely(Turn<Real> &turn, const Vector3<Real> &moment
   const HalfAngle third = half_angle(of_x * along.x);
   turned_back(third, along.y, along.z);
 
-  const Turn<Real> two_of_them{first.cosine * second.cosine, first.sine * second.cosine,
-                               -(first.sine * second.sine), first.cosine * second.sine};
+  const Quaternion<Real> two_of_them{first.cosine * second.cosine, first.sine * second.cosine,
+                                     -(first.sine * second.sine), first.cosine * second.sine};
   const Real c = third.cosine, s = third.sine;
-  const Turn<Real> all{two_of_them.w * c - two_of_them.x * s, two_of_them.x * c + two_of_them.w * s,
-                       two_of_them.y * c + two_of_them.z * s,
-                       two_of_them.z * c - two_of_them.y * s};
-  turn = (turn_in(inverse.y * momentum, dt) * (turn * all)).renormalized();
+  const Quaternion<Real> all{
+      two_of_them.w * c - two_of_them.x * s, two_of_them.x * c + two_of_them.w * s,
+      two_of_them.y * c + two_of_them.z * s, two_of_them.z * c - two_of_them.y * s};
+  quat = (rotation_in(inverse.y * momentum, dt) * (quat * all)).renormalized();
   return along;
 }
 
@@ -75,11 +75,11 @@ class FreeRotation {
   void advance(Eigen::Quaterniond &orientation, Vector3<double> &omega,
                const Vector3<double> &torque, double dt) const
   {
-    turn(orientation, omega, angular_momentum(orientation, omega) + dt * torque, dt);
+    rotate(orientation, omega, angular_momentum(orientation, omega) + dt * torque, dt);
   }
   /// The same from the angular momentum, which is kept; `omega` becomes that of the end.
-  void turn(Eigen::Quaterniond &orientation, Vector3<double> &omega,
-            const Vector3<double> &momentum, double dt) const;
+  void rotate(Eigen::Quaterniond &orientation, Vector3<double> &omega,
+              const Vector3<double> &momentum, double dt) const;
 
   Vector3<double> angular_momentum(const Eigen::Quaterniond &orientation,
                                    const Vector3<double> &omega) const;

@@ -67,7 +67,7 @@ void RigidBody::advance(BodyState &state, const Vector3<double> &acceleration,
   }
   if (turns_freely())
     FreeRotation(inertia, Eigen::Quaterniond::Identity())
-        .turn(state.orientation, state.omega, momentum, dt);
+        .rotate(state.orientation, state.omega, momentum, dt);
   else
     turn_with_locks(state, momentum, dt);
 }
@@ -82,10 +82,10 @@ void RigidBody::turn_with_locks(BodyState &state, const Vector3<double> &momentu
   Vector3<double> omega = omega_of(momentum, now);
   for (int n = 0; n < most; n++) {
     const Vector3<double> last = omega;
-    omega = omega_of(momentum, (turn_of(last, 0.5 * dt) * now).normalized());
+    omega = omega_of(momentum, (rotation_by(last, 0.5 * dt) * now).normalized());
     if (length(omega - last) <= rounding * length(omega)) break;
   }
-  state.orientation = (turn_of(omega, dt) * now).normalized();
+  state.orientation = (rotation_by(omega, dt) * now).normalized();
   state.omega = omega_of(momentum, state.orientation);
 }
 
@@ -105,7 +105,7 @@ void Servo::advance(BodyState &state, double rate, double dt) const
 {
   set_rate(state, rate);
   if (turns)
-    state.orientation = (turn_of(state.omega, dt) * state.orientation).normalized();
+    state.orientation = (rotation_by(state.omega, dt) * state.orientation).normalized();
   else
     state.position = state.position + dt * state.velocity;
 }

@@ -19,7 +19,7 @@
 
 #include <string>
 
-/// Raise it with every change of large_body_shape.h that shapes must be compiled anew for.
+/// Raise it with every change of large_body_shape.h that shapes must be compiled again for.
 /// 1: talus_make_shape(), without a version in its name.
 #define TALUS_SHAPE_VERSION 4
 

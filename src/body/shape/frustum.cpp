@@ -12,7 +12,7 @@
 namespace Talus {
 namespace {
 
-enum Face { MANTLE, LOW_CAP, HIGH_CAP };
+enum Face { LATERAL, LOW_CAP, HIGH_CAP };
 
 Vector3<double> any_normal_to(const Vector3<double> &axis)
 {
@@ -39,11 +39,11 @@ Frustum::Frustum(const Vector3<double> &center, const Vector3<double> &direction
                  double high_, double length, bool in, bool no_caps) :
     middle(center),
     axis(direction), side(any_normal_to(direction)), low(low_), high(high_), half(0.5 * length),
-    inside(in), endless(std::isinf(length)), open(no_caps)
+    inside(in), infinite(std::isinf(length)), open(no_caps)
 {
-  const double slope = endless ? 0.0 : (high - low) / length;
-  lean_rho = 1.0 / std::sqrt(1.0 + slope * slope);
-  lean_s = -slope * lean_rho;
+  const double slope = infinite ? 0.0 : (high - low) / length;
+  normal_rho = 1.0 / std::sqrt(1.0 + slope * slope);
+  normal_s = -slope * normal_rho;
 }
 
 Frustum::Meridian Frustum::meridian(const Vector3<double> &center) const
@@ -58,16 +58,16 @@ Frustum::Meridian Frustum::meridian(const Vector3<double> &center) const
 void Frustum::depths(const Meridian &m, double (&depth)[3]) const
 {
   constexpr double never = std::numeric_limits<double>::infinity();
-  depth[MANTLE] = -((m.rho - 0.5 * (low + high)) * lean_rho + m.s * lean_s);
-  depth[LOW_CAP] = endless || low == 0.0 ? never : m.s + half;
-  depth[HIGH_CAP] = endless || high == 0.0 ? never : half - m.s;
+  depth[LATERAL] = -((m.rho - 0.5 * (low + high)) * normal_rho + m.s * normal_s);
+  depth[LOW_CAP] = infinite || low == 0.0 ? never : m.s + half;
+  depth[HIGH_CAP] = infinite || high == 0.0 ? never : half - m.s;
 }
 
 Vector3<double> Frustum::inward(const Meridian &m, int face) const
 {
   if (face == LOW_CAP) return axis;
   if (face == HIGH_CAP) return -axis;
-  return -(lean_rho * m.away + lean_s * axis);
+  return -(normal_rho * m.away + normal_s * axis);
 }
 
 bool Frustum::touches(const Vector3<double> &center, double radius, SurfaceContact &contact) const
@@ -110,7 +110,7 @@ bool Frustum::touches_from_outside(const Vector3<double> &center, double radius,
   depths(m, depth);
   const int nearest = static_cast<int>(std::min_element(depth, depth + 3) - depth);
   contact.part = 0;
-  if (depth[nearest] >= 0.0 || endless) {    // inside
+  if (depth[nearest] >= 0.0 || infinite) {    // inside
     if (std::fabs(depth[nearest]) >= radius) return false;
     contact.normal = -inward(m, nearest);
     contact.overlap = radius + depth[nearest];
@@ -127,9 +127,9 @@ bool Frustum::touches_from_outside(const Vector3<double> &center, double radius,
   return true;
 }
 
-void Frustum::from_mantle(const Meridian &m, double &rho, double &s) const
+void Frustum::from_lateral(const Meridian &m, double &rho, double &s) const
 {
-  if (endless) {
+  if (infinite) {
     rho = m.rho - low;
     s = 0.0;
     return;
@@ -146,12 +146,12 @@ bool Frustum::touches_open(const Vector3<double> &center, double radius,
 {
   const Meridian m = meridian(center);
   double rho, s;
-  from_mantle(m, rho, s);
+  from_lateral(m, rho, s);
   const double distance = std::sqrt(rho * rho + s * s);
   if (distance >= radius) return false;
   contact.part = 0;
   contact.normal =
-      distance > 0.0 ? (rho / distance) * m.away + (s / distance) * axis : inward(m, MANTLE);
+      distance > 0.0 ? (rho / distance) * m.away + (s / distance) * axis : inward(m, LATERAL);
   contact.overlap = radius - distance;
   return true;
 }
@@ -177,13 +177,13 @@ double Frustum::distance_bound(const Vector3<double> &center) const
   const Meridian m = meridian(center);
   if (open) {
     double rho, s;
-    from_mantle(m, rho, s);
+    from_lateral(m, rho, s);
     return std::sqrt(rho * rho + s * s);
   }
   double depth[3];
   depths(m, depth);
   const double least = std::min({depth[0], depth[1], depth[2]});
-  if (least >= 0.0 || endless || inside) return std::fabs(least);
+  if (least >= 0.0 || infinite || inside) return std::fabs(least);
   double rho, s;
   from_outline(m, rho, s);
   return std::sqrt(rho * rho + s * s);
@@ -195,8 +195,8 @@ void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangl
   const Vector3<double> span = from_eigen(visible.sizes());
   const Vector3<double> center = from_eigen(visible.center());
   const double reach = std::sqrt(dot(span, span));
-  const double shift = endless ? dot(center - middle, axis) : 0.0;
-  const double l = endless ? 0.5 * reach : half;
+  const double shift = infinite ? dot(center - middle, axis) : 0.0;
+  const double l = infinite ? 0.5 * reach : half;
   const Vector3<double> other = cross(axis, side);
   const Vector3<double> cap[2] = {middle + (shift - l) * axis, middle + (shift + l) * axis};
   const auto point = [&](int end, int sector) {
@@ -206,7 +206,7 @@ void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangl
   for (int k = 0; k < sectors; k++) {
     if (low > 0.0) triangles.push_back({{point(0, k), point(0, k + 1), point(1, k)}});
     if (high > 0.0) triangles.push_back({{point(0, k + 1), point(1, k + 1), point(1, k)}});
-    if (endless || open) continue;
+    if (infinite || open) continue;
     if (low > 0.0) triangles.push_back({{cap[0], point(0, k + 1), point(0, k)}});
     if (high > 0.0) triangles.push_back({{cap[1], point(1, k), point(1, k + 1)}});
   }

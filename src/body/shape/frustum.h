@@ -12,13 +12,13 @@ namespace Talus {
 ///
 /// Outside: a sphere touches the nearest point; the normal turns continuously around the rims. A
 /// center inside is pushed out through the nearest face, up to one radius deep. Inside: a sphere
-/// touches the mantle (part 0) and each cap (1 and 2) that it reaches, taken as continued beyond
-/// the rims, up to a center one radius behind; it touches the mantle at one point only, so that a
-/// sphere wider than the cone is not held. A cap of radius 0 is not there. Where the nearest point
-/// of the mantle is undefined, on the axis, a fixed direction is taken.
+/// touches the lateral surface (part 0) and each cap (1 and 2) that it reaches, taken as continued
+/// beyond the rims, up to a center one radius behind; it touches the lateral surface at one point
+/// only, so that a sphere wider than the cone is not held. A cap of radius 0 is not there. Where
+/// the nearest point of the lateral surface is undefined, on the axis, a fixed direction is taken.
 ///
-/// Open: the mantle alone, without thickness and caps, touched from inside and outside at its
-/// nearest point, which may be on a rim.
+/// Open: the lateral surface alone, without thickness and caps, touched from inside and outside at
+/// its nearest point, which may be on a rim.
 class Frustum : public LargeBodyShape {
  public:
   /// `axis`: unit vector; `low`: radius at -length/2 along it, `high` at +length/2. Radii >= 0, one
@@ -26,7 +26,7 @@ class Frustum : public LargeBodyShape {
   Frustum(const Vector3<double> &center, const Vector3<double> &axis, double low, double high,
           double length, bool inside, bool open = false);
 
-  bool is_endless() const { return endless; }
+  bool is_infinite() const { return infinite; }
   /// The edge of a cap, 0 at the low end, 1 at the high one.
   struct Rim {
     Vector3<double> center;
@@ -44,7 +44,7 @@ class Frustum : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
-  int most_contacts() const override { return inside && !endless && !open ? 3 : 1; }
+  int most_contacts() const override { return inside && !infinite && !open ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,
@@ -59,14 +59,14 @@ class Frustum : public LargeBodyShape {
     Vector3<double> away;
   };
   Meridian meridian(const Vector3<double> &center) const;
-  /// Heights above mantle, low cap and high cap, positive inside.
+  /// Heights above lateral surface, low cap and high cap, positive inside.
   void depths(const Meridian &m, double (&depth)[3]) const;
   Vector3<double> inward(const Meridian &m, int face) const;
   /// Vector (rho, s) from the nearest point of the outline, for points outside.
   void from_outline(const Meridian &m, double &rho, double &s) const;
 
-  /// Of the mantle alone.
-  void from_mantle(const Meridian &m, double &rho, double &s) const;
+  /// Of the lateral surface alone.
+  void from_lateral(const Meridian &m, double &rho, double &s) const;
 
   bool touches_open(const Vector3<double> &center, double radius, SurfaceContact &contact) const;
   bool touches_from_outside(const Vector3<double> &center, double radius,
@@ -76,8 +76,8 @@ class Frustum : public LargeBodyShape {
 
   Vector3<double> middle, axis, side;    // side: unit vector normal to the axis
   double low, high, half;
-  double lean_rho, lean_s;    // outward normal of the mantle
-  bool inside, endless, open;
+  double normal_rho, normal_s;    // outward normal of the lateral surface
+  bool inside, infinite, open;
 };
 
 }    // namespace Talus

@@ -10,8 +10,8 @@
 //
 // A shape that touches a sphere at one point at most implements touches() and distance_bound(), and
 // touches_eight() if it is to be fast. One that may touch it at several points, such as the inside
-// of a box, says so (most_contacts()) and implements find_contacts() as well, and is_near() if it
-// wants to remember which parts of it are near.
+// of a box, says so (most_contacts()) and implements find_contacts() as well, and is_near() to list
+// which of its parts are near a particle.
 //
 // Raise TALUS_SHAPE_VERSION in custom_shape.h with every change of what is declared here.
 
@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <vector>
 
-// Only shapes that draw themselves or want a focus need <Eigen/Geometry>.
+// Only shapes with draw() or focus() need <Eigen/Geometry>.
 namespace Eigen {
 template <typename Scalar, int dimension> class AlignedBox;
 typedef AlignedBox<double, 3> AlignedBox3d;
@@ -55,7 +55,7 @@ struct EightContacts {
 /// A part of a body near some particle, and its distance at the time when it was listed.
 struct NearPart {
   int part;
-  int group;    ///< what the shape wants to know of it without looking
+  int group;    ///< for the shape: what it needs without reading the part
   double distance;
 };
 
@@ -138,11 +138,11 @@ class LargeBodyShape {
   /// Prefetches what find_contacts() will read of a part.
   virtual void prefetch(int part) const { (void) part; }
 
-  /// Has so many parts that it wants to know which may be asked for.
+  /// Has so many parts that it prepares only those near the particles of this rank, see focus().
   virtual bool wants_focus() const { return false; }
 
-  /// From now on only spheres are asked for that stay within `bounds`, until this is called again:
-  /// parts that were listed before are no longer valid then. Returns whether anything changed.
+  /// Until the next call all spheres that are asked for stay within `bounds`; parts that were
+  /// listed before are no longer valid. Returns whether anything changed.
   virtual bool focus(const Eigen::AlignedBox3d &bounds)
   {
     (void) bounds;

@@ -23,8 +23,8 @@ bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
 
 }    // namespace
 
-MeshDetail::MeshDetail(const TriangleMesh &its_mesh, const Eigen::AlignedBox3d &cover) :
-    mesh(its_mesh)
+MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh, const Eigen::AlignedBox3d &cover) :
+    mesh(triangle_mesh)
 {
   const std::vector<int> numbers = members(cover);
   if (numbers.empty()) return;
@@ -63,10 +63,10 @@ void MeshDetail::make_faces(const std::vector<int> &numbers)
 {
   faces.reserve(numbers.size());
   for (const int t : numbers) {
-    const Triangle its = mesh.triangle(t);
+    const Triangle triangle = mesh.triangle(t);
     const Vector3<double> n = mesh.normal(mesh.plane_of(t));
     Face face{};
-    std::copy(its.corner, its.corner + 3, face.corner);
+    std::copy(triangle.corner, triangle.corner + 3, face.corner);
     face.normal = n;
     face.offset = dot(mesh.vertex(mesh.corners(mesh.plane_of(t)).vertex[0]), n);
     face.number = t;
@@ -81,15 +81,15 @@ void MeshDetail::find_vertices(const std::vector<int> &numbers)
   std::vector<int> here(mesh.num_vertices(), none);
   corners.reserve(numbers.size());
   for (const int t : numbers) {
-    Corners its = mesh.corners(t);
-    for (int &v : its.vertex) {
+    Corners vertices = mesh.corners(t);
+    for (int &v : vertices.vertex) {
       if (here[v] == none) {
         here[v] = static_cast<int>(vertex_numbers.size());
         vertex_numbers.push_back(v);
       }
       v = here[v];
     }
-    corners.push_back(its);
+    corners.push_back(vertices);
   }
   vertex_numbers.shrink_to_fit();
 }
@@ -102,25 +102,25 @@ void MeshDetail::find_neighbors(const MeshEdges &edges)
   neighbors.reserve(faces.size());
   for (std::size_t t = 0; t < faces.size(); t++) {
     Face &face = faces[t];
-    Neighbors its{};
+    Neighbors adjacent{};
     for (int k = 0; k < 3; k++) {
       const MeshEdges::Edge &edge = edges.of(static_cast<int>(t), k);
       const int *user = edges.users(edge);
       const bool is_first = user[0] == static_cast<int>(t);
       if (is_first) face.reports_edge |= static_cast<unsigned char>(1U << k);
-      its.over[k] = none;
+      adjacent.over[k] = none;
       if (edge.num_users == 2) {
-        its.over[k] = is_first ? user[1] : user[0];
-        const double cosine = dot(face.normal, faces[its.over[k]].normal);
+        adjacent.over[k] = is_first ? user[1] : user[0];
+        const double cosine = dot(face.normal, faces[adjacent.over[k]].normal);
         if (cosine > 0.0)
           face.least_square_cosine[k] = static_cast<float>(std::max(cosine * cosine - slack, 0.0));
       }
       if (edge.num_users > 2 && is_first) {    // only this one asks
-        its.over[k] = -2 - static_cast<int>(crowded.size());
-        crowded.emplace_back(user, user + edge.num_users);
+        adjacent.over[k] = -2 - static_cast<int>(nonmanifold.size());
+        nonmanifold.emplace_back(user, user + edge.num_users);
       }
     }
-    neighbors.push_back(its);
+    neighbors.push_back(adjacent);
   }
 }
 
@@ -279,7 +279,7 @@ bool MeshDetail::edge_is_minimum(int t, const NearestPoint &nearest, double &hei
   Vector3<double> outward{0.0, 0.0, 0.0};
   const int over = neighbors[t].over[nearest.index];
   if (over < none) {
-    for (const int user : crowded[-2 - over])
+    for (const int user : nonmanifold[-2 - over])
       if (!edge_user(user, t, nearest, outward)) return false;
   } else {
     if (!edge_user(t, t, nearest, outward)) return false;
@@ -307,9 +307,9 @@ bool MeshDetail::corner_is_minimum(int t, const NearestPoint &nearest, double &h
 double MeshDetail::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  double sum = bytes(faces) + bytes(near) + bytes(neighbors) + bytes(crowded) + bytes(corners) +
+  double sum = bytes(faces) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
                bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals);
-  for (const auto &users : crowded) sum += bytes(users);
+  for (const auto &users : nonmanifold) sum += bytes(users);
   return sum + (tree ? tree->memory_usage() : 0.0);
 }
 

@@ -51,8 +51,8 @@ class MeshDetail {
   /// Does the way between two points lead through triangle t? At its rim, by rounding, perhaps.
   bool is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const;
 
-  /// Is the nearest point of triangle t a point of the whole surface from which the distance grows
-  /// in all directions, and is t the triangle that reports it, once for all that share it? `height`
+  /// Whether the nearest point of triangle t is a local minimum of the distance from the whole
+  /// surface, and t, of all triangles that share this point, the one that reports it. `height`
   /// receives a number whose sign tells on which side of the surface the point is; of a face the
   /// distance.
   bool is_local_minimum(int t, const NearestPoint &nearest, double &height) const;
@@ -100,7 +100,7 @@ class MeshDetail {
   std::vector<int> near;    // faces within the cover; the others are their neighbors
   std::unique_ptr<BoxTree> tree;
   std::vector<Neighbors> neighbors;
-  std::vector<std::vector<int>> crowded;    // all triangles of an edge, ascending
+  std::vector<std::vector<int>> nonmanifold;    // all triangles of an edge, ascending
   // vertices: numbers of their own; which of the mesh, those joined to them by an edge, normal
   // weighted by angle
   std::vector<Corners> corners;

@@ -22,7 +22,8 @@ std::vector<Eigen::AlignedBox3d> shadows(const TriangleMesh &mesh)
 
 }    // namespace
 
-MeshInterior::MeshInterior(const TriangleMesh &its_mesh) : mesh(its_mesh), tree(shadows(its_mesh))
+MeshInterior::MeshInterior(const TriangleMesh &triangle_mesh) :
+    mesh(triangle_mesh), tree(shadows(triangle_mesh))
 {
 }
 

@@ -14,10 +14,11 @@ namespace {
 
 constexpr int max_minima = 64;    // of one sphere, before they are merged
 
-constexpr int max_planes = 4;    // that are remembered to be touched
+constexpr int max_planes = 4;    // of one sphere that are known to be touched
 
-// A cover is so much longer than what has to be in it, at each end, so that it need not be made
-// anew soon; old and new are joined if this does not make it larger than so many times the new one.
+// A cover is longer at each end, by this share, than what it must contain, so that it is not
+// recomputed soon; old and new are joined if this does not make it larger than so many times the
+// new one.
 constexpr double spare = 0.1;
 constexpr double joins = 4.0;
 

@@ -26,8 +26,8 @@ enum class MeshSide { NORMALS, BACKS, BOTH, UNDECIDED };
 /// TriangleMesh::smooth_angle only the deepest counts, so that the force stays continuous when the
 /// sphere goes from facet to facet.
 ///
-/// All ranks hold the whole surface, but only what MeshDetail has of it is large: this is made for
-/// the neighborhood of the particles of a rank, and anew when they or the body have gone further.
+/// All ranks hold the whole surface, but only what MeshDetail has of it is large: this is computed
+/// only near the particles of a rank, and again when they or the body have moved further.
 ///
 /// A sphere is touched if its center is on a side that acts, and nothing of the surface lies
 /// between if both do: through a thin plate it does not feel the other face.
@@ -56,7 +56,7 @@ class MeshShape : public LargeBodyShape {
   }
   /// For messages: the file.
   const std::string &name() const { return file; }
-  void set_name(const std::string &its) { file = its; }
+  void set_name(const std::string &name) { file = name; }
   /// What parts are, after focus().
   const MeshDetail &near_detail() const { return *detail; }
   /// Triangles that may be found here.

@@ -101,15 +101,16 @@ Triangle TriangleMesh::triangle(int t) const
 
 Vector3<double> TriangleMesh::normal(int t) const
 {
-  const Triangle its = triangle(t);
-  const Vector3<double> twice = cross(its.corner[1] - its.corner[0], its.corner[2] - its.corner[0]);
+  const Triangle face = triangle(t);
+  const Vector3<double> twice =
+      cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
   return 1.0 / length(twice) * twice;
 }
 
 double TriangleMesh::area(int t) const
 {
-  const Triangle its = triangle(t);
-  return 0.5 * length(cross(its.corner[1] - its.corner[0], its.corner[2] - its.corner[0]));
+  const Triangle face = triangle(t);
+  return 0.5 * length(cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]));
 }
 
 void TriangleMesh::orient(const MeshEdges &edges)
@@ -121,12 +122,12 @@ void TriangleMesh::orient(const MeshEdges &edges)
   for (int first = 0; first < size(); first++)
     if (part[first] < 0) orient_along(first, num_parts++, edges, part);
   const auto forget = [this] {
-    findings.open_edges = findings.crowded_edges = findings.turned_edges = 0;
+    findings.open_edges = findings.nonmanifold_edges = findings.inconsistent_edges = 0;
   };
   forget();
   look_at_edges(MeshEdges(triangles));
-  findings.mended_edges = before.turned_edges - findings.turned_edges;
-  findings.first_mended = before.first_turned;
+  findings.repaired_edges = before.inconsistent_edges - findings.inconsistent_edges;
+  findings.first_repaired = before.first_inconsistent;
   if (findings.closed()) orient_parts(part, num_parts);
   forget();
 }
@@ -149,7 +150,7 @@ void TriangleMesh::orient_along(int first, int number, const MeshEdges &edges,
       const int other = user[0] == t ? user[1] : user[0];
       if (part[other] >= 0) continue;
       const int a = edge.vertex[0], b = edge.vertex[1];
-      if (triangles[other].runs_along(a, b) == triangles[t].runs_along(a, b)) turn(other);
+      if (triangles[other].runs_along(a, b) == triangles[t].runs_along(a, b)) flip(other);
       part[other] = number;
       to_do.push_back(other);
     }
@@ -167,10 +168,10 @@ void TriangleMesh::orient_parts(const std::vector<int> &part, int num_parts)
   std::vector<double> whole(num_parts), facing_out(num_parts);
   for (int t = 0; t < size(); t++) whole[part[t]] += area(t);
   for (int t = 0; t < size(); t++) {
-    const Triangle its = triangle(t);
+    const Triangle face = triangle(t);
     const double surface = area(t);
-    const Vector3<double> start = its.corner[0] + aside * std::sqrt(surface) * normal(t);
-    const Vector3<double> u = its.corner[1] - its.corner[0], v = its.corner[2] - its.corner[0];
+    const Vector3<double> start = face.corner[0] + aside * std::sqrt(surface) * normal(t);
+    const Vector3<double> u = face.corner[1] - face.corner[0], v = face.corner[2] - face.corner[0];
     const int cuts = static_cast<int>(std::ceil(std::sqrt(fineness * surface / whole[part[t]])));
     const double share = 2.0 * surface / (cuts * (cuts + 1));
     for (int i = 0; i < cuts; i++)
@@ -181,7 +182,7 @@ void TriangleMesh::orient_parts(const std::vector<int> &part, int num_parts)
   }
   outward = facing_out[0] >= 0.0;
   for (int t = 0; t < size(); t++)
-    if ((facing_out[part[t]] >= 0.0) != outward) turn(t);
+    if ((facing_out[part[t]] >= 0.0) != outward) flip(t);
 }
 
 void TriangleMesh::look_at_edges(const MeshEdges &edges)
@@ -190,10 +191,10 @@ void TriangleMesh::look_at_edges(const MeshEdges &edges)
     const int *user = edges.users(e);
     if (e.num_users == 1) findings.open_edges++;
     if (e.num_users > 2)
-      note(findings.crowded_edges, findings.first_crowded, number_in_file(user[2]));
+      note(findings.nonmanifold_edges, findings.first_nonmanifold, number_in_file(user[2]));
     if (e.num_users == 2 && triangles[user[0]].runs_along(e.vertex[0], e.vertex[1]) ==
                                 triangles[user[1]].runs_along(e.vertex[0], e.vertex[1]))
-      note(findings.turned_edges, findings.first_turned, number_in_file(user[1]));
+      note(findings.inconsistent_edges, findings.first_inconsistent, number_in_file(user[1]));
   }
 }
 
@@ -224,8 +225,8 @@ void TriangleMesh::find_hollows(const MeshEdges &edges)
     const Vector3<double> n = normal(a), from = vertices[triangles[a].vertex[0]];
     double height = 0.0;    // of the corner of b that is not on the edge
     for (const int v : triangles[b].vertex) {
-      const double its = dot(vertices[v] - from, n);
-      if (std::fabs(its) > std::fabs(height)) height = its;
+      const double above = dot(vertices[v] - from, n);
+      if (std::fabs(above) > std::fabs(height)) height = above;
     }
     const bool opposed = dot(n, normal(b)) < 0.0;
     if (height > 0.0 || opposed) hollow[0] = true;
@@ -282,9 +283,9 @@ void TriangleMesh::find_volume()
     const double v = dot(a, cross(b, c)) / 6.0;
     volume += v;
     by_volume = by_volume + 0.25 * v * (a + b + c);
-    const double its = area(t);
-    total += its;
-    by_area = by_area + (its / 3.0) * (a + b + c);
+    const double triangle_area = area(t);
+    total += triangle_area;
+    by_area = by_area + (triangle_area / 3.0) * (a + b + c);
   }
   const bool has_volume = findings.closed() && std::fabs(volume) > 1.0e-12 * std::pow(total, 1.5);
   enclosed = has_volume ? volume : 0.0;

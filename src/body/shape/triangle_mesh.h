@@ -21,10 +21,11 @@ struct MeshReport {
   int degenerate = 0, first_degenerate = 0;    ///< without area: left out
   int duplicate = 0, first_duplicate = 0;      ///< with the corners of an earlier one: left out
   int open_edges = 0;                          ///< edges of one triangle only: used
-  int crowded_edges = 0, first_crowded = 0;    ///< edges of three or more triangles: used
-  int turned_edges = 0, first_turned = 0;      ///< whose two triangles face opposite sides
-  int mended_edges = 0, first_mended = 0;      ///< did, until triangles were turned
-  bool closed() const { return open_edges + crowded_edges + turned_edges == 0; }
+  int nonmanifold_edges = 0, first_nonmanifold = 0;    ///< edges of three or more triangles: used
+  int inconsistent_edges = 0,
+      first_inconsistent = 0;                    ///< whose two triangles face opposite sides
+  int repaired_edges = 0, first_repaired = 0;    ///< did, until triangles were turned
+  bool closed() const { return open_edges + nonmanifold_edges + inconsistent_edges == 0; }
 };
 
 class TriangleMesh {
@@ -76,7 +77,7 @@ class TriangleMesh {
   void orient(const MeshEdges &edges);
   void orient_along(int first, int number, const MeshEdges &edges, std::vector<int> &part);
   void orient_parts(const std::vector<int> &part, int num_parts);
-  void turn(int t) { std::swap(triangles[t].vertex[1], triangles[t].vertex[2]); }
+  void flip(int t) { std::swap(triangles[t].vertex[1], triangles[t].vertex[2]); }
   void look_at_edges(const MeshEdges &edges);
   void find_patches(const MeshEdges &edges);
   void find_planes(const MeshEdges &edges);

@@ -24,19 +24,19 @@ struct PerkoAdhesion : CohesionLaw {
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)
   {
-    return -pull(c, s) * s.overlap;
+    return -adhesive_force(c, s) * s.overlap;
   }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    s.force = s.force - (s.adhesive_share * pull(c, s)) * s.normal;
+    s.force = s.force - (s.adhesive_share * adhesive_force(c, s)) * s.normal;
   }
 
  private:
   template <class Real>
-  TALUS_INLINE static Real pull(const Row<Real> &c, const ContactLanes<Real> &s)
+  TALUS_INLINE static Real adhesive_force(const Row<Real> &c, const ContactLanes<Real> &s)
   {
     return c.s * s.radius;
   }

@@ -28,8 +28,8 @@ template <class Real> TALUS_INLINE void finish_normal_force(Real floor, ContactL
 {
   const Real elastic_damped = s.elastic - s.gn * s.normal_velocity;
   s.normal_force = select(elastic_damped < floor, floor, elastic_damped);
-  s.critical_force = magnitude(
-      select(s.pull_off > splat<Real>(0.0), s.elastic + 2.0 * s.pull_off, s.normal_force));
+  s.critical_force = magnitude(select(s.pulloff_force > splat<Real>(0.0),
+                                      s.elastic + 2.0 * s.pulloff_force, s.normal_force));
   s.force = s.normal_force * s.normal;
 }
 

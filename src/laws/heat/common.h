@@ -25,7 +25,7 @@ struct Conduction : HeatLaw {
   template <class Real> TALUS_INLINE static Real difference(const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0);
-    return select(s.parted > zero, zero, s.temperature_difference);
+    return select(s.separated > zero, zero, s.temperature_difference);
   }
 };
 

@@ -42,7 +42,7 @@ struct AdhesiveLaw : HertzianLaw {
 
   /// Positive without adhesion as well: that the law is cohesive is known by it.
   template <class Real>
-  TALUS_INLINE static Real pull_off(double factor, Real gamma, const ContactLanes<Real> &s)
+  TALUS_INLINE static Real pulloff_force(double factor, Real gamma, const ContactLanes<Real> &s)
   {
     const Real force = (factor * pi) * gamma * s.radius;
     const Real least = splat<Real>(std::numeric_limits<double>::min());

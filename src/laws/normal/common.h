@@ -42,15 +42,15 @@ template <class Law> struct SpringsByNumber : Law {
 enum class Damping : bool { ANY, OWN };
 inline void read_damping(LawReader &r, Damping damping)
 {
-  const Law *its = find_law(Stage::DAMPING, r.spec.law.normal().damping);
-  r.spec.law.choose(Stage::DAMPING, its);
+  const Law *chosen = find_law(Stage::DAMPING, r.spec.law.normal().damping);
+  r.spec.law.choose(Stage::DAMPING, chosen);
   if (damping == Damping::ANY) r.damping_at = r.words.index();
   // a bad number is one for all
   const double number = parse_number(r.words.peek());
   if (damping == Damping::ANY && std::isfinite(number) && number >= 0.0)
     r.words.skip(1);
   else
-    its->read_coefficient(r);
+    chosen->read_coefficient(r);
 }
 
 /// kn, gn of the words.

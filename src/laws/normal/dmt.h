@@ -16,7 +16,7 @@ struct Dmt : AdhesiveLaw {
   static double stored(const ContactLanes<double> &s, const Row<double> &c,
                        const double * /*history*/)
   {
-    return (0.4 * s.kn * s.overlap - pull_off(4.0, c.gamma, s)) * s.overlap;
+    return (0.4 * s.kn * s.overlap - pulloff_force(4.0, c.gamma, s)) * s.overlap;
   }
 
   template <bool advance, class Real>
@@ -27,8 +27,8 @@ struct Dmt : AdhesiveLaw {
     s.kn = (4.0 / 3.0) * c.young * s.contact_radius;
     s.tangent_n = 1.5 * s.kn;
     s.kt = s.tangent_t = splat<Real>(0.0);
-    s.pull_off = pull_off(4.0, c.gamma, s);
-    s.elastic = s.kn * s.overlap - s.pull_off;
+    s.pulloff_force = pulloff_force(4.0, c.gamma, s);
+    s.elastic = s.kn * s.overlap - s.pulloff_force;
   }
 };
 

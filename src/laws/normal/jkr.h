@@ -23,7 +23,7 @@ struct Jkr : AdhesiveLaw {
   static constexpr bool lasts_beyond_contact = true;
 
   /// (3 pi^2/16 R gamma^2/E^2)^(1/3)
-  static double reach(const Row<double> &c, double effective_radius)
+  static double pulloff_distance(const Row<double> &c, double effective_radius)
   {
     const double ratio = c.gamma / c.young;
     return cube_root(3.0 * pi * pi / 16.0 * effective_radius * ratio * ratio);
@@ -49,7 +49,7 @@ struct Jkr : AdhesiveLaw {
     s.kn = (4.0 / 3.0) * c.young * a;
     s.kt = s.tangent_t = zero;
     s.elastic = a * (s.kn * a / s.radius - 4.0 * tension);
-    s.pull_off = pull_off(3.0, c.gamma, s);
+    s.pulloff_force = pulloff_force(3.0, c.gamma, s);
     // dF/da over d overlap/da; 0 where the bodies separate, at the strongest pull
     const Real opening = 2.0 * a / s.radius - tension / (c.young * a);
     const Real stiffness = (4.0 * c.young * a * a / s.radius - 6.0 * tension) / opening;

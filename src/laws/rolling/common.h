@@ -24,8 +24,8 @@ namespace Talus {
 /// sees 2/3 of a rotation on the mean; stable if the sum is below 2.
 inline constexpr double stopping_share = 0.25;
 
-/// For each unit of the moment, the change in a step of r_1 omega_1 + r_2 omega_2; bodies are solid
-/// spheres, I = 2/5 m r^2. (One that is harder to turn, as a member of a rigid body, is only
+/// Change of r_1 omega_1 + r_2 omega_2 in a step for each unit of torque_per_radius; bodies are
+/// solid spheres, I = 2/5 m r^2. (One that is harder to turn, as a member of a rigid body, is only
 /// stopped in more steps.)
 template <class Real> inline Real response(Real inverse_mass, double dt)
 {

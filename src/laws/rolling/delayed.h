@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Rolling after one collision time, as Chrono: v_rot = (r_1 omega_1 + r_2 omega_2) x n; the torque
-// on body i is -r_i moment with moment = mu_roll F_n n x v_rot/|v_rot|, an attractive F_n with its
-// sign.
+// on body i is -r_i torque_per_radius with torque_per_radius = mu_roll F_n n x v_rot/|v_rot|, an
+// attractive F_n with its sign.
 
 #ifndef TALUS_LAWS_ROLLING_DELAYED_H
 #define TALUS_LAWS_ROLLING_DELAYED_H
@@ -32,8 +32,8 @@ struct DelayedRolling : RollingLaw {
     const Real speed = square_root(dot(rotation, rotation));
     const auto rolls = (speed > c.roll_min) & (speed > splat<Real>(0.0));
     const Real strength = c.mu * s.delayed_force;
-    s.moment =
-        s.moment + select(rolls, strength / speed, splat<Real>(0.0)) * cross(s.normal, rotation);
+    s.torque_per_radius = s.torque_per_radius + select(rolls, strength / speed, splat<Real>(0.0)) *
+                                                    cross(s.normal, rotation);
   }
 };
 

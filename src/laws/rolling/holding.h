@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Rolling that is held: moment M with which the rotation left after the step is 1 - stopping_share
+// Rolling that is held: torque M with which the rotation left after the step is 1 - stopping_share
 // of that before, whatever friction does: d(r_1 omega_1 + r_2 omega_2) = -response (friction_moment
 // + M). Not longer than mu_roll F_n, F_n >= 0.
 
@@ -33,8 +33,9 @@ struct HoldingRolling : RollingLaw {
     const Vector3<Real> rotation = cross(s.surface_rotation, s.normal);
     const auto acts = square_root(dot(rotation, rotation)) >= c.roll_min;
     const Real stop = select(turns > zero, stopping_share / turns, zero);
-    const Vector3<Real> needed = stop * cross(s.normal, rotation) - s.moment;
-    s.moment = s.moment + select(acts, splat<Real>(1.0), zero) * capped(needed, c.mu * presses);
+    const Vector3<Real> needed = stop * cross(s.normal, rotation) - s.torque_per_radius;
+    s.torque_per_radius =
+        s.torque_per_radius + select(acts, splat<Real>(1.0), zero) * capped(needed, c.mu * presses);
   }
 };
 

@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // `rolling mu_r` with `order 2` of the integrator: the torque -r_i M of holding.h, to second order
-// in the time step, see held_rotation.h. It holds the whole moment of the contact, that of friction
-// included, which it knows of this step. In the step in which a contact begins the normal force is
-// the corrected one, see tangential/second_order.h; in that after its end there is none.
+// in the time step, see held_rotation.h. It includes torque_per_radius of friction, which is known
+// of this step. In the step in which a contact begins the normal force is the corrected one, see
+// tangential/second_order.h; in that after its end there is none.
 
 #ifndef TALUS_LAWS_ROLLING_HOLDING_ORDER_2_H
 #define TALUS_LAWS_ROLLING_HOLDING_ORDER_2_H
@@ -35,19 +35,20 @@ struct HoldingOrder2 : RollingLaw {
     const auto across = [&s](const Vector3<Real> &v) { return v - dot(v, s.normal) * s.normal; };
 
     HeldRotation<Real> kept = held_rotation(h);
-    const Vector3<Real> stored = kept.own;
-    kept.own = turns * turned(kept.own, s.normal);
-    const Vector3<Real> found = hold_rotation(across(s.surface_rotation), across(s.rotation_change),
-                                              turns * s.moment, turns * c.mu * presses, kept);
-    Vector3<Real> whole = as_remembered(inverse * found + s.moment);
+    const Vector3<Real> stored = kept.torque;
+    kept.torque = turns * rotated_to_plane(kept.torque, s.normal);
+    const Vector3<Real> found =
+        hold_rotation(across(s.surface_rotation), across(s.rotation_change),
+                      turns * s.torque_per_radius, turns * c.mu * presses, kept);
+    Vector3<Real> whole = as_stored(inverse * found + s.torque_per_radius);
     if constexpr (advance) {
-      kept.own = whole;
+      kept.torque = whole;
       store_held(kept, h);
-      for (int n = 0; n < even_history; n++) h[n] = select(s.parted > zero, zero, h[n]);
+      for (int n = 0; n < even_history; n++) h[n] = select(s.separated > zero, zero, h[n]);
     } else
       whole = select(kept.known, stored, whole);
-    const auto acts = (s.parted <= zero) & (turns > zero) & (c.mu > zero);
-    s.moment = select(acts, whole, s.moment);
+    const auto acts = (s.separated <= zero) & (turns > zero) & (c.mu > zero);
+    s.torque_per_radius = select(acts, whole, s.torque_per_radius);
   }
 };
 

@@ -54,10 +54,10 @@ struct SdsRolling : RollingLaw {
                                 c.mu * s.critical_force, splat<Real>(dt)};
     Vector3<Real> xi{h[0], h[1], h[2]}, force;
     if (advance && dt > 0.0) {
-      xi = select(leaves_plane(in, xi, s.normal), turned(xi, s.normal), xi);
+      xi = select(leaves_plane(in, xi, s.normal), rotated_to_plane(xi, s.normal), xi);
       xi = xi + in.dt * in.velocity;
       if constexpr (synchronized)
-        xi = select(leaves_plane(in, xi, s.full_normal), turned(xi, s.full_normal), xi);
+        xi = select(leaves_plane(in, xi, s.full_normal), rotated_to_plane(xi, s.full_normal), xi);
       TangentialHistory<Real> history = granular_history(xi);
       force = limited_force<advance, false>(in, xi, splat<Real>(dt) > zero, history);
       h[0] = history.displacement.x;

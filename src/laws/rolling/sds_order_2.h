@@ -24,7 +24,8 @@ struct SdsOrder2 : RollingLaw {
   static constexpr bool needs_radius = true;
   static constexpr int even_history = 4;    // xi; 1: it slides, 2: the limit is 0
   template <class Real> struct Row {
-    Real k, gamma, mu, damping, pull;    // exponent of the overlap; limit at begin over pull_off
+    Real k, gamma, mu, damping,
+        adhesion;    // exponent of the overlap; limit at begin over pulloff_force
   };
   static constexpr CoefficientName coefficients[] = {{"k_roll"},
                                                      {"gamma_roll"},
@@ -34,12 +35,12 @@ struct SdsOrder2 : RollingLaw {
 
   static Row<double> mix(const Mixing &m)
   {
-    const auto own = SdsRolling::mix(m);
+    const auto row = SdsRolling::mix(m);
     const Law &normal = m.a.law.normal();
     // with adhesion of the normal law damping is no part of the limit
     const double damping =
         normal.cohesive ? 1.0 : m.a.law.damping().damping_exponent(normal.exponent);
-    return {own.k, own.gamma, own.mu, damping, normal.lasts_beyond_contact ? 1.0 + jkr_begin : 1.0};
+    return {row.k, row.gamma, row.mu, damping, normal.lasts_beyond_contact ? 1.0 + jkr_begin : 1.0};
   }
   template <class Real>
   static Real stored(const ContactLanes<Real> &s, const Row<Real> &c, const Real *h)
@@ -52,11 +53,12 @@ struct SdsOrder2 : RollingLaw {
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     const Vector3<Real> &omega = s.relative_omega, &n = s.normal;
-    const auto edge = magnitude(s.adhesive_share - one) > zero;
-    const auto parted = s.parted > zero;
-    const Real critical = select(edge, s.uncorrected_force, s.critical_force);
-    const Real at_edge = select(c.damping <= zero, -s.gn * s.normal_velocity, zero);
-    const Real limit_at_edge = c.mu * (select(at_edge > zero, at_edge, zero) + c.pull * s.pull_off);
+    const auto at_event = magnitude(s.adhesive_share - one) > zero;
+    const auto separated = s.separated > zero;
+    const Real critical = select(at_event, s.uncorrected_force, s.critical_force);
+    const Real damping_at_event = select(c.damping <= zero, -s.gn * s.normal_velocity, zero);
+    const Real limit_at_event = c.mu * (select(damping_at_event > zero, damping_at_event, zero) +
+                                        c.adhesion * s.pulloff_force);
     const Vector3<Real> u = s.radius * cross(omega + s.omega_change, n);
 
     Vector3<Real> xi{h[0], h[1], h[2]};
@@ -81,20 +83,22 @@ struct SdsOrder2 : RollingLaw {
       const Vector3<Real> old = c.k * before + c.gamma * old_u;
       const Vector3<Real> followed =
           select(slides, back(midpoint_return(trial, old, limit), drag), moved);
-      if (any(edge)) {
+      if (any(at_event)) {
         const Real theta = s.adhesive_share - splat<Real>(0.5);
         const Vector3<Real> change = s.radius * cross(s.omega_change, n);
         const Vector3<Real> first_drag = c.gamma * (u - 2.0 * theta * change);
         const Vector3<Real> begun =
-            back(limited(first_drag, limit_at_edge), first_drag) + dt * theta * half_way;
+            back(limited(first_drag, limit_at_event), first_drag) + dt * theta * half_way;
         const Vector3<Real> total = c.k * begun + drag;
-        slides = select(edge, select(dot(total, total) > limit * limit, one, zero),
+        slides = select(at_event, select(dot(total, total) > limit * limit, one, zero),
                         select(slides, one, zero)) > zero;
-        xi = select(edge, begun, followed);
+        xi = select(at_event, begun, followed);
       } else
         xi = followed;
-      // a pull that ends with a jump is made up for in the step after it, and in a set-up then
-      xi = select(parted, select(s.pull_off > zero, before, Vector3<Real>{zero, zero, zero}), xi);
+      // an adhesive force that ends with a jump is corrected in the step after it, and in a set-up
+      // then
+      xi = select(separated,
+                  select(s.pulloff_force > zero, before, Vector3<Real>{zero, zero, zero}), xi);
       const Real least = splat<Real>(1.0e-150);    // what slides has a direction
       xi.x = rounded<47>(select(magnitude(xi.x) > least, xi.x, least));
       h[0] = xi.x;
@@ -106,11 +110,11 @@ struct SdsOrder2 : RollingLaw {
 
     const Real most = c.mu * s.critical_force;
     Vector3<Real> force = c.k * xi + c.gamma * u;
-    const Vector3<Real> jump = limited(c.gamma * u, limit_at_edge);
-    const Vector3<Real> ends = s.adhesive_share * limited(force, c.mu * s.pull_off);
+    const Vector3<Real> jump = limited(c.gamma * u, limit_at_event);
+    const Vector3<Real> ends = s.adhesive_share * limited(force, c.mu * s.pulloff_force);
     const Vector3<Real> begins = limited(force + (s.adhesive_share - one) * jump, most);
-    force = select(slides, with_length(most, force), select(edge, begins, force));
-    force = select(parted, ends, force);
+    force = select(slides, with_length(most, force), select(at_event, begins, force));
+    force = select(separated, ends, force);
     s.twisting_torque = s.twisting_torque - s.radius * cross(n, force);
   }
 };

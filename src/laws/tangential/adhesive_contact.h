@@ -8,9 +8,10 @@
 //     damping coefficient does.
 //   * Friction is limited by mu (r + F_p), without damping, above 0 at both ends.
 //   * r of dmt is Hertz' force. That of jkr begins, at overlap 0, with F_p/9 and goes on with a
-//     slope, and all coefficients are above 0 there: p = 0 and 1. It tears where its pull is
-//     strongest, r = dr/d overlap = 0: r needs nothing at this end, all the rest is p = 0. (Johnson,
-//     Kendall and Roberts 1971: F_e = -8/9 F_p at overlap 0, -F_p where it separates under load.)
+//     slope, and all coefficients are above 0 there: p = 0 and 1. It ends by pull-off where the
+//     attraction is largest, r = dr/d overlap = 0: r needs nothing at this end, all the rest is p =
+//     0. (Johnson, Kendall and Roberts 1971: F_e = -8/9 F_p at overlap 0, -F_p where it separates
+//     under load.)
 
 #ifndef TALUS_LAWS_TANGENTIAL_ADHESIVE_CONTACT_H
 #define TALUS_LAWS_TANGENTIAL_ADHESIVE_CONTACT_H
@@ -44,7 +45,7 @@ template <class Real> TALUS_INLINE Real quotient(Real x, Real by)
 /// present one, F_p = 3 pi gamma R.
 template <class Real> TALUS_INLINE Real jkr_slope(const ContactLanes<Real> &s, Real a)
 {
-  const Real of_now = quotient(4.0 / 9.0 * s.pull_off, s.radius * s.kn);
+  const Real of_now = quotient(4.0 / 9.0 * s.pulloff_force, s.radius * s.kn);
   return 2.0 * a / s.radius - square_root(of_now * quotient(s.contact_radius, a));
 }
 
@@ -63,21 +64,21 @@ template <class Real> struct AdhesiveStep {
   Real overlap, old_overlap, old_elastic;
 };
 
-/// `rest`: r. `tears`: it is jkr.
+/// `rest`: r. `detaches`: the law is jkr.
 template <class Real>
 TALUS_INLINE AdhesiveStep<Real> adhesive_step(const ContactLanes<Real> &s, Real rest,
-                                              bool_of<Real> tears, double dt)
+                                              bool_of<Real> detaches, double dt)
 {
   const Real zero = splat<Real>(0.0);
   const auto not_negative = [&](Real x) { return select(x > zero, x, zero); };
   const Real way = -dt * s.normal_velocity, old_overlap = not_negative(s.overlap - way);
   AdhesiveStep<Real> step{s.overlap, old_overlap,
                           rest * power(quotient(old_overlap, s.overlap), splat<Real>(1.5))};
-  if (!any(tears)) return step;
+  if (!any(detaches)) return step;
   const Real a = s.contact_radius, old_a = not_negative(a - quotient(way, jkr_slope(s, a)));
-  step.overlap = select(tears, a * a, step.overlap);
-  step.old_overlap = select(tears, old_a * old_a, step.old_overlap);
-  step.old_elastic = select(tears, not_negative(rest - s.tangent_n * way), step.old_elastic);
+  step.overlap = select(detaches, a * a, step.overlap);
+  step.old_overlap = select(detaches, old_a * old_a, step.old_overlap);
+  step.old_elastic = select(detaches, not_negative(rest - s.tangent_n * way), step.old_elastic);
   return step;
 }
 

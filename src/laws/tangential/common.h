@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What tangential laws have in common: a force F_t along the surface, and its moment n x F_t.
+// What tangential laws have in common: a force F_t along the surface, and its torque per radius n x
+// F_t.
 
 #ifndef TALUS_LAWS_TANGENTIAL_COMMON_H
 #define TALUS_LAWS_TANGENTIAL_COMMON_H
@@ -30,17 +31,18 @@ TALUS_INLINE void add_tangential(ContactLanes<Real> &s, const Vector3<Real> &for
 {
   s.tangential = force;
   s.force = s.force + force;
-  s.moment = cross(s.normal, force);
+  s.torque_per_radius = cross(s.normal, force);
 }
 
-/// The same for laws whose lever arms end in the middle of the overlap, r - overlap/2: what moment,
-/// which is multiplied by the radii, lacks on unlike spheres is in twisting_torque.
+/// The same for laws whose lever arms end in the middle of the overlap, r - overlap/2: the
+/// difference to torque_per_radius, which is multiplied by the radii, is on unlike spheres in
+/// twisting_torque.
 template <class Real>
 TALUS_INLINE void add_tangential_in_overlap(ContactLanes<Real> &s, const Vector3<Real> &force)
 {
   add_tangential(s, force);
-  s.twisting_torque = s.arm_difference * s.moment;
-  s.moment = (splat<Real>(1.0) - s.arm_loss) * s.moment;
+  s.twisting_torque = s.arm_difference * s.torque_per_radius;
+  s.torque_per_radius = (splat<Real>(1.0) - s.arm_loss) * s.torque_per_radius;
 }
 
 template <class Real> struct FrictionRow {

@@ -9,8 +9,8 @@
 //                      that is not there any more, and the laws give the forces that end
 //   EndOfContact       what to add for them
 //
-// Damping with `limit_damping` ends the normal force before the overlap, by gn v/kn. A contact
-// remembers that it has ended, so that a set-up finds the same force, and is forgotten in the next
+// Damping with `limit_damping` ends the normal force before the overlap, by gn v/kn. The history
+// tells that a contact has ended, so that a set-up finds the same force, and is cleared in the next
 // step.
 //
 // With these corrections alone an elastic impact loses a share of its energy in proportion to
@@ -33,10 +33,11 @@
 
 namespace Talus {
 
-/// What a contact of second order remembers of its last step: 0: it was not there; below zero: it was,
-/// -1, less 1 if it began in it, less 2 if it slid; above zero: it ended, 1, and 2 if it slid.
+/// History value of second order that tells of the last step of a contact: 0: it was not there;
+/// below zero: it was, -1, less 1 if it began in it, less 2 if it slid; above zero: it ended, 1,
+/// and 2 if it slid.
 struct Past {
-  /// It was there in a run with order 1: with which force is not known.
+  /// It was there in a run with order 1, with an unknown force.
   static constexpr double of_order_1 = -8.0;
 };
 
@@ -47,45 +48,46 @@ inline bool has_just_ended(double past, bool advance)
   return advance ? past < 0.0 : past != 0.0;
 }
 
-/// Sets `parted`, and in the place of the overlap that of the last step where the bodies are apart,
-/// by more than `reach`.
+/// Sets `separated`, and in the place of the overlap that of the last step where the bodies are
+/// apart, by more than `pulloff_distance`.
 template <class Real> TALUS_INLINE void last_overlap(ContactState<Real> &s, double dt)
 {
-  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), least = -s.reach;
+  const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), least = -s.pulloff_distance;
   const auto touches = s.overlap > least;
   const Real v = dot(s.velocity, s.normal);
   const Real before = s.overlap + dt * (v - 0.5 * dt * centrifugal(s, v));
-  s.parted = select(touches, zero, one);
+  s.separated = select(touches, zero, one);
   s.overlap = select(touches, s.overlap, select(before > least, before, least));
 }
 
-enum class Of : bool { BEGIN, END };
+enum class Event : bool { BEGIN, END };
 
-/// The step in which bodies touch or part.
-template <class Real> struct Edge {
-  bool_of<Real> is;
-  Real theta;    ///< time from touching on, or to parting, over dt; in (0, 1]
-  Real reach;    ///< overlap that the speed at that moment brings in a step
-  Real bend;     ///< e
+/// The step in which a contact begins or ends: the event.
+template <class Real> struct EventStep {
+  bool_of<Real> happens;
+  Real theta;           ///< time since the begin, or until the end, over dt; in (0, 1]
+  Real step_overlap;    ///< overlap that the speed at the event adds in a step
+  Real curvature;       ///< e
 };
 
-/// `others`: change of velocity along the normal in dt, by others. Where `may` is.
-template <Of which, class Real>
-Edge<Real> edge_of(const ContactState<Real> &s, Real overlap, Real v_n, Real others,
-                   bool_of<Real> may, double dt)
+/// `others`: change of the normal velocity in dt by other contacts and fields. `may`: where an
+/// event is possible.
+template <Event which, class Real>
+EventStep<Real> event_step(const ContactState<Real> &s, Real overlap, Real v_n, Real others,
+                           bool_of<Real> may, double dt)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), half = splat<Real>(0.5);
   const Real turning = dt * centrifugal(s, v_n), apart = v_n - half * turning;
-  const Real half_way = dt * (which == Of::END ? apart : -apart);
-  Edge<Real> edge;
-  edge.is = may & (overlap > zero) & (half_way >= overlap);
-  const Real step = select(edge.is, half_way, one);
-  const Real bend = select(edge.is, -dt * (others + turning) / step, zero);
-  edge.bend = select(bend > one, one, select(bend < -one, -one, bend));
-  const Real straight = select(edge.is, overlap / step, one);
-  edge.theta = straight * (one - half * edge.bend * (one - straight));
-  edge.reach = step * (one + edge.bend * (half - edge.theta));
-  return edge;
+  const Real half_way = dt * (which == Event::END ? apart : -apart);
+  EventStep<Real> event;
+  event.happens = may & (overlap > zero) & (half_way >= overlap);
+  const Real step = select(event.happens, half_way, one);
+  const Real curvature = select(event.happens, -dt * (others + turning) / step, zero);
+  event.curvature = select(curvature > one, one, select(curvature < -one, -one, curvature));
+  const Real straight = select(event.happens, overlap / step, one);
+  event.theta = straight * (one - half * event.curvature * (one - straight));
+  event.step_overlap = step * (one + event.curvature * (half - event.theta));
+  return event;
 }
 
 /// Stands for a normal force of zero, so that limits of friction are lengths that a vector can be given;
@@ -107,7 +109,7 @@ TALUS_INLINE Real share_since_return(const ContactLanes<Real> &s, Real p, Real f
 
 /// For p = 1 and 3/2, 0 < theta <= 1; a decelerating force at the begin of a contact, an
 /// accelerating one at its end.
-template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta)
+template <Event which, class Real> TALUS_INLINE Real second_term(Real p, Real theta)
 {
   constexpr int terms = 6;
   constexpr double linear[2][terms] = {{0.0, 0.0, 1.0 / 12.0, 0.0, -0.125, 0.0},
@@ -115,7 +117,7 @@ template <Of which, class Real> TALUS_INLINE Real second_term(Real p, Real theta
   constexpr double hertzian[2][terms] = {
       {0.000834058, -0.0195192, -0.000165652, 0.0916618, 0.000220944, -0.0801479},
       {0.000166992, 0.0303978, -0.0539675, -0.0992979, 0.2033, -0.0804567}};
-  constexpr int at = which == Of::END ? 1 : 0;
+  constexpr int at = which == Event::END ? 1 : 0;
   Real sum = splat<Real>(0.0);
   for (int n = terms - 1; n >= 0; n--)
     sum = theta * sum +
@@ -140,9 +142,9 @@ TALUS_INLINE Vector3<Real> end_of_sticking(const Vector3<Real> &f, const Vector3
          (half * sticks * sticks - splat<Real>(1.0 / 12.0)) * rate;
 }
 
-/// Forces of contacts that have parted, and what these remember from now on.
+/// Forces of contacts that have ended, and their history from now on.
 template <class Real> struct EndOfContact {
-  bool_of<Real> parted;
+  bool_of<Real> separated;
   Real normal_force, elastic, adhesive_share;
   Vector3<Real> tangential;
   Real history[5];
@@ -151,15 +153,15 @@ template <class Real> struct EndOfContact {
   void replace(ContactLanes<Real> &s, Vector3<Real> &t, Real *h) const
   {
     const Real zero = splat<Real>(0.0);
-    s.overlap = select(parted, zero, s.overlap);
-    s.elastic = select(parted, elastic, s.elastic);
-    s.kt = select(parted, zero, s.kt);
-    s.normal_force = select(parted, normal_force, s.normal_force);
-    s.critical_force = select(parted, magnitude(normal_force), s.critical_force);
-    s.adhesive_share = select(parted, adhesive_share, s.adhesive_share);
-    s.force = select(parted, normal_force * s.normal, s.force);
-    t = select(parted, tangential, t);
-    for (int n = 0; n < 5; n++) h[n] = select(parted, history[n], h[n]);
+    s.overlap = select(separated, zero, s.overlap);
+    s.elastic = select(separated, elastic, s.elastic);
+    s.kt = select(separated, zero, s.kt);
+    s.normal_force = select(separated, normal_force, s.normal_force);
+    s.critical_force = select(separated, magnitude(normal_force), s.critical_force);
+    s.adhesive_share = select(separated, adhesive_share, s.adhesive_share);
+    s.force = select(separated, normal_force * s.normal, s.force);
+    t = select(separated, tangential, t);
+    for (int n = 0; n < 5; n++) h[n] = select(separated, history[n], h[n]);
   }
 };
 

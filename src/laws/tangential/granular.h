@@ -145,13 +145,13 @@ template <Scaled scaled, Kept kept, Rescaled rescaled> struct GranularSpring : G
     }
     auto moved = splat<Real>(dt) > zero;
     if (advance && dt > 0.0) {
-      d = select(leaves_plane(in, d, s.normal), turned(d, s.normal), d);
+      d = select(leaves_plane(in, d, s.normal), rotated_to_plane(d, s.normal), d);
       d = d + (of_force ? k * dt : splat<Real>(dt)) * in.velocity;
       if constexpr (rescaled == Rescaled::YES) h[3] = s.contact_radius;
       if constexpr (synchronized) {
         const auto turns = leaves_plane(in, d, s.full_normal);
-        d = select(turns, turned(d, s.full_normal), d);
-        in.velocity = select(turns, turned(in.velocity, s.full_normal), in.velocity);
+        d = select(turns, rotated_to_plane(d, s.full_normal), d);
+        in.velocity = select(turns, rotated_to_plane(in.velocity, s.full_normal), in.velocity);
       }
     } else
       moved = dot(d, d) > zero;

@@ -16,8 +16,8 @@ namespace {
 
 template <Friction kind, class Granular = void> const Law *choose(bool adhesive)
 {
-  return adhesive ? &law<SecondOrder<kind, Granular, Pull::YES>>
-                  : &law<SecondOrder<kind, Granular, Pull::NO>>;
+  return adhesive ? &law<SecondOrder<kind, Granular, Adhesion::YES>>
+                  : &law<SecondOrder<kind, Granular, Adhesion::NO>>;
 }
 
 }    // namespace

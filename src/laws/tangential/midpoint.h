@@ -27,8 +27,9 @@ namespace Talus {
 /// q, of a pair from the velocity of the centers, of a large body from what it tells.
 template <class Real> TALUS_INLINE Vector3<Real> half_turn(const ContactState<Real> &s, double dt)
 {
-  const Vector3<Real> turn = splat<Real>(0.5) * ((dt * s.inverse_distance) * s.velocity + s.turn);
-  return turn - dot(turn, s.normal) * s.normal;
+  const Vector3<Real> q =
+      splat<Real>(0.5) * ((dt * s.inverse_distance) * s.velocity + s.normal_change);
+  return q - dot(q, s.normal) * s.normal;
 }
 
 template <class Real>

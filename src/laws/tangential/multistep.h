@@ -30,7 +30,8 @@ inline Vector3<Real> step_displacement(const ContactLanes<Real> &s, double dt, R
 }
 
 /// d in the plane normal to n, with its length.
-template <class Real> inline Vector3<Real> turned(const Vector3<Real> &d, const Vector3<Real> &n)
+template <class Real>
+inline Vector3<Real> rotated_to_plane(const Vector3<Real> &d, const Vector3<Real> &n)
 {
   const Vector3<Real> flat = d - dot(d, n) * n;
   const Real before = dot(d, d), after = dot(flat, flat);
@@ -67,7 +68,8 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
     Vector3<Real> d = history.displacement;
     if constexpr (advance && midpoint) {
       in.dt = dt * share_of_step(s, dt);
-      d = turned(d, s.normal) + turned(step_displacement(s, dt, in.dt), s.normal);
+      d = rotated_to_plane(d, s.normal) +
+          rotated_to_plane(step_displacement(s, dt, in.dt), s.normal);
     } else if constexpr (advance)
       d = d + in.dt * in.velocity;
     auto moved = splat<Real>(dt) > zero;    // where time passes, a force beyond the limit has one
@@ -83,7 +85,7 @@ template <bool midpoint, bool slider> struct Multistep : FrictionLaw {
 };
 
 /// The word multistep: kt gt mu [midpoint] [stock | slider]. The other laws of this file are chosen
-/// by the words behind it.
+/// by the words that follow it.
 struct MultistepStock : Multistep<false, false> {
   static void read(LawReader &r);
 };

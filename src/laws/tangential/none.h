@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Frictionless: no tangential force, no moment of it.
+// Frictionless: no tangential force, no torque.
 
 #ifndef TALUS_LAWS_TANGENTIAL_NONE_H
 #define TALUS_LAWS_TANGENTIAL_NONE_H
@@ -21,7 +21,7 @@ struct TangentialNone : TangentialLaw {
                                    Real * /*history*/, double /*dt*/)
   {
     const Real zero = splat<Real>(0.0);
-    s.tangential = s.moment = {zero, zero, zero};
+    s.tangential = s.torque_per_radius = {zero, zero, zero};
   }
 };
 

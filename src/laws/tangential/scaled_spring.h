@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Springs of LAMMPS' pair granular with the stiffness k = kt a that remember more than their
+// Springs of LAMMPS' pair granular with the stiffness k = kt a whose history is more than their
 // displacement (see granular.h), to second order in the time step. With the displacement d = f/k
 // that belongs to the elastic force f,
 //

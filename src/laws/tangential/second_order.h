@@ -4,7 +4,7 @@
 // ... slider midpoint` and `tangential none`, and plaincoulomb, mean with `order 2` of the
 // integrator. Positions belong to the time t, velocities to t - lag, lag = dt/2; velocity_change is
 // lag times the acceleration of the last step, so that velocity + velocity_change is second order
-// at t. The laws come after the damping and find the normal force anew. What makes the order two:
+// at t. The laws come after the damping and find the normal force again. What makes the order two:
 //
 //   * damping at the time of the positions, implicit in the contact itself: with F_0, its normal
 //     force of the last step, and v_p = v_n + dv_n - lag F_0/m, what others contribute,
@@ -17,9 +17,9 @@
 //   * contacts whose normal law has adhesion of its own: see adhesive_contact.h;
 //   * the displacement, and the return of a sliding contact to its limit: see midpoint.h.
 //
-// Behind the displacement a contact remembers what it did in the last step (see Past), with which its
-// force can be computed again without advancing, and F_0. See change_of_order.h on contacts that
-// come from a run with order 1.
+// After the displacement the history holds what the contact did in the last step (see Past), from
+// which its force can be computed again without advancing, and F_0. See change_of_order.h on
+// contacts that come from a run with order 1.
 
 #ifndef TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
 #define TALUS_LAWS_TANGENTIAL_SECOND_ORDER_H
@@ -27,8 +27,8 @@
 #include "laws/rounding.h"
 #include "laws/tangential/adhesive_contact.h"
 #include "laws/tangential/common.h"
-#include "laws/tangential/edge_errors.h"
 #include "laws/tangential/end_of_contact.h"
+#include "laws/tangential/event_errors.h"
 #include "laws/tangential/granular.h"
 #include "laws/tangential/midpoint.h"
 #include "laws/tangential/scaled_spring.h"
@@ -39,7 +39,7 @@
 
 namespace Talus {
 
-/// What a contact remembers of its last step.
+/// What the history tells of the last step of a contact.
 template <class Real> struct LastStep {
   bool_of<Real> known;       ///< it was there
   bool_of<Real> is_given;    ///< with a force that is known
@@ -63,7 +63,7 @@ template <class Real> TALUS_INLINE LastStep<Real> last_step(Real past, Real forc
 enum class Friction { NONE, SPRING, DASHPOT, TANH };
 
 /// Whether the normal law has adhesion of its own, see adhesive_contact.h.
-enum class Pull : bool { NO, YES };
+enum class Adhesion : bool { NO, YES };
 
 /// What a spring does when its stiffness changes: nothing if it has none of its own.
 template <class Granular> struct SpringOf {
@@ -75,7 +75,7 @@ template <> struct SpringOf<void> {
 };
 
 /// `Granular`: the law of LAMMPS' pair granular that it is, with its kt, xt and lever arms.
-template <Friction kind, class Granular = void, Pull its_pull = Pull::NO>
+template <Friction kind, class Granular = void, Adhesion adhesion_of_normal_law = Adhesion::NO>
 struct SecondOrder : FrictionLaw {
   static constexpr bool friction = kind == Friction::SPRING || kind == Friction::DASHPOT;
   static constexpr bool granular = !std::is_void_v<Granular>;
@@ -83,7 +83,7 @@ struct SecondOrder : FrictionLaw {
   static constexpr bool of_force = SpringOf<Granular>::of_force;
   static constexpr bool rescales = SpringOf<Granular>::rescales;
   static constexpr bool follows_radius = of_force || rescales;
-  static constexpr bool adhesive = its_pull == Pull::YES;
+  static constexpr bool adhesive = adhesion_of_normal_law == Adhesion::YES;
   static constexpr const char *name = [] {    // of the law that it is
     if constexpr (granular) return Granular::name;
     constexpr const char *names[] = {"none", "multistep", "dashpot", Tanh::name};
@@ -114,9 +114,9 @@ struct SecondOrder : FrictionLaw {
     const Law &normal = m.a.law.normal(), &damping = m.a.law.damping();
     const double elastic = normal.exponent;
     const double of_gn = damping.damping_exponent(elastic);
-    const double its_own = granular ? -1.0 : damping.dashpot_exponent(elastic);
-    GranularRow<double> own{};
-    if constexpr (granular) own = Granular::mix(m);
+    const double of_gt = granular ? -1.0 : damping.dashpot_exponent(elastic);
+    GranularRow<double> granular_row{};
+    if constexpr (granular) granular_row = Granular::mix(m);
     const bool jumps = normal.lasts_beyond_contact && m.geometric("gamma") > 0.0;
     return {kind == Friction::NONE ? 0.0 : m.friction("mu"),
             jumps ? 1.0 : elastic,
@@ -124,10 +124,10 @@ struct SecondOrder : FrictionLaw {
             scaled     ? 0.5
             : granular ? 0.0
                        : elastic - 1.0,
-            its_own < 0.0 ? of_gn : its_own,
+            of_gt < 0.0 ? of_gn : of_gt,
             Tanh::mix(m).slip_min,
-            own.kt,
-            own.xt};
+            granular_row.kt,
+            granular_row.xt};
   }
 
   static double stored(const ContactLanes<double> &s, const Row<double> &c, const double *h)
@@ -141,10 +141,10 @@ struct SecondOrder : FrictionLaw {
   /// Contacts that begin or end in this step; few do. Elsewhere compute<true, false>() is enough,
   /// with the same bits. `past`: number first_even of its history.
   static constexpr int first_even = odd_history;
-  template <class Real> TALUS_INLINE static bool_of<Real> at_an_end(Real parted, Real past)
+  template <class Real> TALUS_INLINE static bool_of<Real> at_event(Real separated, Real past)
   {
     const Real zero = splat<Real>(0.0);
-    return (past >= zero) | (parted > zero);
+    return (past >= zero) | (separated > zero);
   }
 
   template <bool advance, bool ends = true, class Real>
@@ -152,7 +152,7 @@ struct SecondOrder : FrictionLaw {
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     s.adhesive_share = one;
-    if constexpr (adhesive) s.elastic = s.elastic + s.pull_off;
+    if constexpr (adhesive) s.elastic = s.elastic + s.pulloff_force;
     s.kt = stiffness(c, s);
     if constexpr (granular) s.gt = c.xt * s.gn;
     EndOfContact<Real> end;
@@ -162,7 +162,7 @@ struct SecondOrder : FrictionLaw {
     if constexpr (!advance) pure = select(last.is_given, last.force, pure);
 
     bool_of<Real> begins = advance ? zero > zero : last.began;
-    Beginning<Real> start{one, zero, zero, zero, zero};
+    EventErrors<Real> start{one, zero, zero, zero, zero};
     const Real rubs = s.elastic;
     Real force = pure, theta = one, undamped = rubs;
     if constexpr (ends) {
@@ -170,15 +170,15 @@ struct SecondOrder : FrictionLaw {
       if constexpr (advance)
         begins = (h[3] >= zero) & (s.lag > zero) & (approach + approach >= s.overlap);
       const Real others = 2.0 * dot(s.velocity_change, s.normal);
-      const Edge<Real> edge =
-          edge_of<Of::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
-      begins = edge.is;
-      start = errors_of<Of::BEGIN, granular, adhesive>(c, s.overlap, edge,
-                                                       share_of_jump<adhesive>(c, s));
-      theta = edge.theta;
+      const EventStep<Real> event =
+          event_step<Event::BEGIN>(s, s.overlap, s.normal_velocity, others, begins, dt);
+      begins = event.happens;
+      start = errors_of<Event::BEGIN, granular, adhesive>(c, s.overlap, event,
+                                                          share_of_jump<adhesive>(c, s));
+      theta = event.theta;
       s.adhesive_share = select(begins, share_at_begin(theta), one);    // p = 0
       const Real early = start.elastic * s.elastic -
-                         second_force<Of::BEGIN, adhesive>(c, s, start, s.elastic, edge, dt);
+                         second_force<Event::BEGIN, adhesive>(c, s, start, s.elastic, event, dt);
       force = pure - (early - start.damping * s.gn * s.normal_velocity);
       if constexpr (advance) s.elastic = s.elastic - early;    // what does not store is work
       if constexpr (adhesive) undamped = undamped - early;
@@ -186,7 +186,7 @@ struct SecondOrder : FrictionLaw {
     s.normal_force = force;
     s.critical_force = adhesive ? undamped : magnitude(force);
     s.force = force * s.normal;
-    if constexpr (ends) s.uncorrected_force = (adhesive ? rubs : pure) + s.pull_off;
+    if constexpr (ends) s.uncorrected_force = (adhesive ? rubs : pure) + s.pulloff_force;
 
     auto slides = last.slid;
     Vector3<Real> t{zero, zero, zero};
@@ -196,10 +196,12 @@ struct SecondOrder : FrictionLaw {
       const Vector3<Real> u = present_velocity(s);
       Vector3<Real> d = displacement_of(s.kt, h);
       AdhesiveStep<Real> before_it{};
-      if constexpr (adhesive && advance) before_it = adhesive_step(s, rubs, tears<adhesive>(c), dt);
-      const Real limit = c.mu * (adhesive ? rubs + s.pull_off : pure);
+      if constexpr (adhesive && advance)
+        before_it = adhesive_step(s, rubs, detaches<adhesive>(c), dt);
+      const Real limit = c.mu * (adhesive ? rubs + s.pulloff_force : pure);
       Real old_limit = c.mu * last.force;
-      if constexpr (adhesive && advance) old_limit = c.mu * (before_it.old_elastic + s.pull_off);
+      if constexpr (adhesive && advance)
+        old_limit = c.mu * (before_it.old_elastic + s.pulloff_force);
       if constexpr (ends && advance)
         old_limit = select(last.known, old_limit, select(begins, limit_at_begin(c, s), limit));
       if constexpr (advance && !adhesive) {
@@ -242,8 +244,8 @@ struct SecondOrder : FrictionLaw {
           } else {
             Vector3<Real> slid = slide(way);
             if constexpr (ends && adhesive) {    // of jkr they are above 0 there
-              way.kt_exponent = select(tears<adhesive>(c), zero, c.spring);
-              way.gt_exponent = select(tears<adhesive>(c), zero, c.dashpot);
+              way.kt_exponent = select(detaches<adhesive>(c), zero, c.spring);
+              way.gt_exponent = select(detaches<adhesive>(c), zero, c.dashpot);
             }
             if constexpr (ends) slid = select(begins, first_slide(way), slid);
             d = select(slides, slid, d);
@@ -255,9 +257,9 @@ struct SecondOrder : FrictionLaw {
       if constexpr (ends) {
         Real most = c.mu * s.critical_force;
         if constexpr (adhesive) {
-          const Real p = select(tears<adhesive>(c), one, c.spring + one);
+          const Real p = select(detaches<adhesive>(c), one, c.spring + one);
           const Vector3<Real> trial = (mean_at_begin(c) * time * s.kt + s.gt) * u;
-          most = most + c.mu * s.adhesive_share * s.pull_off -
+          most = most + c.mu * s.adhesive_share * s.pulloff_force -
                  grows_to_limit(c, s, p, limit_at_begin(c, s), trial, theta);
         }
         const Vector3<Real> early = start.spring / start.ratio * dt * (mean_at_begin(c) * s.kt) * u;
@@ -276,7 +278,7 @@ struct SecondOrder : FrictionLaw {
       h[4] = pure;
     }
     if constexpr (ends) end.replace(s, t, h);
-    if constexpr (adhesive) add_pull(s);
+    if constexpr (adhesive) add_adhesion(s);
     if constexpr (lever_arms)
       add_tangential_in_overlap(s, t);
     else
@@ -292,14 +294,15 @@ struct SecondOrder : FrictionLaw {
     return granular ? c.kt : s.kt;
   }
 
-  /// Of p = 0. Not 1: other stages tell contacts that begin by it.
+  /// For p = 0. Never exactly 1: other stages recognize by it contacts that begin.
   template <class Real> TALUS_INLINE static Real share_at_begin(Real theta)
   {
     const Real one = splat<Real>(1.0), share = splat<Real>(0.5) + theta;
     return select(magnitude(share - one) > splat<Real>(0.0), share, splat<Real>(1.0 + 1.0e-15));
   }
 
-  /// A spring remembers its displacement or, with the sign of the laws of order 1, its force.
+  /// The history of a spring is its displacement or, with the sign of the laws of order 1, its
+  /// force.
   template <class Real> TALUS_INLINE static Vector3<Real> displacement_of(Real kt, const Real *h)
   {
     const Vector3<Real> kept{h[0], h[1], h[2]};
@@ -319,7 +322,7 @@ struct SecondOrder : FrictionLaw {
   {
     const Real one = splat<Real>(1.0);
     if constexpr (!of_force) return one;
-    return select(tears<adhesive>(c), one, splat<Real>(2.0 / 3.0));
+    return select(detaches<adhesive>(c), one, splat<Real>(2.0 / 3.0));
   }
 
   /// Contact radius a step ago over that of now.
@@ -330,17 +333,17 @@ struct SecondOrder : FrictionLaw {
     const Real way = -dt * (v - 0.5 * dt * centrifugal(s, v)), old = s.overlap - way;
     const Real ratio = square_root(quotient(select(old > zero, old, zero), s.overlap));
     if constexpr (!adhesive) return ratio;
-    const auto at_once = tears<adhesive>(c);
+    const auto at_once = detaches<adhesive>(c);
     return any(at_once) ? select(at_once, jkr_radius_ratio(s, way), ratio) : ratio;
   }
 
-  template <class Real> TALUS_INLINE static void add_pull(ContactLanes<Real> &s)
+  template <class Real> TALUS_INLINE static void add_adhesion(ContactLanes<Real> &s)
   {
-    const Real pull = s.adhesive_share * s.pull_off;
-    s.elastic = s.elastic - pull;
-    s.normal_force = s.normal_force - pull;
-    s.critical_force = s.critical_force + pull;
-    s.force = s.force - pull * s.normal;
+    const Real adhesion = s.adhesive_share * s.pulloff_force;
+    s.elastic = s.elastic - adhesion;
+    s.normal_force = s.normal_force - adhesion;
+    s.critical_force = s.critical_force + adhesion;
+    s.force = s.force - adhesion * s.normal;
   }
 
   /// Of the surfaces, at the time of the positions.
@@ -351,7 +354,7 @@ struct SecondOrder : FrictionLaw {
                                s.surface_rotation + s.rotation_change, s.normal);
   }
 
-  /// Rounded as it is remembered; without adhesion above zero.
+  /// Rounded as in the history; without adhesion above zero.
   template <class Real>
   TALUS_INLINE static Real find_normal_force(const ContactLanes<Real> &s,
                                              const LastStep<Real> &last)
@@ -370,7 +373,8 @@ struct SecondOrder : FrictionLaw {
   {
     const Real zero = splat<Real>(0.0), limit = -c.mu * s.gn * s.normal_velocity;
     if constexpr (adhesive)
-      return c.mu * (s.pull_off + select(tears<adhesive>(c), jkr_begin * s.pull_off, zero));
+      return c.mu *
+             (s.pulloff_force + select(detaches<adhesive>(c), jkr_begin * s.pulloff_force, zero));
     return select((limit > zero) & (c.damping <= c.dashpot), limit, zero);
   }
 
@@ -382,13 +386,13 @@ struct SecondOrder : FrictionLaw {
   {
     const Real zero = splat<Real>(0.0), size = square_root(dot(trial, trial));
     const auto exceeds = size > limit;
-    const Real of_dashpot = select(tears<adhesive>(c), zero, c.dashpot);
+    const Real of_dashpot = select(detaches<adhesive>(c), zero, c.dashpot);
     const Real p = select(s.kt > zero, of_spring, of_dashpot);
     const Real share = missing_share(limit, select(exceeds, size, splat<Real>(1.0)), p);
     return select(exceeds, theta * limit * share, zero);
   }
 
-  /// Of contacts that have parted. Those that touch again begin anew.
+  /// Of contacts that have ended. Those that touch again begin as new ones.
   template <bool advance, class Real>
   static EndOfContact<Real> end_of(const Row<Real> &c, const ContactLanes<Real> &s, Real *h,
                                    double dt)
@@ -396,11 +400,11 @@ struct SecondOrder : FrictionLaw {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     const Real v = s.normal_velocity;
     EndOfContact<Real> end;
-    end.parted = s.parted > zero;
+    end.separated = s.separated > zero;
     const LastStep<Real> last = last_step(-magnitude(h[3]), h[4]);
-    const Real left_over = s.overlap + s.reach;    // until it ends
-    auto ends = end.parted & (left_over > zero) & (h[3] > zero);
-    if constexpr (advance) ends = end.parted & (left_over > zero) & (h[3] < zero);
+    const Real left_over = s.overlap + s.pulloff_distance;    // until it ends
+    auto ends = end.separated & (left_over > zero) & (h[3] > zero);
+    if constexpr (advance) ends = end.separated & (left_over > zero) & (h[3] < zero);
 
     Real until = left_over, left = s.elastic;
     auto pressed = ends;
@@ -412,13 +416,14 @@ struct SecondOrder : FrictionLaw {
     }
     const Real others =
         2.0 * (dot(s.velocity_change, s.normal) - s.lag * s.inverse_mass * last.force);
-    const Edge<Real> edge = edge_of<Of::END>(s, until, v, others, pressed, dt);
-    const Beginning<Real> error = errors_of<Of::END, granular, adhesive>(c, until, edge, zero);
+    const EventStep<Real> event = event_step<Event::END>(s, until, v, others, pressed, dt);
+    const EventErrors<Real> error =
+        errors_of<Event::END, granular, adhesive>(c, until, event, zero);
     const Real sum =
-        error.elastic * left - second_force<Of::END, adhesive>(c, s, error, left, edge, dt);
-    end.normal_force = end.elastic = select(edge.is, -sum, zero);
+        error.elastic * left - second_force<Event::END, adhesive>(c, s, error, left, event, dt);
+    end.normal_force = end.elastic = select(event.happens, -sum, zero);
     if constexpr (adhesive) {
-      end.elastic = select(tears<adhesive>(c), zero, end.elastic);
+      end.elastic = select(detaches<adhesive>(c), zero, end.elastic);
       end.normal_force = end.elastic + error.damping * s.gn * v;
     }
     const Real way = select(ends, dt * (v - 0.5 * dt * centrifugal(s, v)), one);
@@ -434,19 +439,20 @@ struct SecondOrder : FrictionLaw {
       Real limit = c.mu * end.normal_force;
       auto slid = last.slid;
       if constexpr (adhesive) {    // the limit does not end at 0, what vanishes before it sticks
-        limit = c.mu * (end.elastic + end.adhesive_share * s.pull_off);
-        const auto at_once = tears<adhesive>(c);
+        limit = c.mu * (end.elastic + end.adhesive_share * s.pulloff_force);
+        const auto at_once = detaches<adhesive>(c);
         const Real p = select(at_once, zero, end_exponent<of_force, rescales>(c.spring));
         const auto by_dashpot = s.kt <= zero;
-        limit = limit - grows_to_limit(c, s, p, c.mu * s.pull_off, within, edge.theta);
+        limit = limit - grows_to_limit(c, s, p, c.mu * s.pulloff_force, within, event.theta);
         slid = slid & (by_dashpot | (p <= zero));
-        const Real of_spring = power(error.ratio, p) * hurwitz_zeta(p, edge.theta);
+        const Real of_spring = power(error.ratio, p) * hurwitz_zeta(p, event.theta);
         const Vector3<Real> stuck = of_spring * s.kt * now + error.dashpot * s.gt * u;
-        end.tangential = select(edge.is, stuck, end.tangential);
+        end.tangential = select(event.happens, stuck, end.tangential);
       } else {
         const Vector3<Real> rate = -dt * s.kt * u;
-        end.tangential = select(
-            edge.is, end_of_sticking(within, rate, c.mu * last.force, edge.theta), end.tangential);
+        end.tangential =
+            select(event.happens, end_of_sticking(within, rate, c.mu * last.force, event.theta),
+                   end.tangential);
       }
       end.tangential = select(slid, with_length(limit, within), end.tangential);
     }
@@ -454,7 +460,7 @@ struct SecondOrder : FrictionLaw {
     end.history[3] =
         select(ends & last.is_given, one + select(last.slid, splat<Real>(2.0), zero), zero);
     end.history[4] = select(ends, last.force, zero);
-    const auto again = (h[3] > zero) & (s.parted <= zero);
+    const auto again = (h[3] > zero) & (s.separated <= zero);
     for (int n = 0; n < 3; n++) h[n] = select(again, zero, h[n]);
     return end;
   }

@@ -31,7 +31,7 @@ struct DelayedTwist : TwistingLaw {
     const Vector3<Real> &w = s.relative_omega;
     const Real speed = square_root(dot(w, w));
     const auto twists = (speed > c.twist_min) & (speed > splat<Real>(0.0));
-    const Real strength = c.mu * s.circle * s.delayed_force;
+    const Real strength = c.mu * s.intersection_radius * s.delayed_force;
     const Real twisting_torque = -strength * dot(w, s.normal) / speed;
     s.twisting_torque =
         s.twisting_torque + select(twists, twisting_torque, splat<Real>(0.0)) * s.normal;

@@ -33,7 +33,7 @@ struct StoppingTwist : TwistingLaw {
     const Vector3<Real> &w = s.relative_omega;
     const Real speed = square_root(dot(w, w));
     const auto twists = (speed >= c.twist_min) & (speed > zero);
-    const Real wanted = c.mu * s.circle * presses / speed;
+    const Real wanted = c.mu * s.intersection_radius * presses / speed;
     const Real most = stopping_share / (turns * s.inverse_radius * s.inverse_radius);
     const Real twisting_torque = -select(wanted < most, wanted, most) * dot(w, s.normal);
     s.twisting_torque =

@@ -43,10 +43,10 @@ struct StoppingOrder2 : TwistingLaw {
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     const Real turns = response(s.inverse_mass, dt) * inverse_gyration(s);
-    const auto acts = (s.parted <= zero) & (turns > zero) & (c.mu > zero);
+    const auto acts = (s.separated <= zero) & (turns > zero) & (c.mu > zero);
     const Real inverse = select(acts, one / select(acts, turns, one), zero);
     const Real presses = select(s.normal_force > zero, s.normal_force, zero);
-    const Real most = c.mu * s.circle * presses, reach = turns * most;
+    const Real most = c.mu * s.intersection_radius * presses, reach = turns * most;
 
     const Vector3<Real> omega = s.relative_omega + s.omega_change;
     const Real along = dot(omega, s.normal), square = dot(omega, omega);
@@ -58,7 +58,7 @@ struct StoppingOrder2 : TwistingLaw {
     const auto vector = [&](Real a) { return Vector3<Real>{a, zero, zero}; };
     const Real stored[] = {h[0], zero, zero, h[1], zero, zero, h[2]};
     HeldRotation<Real> kept = held_rotation(stored);
-    kept.own = turns * kept.own;
+    kept.torque = turns * kept.torque;
     Real found =
         inverse * hold_rotation(vector(dot(s.relative_omega, s.normal)),
                                 vector(dot(s.omega_change, s.normal)), vector(zero), limit, kept)
@@ -67,17 +67,17 @@ struct StoppingOrder2 : TwistingLaw {
     const Real speed = square_root(square);
     found = select(is_smooth, most * along / select(speed > zero, speed, one), found);
     kept.moved = (select(kept.moved, one, zero) + select(is_smooth, one, zero)) > zero;
-    Vector3<Real> moment = as_remembered(vector(found));
+    Vector3<Real> torque = as_stored(vector(found));
     if constexpr (advance) {
-      kept.own = moment;
+      kept.torque = torque;
       Real next[HeldRotation<Real>::size];
       store_held(kept, next);
-      h[0] = select(s.parted > zero, zero, next[0]);
-      h[1] = select(s.parted > zero, zero, next[3]);
-      h[2] = select(s.parted > zero, zero, next[6]);
+      h[0] = select(s.separated > zero, zero, next[0]);
+      h[1] = select(s.separated > zero, zero, next[3]);
+      h[2] = select(s.separated > zero, zero, next[6]);
     } else
-      moment.x = select(kept.known, h[0], moment.x);
-    s.twisting_torque = s.twisting_torque - select(acts, moment.x, zero) * s.normal;
+      torque.x = select(kept.known, h[0], torque.x);
+    s.twisting_torque = s.twisting_torque - select(acts, torque.x, zero) * s.normal;
   }
 };
 

@@ -22,11 +22,11 @@ constexpr int rim_points = 12;
 
 class RoundContacts {
  public:
-  RoundContacts(const ConvexShape &shape, const Pose &its_pose, const Frustum &its_body,
-                double its_exponent, std::vector<ShapeContact> &its_points) :
+  RoundContacts(const ConvexShape &shape, const Pose &particle_pose, const Frustum &frustum,
+                double exponent, std::vector<ShapeContact> &found_points) :
       core(shape.core()),
-      pose(its_pose), body(its_body), radius(shape.radius()), reach(4.0 * shape.bounding_radius()),
-      force_exponent(its_exponent), points(its_points)
+      pose(particle_pose), body(frustum), radius(shape.radius()),
+      reach(4.0 * shape.bounding_radius()), force_exponent(exponent), points(found_points)
   {
   }
 
@@ -34,7 +34,7 @@ class RoundContacts {
   {
     add_vertices();
     add_edges();
-    if (body.is_endless()) return;
+    if (body.is_infinite()) return;
     for (const int end : {0, 1}) add_rim(end);
     sort_by_name(points);
   }
@@ -103,8 +103,8 @@ class RoundContacts {
   };
   static Buffers &buffers()
   {
-    static thread_local Buffers its;
-    return its;
+    static thread_local Buffers of_thread;
+    return of_thread;
   }
   std::vector<Vertex> &vertices = buffers().vertices;
   std::vector<int> &of_edge = buffers().of_edge;
@@ -115,13 +115,13 @@ void RoundContacts::add_vertices()
 {
   vertices.resize(core.num_vertices());
   for (int v = 0; v < core.num_vertices(); v++) {
-    Vertex &its = vertices[v];
-    its.place = pose.point_in_space(core.vertex(v));
-    its.distance = distance(its.place, its.outward);
-    its.contact = -1;
-    if (its.distance < radius)
-      its.contact = add(its.place, its.outward, radius - its.distance,
-                        contact_name(ContactParts::VERTEX_OF_A, v, 0));
+    Vertex &vertex = vertices[v];
+    vertex.place = pose.point_in_space(core.vertex(v));
+    vertex.distance = distance(vertex.place, vertex.outward);
+    vertex.contact = -1;
+    if (vertex.distance < radius)
+      vertex.contact = add(vertex.place, vertex.outward, radius - vertex.distance,
+                           contact_name(ContactParts::VERTEX_OF_A, v, 0));
   }
 }
 
@@ -207,18 +207,18 @@ void RoundContacts::add_deepest(int end, const int (&contact)[rim_points])
     const Vector place = rim.center + rim.radius * away;
     Vector normal;
     CorePoint nearest;
-    const double its = overlap_at(place, away, rim.axis, normal, nearest);
-    if (!(its > 0.0) || nearest.kind != CorePoint::FACE || nearest.part != f) continue;
+    const double overlap = overlap_at(place, away, rim.axis, normal, nearest);
+    if (!(overlap > 0.0) || nearest.kind != CorePoint::FACE || nearest.part != f) continue;
     const double at = std::atan2(y, x) / (2.0 * 3.14159265358979323846) * rim_points;
     const int before = (static_cast<int>(std::floor(at)) + rim_points) % rim_points;
-    energy.begin(its, force_exponent);
+    energy.begin(overlap, force_exponent);
     add_end(contact[before]);
     add_end(contact[(before + 1) % rim_points]);
     for (int k = 0; k < core.num_corners(f); k++) {
       add_end(vertices[core.corners(f)[k]].contact);
       add_end(of_edge[core.edges_of_face(f)[k]]);
     }
-    add_shared(place + (radius - its) * normal, normal, its,
+    add_shared(place + (radius - overlap) * normal, normal, overlap,
                contact_name(ContactParts::WHOLE, f, end));
   }
 }

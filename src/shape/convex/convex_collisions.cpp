@@ -40,53 +40,59 @@ bool with_convex(const Convex &a, const Convex &b, const CollisionRequest &how,
                  ShapeContacts &contacts)
 {
   SeparatingDirection unknown;
-  const bool touch = collide(a.it, a.pose, b.it, b.pose, how.direction ? *how.direction : unknown,
-                             contacts, how.method, how.force_exponent);
-  if (contacts.cores_overlap) look_at_cores(a.it.radius(), b.it.radius(), contacts);
-  return with_curvature(touch, 1.0 / a.it.contact_radius(), 1.0 / b.it.contact_radius(), contacts);
+  const bool touch =
+      collide(a.geometry, a.pose, b.geometry, b.pose, how.direction ? *how.direction : unknown,
+              contacts, how.method, how.force_exponent);
+  if (contacts.cores_overlap) look_at_cores(a.geometry.radius(), b.geometry.radius(), contacts);
+  return with_curvature(touch, 1.0 / a.geometry.contact_radius(), 1.0 / b.geometry.contact_radius(),
+                        contacts);
 }
 
 bool with_sphere(const Convex &a, const Placed<Sphere> &b, const CollisionRequest & /*how*/,
                  ShapeContacts &contacts)
 {
-  const bool touch = collide_sphere(a.it, a.pose, b.pose.position, b.it.radius, contacts);
-  return with_curvature(touch, 1.0 / a.it.contact_radius(), 1.0 / b.it.radius, contacts);
+  const bool touch =
+      collide_sphere(a.geometry, a.pose, b.pose.position, b.geometry.radius, contacts);
+  return with_curvature(touch, 1.0 / a.geometry.contact_radius(), 1.0 / b.geometry.radius,
+                        contacts);
 }
 
 bool with_flat(const Convex &a, const Placed<FlatSurface> &b, const CollisionRequest & /*how*/,
                ShapeContacts &contacts)
 {
-  const FlatSurface &its = b.it;
-  const double height = dot(its.normal, a.pose.position) - its.offset,
-               reach = a.it.bounding_radius();
+  const FlatSurface &plane = b.geometry;
+  const double height = dot(plane.normal, a.pose.position) - plane.offset,
+               reach = a.geometry.bounding_radius();
   contacts.clear();
   if (height <= -reach || height >= reach) return false;
-  const bool flip = its.two_sided && height < 0.0;
-  const bool touch = collide_plane(a.it, a.pose, flip ? -its.normal : its.normal,
-                                   flip ? -its.offset : its.offset, contacts);
-  for (ShapeContact &point : contacts.points) point.part = its.part;
-  return with_curvature(touch, a.it, contacts);
+  const bool flip = plane.two_sided && height < 0.0;
+  const bool touch = collide_plane(a.geometry, a.pose, flip ? -plane.normal : plane.normal,
+                                   flip ? -plane.offset : plane.offset, contacts);
+  for (ShapeContact &point : contacts.points) point.part = plane.part;
+  return with_curvature(touch, a.geometry, contacts);
 }
 
 bool with_vessel(const Convex &a, const Placed<VesselSurface> &b, const CollisionRequest & /*how*/,
                  ShapeContacts &contacts)
 {
-  return with_curvature(collide_vessel(a.it, a.pose, *b.it.body, contacts), a.it, contacts);
+  return with_curvature(collide_vessel(a.geometry, a.pose, *b.geometry.body, contacts), a.geometry,
+                        contacts);
 }
 
 bool with_round(const Convex &a, const Placed<RoundSurface> &b, const CollisionRequest &how,
                 ShapeContacts &contacts)
 {
-  return with_curvature(collide_round(a.it, a.pose, *b.it.body, contacts, how.force_exponent), a.it,
-                        contacts);
+  return with_curvature(
+      collide_round(a.geometry, a.pose, *b.geometry.body, contacts, how.force_exponent), a.geometry,
+      contacts);
 }
 
 bool with_mesh(const Convex &a, const Placed<MeshSurface> &b, const CollisionRequest &how,
                ShapeContacts &contacts)
 {
-  const SolidMesh mesh{*b.it.shape, *b.it.features};
-  return with_curvature(collide_mesh(a.it, a.pose, mesh, contacts, how.force_exponent), a.it,
-                        contacts);
+  const SolidMesh mesh{*b.geometry.shape, *b.geometry.features};
+  return with_curvature(collide_mesh(a.geometry, a.pose, mesh, contacts, how.force_exponent),
+                        a.geometry, contacts);
 }
 
 }    // namespace

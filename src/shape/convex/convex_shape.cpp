@@ -159,7 +159,7 @@ ConvexShape ConvexShape::stl(const std::string &content, double scale, double ra
          " edges: close it, since only a closed surface has a volume");
   if (!report.closed())
     fail("its surface is none of a body: " +
-         std::to_string(report.crowded_edges + report.turned_edges) +
+         std::to_string(report.nonmanifold_edges + report.inconsistent_edges) +
          " edges belong to more than two triangles, or to two that face opposite sides");
   Points vertices;
   for (int v = 0; v < mesh.num_vertices(); v++) vertices.push_back(scale * mesh.vertex(v));

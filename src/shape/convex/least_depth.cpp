@@ -71,9 +71,9 @@ struct Cone {
     if (inside > 0.0) largest -= inside * inside;
   }
   /// Both in one frame.
-  bool is_across(const Vector &edge, const Vector &its_line) const
+  bool is_across(const Vector &edge, const Vector &line_of_centers) const
   {
-    const double along = dot(edge, its_line);
+    const double along = dot(edge, line_of_centers);
     return along * along <= largest * dot(edge, edge);
   }
 };

@@ -84,7 +84,7 @@ void add_prisms(const ConvexCore &core, double r, Moments &moments)
 }
 
 /// The exterior angle of an edge, between the normals of its faces.
-double turn_of(const ConvexCore &core, int e)
+double rotation_by(const ConvexCore &core, int e)
 {
   const Vector n0 = to_eigen(core.normal(core.edge(e).face[0])),
                n1 = to_eigen(core.normal(core.edge(e).face[1]));
@@ -99,7 +99,7 @@ void add_edge_sectors(const ConvexCore &core, double r, Moments &moments)
   for (int e = 0; e < core.num_edges(); e++) {
     const Vector from = to_eigen(core.vertex(core.edge(e).vertex[0])),
                  to = to_eigen(core.vertex(core.edge(e).vertex[1])), along = to - from;
-    const double size = along.norm(), angle = 0.5 * turn_of(core, e);
+    const double size = along.norm(), angle = 0.5 * rotation_by(core, e);
     const Vector half =
         (to_eigen(core.normal(core.edge(e).face[0])) + to_eigen(core.normal(core.edge(e).face[1])))
             .normalized();
@@ -140,7 +140,7 @@ void add_vertex_sectors(const ConvexCore &core, double r, Moments &moments)
     const ConvexCore::Edge &edge = core.edge(e);
     const Vector along = to_eigen(core.vertex(edge.vertex[1]) - core.vertex(edge.vertex[0]));
     const Vector sum = to_eigen(core.normal(edge.face[0]) + core.normal(edge.face[1]));
-    const double angle = turn_of(core, e);
+    const double angle = rotation_by(core, e);
     for (int end = 0; end < 2; end++) {
       // normals of a vertex are those along which no edge from it ascends
       const Vector nu = (end == 0 ? 1.0 : -1.0) * along.normalized();

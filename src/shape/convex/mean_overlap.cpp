@@ -54,7 +54,7 @@ struct Side {
   std::vector<PolygonCorner> inside;    // what is in the slab, and its bounds
   Flat low, high;
 
-  void keep_inside(double sign, double least_height, PolygonCorner::Side its);
+  void keep_inside(double sign, double least_height, PolygonCorner::Side side);
   bool is_beside(const Side &other) const
   {
     return low.x > other.high.x || high.x < other.low.x || low.y > other.high.y ||
@@ -103,12 +103,12 @@ void cut_at_zero(std::vector<PolygonCorner> &polygon, std::vector<PolygonCorner>
   cut(polygon, buffer, from, to, PolygonCorner::CUT, 0);
 }
 
-void Side::keep_inside(double sign, double least_height, PolygonCorner::Side its)
+void Side::keep_inside(double sign, double least_height, PolygonCorner::Side side)
 {
   static thread_local std::vector<PolygonCorner> buffer;
   inside.clear();
   for (int k = 0; k < face.num_corners(); k++)
-    inside.push_back({its, face.corner[k], face.edge[k]});
+    inside.push_back({side, face.corner[k], face.edge[k]});
   cut_at_zero(inside, buffer, sign * face.at_origin - least_height, sign * face.slope);
   constexpr double far = std::numeric_limits<double>::infinity();
   low = {far, far};
@@ -156,10 +156,10 @@ void Sides::find(const ConvexCore &core, const Pose &pose, const ProjectionFrame
 /// A cell, its gaps at the corners, and what they are summed to.
 class Cell {
  public:
-  Cell(const Side &its_a, const Side &its_b, std::vector<PolygonCorner> &its_polygon,
+  Cell(const Side &side_a, const Side &side_b, std::vector<PolygonCorner> &cell_polygon,
        std::vector<PolygonCorner> &buffer) :
-      a(its_a),
-      b(its_b), polygon(its_polygon), slope(b.face.slope - a.face.slope),
+      a(side_a),
+      b(side_b), polygon(cell_polygon), slope(b.face.slope - a.face.slope),
       at_origin(b.face.at_origin - a.face.at_origin)
   {
     polygon = a.inside;

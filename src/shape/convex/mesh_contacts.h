@@ -36,12 +36,12 @@ class MeshContacts {
   using MeshCorner = MeshFeatures::Corner;
 
  public:
-  MeshContacts(const ConvexShape &its_shape, const Pose &its_pose, const SolidMesh &mesh,
-               double its_exponent, std::vector<ShapeContact> &its_points) :
-      core(its_shape.core()),
-      pose(its_pose), surface(mesh.shape), features(mesh.features),
-      detail(mesh.shape.near_detail()), radius(its_shape.radius()),
-      bound(its_shape.bounding_radius()), force_exponent(its_exponent), points(its_points)
+  MeshContacts(const ConvexShape &particle_shape, const Pose &particle_pose, const SolidMesh &mesh,
+               double exponent, std::vector<ShapeContact> &found_points) :
+      core(particle_shape.core()),
+      pose(particle_pose), surface(mesh.shape), features(mesh.features),
+      detail(mesh.shape.near_detail()), radius(particle_shape.radius()),
+      bound(particle_shape.bounding_radius()), force_exponent(exponent), points(found_points)
   {
   }
 
@@ -103,8 +103,8 @@ class MeshContacts {
   };
   static Buffers &buffers()
   {
-    static thread_local Buffers its;
-    return its;
+    static thread_local Buffers of_thread;
+    return of_thread;
   }
   Buffers &with = buffers();
 };

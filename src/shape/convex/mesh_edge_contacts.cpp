@@ -41,8 +41,8 @@ bool MeshContacts::turn_outward(const Ridge &ridge, const Vector &at, Vector &no
 {
   const Vector to_center = pose.position - at;
   const MeshSide side = surface.side();
-  if (ridge.bend != Bend::RIM) {
-    const bool in_front = ridge.bend == Bend::RIDGE;
+  if (ridge.edge_kind != EdgeKind::BOUNDARY) {
+    const bool in_front = ridge.edge_kind == EdgeKind::RIDGE;
     if (in_front != (dot(normal, ridge.outward) > 0.0)) normal = -normal;
     return side != (in_front ? MeshSide::BACKS : MeshSide::NORMALS);
   }
@@ -55,8 +55,8 @@ bool MeshContacts::turn_outward(const Ridge &ridge, const Vector &at, Vector &no
 
 bool MeshContacts::is_beside(const Ridge &ridge, const Vector &normal) const
 {
-  if (ridge.bend == Bend::RIM) return true;
-  const double side = ridge.bend == Bend::RIDGE ? 1.0 : -1.0;
+  if (ridge.edge_kind == EdgeKind::BOUNDARY) return true;
+  const double side = ridge.edge_kind == EdgeKind::RIDGE ? 1.0 : -1.0;
   return std::max(side * dot(normal, plane_normal(ridge.planes[0])),
                   side * dot(normal, plane_normal(ridge.planes[1]))) > through;
 }
@@ -88,13 +88,13 @@ bool MeshContacts::overlaps(const EdgePoint &at, const Ridge &ridge, int t,
     const bool of_edge = f == edge.face[0] || f == edge.face[1];
     if (core.offset(f) - dot(core.normal(f), q) < (of_edge ? -slack : depth)) return false;
   }
-  return ridge.bend == Bend::RIM || is_nearest(ridge, t, at.of_edge, slack, depth);
+  return ridge.edge_kind == EdgeKind::BOUNDARY || is_nearest(ridge, t, at.of_edge, slack, depth);
 }
 
 bool MeshContacts::is_nearest(const Ridge &ridge, int t, const Vector &x, double slack,
                               double depth) const
 {
-  const double side = ridge.bend == Bend::RIDGE ? 1.0 : -1.0;
+  const double side = ridge.edge_kind == EdgeKind::RIDGE ? 1.0 : -1.0;
   int k = 0;
   while (surface.surface().corners(t).vertex[k] != ridge.vertex[0]) k++;
   const int other = features.over(t, k);
@@ -135,14 +135,14 @@ bool MeshContacts::share_with_ends(const EdgePoint &at, const Ridge &ridge, doub
 
 void MeshContacts::add_edges(const Ridge &ridge, int t)
 {
-  const Segment its{ridge.from, ridge.along, dot(ridge.along, ridge.along)};
+  const Segment segment{ridge.from, ridge.along, dot(ridge.along, ridge.along)};
   const Vector to_center = pose.position - ridge.from;
-  const double part = std::clamp(dot(to_center, ridge.along) / its.square, 0.0, 1.0);
+  const double part = std::clamp(dot(to_center, ridge.along) / segment.square, 0.0, 1.0);
   const Vector apart = to_center - part * ridge.along;
   if (dot(apart, apart) >= bound * bound) return;
   for (const ParticleEdge &edge : with.edges) {
     Vector of_edge, of_ridge;
-    if (!find_nearest_inside(edge.segment, its, of_edge, of_ridge)) continue;
+    if (!find_nearest_inside(edge.segment, segment, of_edge, of_ridge)) continue;
     const Vector across = cross(edge.segment.along, ridge.along);
     Vector normal = (1.0 / length(across)) * across;
     if (!turn_outward(ridge, of_ridge, normal)) continue;

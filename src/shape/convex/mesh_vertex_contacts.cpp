@@ -53,10 +53,10 @@ void MeshContacts::add_behind(int v, const Vector &x)
   const NearTriangle *at = nullptr;
   NearestPoint nearest{};
   for (const NearTriangle &one : with.near) {
-    const NearestPoint its = detail.nearest(one.part, x);
-    if (at && its.square >= nearest.square) continue;
+    const NearestPoint candidate = detail.nearest(one.part, x);
+    if (at && candidate.square >= nearest.square) continue;
     at = &one;
-    nearest = its;
+    nearest = candidate;
   }
   if (!(at->height(x) < 0.0)) return;
   if (nearest.feature == NearestPoint::FACE)
@@ -69,11 +69,11 @@ void MeshContacts::add_behind_edges(int v, const Vector &x, const NearTriangle &
                                     const NearestPoint &nearest)
 {
   static thread_local std::vector<int> around;
-  const Bend sharp = at.side > 0.0 ? Bend::RIDGE : Bend::VALLEY;
+  const EdgeKind sharp = at.side > 0.0 ? EdgeKind::RIDGE : EdgeKind::VALLEY;
   bool stands_out = false;
   const auto look_at = [&](int t, int k) {
-    const Bend bend = features.bend(t, k);
-    stands_out = stands_out || bend == sharp || bend == Bend::RIM;
+    const EdgeKind edge_kind = features.edge_kind(t, k);
+    stands_out = stands_out || edge_kind == sharp || edge_kind == EdgeKind::BOUNDARY;
   };
   around.assign(1, at.triangle);
   if (nearest.feature == NearestPoint::EDGE) {

@@ -27,26 +27,27 @@ struct Left {
 
 Left left_by_end(double p)
 {
-  constexpr double bend = 0.2, steepest = 1.0 / (1.0 - 0.5 * bend), to_end = 1.0 - bend;
+  constexpr double rounded_part = 0.2, steepest = 1.0 / (1.0 - 0.5 * rounded_part),
+                   to_end = 1.0 - rounded_part;
   if (p < to_end) return {1.0 - steepest * p, steepest};
-  const double slope = steepest * (1.0 - p) / bend;
+  const double slope = steepest * (1.0 - p) / rounded_part;
   return {0.5 * slope * (1.0 - p), slope};
 }
 
 }    // namespace
 
-void SharedEnergy::begin(double its_overlap, double force_exponent)
+void SharedEnergy::begin(double contact_overlap, double force_exponent)
 {
   ends.clear();
-  overlap = its_overlap;
+  overlap = contact_overlap;
   exponent = force_exponent;
   is_left = true;
 }
 
-void SharedEnergy::add_end(int contact, double its_overlap, double share)
+void SharedEnergy::add_end(int contact, double contact_overlap, double share)
 {
-  if (!is_left || !(its_overlap > 0.0) || !(share > 0.0)) return;
-  const double ratio = share * energy_ratio(its_overlap / overlap, exponent);
+  if (!is_left || !(contact_overlap > 0.0) || !(share > 0.0)) return;
+  const double ratio = share * energy_ratio(contact_overlap / overlap, exponent);
   is_left = ratio < 1.0;
   const Left left = left_by_end(ratio);
   ends.push_back({contact, share, ratio, left.share, left.slope});

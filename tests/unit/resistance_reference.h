@@ -1,7 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Resistance to rolling and twisting to second order in the time step, for second_order_twin.h.
-// Moment M: torque -r_1 M on body 1, -r_2 M on body 2; twist T: -T n on body 1, T n on body 2.
+// Resistance to rolling and twisting to second order in the time step, for
+// second_order_reference.h. Moment M: torque -r_1 M on body 1, -r_2 M on body 2; twist T: -T n on
+// body 1, T n on body 2.
 //
 //   holding   Coulomb's law of rotation: M = most w/|w| while w = r_1 omega_1 + r_2 omega_2, across
 //             the normal, is not 0; else what keeps it at 0
@@ -16,14 +17,14 @@
 //   * what is at rest, and where the torque of others jumped, M changes by a share of what would
 //     stop the rotation within the step: others do the same.
 
-#ifndef TALUS_TESTS_RESISTANCE_TWIN_H
-#define TALUS_TESTS_RESISTANCE_TWIN_H
+#ifndef TALUS_TESTS_RESISTANCE_REFERENCE_H
+#define TALUS_TESTS_RESISTANCE_REFERENCE_H
 
-#include "twin_vector.h"
+#include "reference_vector.h"
 
 #include <algorithm>
 
-namespace Twin {
+namespace Reference {
 
 struct Resistance {
   double mu_r = 0.0, mu_s = 0.0;    // holding, or delayed
@@ -55,7 +56,7 @@ struct ResistanceInput {
   Vec moment;                           // of friction
   double pure, force, jump;    // normal force, with its correction, where the contact began
   double share;                // of a dashpot of exponent 0 in the first step
-  double dt, lasted, lag, inverse_mass, inverse_inertia, radius, circle;
+  double dt, lasted, lag, inverse_mass, inverse_inertia, radius, intersection_radius;
   bool touches;    // did so a step ago
 };
 
@@ -143,7 +144,8 @@ inline Vec spring(const Resistance &law, const ResistanceInput &in, Vec before, 
 inline double twisting(const Resistance &law, const ResistanceInput &in, RememberedResistance &kept,
                        bool second)
 {
-  const double turn = in.dt * in.inverse_inertia, most = law.mu_s * in.circle * in.force;
+  const double turn = in.dt * in.inverse_inertia,
+               most = law.mu_s * in.intersection_radius * in.force;
   const Vec now = in.omega + (second ? 1.0 : 0.0) * in.omega_change;
   const double w = dot(in.omega, in.n), speed = length(now), along = dot(now, in.n);
   const double smooth = speed > 0.0 ? most * along / speed : 0.0;
@@ -198,6 +200,6 @@ inline Resisting resist(const Resistance &law, const ResistanceInput &in,
   return result;
 }
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

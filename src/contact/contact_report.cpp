@@ -1,13 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What ContactPipeline answers about the contacts of its last compute(): diagnostics, not part of a
-// step.
+// Queries of ContactPipeline about the contacts of its last compute(): for outputs and diagnostics,
+// not part of a step.
 
 #include "contact/contact_pipeline.h"
 
 #include "base/in_parallel.h"
 #include "contact/state_of_pair.h"
-#include "laws/circle_of_intersection.h"
+#include "laws/intersection_radius.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,8 @@ double ContactPipeline::early_share() const
 
 /* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
 
-SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t pair, double dt,
-                                        double lag, Ask ask) const
+ContactReport ContactPipeline::report_of(const ContactChunk &chunk, std::int64_t pair, double dt,
+                                         double lag, ContactData requested) const
 {
   const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
   const Record &xi = particles.position[i], &xj = particles.position[j];
@@ -73,28 +73,30 @@ SurveyedContact ContactPipeline::survey(const ContactChunk &chunk, std::int64_t 
   }
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
-  s.circle = circle_of_intersection(ri, rj, s.overlap);
+  s.intersection_radius = intersection_radius_of(ri, rj, s.overlap);
 
-  HistoryValues memory{};
-  if (scene.with_history && chunk.history.touches(pair)) memory = chunk.history.values(pair);
-  SurveyedContact found;
+  HistoryValues history{};
+  if (scene.with_history && chunk.history.touches(pair)) history = chunk.history.values(pair);
+  ContactReport found;
   found.i = order.atom_of_slot[i];
   found.j = order.atom_of_slot[j];
   found.share = order.share(i, j);
   found.normal = s.normal;
   found.overlap = s.overlap;
   const int row = chunk.row_of_pair(scene, pair);
-  survey_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, memory, ask, found);
+  report_contact(scene.laws.law(row), scene.laws.coefficients(row), s, dt, history, requested,
+                 found);
   found.set_arms_of_spheres(ri, rj);
   return found;
 }
 
-void ContactPipeline::for_each_contact(double dt, double lag, Ask ask,
+void ContactPipeline::for_each_contact(double dt, double lag, ContactData requested,
                                        const VisitContact &visit) const
 {
   if (!pairs_known) return;
   for (const ContactChunk &chunk : chunks)
-    chunk.for_each_contact([&](std::int64_t pair) { visit(survey(chunk, pair, dt, lag, ask)); });
+    chunk.for_each_contact(
+        [&](std::int64_t pair) { visit(report_of(chunk, pair, dt, lag, requested)); });
 }
 
 double ContactPipeline::squared_distance(int slot_a, int slot_b) const

@@ -1,17 +1,17 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What second_order_twin.h computes with: laws, particles, planes, and the errors of sums over time
-// steps.
+// What second_order_reference.h computes with: laws, particles, planes, and the errors of sums over
+// time steps.
 
-#ifndef TALUS_TESTS_SECOND_ORDER_TWIN_LAW_H
-#define TALUS_TESTS_SECOND_ORDER_TWIN_LAW_H
+#ifndef TALUS_TESTS_SECOND_ORDER_REFERENCE_LAW_H
+#define TALUS_TESTS_SECOND_ORDER_REFERENCE_LAW_H
 
-#include "resistance_twin.h"
+#include "resistance_reference.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace Twin {
+namespace Reference {
 
 /// a by the rotation from one normal to n, which is half way at n - q; to second order in q.
 inline Vec rotated(Vec a, Vec n, Vec q)
@@ -116,6 +116,6 @@ inline Coefficients coefficients(const Law &law, double d, double mass, double r
   }
 }
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

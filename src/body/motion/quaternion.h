@@ -2,8 +2,8 @@
 //
 // Rotations of one body (Real = double) or of eight (Vec8), with the same bits.
 
-#ifndef TALUS_BODY_MOTION_TURN_H
-#define TALUS_BODY_MOTION_TURN_H
+#ifndef TALUS_BODY_MOTION_QUATERNION_H
+#define TALUS_BODY_MOTION_QUATERNION_H
 
 #include "base/vector3.h"
 
@@ -20,13 +20,13 @@ template <class Real> struct PrincipalAxes {
   Vector3<Real> to_body(const Vector3<Real> &v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 
-/// A rotation: w + x i + y j + z k, of length 1.
-template <class Real> struct Turn {
+/// Unit quaternion w + x i + y j + z k: a rotation.
+template <class Real> struct Quaternion {
   Real w, x, y, z;
 
-  Turn normalized() const { return scaled(splat<Real>(1.0) / square_root(square())); }
+  Quaternion normalized() const { return scaled(splat<Real>(1.0) / square_root(square())); }
   /// The same if the length is 1 to a few digits: one step of Newton's method.
-  Turn renormalized() const { return scaled(splat<Real>(1.5) - splat<Real>(0.5) * square()); }
+  Quaternion renormalized() const { return scaled(splat<Real>(1.5) - splat<Real>(0.5) * square()); }
 
   PrincipalAxes<Real> axes() const
   {
@@ -38,11 +38,12 @@ template <class Real> struct Turn {
 
  private:
   Real square() const { return w * w + x * x + y * y + z * z; }
-  Turn scaled(Real s) const { return {s * w, s * x, s * y, s * z}; }
+  Quaternion scaled(Real s) const { return {s * w, s * x, s * y, s * z}; }
 };
 
 /// First b, then a.
-template <class Real> inline Turn<Real> operator*(const Turn<Real> &a, const Turn<Real> &b)
+template <class Real>
+inline Quaternion<Real> operator*(const Quaternion<Real> &a, const Quaternion<Real> &b)
 {
   return {
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -55,26 +56,26 @@ template <class Real> struct Angle {
 };
 
 /// Where the square of an angle is not small.
-inline void correct_large(double square, double limit, Angle<double> &its)
+inline void correct_large(double square, double limit, Angle<double> &result)
 {
   if (square < limit) return;
   const double angle = std::sqrt(square);
-  its = {std::cos(angle), std::sin(angle) / angle};
+  result = {std::cos(angle), std::sin(angle) / angle};
 }
-inline void correct_large(Vec8 square, double limit, Angle<Vec8> &its)
+inline void correct_large(Vec8 square, double limit, Angle<Vec8> &angle)
 {
   alignas(64) double of[3][lanes];
   store(of[0], square);
   if (*std::max_element(of[0], of[0] + lanes) < limit) return;
-  store(of[1], its.cosine);
-  store(of[2], its.sine_ratio);
+  store(of[1], angle.cosine);
+  store(of[2], angle.sine_ratio);
   for (int k = 0; k < lanes; k++) {
     Angle<double> one{of[1][k], of[2][k]};
     correct_large(of[0][k], limit, one);
     of[1][k] = one.cosine;
     of[2][k] = one.sine_ratio;
   }
-  its = {load8(of[1]), load8(of[2])};
+  angle = {load8(of[1]), load8(of[2])};
 }
 
 /// From the square of the angle. In a usual step a grain turns by less than a degree: the terms of
@@ -83,24 +84,24 @@ template <class Real> inline Angle<Real> angle_of_square(Real a)
 {
   constexpr double limit = 1.0e-3;
   const Real one = splat<Real>(1.0);
-  Angle<Real> its;
-  its.sine_ratio =
+  Angle<Real> angle;
+  angle.sine_ratio =
       one - (1.0 / 6.0) * a *
                 (one - (1.0 / 20.0) * a * (one - (1.0 / 42.0) * a * (one - (1.0 / 72.0) * a)));
-  its.cosine =
+  angle.cosine =
       one -
       0.5 * a * (one - (1.0 / 12.0) * a * (one - (1.0 / 30.0) * a * (one - (1.0 / 56.0) * a)));
-  correct_large(a, limit, its);
-  return its;
+  correct_large(a, limit, angle);
+  return angle;
 }
 
-/// Made by an angular velocity in a time.
-template <class Real> inline Turn<Real> turn_in(const Vector3<Real> &omega, double dt)
+/// Rotation by an angular velocity during dt.
+template <class Real> inline Quaternion<Real> rotation_in(const Vector3<Real> &omega, double dt)
 {
   const double half = 0.5 * dt;
-  const Angle<Real> its = angle_of_square<Real>((half * half) * dot(omega, omega));
-  const Real scale = half * its.sine_ratio;
-  return {its.cosine, scale * omega.x, scale * omega.y, scale * omega.z};
+  const Angle<Real> angle = angle_of_square<Real>((half * half) * dot(omega, omega));
+  const Real scale = half * angle.sine_ratio;
+  return {angle.cosine, scale * omega.x, scale * omega.y, scale * omega.z};
 }
 
 }    // namespace Talus

@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
-"""Contacts of jkr, which last beyond zero overlap and then tear: their forces at large bodies against walls of LAMMPS, and
-the energy that is lost when they tear."""
+"""Contacts of jkr, which last beyond zero overlap until pull-off: their forces at large bodies against walls of LAMMPS, and
+the energy that is lost at pull-off."""
 
 import math
 import os
@@ -132,7 +132,7 @@ class LostEnergy(SceneCase):
         early = max(abs(row[DISSIPATED]) for row in touching) / expected
         found = rows[-1][DISSIPATED]
         print(f"\n{what}: kinetic energy {totals[0]:.5g} -> {rows[-1][KINETIC]:.5g}, dissipated {found:.6g}, expected {expected:.6g}; "
-              f"change of the sum {error:.1e}, counted before it tears {early:.1e}")
+              f"change of the sum {error:.1e}, counted before pull-off {early:.1e}")
         self.assertLess(error, 1e-5)    # of second order in the time step
         self.assertLess(early, 5e-3)
         self.assert_close(found, expected, 2e-3)
@@ -148,7 +148,7 @@ class LostEnergy(SceneCase):
         self.check("at a plane", self.impact(one, f"fix floor all large/body plane 0 0 0 0 0 1 contact {JKR}"), lost(R))
 
     def test_with_damping(self):
-        """What damping takes and what tears off are one sum."""
+        """What damping dissipates and what pull-off dissipates are one sum."""
         m = 10.0 * 4 / 3 * math.pi * R**3
         v = math.sqrt(9 * lost(R / 2) / m)
         spheres = [Sphere((s * (R + 1e-3), 0, 0), (-s * v, 0, 0), density=10.0, diameter=2 * R) for s in (-1, 1)]

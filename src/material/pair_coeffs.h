@@ -3,8 +3,8 @@
 // The contact laws of all pairs of particle types, as set by `pair_coeff` and as mixed where they
 // are not set.
 
-#ifndef TALUS_MATERIAL_LAW_BOOK_H
-#define TALUS_MATERIAL_LAW_BOOK_H
+#ifndef TALUS_MATERIAL_PAIR_COEFFS_H
+#define TALUS_MATERIAL_PAIR_COEFFS_H
 
 #include "material/contact_spec.h"
 #include "material/law_table.h"
@@ -14,11 +14,11 @@
 
 namespace Talus {
 
-class LawBook {
+class PairCoeffs {
  public:
   FrictionMix mix = FrictionMix::MINIMUM;
 
-  /// Forgets everything; types count from 1 to ntypes.
+  /// Clears everything; types count from 1 to ntypes.
   void resize(int ntypes);
   int num_types() const { return types; }
 
@@ -51,7 +51,7 @@ class LawBook {
   /// Any pair that is set conducts heat.
   bool conducts_heat() const;
   /// How far a contact of particles with these radii lasts beyond zero overlap (length).
-  double reach(int i, int j, double radius_i, double radius_j) const;
+  double pulloff_distance(int i, int j, double radius_i, double radius_j) const;
 
   /// "", or why contacts of the pair are not of second order, see second_order_laws.h.
   std::string reason_against_second_order(int i, int j) const;
@@ -59,7 +59,7 @@ class LawBook {
   /// One line for a pair that is set or can be mixed: law, whether it was mixed, coefficients.
   std::string describe_pair(int i, int j) const;
 
-  /// For the log, several lines: kernels, pairs of types, and what `table` lets a scene do without.
+  /// For the log, several lines: kernels, pairs of types, and what the laws of `table` do not need.
   std::string describe(const LawTable &table) const;
 
   /// All pairs for the kernels. Pairs that are neither set nor can be mixed belong to another

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "material/law_book.h"
+#include "material/pair_coeffs.h"
 
 #include "base/simd.h"
 #include "laws/second_order_laws.h"
@@ -11,14 +11,14 @@
 
 namespace Talus {
 
-void LawBook::resize(int ntypes)
+void PairCoeffs::resize(int ntypes)
 {
   types = ntypes;
   entries.assign((types + 1) * (types + 1), Entry{});
   changes++;
 }
 
-bool LawBook::can_mix(int i, int j) const
+bool PairCoeffs::can_mix(int i, int j) const
 {
   if (!is_set(i, i) || !is_set(j, j)) return false;
   const ContactSpec &a = spec(i, i), &b = spec(j, j);
@@ -28,37 +28,37 @@ bool LawBook::can_mix(int i, int j) const
   return a.law == b.law && (!a.is_material() || (both_or_none("kt") && both_or_none("gt")));
 }
 
-const ContactLaw &LawBook::law(int i, int j) const
+const ContactLaw &PairCoeffs::law(int i, int j) const
 {
   return (is_set(i, j) ? spec(i, j) : spec(i, i)).law;
 }
 
-ContactCoefficients LawBook::coefficients(int i, int j) const
+ContactCoefficients PairCoeffs::coefficients(int i, int j) const
 {
   if (is_set(i, j)) return contact_coefficients(spec(i, j), spec(i, j), mix);
   return contact_coefficients(spec(i, i), spec(j, j), mix);
 }
 
-bool LawBook::conducts_heat() const
+bool PairCoeffs::conducts_heat() const
 {
   return std::any_of(entries.begin(), entries.end(),
                      [](const Entry &one) { return one.set && one.spec.law.conducts_heat(); });
 }
 
-double LawBook::reach(int i, int j, double radius_i, double radius_j) const
+double PairCoeffs::pulloff_distance(int i, int j, double radius_i, double radius_j) const
 {
-  return reach_of(law(i, j), coefficients(i, j), radius_i, radius_j);
+  return pulloff_distance_of(law(i, j), coefficients(i, j), radius_i, radius_j);
 }
 
-std::string LawBook::reason_against_second_order(int i, int j) const
+std::string PairCoeffs::reason_against_second_order(int i, int j) const
 {
   return Talus::reason_against_second_order(law(i, j), coefficients(i, j));
 }
 
-LawTable LawBook::table(int order) const
+LawTable PairCoeffs::table(int order) const
 {
   if (order == 2) {
-    LawBook second = *this;
+    PairCoeffs second = *this;
     for (Entry &one : second.entries)
       if (one.set) one.spec.law = second_order_law(one.spec.law);
     return second.table();
@@ -85,18 +85,18 @@ LawTable LawBook::table(int order) const
 
 /* Numbers of the normal direction first, then stiffness and damping of the tangential one. */
 
-std::string LawBook::describe_pair(int i, int j) const
+std::string PairCoeffs::describe_pair(int i, int j) const
 {
-  const ContactLaw &its = law(i, j);
+  const ContactLaw &pair_law = law(i, j);
   const ContactCoefficients row = coefficients(i, j);
   std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
-                     describe_law(its) + (is_set(i, j) ? ";" : "; mixed;");
+                     describe_law(pair_law) + (is_set(i, j) ? ";" : "; mixed;");
   const auto add = [&](Stage stage, Shown shown) {
-    const Law &one = its[stage];
+    const Law &one = pair_law[stage];
     for (int n = 0; n < one.num_coefficients; n++) {
       if (one.coefficients[n].shown != shown) continue;
       char number[32];
-      snprintf(number, sizeof number, " %.6g", its.coefficients(stage, row)[n]);
+      snprintf(number, sizeof number, " %.6g", pair_law.coefficients(stage, row)[n]);
       text += std::string(" ") + one.coefficients[n].name + number;
     }
   };
@@ -104,7 +104,7 @@ std::string LawBook::describe_pair(int i, int j) const
     for (Stage stage : stages) add(stage, Shown::ALWAYS);
   };
   always({Stage::NORMAL, Stage::DAMPING});
-  if (its.tangential().reads_stiffness)
+  if (pair_law.tangential().reads_stiffness)
     for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
   always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION, Stage::HEAT});
   const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
@@ -112,7 +112,7 @@ std::string LawBook::describe_pair(int i, int j) const
   return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");
 }
 
-std::string LawBook::describe(const LawTable &table) const
+std::string PairCoeffs::describe(const LawTable &table) const
 {
   std::string text = std::to_string(table.num_laws()) + " kernel(s), " + instruction_set() + "\n";
   constexpr int most = 10;

@@ -2,8 +2,8 @@
 //
 // The lever arm of spinning resistance. Lengths.
 
-#ifndef TALUS_LAWS_CIRCLE_OF_INTERSECTION_H
-#define TALUS_LAWS_CIRCLE_OF_INTERSECTION_H
+#ifndef TALUS_LAWS_INTERSECTION_RADIUS_H
+#define TALUS_LAWS_INTERSECTION_RADIUS_H
 
 #include "base/simd.h"
 
@@ -12,7 +12,7 @@ namespace Talus {
 /// Radius of the circle in which the surfaces of two spheres intersect, 0 if they do not. Loses no
 /// digits at small overlaps, and none of its bits depends on which sphere comes first.
 template <class Real>
-inline Real circle_of_intersection(Real first_radius, Real second_radius, Real overlap)
+inline Real intersection_radius_of(Real first_radius, Real second_radius, Real overlap)
 {
   const Real zero = splat<Real>(0.0), sum = first_radius + second_radius;
   const Real distance = sum - overlap;

@@ -17,17 +17,17 @@
 //             midpoint rule: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561)
 //   rolling   a rolling torque opposes the rotation at the time of the positions
 
-#ifndef TALUS_TESTS_SECOND_ORDER_TWIN_H
-#define TALUS_TESTS_SECOND_ORDER_TWIN_H
+#ifndef TALUS_TESTS_SECOND_ORDER_REFERENCE_H
+#define TALUS_TESTS_SECOND_ORDER_REFERENCE_H
 
-#include "second_order_twin_law.h"
+#include "second_order_reference_law.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
-namespace Twin {
+namespace Reference {
 
 class System {
  public:
@@ -46,7 +46,7 @@ class System {
     lag = 0.0;
     for (int n = 0; n < steps; n++) {
       find_forces();
-      if (n == 0) contacts.assign(contacts.size(), Contact{});    // a set-up remembers nothing
+      if (n == 0) contacts.assign(contacts.size(), Contact{});    // a setup stores no history
       for (Particle &p : particles) {
         p.v = p.v + (lag + 0.5 * dt) * p.a;
         p.w = p.w + (lag + 0.5 * dt) * p.alpha;
@@ -110,7 +110,7 @@ class System {
     if (p.d > 0.0)
       touch(p, c);
     else
-      part(p, c);
+      separate(p, c);
   }
 
   void apply(const Pair &p, Vec force, Vec moment, Vec twist)
@@ -123,34 +123,34 @@ class System {
   }
 
   /// The step in which bodies touch (sign -1) or part (+1): time from touching on or to parting
-  /// over dt, overlap that the speed at that moment brings in a step, its change in the step by
+  /// over dt, overlap that the speed at the event adds in a step, its change in the step by
   /// others and the turning of the contact.
-  struct Edge {
-    bool is = false;
-    double theta = 1.0, reach = 1.0, bend = 0.0;
+  struct EventStep {
+    bool happens = false;
+    double theta = 1.0, step_overlap = 1.0, curvature = 0.0;
   };
 
-  Edge edge(const Pair &p, double d, double sign, double others) const
+  EventStep event_step(const Pair &p, double d, double sign, double others) const
   {
     const double vn = dot(p.v, p.n);
     const double turning = p.j ? (dot(p.v, p.v) - vn * vn) / p.distance : 0.0;
     const double step = sign * dt * (vn - 0.5 * dt * turning);
     if (d <= 0.0 || step < d) return {};
     const double straight = d / step;
-    const double bend = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
-    const double theta = straight * (1.0 - 0.5 * bend * (1.0 - straight));
-    return {true, theta, step * (1.0 + bend * (0.5 - theta)), bend};
+    const double curvature = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
+    const double theta = straight * (1.0 - 0.5 * curvature * (1.0 - straight));
+    return {true, theta, step * (1.0 + curvature * (0.5 - theta)), curvature};
   }
 
   /// In parts of A dt^p; `later`: from touching or parting to the correction.
-  double elastic_error(const Edge &e, double later) const
+  double elastic_error(const EventStep &e, double later) const
   {
     const double p = law.elastic_exponent(), first = zeta(p, e.theta);
-    return first + e.bend * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
+    return first + e.curvature * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
   }
 
   /// The sum over the time steps of the force that a contact ends with, less its integral.
-  void part(const Pair &p, Contact &c)
+  void separate(const Pair &p, Contact &c)
   {
     const double speed = dot(p.v, p.n);
     const double turning = p.j ? (dot(p.v, p.v) - speed * speed) / p.distance : 0.0;
@@ -191,10 +191,11 @@ class System {
   {
     const Coefficients was = coefficients(law, before, p.mass, p.radius);
     const double rest = before - was.gn * speed / was.kn, exponent = law.elastic_exponent();
-    const Edge e = edge(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
-    if (!e.is) return 0.0;
-    const double most = (was.kn * before - was.gn * speed) * std::pow(e.reach / rest, exponent);
-    const double push = most * dt * dt / (p.mass * e.reach);
+    const EventStep e = event_step(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    if (!e.happens) return 0.0;
+    const double most =
+        (was.kn * before - was.gn * speed) * std::pow(e.step_overlap / rest, exponent);
+    const double push = most * dt * dt / (p.mass * e.step_overlap);
     return most * (elastic_error(e, e.theta - 1.0) - push * second_at_end(exponent, e.theta));
   }
 
@@ -204,8 +205,8 @@ class System {
                         double before, double speed) const
   {
     const double rest = law.limit_damping ? before - was.gn * speed / was.kn : before;
-    const Edge e = edge(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
-    if (!e.is) return {};
+    const EventStep e = event_step(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    if (!e.happens) return {};
     const double limit = law.mu * c.force, falls = limit / e.theta;
     const Vec rate = dt * was.kt * u;
     const double rises = dot(unit(f), rate);
@@ -234,9 +235,10 @@ class System {
   {
     const Coefficients now = coefficients(law, p.d, p.mass, p.radius);
     const double vn = dot(p.v, p.n);
-    const Edge start = lag > 0.0 && !c.touches ? edge(p, p.d, -1.0, dot(p.a, p.n)) : Edge{};
-    const bool begins = start.is;
-    const double theta = start.theta, approach = start.reach;
+    const EventStep start =
+        lag > 0.0 && !c.touches ? event_step(p, p.d, -1.0, dot(p.a, p.n)) : EventStep{};
+    const bool begins = start.happens;
+    const double theta = start.theta, approach = start.step_overlap;
     const Coefficients most =
         begins ? coefficients(law, approach, p.mass, p.radius) : Coefficients{};
 
@@ -292,7 +294,7 @@ class System {
       in.inverse_mass = p.inverse_mass;
       in.inverse_inertia = 1.0 / p.i->inertia();
       in.radius = p.radius;
-      in.circle = circle_of_intersection(p);
+      in.intersection_radius = intersection_radius_of(p);
       in.touches = c.touches;
       if (p.j) {
         in.omega = in.omega - p.j->w;
@@ -301,9 +303,9 @@ class System {
         in.half_n = unit(p.distance * p.n - 0.5 * dt * p.v);
         in.old_n = unit(p.distance * p.n - dt * p.v);
       }
-      const Resisting its = resist(law.resistance, in, c.resistance, with.rolling);
-      moment = moment + its.moment;
-      twist = its.torque - its.twist * p.n;
+      const Resisting resisting = resist(law.resistance, in, c.resistance, with.rolling);
+      moment = moment + resisting.moment;
+      twist = resisting.torque - resisting.twist * p.n;
     }
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
@@ -384,7 +386,7 @@ class System {
     return -limit * unit(now.kt * c.s + now.gt * u);
   }
 
-  static double circle_of_intersection(const Pair &p)
+  static double intersection_radius_of(const Pair &p)
   {
     const double ri = p.i->radius;
     const double to_plane =
@@ -394,6 +396,6 @@ class System {
   }
 };
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

@@ -1,8 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The slow twin of second_order_twin.h for contacts with adhesion of their own: two spheres, or a
-// sphere and a plane, with the normal laws dmt and jkr, their damping in proportion to the contact
-// radius, and a tangential dashpot. The forces of such contacts begin and end with jumps:
+// The slow reference of second_order_reference.h for contacts with adhesion of their own: two
+// spheres, or a sphere and a plane, with the normal laws dmt and jkr, their damping in proportion
+// to the contact radius, and a tangential dashpot. The forces of such contacts begin and end with
+// jumps:
 //
 //   dmt  F = 4/3 E sqrt(R) d^(3/2) - 4 pi gamma R while d > 0
 //   jkr  d = a^2/R - 2 sqrt(pi gamma a/E), F = 4/3 E a^3/R - 4 a^(3/2) sqrt(pi gamma E), from d = 0
@@ -14,27 +15,28 @@
 // `ends`: what the sum over time steps lacks of them is made up for; `damping`: it belongs to the
 // time of the positions and is implicit. Without both it is a leapfrog of first order.
 
-#ifndef TALUS_TESTS_ADHESIVE_TWIN_H
-#define TALUS_TESTS_ADHESIVE_TWIN_H
+#ifndef TALUS_TESTS_ADHESIVE_REFERENCE_H
+#define TALUS_TESTS_ADHESIVE_REFERENCE_H
 
-#include "second_order_twin.h"
+#include "second_order_reference.h"
 
-namespace Twin {
+namespace Reference {
 
 struct AdhesiveLaw {
-  bool tears = false;    // jkr
+  bool detaches = false;    // jkr
   double young = 0.0, gamma = 0.0, damping = 0.0, xt = 0.0, mu = 0.0;
 
-  double pull(double R) const { return (tears ? 3.0 : 4.0) * M_PI * gamma * R; }
+  double pulloff_force(double R) const { return (detaches ? 3.0 : 4.0) * M_PI * gamma * R; }
   /// How far a contact lasts beyond d = 0.
-  double reach(double R) const
+  double pulloff_distance(double R) const
   {
-    return tears ? std::cbrt(3.0 * M_PI * M_PI / 16.0 * R * gamma * gamma / (young * young)) : 0.0;
+    return detaches ? std::cbrt(3.0 * M_PI * M_PI / 16.0 * R * gamma * gamma / (young * young))
+                    : 0.0;
   }
 
   double contact_radius(double d, double R) const
   {
-    if (!tears) return std::sqrt(R * std::max(d, 0.0));
+    if (!detaches) return std::sqrt(R * std::max(d, 0.0));
     const auto overlap = [&](double a) {
       return a * a / R - 2.0 * std::sqrt(M_PI * gamma * a / young);
     };
@@ -49,34 +51,34 @@ struct AdhesiveLaw {
   double rest(double d, double R) const
   {
     const double a = contact_radius(d, R), hertz = 4.0 / 3.0 * young * a * a * a / R;
-    if (!tears) return hertz;
-    return hertz - 4.0 * std::sqrt(M_PI * gamma * young * a * a * a) + pull(R);
+    if (!detaches) return hertz;
+    return hertz - 4.0 * std::sqrt(M_PI * gamma * young * a * a * a) + pulloff_force(R);
   }
-  double rest_at_begin(double R) const { return tears ? pull(R) / 9.0 : 0.0; }
+  double rest_at_begin(double R) const { return detaches ? pulloff_force(R) / 9.0 : 0.0; }
   double dashpot(double d, double m, double R) const { return damping * m * contact_radius(d, R); }
   /// With which the elastic force, but for its jump, and damping begin.
-  double elastic_exponent() const { return tears ? 1.0 : 1.5; }
-  double damping_exponent() const { return tears ? 0.0 : 0.5; }
+  double elastic_exponent() const { return detaches ? 1.0 : 1.5; }
+  double damping_exponent() const { return detaches ? 0.0 : 0.5; }
 };
 
 class AdhesiveImpact {
  public:
   AdhesiveLaw law;
   bool ends = true, damping = true;
-  bool tore = false;    ///< the contact has ended
+  bool detached = false;    ///< the contact has ended
 
   /// Of the first two particles of `its`, or of the first one and its plane. Velocities at the end
   /// are those of the end.
-  void run(System &its, double time, int steps)
+  void run(System &moving, double time, int steps)
   {
-    system = &its;
+    system = &moving;
     dt = time / steps;
     lag = 0.0;
     contact = {};
     for (int n = 0; n < steps; n++) {
       find_forces();
       kick(lag + 0.5 * dt);
-      for (Particle &p : its.particles) p.x = p.x + dt * p.v;
+      for (Particle &p : moving.particles) p.x = p.x + dt * p.v;
       lag = 0.5 * dt;
     }
     find_forces();
@@ -140,13 +142,13 @@ class AdhesiveImpact {
   {
     const Pair p = pair();
     Forces f;
-    if (contact.touches && p.d <= -law.reach(p.radius)) {
-      f = part(p);
+    if (contact.touches && p.d <= -law.pulloff_distance(p.radius)) {
+      f = separate(p);
       contact = {};
-      tore = true;
+      detached = true;
     } else if (contact.touches || p.d > 0.0) {
       f = touch(p);
-      if (lag == 0.0) contact = {};    // a set-up remembers nothing
+      if (lag == 0.0) contact = {};    // a setup stores no history
     }
     for (std::size_t n = 0; n < system->particles.size(); n++) {
       Particle &it = system->particles[n];
@@ -157,29 +159,30 @@ class AdhesiveImpact {
     }
   }
 
-  /// As System::Edge: whether it is this step, time to or from it, way of a step, bend.
-  struct Edge {
-    bool is = false;
-    double theta = 1.0, reach = 1.0, bend = 0.0;
+  /// As System::EventStep: whether the contact begins or ends in this step, time since or until
+  /// then over dt, overlap that one step adds, curvature.
+  struct EventStep {
+    bool happens = false;
+    double theta = 1.0, step_overlap = 1.0, curvature = 0.0;
   };
-  Edge edge(const Pair &p, double d, double sign, double others) const
+  EventStep event_step(const Pair &p, double d, double sign, double others) const
   {
     const double turning = this->turning(p);
     const double step = sign * dt * (dot(p.v, p.n) - 0.5 * dt * turning);
     if (!ends || d <= 0.0 || step < d) return {};
-    const double bend = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
-    const double theta = d / step * (1.0 - 0.5 * bend * (1.0 - d / step));
-    return {true, theta, step * (1.0 + bend * (0.5 - theta)), bend};
+    const double curvature = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
+    const double theta = d / step * (1.0 - 0.5 * curvature * (1.0 - d / step));
+    return {true, theta, step * (1.0 + curvature * (0.5 - theta)), curvature};
   }
   static double turning(const Pair &p)
   {
     const double vn = dot(p.v, p.n);
     return (dot(p.v, p.v) - vn * vn) / p.distance;
   }
-  double bent(const Edge &e, double later) const
+  double bent(const EventStep &e, double later) const
   {
     const double p = law.elastic_exponent(), first = zeta(p, e.theta);
-    return first + e.bend * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
+    return first + e.curvature * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
   }
 
   Forces touch(const Pair &p)
@@ -189,25 +192,27 @@ class AdhesiveImpact {
     const double own = damping && contact.touches ? contact.force / p.mass : 0.0;
     const double v_p = vn + forward * (dot(p.a, p.n) - own);
     const double pure = (rest - g * v_p) / (1.0 + g * forward / p.mass);
-    const Edge e = lag > 0.0 && !contact.touches ? edge(p, p.d, -1.0, dot(p.a, p.n)) : Edge{};
+    const EventStep e =
+        lag > 0.0 && !contact.touches ? event_step(p, p.d, -1.0, dot(p.a, p.n)) : EventStep{};
 
-    const double jump = law.rest_at_begin(p.radius), ratio = e.is ? e.reach / p.d : 1.0;
+    const double jump = law.rest_at_begin(p.radius), ratio = e.happens ? e.step_overlap / p.d : 1.0;
     double early = 0.0, of_dashpot = 0.0, share = 1.0;
-    if (e.is) {
+    if (e.happens) {
       const double most = (rest - jump) * std::pow(ratio, law.elastic_exponent());
       early = jump * zeta(0.0, e.theta) + most * bent(e, e.theta);
-      if (!law.tears)
-        early += most * most * dt * dt / (p.mass * e.reach) * second_at_begin(1.5, e.theta);
+      if (!law.detaches)
+        early += most * most * dt * dt / (p.mass * e.step_overlap) * second_at_begin(1.5, e.theta);
       of_dashpot = std::pow(ratio, law.damping_exponent()) * zeta(law.damping_exponent(), e.theta);
       share = 1.0 - zeta(0.0, e.theta);
     }
-    Forces f{pure - early + of_dashpot * g * vn - share * law.pull(p.radius), {}};
+    Forces f{pure - early + of_dashpot * g * vn - share * law.pulloff_force(p.radius), {}};
 
     const Vec u = surface_velocity(p.v + forward * p.a, p.spin + forward * p.alpha, p.n);
-    const double limit = law.mu * (rest + law.pull(p.radius));
+    const double limit = law.mu * (rest + law.pulloff_force(p.radius));
     const Vec drag = -law.xt * g * u;
-    double most = law.mu * (rest - early + share * law.pull(p.radius));
-    if (e.is) most -= e.theta * grows(law.mu * (law.pull(p.radius) + jump), length(drag));
+    double most = law.mu * (rest - early + share * law.pulloff_force(p.radius));
+    if (e.happens)
+      most -= e.theta * grows(law.mu * (law.pulloff_force(p.radius) + jump), length(drag));
     contact.slid = length(drag) > limit;
     f.friction = contact.slid ? most * unit(drag) : capped((1.0 - of_dashpot) * drag, most);
     contact.touches = true;
@@ -216,25 +221,25 @@ class AdhesiveImpact {
   }
 
   /// The first step after its end: what the sum of its forces lacks.
-  Forces part(const Pair &p) const
+  Forces separate(const Pair &p) const
   {
     const double vn = dot(p.v, p.n), way = dt * (vn - 0.5 * dt * turning(p));
-    const double before = p.d + way, left = before + law.reach(p.radius);
-    const Edge e = edge(p, left, 1.0, dot(p.a, p.n) - contact.force / p.mass);
-    if (!e.is) return {};
+    const double before = p.d + way, left = before + law.pulloff_distance(p.radius);
+    const EventStep e = event_step(p, left, 1.0, dot(p.a, p.n) - contact.force / p.mass);
+    if (!e.happens) return {};
     const double g = law.dashpot(before, p.mass, p.radius);
     double elastic = 0.0;
-    if (!law.tears) {
-      const double most = law.rest(before, p.radius) * std::pow(e.reach / left, 1.5);
-      const double push = most * dt * dt / (p.mass * e.reach);
+    if (!law.detaches) {
+      const double most = law.rest(before, p.radius) * std::pow(e.step_overlap / left, 1.5);
+      const double push = most * dt * dt / (p.mass * e.step_overlap);
       elastic = -most * (bent(e, e.theta - 1.0) - push * second_at_end(1.5, e.theta));
     }
-    const double share = left / way - 0.5, pull = share * law.pull(p.radius);
-    const double of_dashpot =
-        std::pow(e.reach / left, law.damping_exponent()) * zeta(law.damping_exponent(), e.theta);
+    const double share = left / way - 0.5, pull = share * law.pulloff_force(p.radius);
+    const double of_dashpot = std::pow(e.step_overlap / left, law.damping_exponent()) *
+                              zeta(law.damping_exponent(), e.theta);
     const Vec drag = -law.xt * g * surface_velocity(p.v, p.spin, p.n);
     Forces f{elastic + of_dashpot * g * vn - pull, -of_dashpot * drag};
-    const double end = e.theta * grows(law.mu * law.pull(p.radius), length(drag));
+    const double end = e.theta * grows(law.mu * law.pulloff_force(p.radius), length(drag));
     if (contact.slid) f.friction = (law.mu * (elastic + pull) - end) * unit(drag);
     return f;
   }
@@ -252,6 +257,6 @@ class AdhesiveImpact {
   static Vec capped(Vec a, double limit) { return length(a) > limit ? limit * unit(a) : a; }
 };
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_BODY_MOTION_GUIDED_MOTION_H
-#define TALUS_BODY_MOTION_GUIDED_MOTION_H
+#ifndef TALUS_BODY_MOTION_EXTERNAL_MOTION_H
+#define TALUS_BODY_MOTION_EXTERNAL_MOTION_H
 
 #include "body/motion/body_state.h"
 
@@ -12,7 +12,7 @@ namespace Talus {
 /// orientation turns about one axis, both at constant speed, while velocity and angular velocity
 /// change linearly from the old values to the given ones. After that it goes on with the last of
 /// both. The state that was given is reached with all its bits.
-class GuidedMotion {
+class ExternalMotion {
  public:
   /// `steps` 0: the body has this state at once.
   void guide(BodyState &now, const BodyState &target, int steps);

@@ -5,7 +5,7 @@ law is `hertz kn gn tangential multistep NULL NULL mu slider limit_damping`; the
 
 import math
 
-from body_twin import add, cross, dot, length, times
+from body_reference import add, cross, dot, length, times
 
 
 class Clump:

@@ -1,13 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The slow twin of all contact laws: one contact of two bodies, from what the user types to forces and torques, in
-// plain scalar code and in the long double of the machine. Written from the equations of the reference method, in its
-// conventions (normal from body 1 to body 2, force on body 2, v_r = v_2 - v_1), sharing no line with src.
-// The scales are sums of the magnitudes of all terms of a result, with the factors by which the operations
-// that follow enlarge an error: a small difference of large terms cannot be better than these.
+// The slow reference of all contact laws: one contact of two bodies, from what the user types to
+// forces and torques, in plain scalar code and in the long double of the machine. Written from the
+// equations of the reference method, in its conventions (normal from body 1 to body 2, force on
+// body 2, v_r = v_2 - v_1), sharing no line with src. The scales are sums of the magnitudes of all
+// terms of a result, with the factors by which the operations that follow enlarge an error: a small
+// difference of large terms cannot be better than these.
 
-#ifndef TALUS_TEST_LAW_TWIN_H
-#define TALUS_TEST_LAW_TWIN_H
+#ifndef TALUS_TEST_LAW_REFERENCE_H
+#define TALUS_TEST_LAW_REFERENCE_H
 
 #include "material/contact_spec.h"
 #include "named_law.h"
@@ -18,7 +19,7 @@
 #include <limits>
 #include <string>
 
-namespace twin {
+namespace reference {
 
 using Number = long double;
 using Vector = std::array<Number, 3>;
@@ -225,7 +226,7 @@ inline Number reduced(Number a, Number b)
 }
 
 /// Radius of the circle of intersection of two spheres: height of the triangle of the radii and the distance, by Heron.
-inline Number circle(Number a, Number b, Number overlap)
+inline Number intersection_radius(Number a, Number b, Number overlap)
 {
   const Number d = a + b - overlap, s = a + b - overlap / 2;
   const Number square = s * (overlap / 2) * (b - overlap / 2) * (a - overlap / 2);
@@ -450,7 +451,7 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
     const bool above = law.delayed ? spinning > p.twist_min : spinning >= p.twist_min && turns > 0;
     if (above && spinning > 0 && acts > 0) {
       out.rotation = true;
-      const Number strength = p.mu_twist * circle(c.radius[0], c.radius[1], c.overlap);
+      const Number strength = p.mu_twist * intersection_radius(c.radius[0], c.radius[1], c.overlap);
       Number factor = strength * presses / spinning;
       const Number bend = 1 / c.radius[0] + 1 / c.radius[1];
       if (!law.delayed) factor = std::min(factor, quarter / (turns * bend * bend));
@@ -470,6 +471,6 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
   return out;
 }
 
-}    // namespace twin
+}    // namespace reference
 
 #endif

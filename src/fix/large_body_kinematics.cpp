@@ -13,29 +13,29 @@ using namespace Talus;
    by the accelerations of the last step. A region tells places only, and not where it comes from.
  */
 
-void LargeBodyMotion::find_moments(const BodyState &old, double lag)
+void LargeBodyMotion::find_kinematics(const BodyState &old, double lag)
 {
-  const BodyState &its = now.state;
-  half_way = half_way_between(old, its);
-  present = its;
+  const BodyState &state = now.state;
+  half_way = half_way_between(old, state);
+  present = state;
   if (kind == Kind::PRESCRIBED || kind == Kind::VARIABLE || kind == Kind::EXTERNAL) {
-    half_way.velocity = 0.5 * (old.velocity + its.velocity);
-    half_way.omega = 0.5 * (old.omega + its.omega);
+    half_way.velocity = 0.5 * (old.velocity + state.velocity);
+    half_way.omega = 0.5 * (old.omega + state.omega);
   } else {
-    half_way.velocity = its.velocity;
-    half_way.omega = its.omega;
+    half_way.velocity = state.velocity;
+    half_way.omega = state.omega;
     const double ahead = behind == 0.0 && kind == Kind::REGION ? 0.0 : lag / (behind + lag);
-    present.velocity = its.velocity + ahead * (its.velocity - old.velocity);
-    present.omega = its.omega + ahead * (its.omega - old.omega);
-    if (kind == Kind::SERVO) servo.set_rate(present, 2.0 * servo.rate_of(its) - servo_rate);
+    present.velocity = state.velocity + ahead * (state.velocity - old.velocity);
+    present.omega = state.omega + ahead * (state.omega - old.omega);
+    if (kind == Kind::SERVO) servo.set_rate(present, 2.0 * servo.rate_of(state) - servo_rate);
     if (kind == Kind::FREE) {
-      const Vector3<double> momentum = rigid.angular_momentum(its);
+      const Vector3<double> momentum = rigid.angular_momentum(state);
       const Vector3<double> change = momentum - rigid.angular_momentum(old);
       half_way.omega = rigid.omega_of(momentum, half_way.orientation);
-      present.omega = rigid.omega_of(momentum + ahead * change, its.orientation);
+      present.omega = rigid.omega_of(momentum + ahead * change, state.orientation);
     }
   }
-  show_moments();
+  show_kinematics();
 }
 
 /* Before the first step. */
@@ -43,10 +43,10 @@ void LargeBodyMotion::find_moments(const BodyState &old, double lag)
 void LargeBodyMotion::stand_still()
 {
   half_way = present = now.state;
-  show_moments();
+  show_kinematics();
 }
 
-void LargeBodyMotion::show_moments()
+void LargeBodyMotion::show_kinematics()
 {
   now.half_way.set(half_way);
   now.present.set(present);

@@ -2,12 +2,12 @@
 //
 // Vectors of the slow programs that engine and laws are compared with.
 
-#ifndef TALUS_TESTS_TWIN_VECTOR_H
-#define TALUS_TESTS_TWIN_VECTOR_H
+#ifndef TALUS_TESTS_REFERENCE_VECTOR_H
+#define TALUS_TESTS_REFERENCE_VECTOR_H
 
 #include <cmath>
 
-namespace Twin {
+namespace Reference {
 
 struct Vec {
   double x = 0.0, y = 0.0, z = 0.0;
@@ -51,6 +51,6 @@ inline Vec turned(Vec a, Vec n)
   return length(a) * unit(across(a, n));
 }
 
-}    // namespace Twin
+}    // namespace Reference
 
 #endif

@@ -5,8 +5,8 @@
 // `granular`: laws of LAMMPS' pair granular, whose springs have an exponent of their own.
 // `adhesive`: see adhesive_contact.h.
 
-#ifndef TALUS_LAWS_TANGENTIAL_EDGE_ERRORS_H
-#define TALUS_LAWS_TANGENTIAL_EDGE_ERRORS_H
+#ifndef TALUS_LAWS_TANGENTIAL_EVENT_ERRORS_H
+#define TALUS_LAWS_TANGENTIAL_EVENT_ERRORS_H
 
 #include "laws/tangential/adhesive_contact.h"
 #include "laws/tangential/end_of_contact.h"
@@ -16,7 +16,7 @@ namespace Talus {
 
 /// Errors of the sum over time steps in the step in which a contact begins, as factors of forces of
 /// that step. Elsewhere 0, and the ratio below 1.
-template <class Real> struct Beginning {
+template <class Real> struct EventErrors {
   Real ratio;                                ///< what one step brings of overlap, over overlap
   Real elastic, damping, spring, dashpot;    ///< the last two tangential
 };
@@ -26,8 +26,10 @@ template <class Real> struct SecondOrderRow {
   Real mu, elastic, damping, spring, dashpot, slip_min, kt, xt;
 };
 
-/// The elastic force begins with a jump, and what else it brings does: jkr.
-template <bool adhesive, class Real> TALUS_INLINE bool_of<Real> tears(const SecondOrderRow<Real> &c)
+/// The normal law is jkr: contacts end by pull-off, and the elastic force and what depends on it
+/// begin with a jump.
+template <bool adhesive, class Real>
+TALUS_INLINE bool_of<Real> detaches(const SecondOrderRow<Real> &c)
 {
   return c.elastic < splat<Real>(adhesive ? 1.25 : 0.0);
 }
@@ -38,31 +40,32 @@ TALUS_INLINE Real share_of_jump(const SecondOrderRow<Real> &c, const ContactLane
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
   if constexpr (!adhesive) return zero;
-  const Real share = jkr_begin * s.pull_off / select(s.elastic > zero, s.elastic, one);
-  return select(tears<adhesive>(c), select(share < one, share, one), zero);
+  const Real share = jkr_begin * s.pulloff_force / select(s.elastic > zero, s.elastic, one);
+  return select(detaches<adhesive>(c), select(share < one, share, one), zero);
 }
 
-/// `jump`: share of the elastic force that begins with p = 0; 0 of all that do not tear.
-template <Of which, bool granular, bool adhesive, class Real>
-Beginning<Real> errors_of(const SecondOrderRow<Real> &c, Real overlap, const Edge<Real> &edge,
-                          Real jump)
+/// `jump`: share of the elastic force that begins with p = 0; 0 of laws other than jkr.
+template <Event which, bool granular, bool adhesive, class Real>
+EventErrors<Real> errors_of(const SecondOrderRow<Real> &c, Real overlap,
+                            const EventStep<Real> &event, Real jump)
 {
   const Real zero = splat<Real>(0.0), one = splat<Real>(1.0), p = c.elastic;
-  const Real ratio = select(edge.is, edge.reach / select(edge.is, overlap, one), one);
-  const Real later = which == Of::BEGIN ? edge.theta : edge.theta - one;
-  const Real first = hurwitz_zeta(p, edge.theta), next = next_hurwitz_zeta(p, edge.theta);
-  const Real elastic = first + edge.bend * ((0.5 * p + one) * next - later * first);
+  const Real ratio =
+      select(event.happens, event.step_overlap / select(event.happens, overlap, one), one);
+  const Real later = which == Event::BEGIN ? event.theta : event.theta - one;
+  const Real first = hurwitz_zeta(p, event.theta), next = next_hurwitz_zeta(p, event.theta);
+  const Real elastic = first + event.curvature * ((0.5 * p + one) * next - later * first);
   const auto of = [&](Real q) {
-    return select(edge.is, power(ratio, q) * hurwitz_zeta(q, edge.theta), zero);
+    return select(event.happens, power(ratio, q) * hurwitz_zeta(q, event.theta), zero);
   };
-  Beginning<Real> all{ratio, select(edge.is, power(ratio, p) * elastic, zero), of(c.damping), zero,
-                      zero};
+  EventErrors<Real> all{ratio, select(event.happens, power(ratio, p) * elastic, zero),
+                        of(c.damping), zero, zero};
   all.spring = all.elastic;
   all.dashpot = all.damping;
   if constexpr (granular) all.spring = of(c.spring + one);
   if (any(c.dashpot < c.damping)) all.dashpot = of(c.dashpot);
   if constexpr (adhesive) {
-    const auto at_once = tears<adhesive>(c);
+    const auto at_once = detaches<adhesive>(c);
     const Real of_jump = of(zero);
     all.elastic = select(at_once, jump * of_jump + (one - jump) * all.elastic, all.elastic);
     all.damping = select(at_once, of_jump, all.damping);
@@ -73,16 +76,17 @@ Beginning<Real> errors_of(const SecondOrderRow<Real> &c, Real overlap, const Edg
 }
 
 /// push A dt^p times the second term, where `elastic` is the force now.
-template <Of which, bool adhesive, class Real>
+template <Event which, bool adhesive, class Real>
 Real second_force(const SecondOrderRow<Real> &c, const ContactLanes<Real> &s,
-                  const Beginning<Real> &start, Real elastic, const Edge<Real> &edge, double dt)
+                  const EventErrors<Real> &start, Real elastic, const EventStep<Real> &event,
+                  double dt)
 {
   const Real zero = splat<Real>(0.0);
   const Real most = power(start.ratio, c.elastic) * elastic;
-  const Real push = dt * dt * s.inverse_mass * most / edge.reach;
-  const Real force = push * most * second_term<which>(c.elastic, edge.theta);
-  const auto has_one = edge.is & (c.elastic >= splat<Real>(adhesive ? 1.25 : 0.0));
-  return select(has_one, which == Of::BEGIN ? -force : force, zero);
+  const Real push = dt * dt * s.inverse_mass * most / event.step_overlap;
+  const Real force = push * most * second_term<which>(c.elastic, event.theta);
+  const auto has_one = event.happens & (c.elastic >= splat<Real>(adhesive ? 1.25 : 0.0));
+  return select(has_one, which == Event::BEGIN ? -force : force, zero);
 }
 
 }    // namespace Talus
