@@ -3,6 +3,7 @@
 #include "fix_gravity_talus.h"
 
 #include "plain_style.h"
+#include "system/fix_list.h"
 #include "system/time_formula.h"
 
 #include "atom.h"
@@ -60,7 +61,7 @@ std::string FixGravityTalus::reason_of_variables() const
 
 std::string FixGravityTalus::reason_of_fixes_before() const
 {
-  for (Fix *fix : modify->get_fix_list()) {
+  for (Fix *fix : Talus::fix_list(*modify)) {
     if (fix == this) break;
     if (utils::strmatch(fix->style, "^freeze")) {
       if (some_frozen_move(fix->groupbit))
@@ -76,7 +77,7 @@ std::string FixGravityTalus::reason_of_fixes_before() const
 bool FixGravityTalus::some_frozen_move(int frozenbits) const
 {
   int movers = 0;
-  for (const Fix *fix : modify->get_fix_list())
+  for (const Fix *fix : Talus::fix_list(*modify))
     if (fix->time_integrate) movers |= fix->groupbit;
   int mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) {

@@ -13,6 +13,7 @@
 #include "math_extra.h"
 #include "modify.h"
 #include "system/command_words.h"
+#include "system/fix_list.h"
 #include "update.h"
 
 #include <algorithm>
@@ -122,7 +123,7 @@ void FixNVESphereSymplectic::init()
   if (integration_order == 2) second_order.check(*system, start);
   frozenbits = 0;
   if (gravity.given())
-    for (auto &fix : modify->get_fix_list())
+    for (auto &fix : Talus::fix_list(*modify))
       if (fix != this) check_fix(fix);
 }
 

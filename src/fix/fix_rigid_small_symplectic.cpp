@@ -3,6 +3,7 @@
 #include "fix_rigid_small_symplectic.h"
 
 #include "system/command_words.h"
+#include "system/fix_list.h"
 #include "system/private_members.h"
 
 #include "atom.h"
@@ -94,7 +95,7 @@ void FixRigidSmallSymplectic::init()
   FixRigidSmallTalus::init();
   if (!reason.empty())
     error->all(FLERR, Error::NOLASTLINE, "{} {}: {}: use fix rigid/small", title, id, reason);
-  for (const Fix *fix : modify->get_fix_list())
+  for (const Fix *fix : Talus::fix_list(*modify))
     if (fix != this) check_fix(fix);
   if (integration_order == 2) second_order.check(*system, start);
 }

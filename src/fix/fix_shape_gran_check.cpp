@@ -3,6 +3,7 @@
 // What fix shape/gran refuses: whatever would take its particles for spheres; and what it warns of.
 
 #include "fix/fix_shape_gran.h"
+#include "system/fix_list.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -91,7 +92,7 @@ void FixShapeGran::check_bodies()
 void FixShapeGran::check_fixes()
 {
   other_integrators = 0;
-  for (auto &fix : modify->get_fix_list()) {
+  for (auto &fix : Talus::fix_list(*modify)) {
     if (fix == this) continue;
     if (fix->time_integrate) other_integrators |= fix->groupbit;
     if (utils::strmatch(fix->style, "^wall/gran"))

@@ -8,6 +8,7 @@
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
+#include "system/fix_list.h"
 #include "system/system_fix.h"
 
 #include <string>
@@ -67,7 +68,7 @@ void SecondOrderCheck::set_half(LAMMPS *lmp, const char *title, StartTime &start
 void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
 {
   bool seen = false;    // this fix
-  for (const auto &other : modify->get_fix_list()) {
+  for (const auto &other : Talus::fix_list(*modify)) {
     seen = seen || other == fix;
     if (other == fix || !other->time_integrate) continue;
     const auto *talus_fix = Talus::SystemFix::of(other);
@@ -79,7 +80,7 @@ void SecondOrderCheck::check(Talus::GranularSystem &system, StartTime &start)
     if (start.lag() == 0.0) start.set_lag(talus_fix->lag());
     if (!seen) announced = true;    // by that one
   }
-  for (const auto &other : modify->get_fix_list())
+  for (const auto &other : Talus::fix_list(*modify))
     if (utils::strmatch(other->style, "^wall/gran"))
       error->all(FLERR, Error::NOLASTLINE,
                  "{} order 2: contacts with fix {} ({}) are of first order: use fix large/body, or "

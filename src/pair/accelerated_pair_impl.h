@@ -7,6 +7,7 @@
 
 #include "pair/accelerated_pair.h"
 #include "pair/pair_of_system_impl.h"
+#include "system/fix_list.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -106,7 +107,7 @@ template <class Stock> std::string AcceleratedPair<Stock>::reason_that_came_late
 
 template <class Stock> std::string AcceleratedPair<Stock>::reason_of_fixes() const
 {
-  for (const auto &fix : this->modify->get_fix_list()) {
+  for (const auto &fix : Talus::fix_list(*this->modify)) {
     if (fix->pre_exchange_migrate)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "), which migrates atoms, is defined before the pair style";

@@ -77,6 +77,20 @@ class ParticleState {
   {
     return in_records ? in_records->motion[2 * slot(i) + 1].c : arrays.omega + 3L * i;
   }
+  /// Rows of three: the sums of forces, and of torques (only where there are torques), to be changed
+  /// by forces other than those of contacts.
+  double *f(int i) const
+  {
+    return in_records ? in_records->load[in_records->stride * slots[i]].c : arrays.f + 3L * i;
+  }
+  double *torque(int i) const
+  {
+    if (!in_records) return arrays.torque + 3L * i;
+    in_records->settle_torque(slots[i]);
+    return in_records->load[2 * slot(i) + 1].c;
+  }
+  /// Angular velocities and torques are kept; without friction in the records they are not.
+  bool keeps_omega() const { return !in_records || in_records->stride == 2; }
   /// Of its velocities, see ParticleRecords::change; nullptr if they are not kept.
   ChangeRecord *change(int i) const
   {
@@ -98,23 +112,17 @@ class ParticleState {
     return {vector(in_records->load[2 * slot(i)].c), vector(torque.c)};
   }
   /// The sum of forces, of any particle.
-  Vector3<double> force(int i) const
-  {
-    return vector(in_records ? in_records->load[in_records->stride * slots[i]].c
-                             : arrays.f + 3L * i);
-  }
+  Vector3<double> force(int i) const { return vector(f(i)); }
   /// Adds to the sums of one particle, where there are torques; by one thread for each.
   void add(int i, const Vector3<double> &force, const Vector3<double> &torque) const
   {
-    if (in_records) in_records->settle_torque(slots[i]);
-    double *const f = in_records ? in_records->load[2 * slot(i)].c : arrays.f + 3L * i;
-    double *const t = in_records ? in_records->load[2 * slot(i) + 1].c : arrays.torque + 3L * i;
-    f[0] += force.x;
-    f[1] += force.y;
-    f[2] += force.z;
-    t[0] += torque.x;
-    t[1] += torque.y;
-    t[2] += torque.z;
+    double *const t_sum = this->torque(i), *const f_sum = f(i);
+    f_sum[0] += force.x;
+    f_sum[1] += force.y;
+    f_sum[2] += force.z;
+    t_sum[0] += torque.x;
+    t_sum[1] += torque.y;
+    t_sum[2] += torque.z;
   }
 
   // ---- by place
@@ -174,7 +182,6 @@ class ParticleState {
  private:
   static Vector3<double> vector(const double *row) { return {row[0], row[1], row[2]}; }
   std::size_t slot(int i) const { return static_cast<std::size_t>(slots[i]); }
-  bool keeps_omega() const { return !in_records || in_records->stride == 2; }
   double *row_at(int place) const
   {
     return in_records ? in_records->position[place].c : arrays.x + 3L * place;

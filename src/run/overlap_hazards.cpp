@@ -2,6 +2,7 @@
 
 #include "run/overlap_hazards.h"
 
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 
 #include "fix.h"
@@ -37,7 +38,7 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!system->exchange().direct())
     return "the exchange is the one of LAMMPS: " + system->exchange().reason_for_stock();
-  for (Fix *fix : lmp->modify->get_fix_list()) {
+  for (Fix *fix : Talus::fix_list(*lmp->modify)) {
     if ((lmp->modify->get_fix_mask(fix) & FixConst::PRE_FORCE) && may_read_proxies(fix))
       return std::string("fix ") + fix->id + " (" + fix->style +
              ") may read proxies before forces are computed";

@@ -124,8 +124,8 @@ void VerletProxy::run(int n)
 
 bool VerletProxy::others_act_on_ghosts() const
 {
-  return atom->molecular != Atom::ATOMIC || force->kspace || modify->n_pre_force ||
-         modify->n_pre_reverse;
+  return force->bond || force->angle || force->dihedral || force->improper || force->kspace ||
+         modify->n_pre_force || modify->n_pre_reverse;
 }
 
 /* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. */
@@ -136,8 +136,9 @@ void VerletProxy::step()
   ev_set(now);
 
   timer->stamp();
-  modify->initial_integrate(vflag);
-  if (modify->n_post_integrate) modify->post_integrate();
+  FixCalls &fixes = system->steps_in_records().fix_calls();
+  fixes.initial_integrate(vflag);
+  fixes.post_integrate();
   timer->stamp(Timer::MODIFY);
 
   // LAMMPS' decide() waits for all ranks
@@ -162,8 +163,8 @@ void VerletProxy::step()
     lists->ask(&travel);
   }
 
-  if (modify->n_post_force_any) modify->post_force(vflag);
-  modify->final_integrate();
+  fixes.post_force(vflag);
+  fixes.final_integrate();
   if (modify->n_end_of_step) modify->end_of_step();
   timer->stamp(Timer::MODIFY);
 

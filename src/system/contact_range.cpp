@@ -27,12 +27,16 @@ double ContactRange::cutoff(int i, int j) const
   return largest_radii.cutoff(i, j) + reach(std::min(i, j), std::max(i, j));
 }
 
+/* Asked at each rebuild: scripts may declare many types. */
+
 double ContactRange::largest_pulloff_distance() const
 {
-  double largest = 0.0;
+  if (farthest_of_laws == laws.revision()) return farthest;
+  farthest_of_laws = laws.revision();
+  farthest = 0.0;
   for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) largest = std::max(largest, reach(i, j));
-  return largest;
+    for (int j = i; j <= atom->ntypes; j++) farthest = std::max(farthest, reach(i, j));
+  return farthest;
 }
 
 /* A radius far beyond the box makes ghosts or cells of neighbors without end. A frozen particle may

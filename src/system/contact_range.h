@@ -28,6 +28,7 @@ class ContactRange : protected LAMMPS_NS::Pointers {
   void find(int frozen_groups, const SystemShapes *shapes)
   {
     largest_radii.find(frozen_groups, shapes);
+    farthest_of_laws = -1;
   }
   const LAMMPS_NS::LargestRadii &radii() const { return largest_radii; }
   /// Largest distance of particles of types i and j in contact (length).
@@ -46,6 +47,8 @@ class ContactRange : protected LAMMPS_NS::Pointers {
 
   LAMMPS_NS::LargestRadii largest_radii;
   const PairCoeffs &laws;
+  mutable int farthest_of_laws = -1;    // revision for which `farthest` is known
+  mutable double farthest = 0.0;
 };
 
 }    // namespace Talus

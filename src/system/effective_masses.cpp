@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "system/effective_masses.h"
+#include "system/fix_list.h"
 
 #include "atom.h"
 #include "fix.h"
@@ -18,7 +19,7 @@ void EffectiveMasses::find_fixes()
   freeze_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^freeze")) freeze_groups |= ifix->groupbit;
   rigid_fixes.clear();
-  for (const auto &ifix : modify->get_fix_list())
+  for (const auto &ifix : Talus::fix_list(*modify))
     if (ifix->rigid_flag) rigid_fixes.push_back(ifix);
 }
 

@@ -7,6 +7,7 @@
 
 #include "comm.h"
 #include "comm_brick.h"
+#include "comm_tiled.h"
 #include "domain.h"
 #include "error.h"
 #include "lammps.h"
@@ -25,9 +26,9 @@ ExchangeSwitch::MakeDirect make_direct = nullptr;
 
 /* The stock object. It holds the system, and with it what the user has chosen, until `clear`. */
 
-class StockComm : public CommBrick {
+template <class Base> class StockComm : public Base {
  public:
-  StockComm(LAMMPS *lmp, Comm *old) : CommBrick(lmp, old), system(GranularSystem::of(lmp)) {}
+  StockComm(LAMMPS *lmp, Comm *old) : Base(lmp, old), system(GranularSystem::of(lmp)) {}
 
  private:
   std::shared_ptr<GranularSystem> system;
@@ -49,8 +50,11 @@ void ExchangeSwitch::choose(Choice choice)
   chosen = choice;
   const bool is_direct = present();
   if (choice == Choice::YES && !is_direct) replace_comm(make_direct(lmp, comm));
-  // a tiled one cannot be replaced, and need not: the direct exchange is not supported there
-  if (choice == Choice::NO && comm->style == Comm::BRICK) replace_comm(new StockComm(lmp, comm));
+  if (choice != Choice::NO) return;
+  if (comm->style == Comm::BRICK)
+    replace_comm(new StockComm<CommBrick>(lmp, comm));
+  else
+    replace_comm(new StockComm<CommTiled>(lmp, comm));
 }
 
 void ExchangeSwitch::start_run()
@@ -90,13 +94,12 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
 {
   if (lmp->kokkos)
     return "the direct exchange does not run with the KOKKOS package: start LAMMPS without '-k on'";
-  if (comm->style != Comm::BRICK || comm->layout == Comm::LAYOUT_TILED)
-    return "'comm_style tiled' is not supported: use 'comm_style brick' and balance without rcb";
   // each side of a contact is computed where its particle is owned: a large one needs its small partners
   if (leaves_out_small(*comm)) return "'comm_modify reduce/multi' is not supported: remove it";
   // what LAMMPS adds to the velocities of ghosts depends on their order in its messages
-  if (in_run && domain->deform_vremap && comm->ghost_velocity)
-    return "fix deform with 'remap v' is not supported: use 'remap x' or 'comm_modify vel no'";
+  constexpr int all = 1;
+  if (in_run && domain->deform_vremap && comm->ghost_velocity && domain->deform_groupbit != all)
+    return "fix deform with 'remap v' is supported for group all only";
   return "";
 }
 

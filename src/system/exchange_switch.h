@@ -45,6 +45,8 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   void is_deleted(const LAMMPS_NS::Comm *comm);
   /// The direct exchange if it is in force, else nullptr.
   ProxyUpdates *direct() const;
+  /// The same, also where it falls back.
+  ProxyUpdates *present() const { return comm == made ? proxies_of_made : nullptr; }
   /// With direct() == nullptr: why, and the cure, as text for messages.
   std::string reason_for_stock() const;
   /// "" or what of the present settings the direct exchange does not support, and the cure.
@@ -54,8 +56,6 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
  private:
   void replace_comm(LAMMPS_NS::Comm *with);
   void settle_brick();
-
-  ProxyUpdates *present() const { return comm == made ? proxies_of_made : nullptr; }
 
   Choice chosen = Choice::AUTOMATIC;
   const LAMMPS_NS::Comm *made = nullptr;

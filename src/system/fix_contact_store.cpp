@@ -2,6 +2,7 @@
 
 #include "system/fix_contact_store.h"
 
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/system_run_style.h"
 #include "system/system_shapes.h"
@@ -73,7 +74,7 @@ int FixContactStore::setmask()
 void FixContactStore::init()
 {
   // the history must be put aside before any fix moves particles between ranks
-  for (const auto &ifix : modify->get_fix_list()) {
+  for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;
     if (ifix->pre_exchange_migrate)
       error->all(FLERR,

@@ -5,6 +5,7 @@
 #include "system/fix_contact_store.h"
 
 #include "system/granular_system.h"
+#include "system/particle_count.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -160,11 +161,12 @@ constexpr int restart_header = 4;
 void FixContactStore::write_restart(FILE *fp)
 {
   store_histories(Occasion::RESTART_FILE);    // on all ranks, before particles are packed
+  const bigint particles = Talus::count_particles(lmp);
   if (comm->me) return;
   double state[STATE_SIZE];
   state[VERSION] = -restart_version;
   state[INVERSE_CELL] = inverse_cell;
-  state[PARTICLES] = static_cast<double>(atom->natoms);
+  state[PARTICLES] = static_cast<double>(particles);
   state[ORDER] = order;
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);

@@ -134,6 +134,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// while the next compute_contacts() goes on. Called by all integrators of the run in their order.
   /// Members of the groups with these bits do not fall.
   void advance(const LAMMPS_NS::Fix *integrator, const RecordStep &step, int frozen_groups = 0);
+  /// Of particles that are to be moved on the way through the records: now, so that they may be
+  /// looked at.
+  void complete_move() { contact_pipeline->complete_move(); }
   /// After particles have moved: largest distance of an owned particle from where it was when
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();

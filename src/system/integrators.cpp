@@ -1,6 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
 #include "system/integrators.h"
+#include "system/fix_list.h"
 
 #include "atom.h"
 #include "fix.h"
@@ -28,14 +29,14 @@ bool any_rank(bool here, MPI_Comm world)
 int Integrators::order() const
 {
   int highest = 1;
-  for (const auto &fix : modify->get_fix_list())
+  for (const auto &fix : fix_list(*modify))
     if (const auto *talus_fix = SystemFix::of(fix)) highest = std::max(highest, talus_fix->order());
   return highest;
 }
 
 double Integrators::lag() const
 {
-  for (const auto &fix : modify->get_fix_list()) {
+  for (const auto &fix : fix_list(*modify)) {
     const auto *talus_fix = SystemFix::of(fix);
     if (talus_fix && talus_fix->order() == 2) return talus_fix->lag();
   }
@@ -45,7 +46,7 @@ double Integrators::lag() const
 double Integrators::next_kick() const
 {
   double share = 1.0;
-  for (const auto &fix : modify->get_fix_list())
+  for (const auto &fix : fix_list(*modify))
     if (const auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->integrates())
       share = std::min(share, talus_fix->next_kick_in_steps());
   return share * update->dt;
@@ -54,7 +55,7 @@ double Integrators::next_kick() const
 int Integrators::groups_with_changes() const
 {
   int bits = 0;
-  for (const auto &fix : modify->get_fix_list())
+  for (const auto &fix : fix_list(*modify))
     if (const auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->keeps_changes())
       bits |= fix->groupbit;
   return bits;
@@ -66,7 +67,7 @@ void Integrators::start_run()
 {
   of_run.clear();
   given.clear();    // an error may have left some
-  for (Fix *fix : modify->get_fix_list())
+  for (Fix *fix : fix_list(*modify))
     if (auto *talus_fix = SystemFix::of(fix); talus_fix && talus_fix->integrates())
       of_run.push_back({fix, talus_fix});
 }

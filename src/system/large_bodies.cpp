@@ -2,6 +2,8 @@
 
 #include "system/large_bodies.h"
 
+#include "system/fix_list.h"
+#include "system/steps_in_records.h"
 #include "system/system_fix.h"
 
 #include "fix.h"
@@ -32,7 +34,7 @@ void LargeBodies::remove(const LargeBody &body)
 std::vector<LargeBody *> LargeBodies::in_order() const
 {
   std::vector<LargeBody *> found;
-  for (const auto &fix : modify->get_fix_list())
+  for (const auto &fix : fix_list(*modify))
     for (const auto &body : all)
       if (body->command() == fix) found.push_back(body.get());
   return found;
@@ -46,9 +48,12 @@ bool LargeBodies::account() const
 void LargeBodies::start_run()
 {
   may_join.clear();
-  for (const auto &fix : modify->get_fix_list()) {
+  for (const auto &fix : fix_list(*modify)) {
     const auto *talus_fix = SystemFix::of(fix);
-    if (talus_fix && talus_fix->adds_forces()) break;
+    const int mask = modify->get_fix_mask(fix);
+    const bool adds = talus_fix ? talus_fix->adds_forces()
+                                : acts_within_steps(fix, mask) && (mask & FixConst::POST_FORCE);
+    if (adds) break;
     for (const auto &body : all)
       if (body->command() == fix) may_join.push_back(body.get());
   }

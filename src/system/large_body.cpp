@@ -3,6 +3,7 @@
 #include "system/large_body.h"
 
 #include "system/fix_contact_store.h"
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
@@ -90,7 +91,7 @@ void LargeBody::init()
 void LargeBody::find_frozen()
 {
   already_frozen = 0;
-  for (const auto &ifix : modify->get_fix_list()) {
+  for (const auto &ifix : fix_list(*modify)) {
     if (ifix == fix) break;
     if (utils::strmatch(ifix->style, "^freeze")) already_frozen |= ifix->groupbit;
   }

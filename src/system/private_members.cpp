@@ -9,7 +9,14 @@
 
 #include "comm.h"
 #include "comm_brick.h"
+#include "fix_addforce.h"
+#include "fix_aveforce.h"
 #include "fix_gravity.h"
+#include "fix_langevin.h"
+#include "fix_move.h"
+#include "fix_setforce.h"
+#include "fix_spring_self.h"
+#include "fix_wall_reflect.h"
 #include "neighbor.h"
 #include "region.h"
 #include "region_block.h"
@@ -58,6 +65,30 @@ TALUS_PRIVATE_MEMBER(MoveX, char *Region::*, &Region::xstr)
 TALUS_PRIVATE_MEMBER(MoveY, char *Region::*, &Region::ystr)
 TALUS_PRIVATE_MEMBER(MoveZ, char *Region::*, &Region::zstr)
 TALUS_PRIVATE_MEMBER(Angle, char *Region::*, &Region::tstr)
+
+#define TALUS_PRIVATE_NAME(tag, style, member)                                                     \
+  TALUS_PRIVATE_MEMBER(tag, char *style::*, &style::member)
+
+TALUS_PRIVATE_NAME(AddedX, FixAddForce, xstr)
+TALUS_PRIVATE_NAME(AddedY, FixAddForce, ystr)
+TALUS_PRIVATE_NAME(AddedZ, FixAddForce, zstr)
+TALUS_PRIVATE_NAME(AddedEnergy, FixAddForce, estr)
+TALUS_PRIVATE_NAME(SetX, FixSetForce, xstr)
+TALUS_PRIVATE_NAME(SetY, FixSetForce, ystr)
+TALUS_PRIVATE_NAME(SetZ, FixSetForce, zstr)
+TALUS_PRIVATE_NAME(MeanX, FixAveForce, xstr)
+TALUS_PRIVATE_NAME(MeanY, FixAveForce, ystr)
+TALUS_PRIVATE_NAME(MeanZ, FixAveForce, zstr)
+TALUS_PRIVATE_NAME(MovedX, FixMove, xvarstr)
+TALUS_PRIVATE_NAME(MovedY, FixMove, yvarstr)
+TALUS_PRIVATE_NAME(MovedZ, FixMove, zvarstr)
+TALUS_PRIVATE_NAME(MovedVx, FixMove, vxvarstr)
+TALUS_PRIVATE_NAME(MovedVy, FixMove, vyvarstr)
+TALUS_PRIVATE_NAME(MovedVz, FixMove, vzvarstr)
+TALUS_PRIVATE_NAME(SpringConstant, FixSpringSelf, kstr)
+TALUS_PRIVATE_NAME(LangevinTarget, FixLangevin, tstr)
+TALUS_PRIVATE_MEMBER(LangevinBias, int FixLangevin::*, &FixLangevin::tbiasflag)
+TALUS_PRIVATE_MEMBER(ReflectingVariables, int FixWallReflect::*, &FixWallReflect::varflag)
 
 #define TALUS_PRIVATE_NUMBER(tag, style, member)                                                   \
   TALUS_PRIVATE_MEMBER(tag, NumberOf<style>, &style::member)
@@ -132,6 +163,32 @@ std::array<const char *, 4> variables_of(const Region &region)
 {
   return {region.*pointer_to(MoveX{}), region.*pointer_to(MoveY{}), region.*pointer_to(MoveZ{}),
           region.*pointer_to(Angle{})};
+}
+
+FixVariables variables_of(const Fix &fix)
+{
+  FixVariables found;
+  if (const auto *added = dynamic_cast<const FixAddForce *>(&fix)) {
+    found.names = {added->*pointer_to(AddedX{}), added->*pointer_to(AddedY{}),
+                   added->*pointer_to(AddedZ{}), added->*pointer_to(AddedEnergy{})};
+  } else if (const auto *set = dynamic_cast<const FixSetForce *>(&fix)) {
+    found.names = {set->*pointer_to(SetX{}), set->*pointer_to(SetY{}), set->*pointer_to(SetZ{})};
+  } else if (const auto *mean = dynamic_cast<const FixAveForce *>(&fix)) {
+    found.names = {mean->*pointer_to(MeanX{}), mean->*pointer_to(MeanY{}),
+                   mean->*pointer_to(MeanZ{})};
+  } else if (const auto *move = dynamic_cast<const FixMove *>(&fix)) {
+    found.names = {move->*pointer_to(MovedX{}),  move->*pointer_to(MovedY{}),
+                   move->*pointer_to(MovedZ{}),  move->*pointer_to(MovedVx{}),
+                   move->*pointer_to(MovedVy{}), move->*pointer_to(MovedVz{})};
+  } else if (const auto *spring = dynamic_cast<const FixSpringSelf *>(&fix)) {
+    found.names = {spring->*pointer_to(SpringConstant{})};
+  } else if (const auto *langevin = dynamic_cast<const FixLangevin *>(&fix)) {
+    found.names = {langevin->*pointer_to(LangevinTarget{})};
+    found.more = langevin->*pointer_to(LangevinBias{}) != 0;
+  } else if (const auto *reflect = dynamic_cast<const FixWallReflect *>(&fix)) {
+    found.more = reflect->*pointer_to(ReflectingVariables{}) != 0;
+  }
+  return found;
 }
 
 CornersOfRegion corners_of(const RegBlock &r)

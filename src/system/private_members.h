@@ -12,6 +12,7 @@
 namespace LAMMPS_NS {
 class Comm;
 class CommBrick;
+class Fix;
 class FixGravity;
 class NBin;
 class Neighbor;
@@ -52,6 +53,14 @@ bool is_disabled(const LAMMPS_NS::FixGravity &gravity);
 /// A region that rotates: a point of the axis, and its unit vector.
 const double *point_of_rotation(const LAMMPS_NS::Region &region);
 const double *axis_of_rotation(const LAMMPS_NS::Region &region);
+
+/// What a fix of LAMMPS that can be called in a step in the records (see FixCalls) evaluates in every
+/// step: names of variables, nullptr where there is none; `more`: something else, such as a compute.
+struct FixVariables {
+  std::array<const char *, 6> names{};
+  bool more = false;
+};
+FixVariables variables_of(const LAMMPS_NS::Fix &fix);
 
 /// Names of the variables that move and rotate a region; nullptr where there is none.
 std::array<const char *, 4> variables_of(const LAMMPS_NS::Region &region);

@@ -55,6 +55,7 @@ class ProxyUpdates {
   /// Every state is compared with the one that the exchange of LAMMPS brings: all updates go
   /// through the arrays of LAMMPS.
   virtual bool is_checking() const = 0;
+  virtual void check(bool yes) = 0;
 
   // for reports
 

@@ -4,6 +4,7 @@
 
 #include "base/state_digest.h"
 #include "system/fix_contact_store.h"
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
@@ -47,7 +48,7 @@ void RunContacts::visit_all(ContactData requested, const VisitContact &visit) co
     system.pipeline().for_each_contact(update->dt, system.integrators().lag(), requested, visit);
   if (system.shapes()) system.shapes()->for_each_contact_of_pairs(requested, visit);
   int number = 0;
-  for (const auto &fix : modify->get_fix_list()) {
+  for (const auto &fix : fix_list(*modify)) {
     auto *talus_fix = SystemFix::of(fix);
     if (!talus_fix || !talus_fix->is_touched()) continue;
     talus_fix->for_each_contact(requested, [&](ContactReport one) {
@@ -110,7 +111,7 @@ std::uint64_t RunContacts::digest_of_state() const
   for (const double *values : {atom->radius, atom->rmass}) digest.add(values, owned);
   if (owned)
     for (double **rows : {atom->x, atom->v, atom->omega}) digest.add(rows[0], 3L * owned);
-  for (const auto &fix : modify->get_fix_list())
+  for (const auto &fix : fix_list(*modify))
     if (const auto *talus_fix = SystemFix::of(fix)) {
       digest.add(static_cast<std::uint64_t>(talus_fix->is_touched()));
       talus_fix->add_to(digest);

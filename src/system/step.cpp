@@ -15,6 +15,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/fix_list.h"
 #include "system/sphere_kicks.h"
 #include "system/system_shapes.h"
 
@@ -262,7 +263,7 @@ void GranularSystem::leave_records(bool with_forces)
 void GranularSystem::complete_step()
 {
   for (const bool integrating : {false, true})
-    for (Fix *fix : modify->get_fix_list()) {
+    for (Fix *fix : fix_list(*modify)) {
       auto *talus_fix = SystemFix::of(fix);
       if (talus_fix && talus_fix->integrates() == integrating) talus_fix->complete_step();
       if (!talus_fix && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);

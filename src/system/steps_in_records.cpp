@@ -3,6 +3,7 @@
 #include "system/steps_in_records.h"
 
 #include "system/fix_contact_store.h"
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/system_run_style.h"
 #include "system/system_shapes.h"
@@ -42,6 +43,7 @@ bool acts_within_steps(const Fix *fix, int mask)
 void StepsInRecords::start_run(bool pairs_computed)
 {
   reason = find_reason_against(pairs_computed);
+  calls.start_run();
   styles.print(system, reason);
 }
 
@@ -75,7 +77,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
   if (system.laws().conducts_heat()) return "contacts conduct heat";
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";
-  if (atom->molecular != Atom::ATOMIC || force->kspace)
+  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
@@ -87,7 +89,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
   return "";
 }
 
-/* A fix of LAMMPS that is called in every step may read or change anything. */
+/* A fix of LAMMPS that is called in every step may read or change anything, unless it is known. */
 
 std::string StepsInRecords::find_reason_against(bool pairs_computed)
 {
@@ -95,13 +97,12 @@ std::string StepsInRecords::find_reason_against(bool pairs_computed)
   if (!of_scene.empty()) return of_scene;
   at_end_of_step.clear();
   integrators.start_run();
-  for (Fix *fix : modify->get_fix_list()) {
+  for (Fix *fix : fix_list(*modify)) {
     const int mask = modify->get_fix_mask(fix);
     auto *talus_fix = SystemFix::of(fix);
-    const std::string reason = talus_fix ? talus_fix->needs_arrays()
-                               : acts_within_steps(fix, mask)
-                                   ? "may look at particles in every step"
-                                   : "";
+    const std::string reason = talus_fix                      ? talus_fix->needs_arrays()
+                               : acts_within_steps(fix, mask) ? calls.reason_against(fix)
+                                                              : "";
     if (!reason.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + reason;
     if ((mask & END_OF_STEP) == 0 || fix == system.store()) continue;
     if (fix->nevery <= 1)

@@ -6,6 +6,7 @@
 #ifndef TALUS_SYSTEM_STEPS_IN_RECORDS_H
 #define TALUS_SYSTEM_STEPS_IN_RECORDS_H
 
+#include "system/fix_calls.h"
 #include "system/style_report.h"
 
 #include "lmptype.h"
@@ -30,7 +31,7 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
  public:
   /// `run_integrators`: of the system.
   StepsInRecords(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner, Integrators &run_integrators) :
-      Pointers(lmp), system(owner), integrators(run_integrators), styles(lmp)
+      Pointers(lmp), system(owner), integrators(run_integrators), styles(lmp), calls(lmp, owner)
   {
   }
 
@@ -42,6 +43,8 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
   void report(bool pairs_computed);
   /// This step is one of them. `tallied`: energies or virials are asked for in it.
   bool include(LAMMPS_NS::bigint step, bool tallied) const;
+  /// What calls the fixes of any step.
+  FixCalls &fix_calls() { return calls; }
 
  private:
   std::string find_reason_against(bool pairs_computed);
@@ -51,6 +54,7 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
   GranularSystem &system;
   Integrators &integrators;
   StyleReport styles;
+  FixCalls calls;
   std::string reason = "no run yet";               // "" if this run has such steps, as text for
                                                    // messages
   std::vector<LAMMPS_NS::Fix *> at_end_of_step;    // fixes that look at particles then

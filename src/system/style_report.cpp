@@ -3,6 +3,7 @@
 #include "system/style_report.h"
 
 #include "base/talus_version.h"
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/system_fix.h"
 #include "system/system_pair.h"
@@ -66,7 +67,7 @@ bool StyleReport::concerns(const GranularSystem &system) const
   if (system.has_pair_style()) return true;
   if (force->pair && utils::strmatch(force->pair_style, "^gran")) return true;
   if (force->pair && force->pair_match("^gran", 0)) return true;    // in hybrid
-  const auto &fixes = modify->get_fix_list();
+  const std::vector<Fix *> fixes = fix_list(*modify);
   return std::any_of(fixes.begin(), fixes.end(),
                      [](Fix *fix) { return SystemFix::of(fix) != nullptr; });
 }
@@ -103,7 +104,7 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
 std::string StyleReport::lines_of_fixes() const
 {
   std::string lines;
-  for (Fix *fix : modify->get_fix_list()) {
+  for (Fix *fix : fix_list(*modify)) {
     const auto *talus_fix = SystemFix::of(fix);
     const bool acts = talus_fix || acts_within_steps(fix, modify->get_fix_mask(fix));
     if (is_internal(fix) || !acts) continue;

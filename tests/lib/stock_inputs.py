@@ -100,7 +100,7 @@ fix xwalls wall/gran              accelerated
 fix ywalls wall/gran              accelerated
 fix 3 enforce2d                   stock: no accelerated variant
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: fix 3 (enforce2d): may look at particles in every step
+steps without output              in the records
 """, steps=10000, every=500, long_steps=25000, bench_steps=25000),
     StockInput("examples/pour/in.pour.2d.molecule", """
 pair gran/hertz/history           accelerated
@@ -110,7 +110,7 @@ fix ywalls wall/gran              accelerated
 fix 3 rigid/small                 accelerated
 fix 4 enforce2d                   stock: no accelerated variant
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: fix 4 (enforce2d): may look at particles in every step
+steps without output              in the records
 """, steps=10000, every=1000, long_steps=25000, bench_steps=25000),
     # later LAMMPS turns histories of rolling around where new neighbor lists turn a pair around
     StockInput("examples/granular/in.pour.drum", """

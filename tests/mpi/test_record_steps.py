@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from tossed_grains import LAW, TossedCase
+from tossed_grains import LAW, MOVERS, TossedCase
 
 RECORDS = "steps without output              in the records"
 HOST = "steps without output              through the arrays of LAMMPS: "
@@ -36,7 +36,7 @@ LID = f"fix lid all large/body plane 0 0 6 0 0 -1 move variable NULL NULL v_d NU
 PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes"
 
 
-class RecordSteps(TossedCase):
+class RecordsCase(TossedCase):
 
     def run_scene(self, style, law=LAW, boundary="f f f", more="", **options):
         """The text of the dump and of the log."""
@@ -51,6 +51,9 @@ class RecordSteps(TossedCase):
         self.assertGreater(expected.count("TIMESTEP"), 2)
         self.assertEqual(frames, expected)
         return log
+
+
+class RecordSteps(RecordsCase):
 
     def test_with_walls_on_ranks_and_threads(self):
         for style in "", "run_style verlet", "run_style verlet/proxy":
@@ -147,18 +150,99 @@ class RecordSteps(TossedCase):
 
     def test_what_looks_in_every_step(self):
         cases = {
-            "fix drag all viscous 0.1": "fix drag (viscous): may look at particles in every step",
+            "fix back all recenter NULL NULL NULL": "fix back (recenter): may look at particles in every step",
+            "variable a atom x\nfix push all addforce v_a 0 0": "fix push (addforce): variable a reads more than time",
+            "fix step2 loose move linear 0 0 0\nfix step3 base move linear 0 0 0\n":
+                "fix step2 (move): fix step may move the same particles",
+            "fix t all langevin 1 1 1 4711\ncompute part all temp/partial 1 1 0\nfix_modify t temp part":
+                "fix t (langevin): a compute or variable of it may read particles",
             f"variable d equal 0.1*step*dt+0.0*xcm(all,z)\n{LID}":
                 "fix lid (large/body): its variables may read particles",
         }
         for more, reason in cases.items():
             with self.subTest(reason=reason):
-                _, log = self.run_scene("", more=more, run="run 20")
+                groups = "group base id <= 40\ngroup loose subtract all base\n" if "loose" in more else ""
+                _, log = self.run_scene("", more=groups + more, run="run 20")
                 self.assertRegex(log, re.escape(HOST) + ".*" + re.escape(reason))
         for style, reason in (("comm_proxy no", "the exchange is the one of LAMMPS: 'comm_proxy no' is set: remove it"),
                               (STOCK, "run style verlet/stock")):
             _, log = self.run_scene(style, np=2, run="run 20")
             self.assertIn(HOST + reason, log)
+
+    def test_what_a_window_does_not_do(self):
+        movers = FROZEN.replace("fix held base freeze", "fix held base move linear 0 0 0")
+        _, log = self.run_scene("", movers=movers, more="compute work all penalty/stats\nthermo_style custom step c_work[1]",
+                                run="run 20")
+        self.assertIn(HOST + "fix held (move): particles that it moves have no accelerations for order 2 or energies", log)
+        _, log = self.run_scene("", law="hertz 4000.0 40.0", more="fix spin all viscous/sphere 0.1", run="run 20")
+        self.assertRegex(log, re.escape(HOST) + r"fix spin \(viscous/sphere\): (it acts on rotations|may look)")
+
+
+WINDOWS = {
+    "viscous": "fix w all viscous 0.3",
+    "addforce": "fix w all addforce 0.2 0 0.1",
+    "addforce of time": "variable w equal 2*sin(20*step*dt)\nfix w all addforce v_w 0 0",
+    "addforce in a region": "region near block INF 5 INF INF INF 3\nfix w all addforce 1 0 0 region near",
+    "setforce": "group some id 3 7 50 111\nfix w some setforce 0 NULL 0.5",
+    "aveforce": "group some id 3 7 50 111\nfix w some aveforce NULL NULL 0.1",
+    "spring": "group some id 3 7 50 111\nfix w some spring tether 20 4 4 4 0.5",
+    "spring of two groups": "group some id 3 7\ngroup other id 50 111\nfix w some spring couple other 20 1 1 1 2",
+    "spring/self": "group some id 3 7 50 111\nfix w some spring/self 50",
+    "planeforce": "group some id 3 7 50 111\nfix w some planeforce 0 1 1",
+    "lineforce": "group some id 3 7 50 111\nfix w some lineforce 0 1 1",
+    "langevin": "fix w all langevin 1.0 1.0 0.5 4711 omega yes",
+    "wall/reflect": "fix w all wall/reflect zhi 3.5 xlo 0.3",
+    "several": "fix w all viscous 0.3\nfix w2 all addforce 0.2 0 0.1\nfix w3 all langevin 1.0 1.0 2.0 99",
+    "before a body": "group some id 3 7 50 111\nfix w some setforce 0 0 0\n"
+                     "fix later all large/body plane 0.8 0 0 1 0 0 contact " + LAW,
+}
+MOVING = {
+    "linear": "move linear 0.3 0 0.2",
+    "partly": "move linear 0.3 NULL NULL",
+    "wiggle": "move wiggle 0.05 0.05 0.1 0.2",
+    "rotate": "move rotate 4.5 3.5 0 0 0 1 2.0",
+    "variable": "move variable v_d NULL NULL v_u NULL NULL",
+    "nve": "nve",
+    "nve/limit": "nve/limit 0.0005",
+    "nve/noforce": "nve/noforce",
+}
+
+
+FALL = "fix step all nve/sphere/symplectic start {start}\nfix pull all addforce 0.1 0 -2\n"
+
+
+class FixesOfLammps(RecordsCase):
+    """Known fixes of LAMMPS act through a window of arrays while all other particles stay in the records."""
+
+    def test_fixes_that_add_forces(self):
+        for k, (name, more) in enumerate(WINDOWS.items()):
+            for np, threads in ((1, 2), (2, 1)) if k % 3 == 0 else ((1 + k % 2, 1),):
+                with self.subTest(fix=name, ranks=np, threads=threads):
+                    self.assert_same(more=more, np=np, threads=threads, movers=FALL if "setforce" in more else MOVERS)
+
+    def test_fixes_that_move_some(self):
+        times = "variable d equal 0.2*sin(5*step*dt)\nvariable u equal cos(5*step*dt)\n"
+        for k, (name, words) in enumerate(MOVING.items()):
+            groups, step, held = FROZEN.strip().split("\n")[:2], FROZEN.strip().split("\n")[2], f"fix held base {words}"
+            for order in ((step, held), (held, step)) if k < 3 else ((step, held),):
+                with self.subTest(fix=name, first=order[0]):
+                    self.assert_same(movers=times + "\n".join([*groups, *order]), np=1 + k % 2)
+
+    def test_velocity_verlet(self):
+        """With the integrator of the suffix both kicks are made on the way through the records."""
+        for more in WINDOWS["viscous"], WINDOWS["setforce"], WINDOWS["langevin"]:
+            with self.subTest(fix=more):
+                self.assert_same(more=more, movers="suffix talus\nfix step all nve/sphere\nfix g all gravity 4.0 vector 0.3 0.1 -1\n")
+
+    def test_output_of_the_fix(self):
+        more = WINDOWS["addforce"] + "\nthermo_style custom step ke f_w f_w[1] f_w[3]"
+        tables = []
+        for style in STOCK, "":
+            _, log = self.run_scene(style, more=more)
+            tables.append(re.findall(r"^ +\d+ +\S+ +\S+ +\S+ +\S+ *$", log, re.M))
+        self.assertIn(RECORDS, log)
+        self.assertGreater(len(tables[0]), 15)
+        self.assertEqual(*tables)
 
 
 if __name__ == "__main__":

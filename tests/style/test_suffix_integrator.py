@@ -201,7 +201,10 @@ class SuffixIntegrator(SceneCase):
                     ((g.x, g.v, g.diameter) for g in tossed_grains(1))])
         flat = dict(dimension="dimension 2", boundary="f f p", floor="", columns="f_g",
                     fixes="fix s all nve/sphere@ disc\nfix 2d all enforce2d\nfix g all gravity@ 4.0 vector 1 -1 0")
-        self.assert_close_to_stock("run 50", 1e-10, expect=HOST + "fix 2d", **flat)
+        self.assert_close_to_stock("run 50", 1e-10, expect=HOST + "fix g (gravity): fix 2d (enforce2d) acts on forces before it",
+                                   **flat)
+        flat["fixes"] = "fix s all nve/sphere@ disc\nfix g all gravity@ 4.0 vector 1 -1 0\nfix 2d all enforce2d"
+        self.assert_close_to_stock("run 50", 1e-10, **flat)
         flat["fixes"] = "fix s all nve/sphere@ disc\nfix g all gravity@ 4.0 vector 1 -1 0"
         self.assert_close_to_stock("run 50", 1e-10, **flat)
         self.write(tossed_grains(3))

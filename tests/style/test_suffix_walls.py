@@ -216,7 +216,7 @@ class Walls(SceneCase):
 
     def test_through_the_arrays(self):
         """The same candidates serve where each step goes through the arrays of LAMMPS."""
-        more = "fix none all viscous 0.0"
+        more = "fix none all recenter NULL NULL NULL units box"
         self.assert_same(PLANES["fast piston"], more=more, in_records=False)
         self.assert_same(REGIONS["moved and turned"] + "fix w all {wall} {law} region w\n", region=True, more=more,
                          in_records=False)
