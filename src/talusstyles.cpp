@@ -225,7 +225,6 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.fix<FixContactStore>("CONTACT_STORE", TALUS_INFO "contact history (internal)");
   registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", TALUS_INFO "contact history (internal)");
 
-  Talus::ExchangeSwitch::set_maker(
-      [](LAMMPS *host, Comm *old) -> Comm * { return new CommProxy(host, old); });
+  Talus::ExchangeSwitch::set_maker(make_comm_proxy);
   Talus::make_run_style_the_default(static_cast<LAMMPS *>(lmp));
 }

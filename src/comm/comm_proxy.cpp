@@ -3,178 +3,71 @@
 #include "comm/comm_proxy.h"
 
 #include "exchange/exchange_tags.h"
-#include "system/system_shapes.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "domain.h"
-#include "error.h"
-#include "force.h"
-#include "pair.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
-#include <stdexcept>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-CommProxy::CommProxy(LAMMPS *lmp, Comm *old) :
-    CommBrick(lmp, old), system(GranularSystem::of(lmp)), transfer(world), atom_vec_packer(lmp),
-    sphere_packer(lmp)
+namespace {
+
+constexpr int words = sizeof(ProxyOrigin) / sizeof(int);
+
+/// Of the owned particles; room for the ghosts behind them.
+std::vector<ProxyOrigin> origins_of_owned(const Atom &atom, int me)
 {
-  system->exchange().is_made(this, this);
+  std::vector<ProxyOrigin> all(atom.nlocal + atom.nghost);
+  for (int i = 0; i < atom.nlocal; i++) all[i] = {me, i, {0, 0, 0}};
+  return all;
 }
 
-CommProxy::~CommProxy()
+/// What one message of a swap sends.
+std::vector<ProxyOrigin> sent_origins(const std::vector<ProxyOrigin> &all, int count,
+                                      const int *list, bool shifted, const int *pbc)
 {
-  system->exchange().is_deleted(this);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CommProxy::init()
-{
-  transfer.abandon();    // left by an error; particles may have changed since
-  CommBrick::init();
-  look_for_unsupported();
-  own_packing = sphere_packer.applies(ghost_velocity);
-  atom_vec_packer.set(size_forward, ghost_velocity);
-}
-
-/* Not in the command alone: comm_modify and fix deform may come later. */
-
-void CommProxy::look_for_unsupported()
-{
-  const std::string problem = system->exchange().unsupported(true);
-  fell_back = !problem.empty();
-  if (fell_back && system->exchange().choice() == ExchangeSwitch::Choice::YES)
-    error->all(FLERR, "comm_proxy: {} or 'comm_proxy no'", problem);
-}
-
-void CommProxy::setup()
-{
-  finish();
-  CommBrick::setup();
-}
-
-void CommProxy::set_proc_grid(int outflag)
-{
-  transfer.abandon();
-  have_plan = false;
-  CommBrick::set_proc_grid(outflag);
-}
-
-void CommProxy::exchange()
-{
-  transfer.abandon();    // the particles are about to be renumbered
-  have_plan = false;
-  CommBrick::exchange();
-}
-
-void CommProxy::borders()
-{
-  transfer.abandon();
-  have_plan = false;
-  CommBrick::borders();
-  if (fell_back) return;
-  derive_plan();
-  have_plan = true;
-  if (checks) check_owners();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CommProxy::forward_comm(int dummy)
-{
-  finish();
-  if (!have_plan) return CommBrick::forward_comm(dummy);
-  begin(nullptr);
-  finish();
-}
-
-void CommProxy::begin(ProxyPacker *packer)
-{
-  if (!have_plan) error->all(FLERR, "comm_proxy: no plan yet for an exchange (internal error)");
-  finish();
-  transfer.begin(choose_packer(packer));
-  if (checks) poison_proxies();
-}
-
-void CommProxy::finish()
-{
-  if (!transfer.pending()) return;
-  transfer.finish();
-  if (checks) check_states();
-}
-
-ProxyPacker &CommProxy::choose_packer(ProxyPacker *given)
-{
-  ProxyPacker *packer = given;
-  if (!packer && own_packing) packer = &sphere_packer;
-  if (!packer) packer = &atom_vec_packer;
-  if (!plan_has_orientations || !system->shapes()) return *packer;
-  with_orientations.set(*packer, system->shapes()->orientations());
-  return with_orientations;
-}
-
-/* Of the states in the arrays of LAMMPS. */
-
-int CommProxy::stride() const
-{
-  const int of_state = own_packing ? sphere_packer.stride() : atom_vec_packer.stride();
-  return of_state + (plan_has_orientations ? PackerWithRows::columns : 0);
-}
-
-/* ---------------------------------------------------------------------- */
-
-/* A fix shape/gran that comes later ends the run with an error; the messages before must fit. */
-
-void CommProxy::derive_plan()
-{
-  plan_has_orientations = system->shapes() != nullptr;
-  try {
-    transfer.make_plan(atom->nlocal, trace_origins(), possible_neighbors(), largest_stride());
-  } catch (const std::length_error &problem) {
-    error->one(FLERR, "comm_proxy: {}", problem.what());
-  } catch (const std::invalid_argument &problem) {
-    error->one(FLERR, "comm_proxy: {} (internal error)", problem.what());
+  std::vector<ProxyOrigin> sent(count);
+  for (int k = 0; k < count; k++) {
+    sent[k] = all[list[k]];
+    if (shifted)
+      for (int d = 0; d < 3; d++) sent[k].shift[d] += pbc[d];
   }
+  return sent;
 }
 
-/* Of what this object and the run style send with one plan: the states of particles, and their
-   identity in a check. */
+/// Low and high corner of the domain of a rank.
+using RankBox = std::array<double, 6>;
 
-int CommProxy::largest_stride() const
+/// How far two boxes are from each other along an edge, over all periods; the same for both.
+double gap(const RankBox &a, const RankBox &b, int d, double period)
 {
-  constexpr int identity = 2;
-  const int largest = std::max({sphere_packer.stride(), atom_vec_packer.stride(), identity});
-  return largest + (plan_has_orientations ? PackerWithRows::columns : 0);
+  double least = std::max(b[d] - a[3 + d], a[d] - b[3 + d]);
+  for (const double shift : {period, -period})
+    least = std::min(least, std::max(b[d] + shift - a[3 + d], a[d] - (b[3 + d] + shift)));
+  return least;
 }
 
-/* Runs once through LAMMPS' swaps, with the identity of particles instead of their state: what
-   a rank passes on is known to belong to someone else. */
+}    // namespace
 
-std::vector<ProxyOrigin> CommProxy::trace_origins()
+/* ---- bricks ---------------------------------------------------------------------------------- */
+
+template <> std::vector<ProxyOrigin> CommProxy<CommBrick>::trace_origins(MPI_Comm communicator)
 {
-  std::vector<ProxyOrigin> all(atom->nlocal + atom->nghost), buffer;
-  for (int i = 0; i < atom->nlocal; i++) all[i] = {me, i, {0, 0, 0}};
-
-  constexpr int words = sizeof(ProxyOrigin) / sizeof(int);
+  std::vector<ProxyOrigin> all = origins_of_owned(*atom, me);
   for (int swap = 0; swap < nswap; swap++) {
-    buffer.resize(sendnum[swap]);
-    for (int k = 0; k < sendnum[swap]; k++) {
-      buffer[k] = all[sendlist[swap][k]];
-      if (pbc_flag[swap])
-        for (int d = 0; d < 3; d++) buffer[k].shift[d] += pbc[swap][d];
-    }
+    const std::vector<ProxyOrigin> sent =
+        sent_origins(all, sendnum[swap], sendlist[swap], pbc_flag[swap] != 0, pbc[swap]);
     ProxyOrigin *to = all.data() + firstrecv[swap];
     if (sendproc[swap] == me)
-      std::copy(buffer.begin(), buffer.end(), to);
+      std::copy(sent.begin(), sent.end(), to);
     else
-      MPI_Sendrecv(buffer.data(), words * sendnum[swap], MPI_INT, sendproc[swap], TAG_ORIGIN, to,
-                   words * recvnum[swap], MPI_INT, recvproc[swap], TAG_ORIGIN,
-                   transfer.communicator(), MPI_STATUS_IGNORE);
+      MPI_Sendrecv(sent.data(), words * sendnum[swap], MPI_INT, sendproc[swap], TAG_ORIGIN, to,
+                   words * recvnum[swap], MPI_INT, recvproc[swap], TAG_ORIGIN, communicator,
+                   MPI_STATUS_IGNORE);
   }
   all.erase(all.begin(), all.begin() + atom->nlocal);
   return all;
@@ -183,7 +76,7 @@ std::vector<ProxyOrigin> CommProxy::trace_origins()
 /* All ranks within the reach of the swaps. The reach is the same for all ranks, so this is
    symmetric. */
 
-std::vector<int> CommProxy::possible_neighbors() const
+template <> std::vector<int> CommProxy<CommBrick>::possible_neighbors()
 {
   std::vector<int> along[3];
   for (int d = 0; d < 3; d++) {
@@ -205,110 +98,61 @@ std::vector<int> CommProxy::possible_neighbors() const
   return {ranks.begin(), ranks.end()};
 }
 
-/* ---------------------------------------------------------------------- */
+/* ---- tiles ----------------------------------------------------------------------------------- */
 
-double CommProxy::messages_per_exchange() const
+/* In each swap with several ranks, with itself last. */
+
+template <> std::vector<ProxyOrigin> CommProxy<CommTiled>::trace_origins(MPI_Comm communicator)
 {
-  double count = 0.0;
-  for (const ExchangeNeighbor &n : plan().neighbors()) count += n.send_count() > 0;
-  return count;
+  std::vector<ProxyOrigin> all = origins_of_owned(*atom, me);
+  for (int swap = 0; swap < nswap; swap++) {
+    const int own = sendself[swap], receives = nrecvproc[swap] - own, sends = nsendproc[swap] - own;
+    std::vector<MPI_Request> requests(receives);
+    for (int n = 0; n < receives; n++)
+      MPI_Irecv(all.data() + firstrecv[swap][n], words * recvnum[swap][n], MPI_INT,
+                recvproc[swap][n], TAG_ORIGIN, communicator, &requests[n]);
+    for (int n = 0; n < sends + own; n++) {
+      const std::vector<ProxyOrigin> sent = sent_origins(all, sendnum[swap][n], sendlist[swap][n],
+                                                         pbc_flag[swap][n] != 0, pbc[swap][n]);
+      if (n == sends)
+        std::copy(sent.begin(), sent.end(), all.data() + firstrecv[swap][receives]);
+      else
+        MPI_Send(sent.data(), words * sendnum[swap][n], MPI_INT, sendproc[swap][n], TAG_ORIGIN,
+                 communicator);
+    }
+    MPI_Waitall(receives, requests.data(), MPI_STATUSES_IGNORE);
+  }
+  all.erase(all.begin(), all.begin() + atom->nlocal);
+  return all;
 }
 
-double CommProxy::bytes_per_exchange() const
+/* All ranks whose domains are within the cutoff of this one's, along each edge: no ghost comes from
+   further away. */
+
+template <> std::vector<int> CommProxy<CommTiled>::possible_neighbors()
 {
-  return transfer.bytes_per_exchange(stride());
+  const bool tilted = domain->triclinic != 0;
+  const double *const low = tilted ? domain->sublo_lamda : domain->sublo,
+                      *const high = tilted ? domain->subhi_lamda : domain->subhi,
+                      *const period = tilted ? domain->prd_lamda : domain->prd;
+  const RankBox mine{low[0], low[1], low[2], high[0], high[1], high[2]};
+  std::vector<RankBox> boxes(nprocs);
+  MPI_Allgather(mine.data(), 6, MPI_DOUBLE, boxes.data(), 6, MPI_DOUBLE, world);
+  std::vector<int> ranks;
+  for (int r = 0; r < nprocs; r++) {
+    const RankBox &first = boxes[std::min(me, r)], &second = boxes[std::max(me, r)];
+    bool near = r != me;
+    for (int d = 0; d < domain->dimension; d++)
+      near = near && gap(first, second, d, domain->periodicity[d] ? period[d] : 0.0) <= cutghost[d];
+    if (near) ranks.push_back(r);
+  }
+  return ranks;
 }
 
-std::string CommProxy::describe_message() const
-{
-  const auto bytes = sizeof(double) * stride();
-  const char *more = plan_has_orientations ? ", orientation" : "";
-  if (own_packing) return fmt::format("{} bytes per particle: x, v, omega{}", bytes, more);
-  return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {}){}", bytes,
-                     atom->atom_style, more);
-}
+/* ---------------------------------------------------------------------------------------------- */
 
-double CommProxy::memory_usage()
+Comm *LAMMPS_NS::make_comm_proxy(LAMMPS *lmp, Comm *old)
 {
-  return CommBrick::memory_usage() + 2.0 * bytes_per_exchange();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CommProxy::reverse_comm()
-{
-  finish();
-  CommBrick::reverse_comm();
-}
-
-void CommProxy::forward_comm(Pair *pair, int size)
-{
-  finish();
-  CommBrick::forward_comm(pair, size);
-}
-
-void CommProxy::reverse_comm(Pair *pair, int size)
-{
-  finish();
-  CommBrick::reverse_comm(pair, size);
-}
-
-void CommProxy::forward_comm(Bond *bond, int size)
-{
-  finish();
-  CommBrick::forward_comm(bond, size);
-}
-
-void CommProxy::reverse_comm(Bond *bond, int size)
-{
-  finish();
-  CommBrick::reverse_comm(bond, size);
-}
-
-void CommProxy::forward_comm(Fix *fix, int size)
-{
-  finish();
-  CommBrick::forward_comm(fix, size);
-}
-
-void CommProxy::reverse_comm(Fix *fix, int size)
-{
-  finish();
-  CommBrick::reverse_comm(fix, size);
-}
-
-void CommProxy::reverse_comm_variable(Fix *fix)
-{
-  finish();
-  CommBrick::reverse_comm_variable(fix);
-}
-
-void CommProxy::forward_comm(Compute *compute, int size)
-{
-  finish();
-  CommBrick::forward_comm(compute, size);
-}
-
-void CommProxy::reverse_comm(Compute *compute, int size)
-{
-  finish();
-  CommBrick::reverse_comm(compute, size);
-}
-
-void CommProxy::forward_comm(Dump *dump, int size)
-{
-  finish();
-  CommBrick::forward_comm(dump, size);
-}
-
-void CommProxy::reverse_comm(Dump *dump, int size)
-{
-  finish();
-  CommBrick::reverse_comm(dump, size);
-}
-
-void CommProxy::forward_comm_array(int columns, double **array)
-{
-  finish();
-  CommBrick::forward_comm_array(columns, array);
+  if (old->style == Comm::TILED) return new CommProxyTiled(lmp, old);
+  return new CommProxyBrick(lmp, old);
 }

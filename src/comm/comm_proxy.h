@@ -1,126 +1,133 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// LAMMPS' communication object with a direct exchange: ExchangeSwitch puts it in the place of
-// the stock CommBrick. doc/comm_proxy.md is the user's page.
+// LAMMPS' communication object with a direct exchange, for comm_style brick and tiled:
+// ExchangeSwitch puts it in the place of the stock one. doc/comm_proxy.md is the user's page.
 //
-// Migration, borders and all exchanges of single styles stay LAMMPS' staged ones, so that the
-// order of ghost particles, and with it every neighbor list, is the stock one. At the end of
-// borders() a plan is derived that goes from owner to proxy without stages; forward_comm(), which
-// runs in every other step, uses it.
-//
-// forward_comm() is blocking, for every caller. Only the run style of Talus calls begin().
-// Every method finishes a pending exchange first.
+// Migration, borders and all exchanges of single styles stay LAMMPS' staged ones, so that the order
+// of ghost particles, and with it every neighbor list, is the stock one; forward_comm(), which runs
+// in every other step, is that of DirectExchange. Every method finishes a pending exchange first.
 
 #ifndef LMP_COMM_PROXY_H
 #define LMP_COMM_PROXY_H
 
-#include "comm/atom_packers.h"
-#include "exchange/packer_with_rows.h"
-#include "exchange/proxy_exchange.h"
-
-#include "system/granular_system.h"
+#include "comm/direct_exchange.h"
 
 #include "comm_brick.h"
+#include "comm_tiled.h"
 
-#include <memory>
-#include <string>
+#include <cstring>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class CommProxy : public CommBrick, public Talus::ProxyUpdates {
+/// Base: CommBrick or CommTiled.
+template <class Base> class CommProxy : public Base, private StagedExchange {
  public:
   /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
-  CommProxy(class LAMMPS *, class Comm *old);
-  ~CommProxy() override;
+  CommProxy(class LAMMPS *lmp, class Comm *old) : Base(lmp, old), direct(lmp, this, *this) {}
 
-  // ---- LAMMPS' interface
-
-  void init() override;
-  void setup() override;
-  void set_proc_grid(int outflag = 1) override;
-  void exchange() override;
-  void borders() override;
-  void forward_comm(int dummy = 0) override;
-
-  void reverse_comm() override;
-  void forward_comm(class Pair *, int size = 0) override;
-  void reverse_comm(class Pair *, int size = 0) override;
-  void forward_comm(class Bond *, int size = 0) override;
-  void reverse_comm(class Bond *, int size = 0) override;
-  void forward_comm(class Fix *, int size = 0) override;
-  void reverse_comm(class Fix *, int size = 0) override;
-  void reverse_comm_variable(class Fix *) override;
-  void forward_comm(class Compute *, int size = 0) override;
-  void reverse_comm(class Compute *, int size = 0) override;
-  void forward_comm(class Dump *, int size = 0) override;
-  void reverse_comm(class Dump *, int size = 0) override;
-  void forward_comm_array(int, double **) override;
-  double memory_usage() override;
-
-  // ---- ours
-
-  bool falls_back() const override { return fell_back; }
-
-  /// Whether begin() can be called: after borders() until the next exchange(). The same on all
-  /// ranks.
-  bool has_plan() const override { return have_plan; }
-
-  /// Starts the update of all proxies; the caller ensures that they are not read before
-  /// finish(). Collective among neighbors, like forward_comm(). `packer`: if states are not in the
-  /// arrays of LAMMPS, on all ranks.
-  void begin(Talus::ProxyPacker *packer) override;
-
-  /// For the run style, at the start of a run: whether it will call begin().
-  void set_overlap(bool yes) override { overlapped_run = yes; }
-
-  // ProxyUpdates
-  bool overlaps() const override { return overlapped_run; }
-  bool pending() const override { return transfer.pending(); }
-  void progress() override { transfer.progress(); }
-  bool may_progress_beside(int threads) const override
+  void init() override
   {
-    return Talus::ProxyExchange::may_progress_beside(threads);
+    direct.abandon();    // left by an error; particles may have changed since
+    Base::init();
+    direct.init(Base::size_forward);
   }
-  void finish() override;
+  void setup() override
+  {
+    direct.finish();
+    Base::setup();
+  }
+  void set_proc_grid(int outflag = 1) override
+  {
+    direct.forget_plan();
+    Base::set_proc_grid(outflag);
+  }
+  void exchange() override
+  {
+    direct.forget_plan();
+    Base::exchange();
+  }
+  void borders() override
+  {
+    direct.forget_plan();
+    Base::borders();
+    direct.derive_plan();
+  }
+  void forward_comm(int dummy = 0) override
+  {
+    direct.finish();
+    if (!direct.has_plan()) return Base::forward_comm(dummy);
+    direct.begin(nullptr);
+    direct.finish();
+  }
 
-  /// Invariant checks: proxies are poisoned with NaN until they are valid, and every state is
-  /// compared with the one that the staged exchange brings. The same on all ranks.
-  void check(bool yes) { checks = yes; }
-  bool is_checking() const override { return checks; }
-
-  const Talus::ExchangePlan &plan() const override { return transfer.plan(); }
-  Talus::ExchangeCounters &counters() override { return transfer.counters; }
-  /// Of this rank, for one exchange with the present plan.
-  double messages_per_exchange() const override;
-  double bytes_per_exchange() const override;
-  /// What a proxy's message holds, as text for messages.
-  std::string describe_message() const override;
+  void reverse_comm() override
+  {
+    direct.finish();
+    Base::reverse_comm();
+  }
+  void forward_comm(class Pair *pair, int size = 0) override { forward_of(pair, size); }
+  void reverse_comm(class Pair *pair, int size = 0) override { reverse_of(pair, size); }
+  void forward_comm(class Bond *bond, int size = 0) override { forward_of(bond, size); }
+  void reverse_comm(class Bond *bond, int size = 0) override { reverse_of(bond, size); }
+  void forward_comm(class Fix *fix, int size = 0) override { forward_of(fix, size); }
+  void reverse_comm(class Fix *fix, int size = 0) override { reverse_of(fix, size); }
+  void reverse_comm_variable(class Fix *fix) override
+  {
+    direct.finish();
+    Base::reverse_comm_variable(fix);
+  }
+  void forward_comm(class Compute *compute, int size = 0) override { forward_of(compute, size); }
+  void reverse_comm(class Compute *compute, int size = 0) override { reverse_of(compute, size); }
+  void forward_comm(class Dump *dump, int size = 0) override { forward_of(dump, size); }
+  void reverse_comm(class Dump *dump, int size = 0) override { reverse_of(dump, size); }
+  void forward_comm_array(int columns, double **array) override
+  {
+    direct.finish();
+    Base::forward_comm_array(columns, array);
+  }
+  /// `proxy_updates`: the Talus::ProxyUpdates of this object.
+  void *extract(const char *name, int &dimension) override
+  {
+    if (std::strcmp(name, "proxy_updates") != 0) return Base::extract(name, dimension);
+    dimension = 0;
+    return static_cast<Talus::ProxyUpdates *>(&direct);
+  }
+  double memory_usage() override
+  {
+    return Base::memory_usage() + 2.0 * direct.bytes_per_exchange();
+  }
 
  private:
-  Talus::ProxyPacker &choose_packer(Talus::ProxyPacker *given);
-  int stride() const;
-  void look_for_unsupported();
-  void derive_plan();
-  int largest_stride() const;
-  std::vector<Talus::ProxyOrigin> trace_origins();
-  std::vector<int> possible_neighbors() const;
-  void poison_proxies();
-  void check_owners();
-  void check_states();
+  template <class Style> void forward_of(Style *style, int size)
+  {
+    direct.finish();
+    Base::forward_comm(style, size);
+  }
+  template <class Style> void reverse_of(Style *style, int size)
+  {
+    direct.finish();
+    Base::reverse_comm(style, size);
+  }
 
-  std::shared_ptr<Talus::GranularSystem> system;
-  Talus::ProxyExchange transfer;
-  Talus::AtomVecPacker atom_vec_packer;
-  Talus::SpherePacker sphere_packer;
-  Talus::PackerWithRows with_orientations;
-  bool have_plan = false;                ///< the same on all ranks
-  bool plan_has_orientations = false;    ///< room for them in its messages
-  bool fell_back = false;                ///< in this run, see falls_back()
-  bool own_packing = false;              ///< atom style sphere
-  bool checks = false;
-  bool overlapped_run = false;
+  // StagedExchange
+  std::vector<Talus::ProxyOrigin> trace_origins(MPI_Comm communicator) override;
+  std::vector<int> possible_neighbors() override;
+  void forward_staged() override { Base::forward_comm(); }
+
+  DirectExchange direct;
 };
+
+template <> std::vector<Talus::ProxyOrigin> CommProxy<CommBrick>::trace_origins(MPI_Comm);
+template <> std::vector<int> CommProxy<CommBrick>::possible_neighbors();
+template <> std::vector<Talus::ProxyOrigin> CommProxy<CommTiled>::trace_origins(MPI_Comm);
+template <> std::vector<int> CommProxy<CommTiled>::possible_neighbors();
+
+using CommProxyBrick = CommProxy<CommBrick>;
+using CommProxyTiled = CommProxy<CommTiled>;
+
+/// What takes the place of `old`, with its settings.
+Comm *make_comm_proxy(LAMMPS *lmp, Comm *old);
 
 }    // namespace LAMMPS_NS
 

@@ -2,9 +2,9 @@
 
 #include "comm/proxy_command.h"
 
-#include "comm/comm_proxy.h"
 #include "system/command_words.h"
 #include "system/exchange_report.h"
+#include "system/granular_system.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -39,16 +39,9 @@ void ProxyCommand::command(int narg, char **arg)
   if (task == CHECK) check(value);
 }
 
-CommProxy *ProxyCommand::current() const
-{
-  return dynamic_cast<CommProxy *>(comm);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ProxyCommand::check(bool value)
 {
-  if (CommProxy *proxy = current())
+  if (ProxyUpdates *proxy = GranularSystem::of(lmp)->exchange().present())
     proxy->check(value);
   else if (value)
     error->all(FLERR, "comm_proxy check yes: the direct exchange is off: say 'comm_proxy yes' "
@@ -57,8 +50,8 @@ void ProxyCommand::check(bool value)
 
 void ProxyCommand::info()
 {
-  CommProxy *proxy = current();
-  if (!proxy || proxy->falls_back()) {
+  ProxyUpdates *proxy = GranularSystem::of(lmp)->exchange().direct();
+  if (!proxy) {
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }

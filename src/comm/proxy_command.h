@@ -17,7 +17,6 @@ class ProxyCommand : public Command {
   void command(int, char **) override;
 
  private:
-  class CommProxy *current() const;
   void check(bool value);
   void info();
 };

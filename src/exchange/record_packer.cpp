@@ -122,8 +122,12 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
 {
   constexpr std::ptrdiff_t width = rotation ? 9 : 6;
   steps.clear();
+  velocity_steps.clear();
   box.for_each_step(run.shift, [this](const std::array<double, 3> &step) {
     steps.push_back({{step[0], step[1], step[2], 0.0}});
+  });
+  box.for_each_velocity_step(run.shift, [this](const std::array<double, 3> &step) {
+    velocity_steps.push_back({{step[0], step[1], step[2], 0.0}});
   });
   const int count = static_cast<int>(run.targets.size());
   for (int k = 0; k < count; k++) {
@@ -140,6 +144,7 @@ template <bool rotation> void RecordPacker::unpack_run(const Run &run, const dou
     Record &last =
         rotation ? moves[1] : moves[0];    // one number earlier: it ends with the message
     store(last, last_three_with_fourth_of(load_anywhere(in + width - 4), load4(last)));
+    for (const Record &step : velocity_steps) store(moves[0], load4(moves[0]) + load4(step));
     if (!records->keeps_changes()) continue;
     if (rotation)
       records->keep_change(s, before[0], load4(moves[0]), before[1], load4(moves[1]));

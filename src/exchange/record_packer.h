@@ -57,7 +57,7 @@ class RecordPacker : public ProxyPacker {
   std::vector<Slots> slots;    ///< by neighbor
   ParticleRecords *records = nullptr;
   PeriodicBox box;
-  AlignedVector<Record> steps;    ///< of the shift of a run; the fourth numbers are 0
+  AlignedVector<Record> steps, velocity_steps;    ///< of the shift of a run; the fourth numbers are 0
 };
 
 }    // namespace Talus

@@ -54,7 +54,9 @@ int count_poisoned(const Atom *atom)
 void look_for_window()
 {
   if (!observed) return;
-  const auto *updates = dynamic_cast<Talus::ProxyUpdates *>(observed->comm);
+  int dimension = 0;
+  const auto *updates =
+      static_cast<Talus::ProxyUpdates *>(observed->comm->extract("proxy_updates", dimension));
   const bigint step = observed->update->ntimestep;
   if (!updates || !updates->pending() || observed->update->setupflag || step == last_window) return;
   if (count_poisoned(observed->atom) != observed->atom->nghost) return;    // still being packed

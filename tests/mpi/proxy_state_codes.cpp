@@ -8,6 +8,7 @@
 // neighbor list ('run 0'), with 'comm_proxy yes'. Prints "codes right" when all were.
 
 #include "comm_brick.h"
+#include "comm_tiled.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -66,7 +67,10 @@ class CodedGhosts {
       compare(i, owners.at(atom->tag[i]));
 
     poison();
-    static_cast<CommBrick *>(comm)->CommBrick::forward_comm();    // the staged one
+    if (comm->style == Comm::TILED)    // the staged one
+      static_cast<CommTiled *>(comm)->CommTiled::forward_comm();
+    else
+      static_cast<CommBrick *>(comm)->CommBrick::forward_comm();
     const std::vector<double> staged = ghost_states();
     // no ghosts, no storage: nothing to hand to memcmp
     expect(direct.empty() ||
@@ -135,7 +139,8 @@ class CodedGhosts {
   void compare(int i, const Owner &owner) const
   {
     const std::string who = scene + ": ghost of " + std::to_string(atom->tag[i]);
-    if (comm->ghost_velocity)
+    // of images in a box that changes its shape it is another one: that of LAMMPS, see check_round()
+    if (comm->ghost_velocity && !domain->deform_vremap)
       expect(std::memcmp(atom->v[i], owner.v, sizeof owner.v) == 0, who + ": v");
     if (rotation)
       expect(std::memcmp(atom->omega[i], owner.omega, sizeof owner.omega) == 0, who + ": w");

@@ -36,6 +36,31 @@ thermo 100
 WORDS = "50 2 top 100.0 diameter uniform 0.05 0.1 mass density 2500 seed 77 velocity 0.1 0 -2"
 DUMP = "write_dump all custom {name} id type radius mass x y z vx vy vz modify format float %.17g\n"
 
+# what falls out of the box is lost; thermo output, which looks for it, is rare
+LEAKING = """
+units si
+boundary f f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+region box block 0 0.1 0 0.1 0 0.3
+create_box 1 box
+"""
+STREAM = """
+neighbor 0.001 bin
+region feed block 0.02 0.08 0.02 0.08 0.25 0.29
+pair_style gran/penalty
+pair_coeff * * hooke 2000 500 tangential multistep NULL NULL 0.4
+fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
+fix in all pour/rate 100 1 feed 0.05 diameter 0.006 density 2500 seed 4711 velocity 0 0 -1
+fix plate all large/body plane 0.05 0.05 0.12 0 1 1 contact hooke 2000 500
+timestep 5e-5
+thermo_style custom step atoms f_in[1] f_in[2]
+thermo 100000
+thermo_modify lost {lost}
+"""
+
 
 class Pour(SceneCase):
 
@@ -89,6 +114,25 @@ class Pour(SceneCase):
         self.pour(WORDS + " mass 4.0")
         self.assertAlmostEqual(thermo(self.log)[-1]["f_in[1]"], 4.0, delta=1.31)
         self.assertEqual(thermo(self.log)[-1]["f_in[2]"], thermo(self.log)[-2]["f_in[2]"])
+
+    def test_a_stream_that_leaves_the_box(self):
+        for lost in "ignore", "warn":
+            for np in 1, 2:
+                with self.subTest(lost=lost, np=np):
+                    commands = "run 5000\nwrite_restart half\nrun 2000\n" + DUMP.format(name="on")
+                    log = self.run_lammps(LEAKING + STREAM.format(lost=lost) + commands, np=np).log
+                    end = thermo(log)[-1]
+                    self.assert_close(end["f_in[1]"], 0.05 * 7000 * 5e-5, 0.03)
+                    self.assertLess(end["Atoms"], 0.7 * end["f_in[2]"])
+                    self.run_lammps("read_restart half\n" + STREAM.format(lost=lost) + "run 2000\n" + DUMP.format(name="again"),
+                                    np=np)
+                    (on,), (again,) = read_dump(self.path("on")), read_dump(self.path("again"))
+                    self.assertEqual(len(on.atoms), end["Atoms"])
+                    self.assert_same_bits(on, again)
+
+    def test_what_has_left_is_still_reported(self):
+        log = self.run_lammps(LEAKING + STREAM.format(lost="error") + "run 5000\n", expect_error=True).log
+        self.assertRegex(log, r"Lost atoms: original \d+ current \d+")
 
     def test_a_stream_that_is_too_strong(self):
         self.pour(WORDS.replace("100.0", "4e5"))

@@ -75,6 +75,12 @@ def scenes(ranks):
     cases["uneven, thin"] = dict(change="balance 1.0 shift xyz 20 1.01", cutoff=3.3)
     cases["uneven, walls"] = dict(change="balance 1.0 shift xz 20 1.01", boundary="f f f",
                                   cutoff=2.4)
+    tiled = dict(middle="comm_style tiled\n")
+    cases["tiled"] = tiled
+    cases["tiled, thin"] = dict(tiled, cutoff=3.3)
+    cases["rcb"] = dict(tiled, change="balance 1.0 rcb")
+    cases["rcb, walls"] = dict(tiled, change="balance 1.0 rcb", boundary="f p f", cutoff=2.4)
+    cases["rcb, tilted"] = dict(tiled, change="balance 1.0 rcb", box=TRICLINIC.format(tilt="0.5 -0.3 0.2"))
     if ranks > 1:
         cuts = " ".join(str(0.05 + 0.9 * k / ranks ** 1.2) for k in range(1, ranks))
         cases["uneven by hand"] = dict(grid=f"{ranks} 1 1", change=f"balance 1.0 x {cuts}")
@@ -90,6 +96,10 @@ def scenes(ranks):
     cases["deform"] = dict(after=DEFORM.format(what="x erate 0.5 y erate -0.3"))
     cases["deform, tilted"] = dict(box=TRICLINIC.format(tilt="0.5 -0.3 0.2"),
                                    after=DEFORM.format(what="xy erate 0.5"))
+    moves = DEFORM.replace("remap x", "remap v")
+    cases["deform with velocities"] = dict(after=moves.format(what="x erate 0.5 y erate -0.3"))
+    cases["deform with velocities, tilted"] = dict(box=TRICLINIC.format(tilt="0.5 -0.3 0.2"),
+                                                   after=moves.format(what="xy erate 0.5 yz erate 0.2"))
     cases["radii that vary"] = dict(style="sphere 1")
     cases["atomic"] = dict(style="atomic", box=ATOMIC.format(set="mass * 1.0"))
     cases["ellipsoids"] = dict(style="ellipsoid", box=ATOMIC.format(    # messages of any length

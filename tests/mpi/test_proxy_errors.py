@@ -67,13 +67,12 @@ class Messages(SceneCase):
 
     def test_refusals(self):
         box = BOX.format(before="")
-        self.refused(box + "comm_style tiled\ncomm_proxy yes\n", "'comm_style tiled' is not supported")
         reduce = "neighbor 0.3 multi\ncomm_modify mode multi reduce/multi"
         self.refused(box + reduce + "\ncomm_proxy yes\n", "'comm_modify reduce/multi' is not supported: remove it")
         self.refused(SCENE.format(before="newton on\n", middle=reduce), "'comm_modify reduce/multi' is not supported: remove it")
-        deform = "fix shape all deform 1 x erate 0.1 remap v"
+        deform = "group some id 1 2\nfix shape some deform 1 x erate 0.1 remap v"
         self.refused(SCENE.format(before="", middle=deform),
-                     "fix deform with 'remap v' is not supported")
+                     "fix deform with 'remap v' is supported for group all only")
 
     def run_scene(self, middle, before="", ranks=2):
         return self.run_lammps(SCENE.format(before=before, middle=middle), np=ranks).log

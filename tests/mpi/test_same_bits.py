@@ -199,7 +199,8 @@ class SameBits(HeapCase):
         self.check("fix balance shift", 2, middle="fix even all balance 100 1.0 shift xyz 10 1.0\n")
         self.check("fix balance shift", 4, middle="fix even all balance 37 1.0 shift xz 10 1.0\n")
         tiled = "balance 1.0 rcb\nfix even all balance 70 1.0 rcb\n"
-        self.check("rcb", 4, middle=tiled, comm="comm_style tiled")
+        for np, comm in (4, "comm_style tiled"), (3, "comm_style tiled"), (2, "comm_style tiled"):
+            self.check("rcb", np, middle=tiled, comm=comm)
 
     def test_hybrid_overlay(self):
         for np in 1, 4:
