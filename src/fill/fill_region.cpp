@@ -144,7 +144,8 @@ std::vector<KnownSphere> FillRegion::pack(const RegionSpace &space, int count, d
     }
     SpherePacking packing(space, places, all_radii, count);
     packing.relax(limit, most_steps);
-    places.assign(packing.places().begin(), packing.places().begin() + count);
+    places = packing.places();
+    places.resize(count);
     reached = packing.largest_overlap();
     steps = packing.steps();
   }

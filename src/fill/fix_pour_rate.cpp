@@ -106,14 +106,24 @@ std::vector<KnownSphere> FixPourRate::find_places(const RegionSpace &space)
 {
   std::vector<KnownSphere> known = spheres_in_box(lmp, space.low_corner(), space.high_corner()),
                            made;
+  double largest = largest_radius;
+  for (const KnownSphere &one : known) largest = std::max(largest, one.radius);
+  const double *const lo = domain->boxlo, *const hi = domain->boxhi;
+  const GridBox box{{lo[0], lo[1], lo[2]},
+                    {hi[0], hi[1], hi[2]},
+                    {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  SphereGrid grid(box, largest, 0.0, known.size() + 1000);
+  for (std::size_t n = 0; n < known.size(); n++)
+    grid.add(static_cast<int>(n), known[n].x, known[n].radius);
   while (due >= 0.5 * mass_of(next_diameter) && !is_over()) {
     KnownSphere sphere{{}, 0.5 * next_diameter};
     bool placed = false;
     for (int k = 0; k < attempts && !placed; k++) {
       sphere.x = space.draw(random);
-      placed = space.holds(sphere.x, sphere.radius) && is_free(sphere, known);
+      placed = space.holds(sphere.x, sphere.radius) && is_free(sphere, known, grid);
     }
     if (!placed) break;
+    grid.add(static_cast<int>(known.size()), sphere.x, sphere.radius);
     known.push_back(sphere);
     made.push_back(sphere);
     due -= mass_of(next_diameter);
@@ -123,17 +133,21 @@ std::vector<KnownSphere> FixPourRate::find_places(const RegionSpace &space)
   return made;
 }
 
-bool FixPourRate::is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others) const
+bool FixPourRate::is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others,
+                          const SphereGrid &grid) const
 {
-  for (const KnownSphere &other : others) {
+  const auto touches = [&](const KnownSphere &other) {
     const Vector3<double> between = sphere.x - other.x;
     double d[3] = {between.x, between.y, between.z};
     for (int k = 0; k < 3; k++)
       if (domain->periodicity[k]) d[k] -= domain->prd[k] * std::round(d[k] / domain->prd[k]);
     const double touch = sphere.radius + other.radius;
-    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < touch * touch) return false;
-  }
-  return true;
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < touch * touch;
+  };
+  bool free = true;
+  for (int n = 0; n < grid.num_classes() && free; n++)
+    grid.visit_near(n, sphere.x, sphere.radius, [&](int k) { free = free && !touches(others[k]); });
+  return free;
 }
 
 void FixPourRate::create(const std::vector<KnownSphere> &spheres)

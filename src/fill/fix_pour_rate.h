@@ -9,6 +9,7 @@
 
 #include "fill/new_spheres.h"
 #include "packing/size_distribution.h"
+#include "packing/sphere_grid.h"
 
 #include "fix.h"
 
@@ -36,7 +37,8 @@ class FixPourRate : public Fix {
   double mass_of(double diameter) const;
   bool is_over() const { return total > 0.0 && poured >= total; }
   std::vector<KnownSphere> find_places(const RegionSpace &space);
-  bool is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others) const;
+  bool is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others,
+               const Talus::SphereGrid &grid) const;
   void create(const std::vector<KnownSphere> &spheres);
   void warn_if_behind();
 

@@ -44,6 +44,15 @@ std::vector<double> gather(MPI_Comm world, const std::vector<double> &mine)
   return all;
 }
 
+void require_made(LAMMPS *lmp, bigint mine, bigint wanted)
+{
+  bigint made = 0;
+  MPI_Allreduce(&mine, &made, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  if (made != wanted)
+    lmp->error->all(FLERR, "{} of {} spheres were not made: their places belong to no rank",
+                    wanted - made, wanted);
+}
+
 }    // namespace
 
 std::vector<KnownSphere> LAMMPS_NS::spheres_in_box(LAMMPS *lmp, const Vector3<double> &lo,
@@ -99,11 +108,9 @@ int LAMMPS_NS::create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spher
     atom->rmass[i] = density * (four_thirds_pi * sphere.radius * sphere.radius * sphere.radius);
   }
   atom->data_fix_compute_variable(first, atom->nlocal);
-  const bigint now = atom->nlocal, before = atom->natoms;
-  MPI_Allreduce(&now, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  if (atom->natoms != before + static_cast<bigint>(spheres.size()))
-    lmp->error->all(FLERR, "{} of {} spheres were not made: their places belong to no rank",
-                    before + static_cast<bigint>(spheres.size()) - atom->natoms, spheres.size());
+  require_made(lmp, atom->nlocal - first, static_cast<bigint>(spheres.size()));
+  // particles that were lost before are not ours to report: LAMMPS compares with this number
+  atom->natoms += static_cast<bigint>(spheres.size());
   if (atom->map_style != Atom::MAP_NONE) {
     atom->map_init();
     atom->map_set();

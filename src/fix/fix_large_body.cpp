@@ -158,7 +158,7 @@ void FixLargeBody::follow_region()
                shape->region_id());
   const std::string refusal = RegionShape::refusal(*region, motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
-  shape->replace(region);
+  shape->replace(region, *domain);
   if (motion.has_own()) return;
   motion.follow(*region, shape->reference_point());
   body.set_frame(&motion.frame(), motion.moves());

@@ -5,6 +5,8 @@
 
 #include "fix/fix_large_body.h"
 
+#include "system/particle_count.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -18,7 +20,7 @@ using namespace Talus;
 namespace {
 
 // Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -5.0;
+constexpr double restart_version = -6.0;
 constexpr int size_head = 3;
 constexpr int restart_header = 2;    // of a particle: number of doubles, ID
 
@@ -67,9 +69,10 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
 
 void FixLargeBody::write_restart(FILE *fp)
 {
+  const bigint particles = Talus::count_particles(lmp);
   std::vector<double> values(size_head + LargeBodyMotion::size_restart);
   values[0] = restart_version;
-  values[1] = static_cast<double>(atom->natoms);
+  values[1] = static_cast<double>(particles);
   values[2] = side.code();
   motion.to_array(&values[size_head]);
   surface->append_work(values);    // sums over ranks

@@ -4,6 +4,8 @@
 
 #include "fix/fix_shape_gran.h"
 
+#include "system/particle_count.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -85,8 +87,9 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
 void FixShapeGran::write_restart(FILE *fp)
 {
   keep_histories();    // on all ranks, before particles are packed
+  const bigint particles = Talus::count_particles(lmp);
   if (comm->me) return;
-  const double head[] = {restart_version, static_cast<double>(atom->natoms)};
+  const double head[] = {restart_version, static_cast<double>(particles)};
   const int size = sizeof head;
   fwrite(&size, sizeof size, 1, fp);
   fwrite(head, size, 1, fp);

@@ -17,6 +17,7 @@ void FixWallGranRegionTalus::begin_run()
   simple = bounded && !is_composite(*region);
   in_frame = dynamic && simple;
   parts = bounded ? RegionParts(*region) : RegionParts();
+  span = PeriodicSpan(*region, *domain);
 }
 
 std::string FixWallGranRegionTalus::what_reads_arrays()
@@ -33,33 +34,78 @@ double FixWallGranRegionTalus::displacement() const
   return dynamic && bounded ? parts.largest_displacement(listed_poses, listed_box) : 0.0;
 }
 
-bool FixWallGranRegionTalus::is_inside(const double *x)
+bool FixWallGranRegionTalus::is_inside(const Vector3<double> &center)
 {
+  const Vector3<double> at = span.image_of(center);
+  const double x[3] = {at.x, at.y, at.z};
   return in_frame ? RegionInFrame(*region, motion).match(x) : region->match(x[0], x[1], x[2]);
 }
 
-int FixWallGranRegionTalus::find_contacts(const double *x, double reach)
+/* A center that is on the surface has no normal: that of a place beside it on the inner side. */
+
+int FixWallGranRegionTalus::find_contacts(const Vector3<double> &center, double reach)
 {
+  const int count = contacts_at(center, reach);
+  if (have_normals(count)) return count;
+  const double aside = 1.0e-9 * reach;
+  for (const double s : {aside, -aside}) {
+    const Vector3<double> beside = center + s * Vector3<double>{1.0, 0.7, 0.4};
+    if (!is_inside(beside)) continue;
+    if (const int found = contacts_at(beside, reach); have_normals(found)) return found;
+  }
+  return 0;
+}
+
+int FixWallGranRegionTalus::contacts_at(const Vector3<double> &center, double reach)
+{
+  const Vector3<double> at = span.image_of(center);
+  const double x[3] = {at.x, at.y, at.z};
   return in_frame ? RegionInFrame(*region, motion).surface(x, reach)
                   : region->surface(x[0], x[1], x[2], reach);
 }
 
+bool FixWallGranRegionTalus::have_normals(int count) const
+{
+  return std::all_of(region->contact, region->contact + count,
+                     [](const Region::Contact &contact) { return contact.r > 0.0; });
+}
+
 /* Contacts that have begun may last beyond the radius. */
 
-double FixWallGranRegionTalus::pulloff_distance_of(double radius)
+double FixWallGranRegionTalus::reach_of(double radius)
 {
   return touches_beyond_contact() ? radius + model->pulloff_distance(radius, 0.0) : radius;
 }
 
 /* Which of eight particles may be nearer to the surface than they reach with the margin. */
 
-unsigned FixWallGranRegionTalus::near(const EightSpheres &spheres, double margin)
+unsigned FixWallGranRegionTalus::near(const SphereLanes &spheres, double margin)
 {
   constexpr double rounding = 1.000001;
   Vec8 reach = spheres.radius;
   if (touches_beyond_contact())
-    reach = for_each_lane(reach, [this](double radius) { return pulloff_distance_of(radius); });
-  return parts.near(spheres.position, splat<Vec8>(rounding) * (reach + splat<Vec8>(margin)));
+    reach = for_each_lane(reach, [this](double radius) { return reach_of(radius); });
+  reach = splat<Vec8>(rounding) * (reach + splat<Vec8>(margin));
+  return span.is_empty() ? parts.near(spheres.position, reach)
+                         : near_in_images(spheres.position, reach, margin > 0.0);
+}
+
+/* `later`: when it may be in another image. */
+
+unsigned FixWallGranRegionTalus::near_in_images(const Vector3<Vec8> &x, Vec8 reach, bool later)
+{
+  unsigned bits = 0;
+  for (int k = 0; k < lanes; k++) {
+    const auto look = [&](const Vector3<double> &image) {
+      bits |= parts.near(in_all_lanes<Vec8>(image), reach) & (1U << k);
+    };
+    const Vector3<double> position{x.x[k], x.y[k], x.z[k]};
+    if (later)
+      span.each_image(position, look);
+    else
+      look(span.image_of(position));
+  }
+  return bits;
 }
 
 /* A particle that is not near keeps its histories, as in LAMMPS, if it is not in the region, and
@@ -67,7 +113,7 @@ unsigned FixWallGranRegionTalus::near(const EightSpheres &spheres, double margin
 
 void FixWallGranRegionTalus::clear_history(int i, const ParticleState &particles)
 {
-  if (use_history && ncontact[i] && is_inside(particles.x(i))) ncontact[i] = 0;
+  if (use_history && ncontact[i] && is_inside(particles.position(i))) ncontact[i] = 0;
 }
 
 /* One thread: a region keeps the contacts that it finds. */
@@ -84,7 +130,7 @@ void FixWallGranRegionTalus::find_candidates(double moved, const ParticleState &
   candidates.list(
       atom->nlocal, neighbor->skin, moved, 1,
       [&](const int *eight, double margin) {
-        const EightSpheres spheres = eight_spheres(particles, eight);
+        const SphereLanes spheres = sphere_lanes(particles, eight);
         around.add(spheres.position);
         largest = larger(largest, spheres.radius);
         unsigned members = 0;
@@ -96,7 +142,7 @@ void FixWallGranRegionTalus::find_candidates(double moved, const ParticleState &
       });
   double radius = 0.0;
   for (int k = 0; k < lanes; k++) radius = std::max(radius, largest[k]);
-  listed_box = AxisBox(around, 2.0 * (pulloff_distance_of(radius) + neighbor->skin));
+  listed_box = AxisBox(around, 2.0 * (reach_of(radius) + neighbor->skin));
 }
 
 void FixWallGranRegionTalus::begin_step()
@@ -135,7 +181,7 @@ void FixWallGranRegionTalus::add_contacts_of_candidates(const ParticleState &par
   for (int c = 0; c < candidates.size(); c += lanes) {
     int eight[lanes];
     candidates.eight_from(c, eight);
-    const unsigned bits = bounded ? near(eight_spheres(particles, eight), 0.0) : 0xffU;
+    const unsigned bits = bounded ? near(sphere_lanes(particles, eight), 0.0) : 0xffU;
     for (int k = 0; k < lanes && c + lanes + k < candidates.size(); k++)
       particles.prefetch_position(particles.place(candidates.atoms[c + lanes + k]));
     for (unsigned rest = bits; rest; rest &= rest - 1U)
@@ -154,9 +200,9 @@ void FixWallGranRegionTalus::add_contacts_of_candidates(const ParticleState &par
 
 void FixWallGranRegionTalus::add_contacts_of(int i, const ParticleState &particles)
 {
-  const double *x = particles.x(i);
+  const Vector3<double> x = particles.position(i);
   if (!simple && !is_inside(x)) return;
-  const int nc = find_contacts(x, pulloff_distance_of(particles.radius(i)));
+  const int nc = find_contacts(x, reach_of(particles.radius(i)));
   const bool known = simple && nc > 0 && region->contact[0].r > 0.0;
   if (simple && !known && !is_inside(x)) return;
   if (nc > tmax) error->one(FLERR, "Too many wallgran/region contacts for one particle");

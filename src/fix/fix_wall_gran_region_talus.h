@@ -29,10 +29,13 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
  private:
   double displacement() const;
-  bool is_inside(const double *x);
-  int find_contacts(const double *x, double reach);
-  double pulloff_distance_of(double radius);
-  unsigned near(const Talus::EightSpheres &spheres, double margin);
+  bool is_inside(const Talus::Vector3<double> &center);
+  int find_contacts(const Talus::Vector3<double> &center, double reach);
+  int contacts_at(const Talus::Vector3<double> &center, double reach);
+  bool have_normals(int count) const;
+  double reach_of(double radius);
+  unsigned near(const Talus::SphereLanes &spheres, double margin);
+  unsigned near_in_images(const Talus::Vector3<Talus::Vec8> &x, Talus::Vec8 reach, bool later);
   void find_candidates(double moved, const Talus::ParticleState &particles);
   void begin_step();
   void add_contacts_of_candidates(const Talus::ParticleState &particles);
@@ -48,6 +51,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   bool in_frame = false;         // it is asked in its own frame, see RegionInFrame
   Talus::RegionMotion motion;    // of this step, then
   Talus::RegionParts parts;      // if it is bounded
+  Talus::PeriodicSpan span;
   std::vector<Talus::RegionPose> listed_poses;
   Talus::AxisBox listed_box;    // around all that particles of the group can touch
   Talus::WallBatch batch;

@@ -315,8 +315,17 @@ void LargeBodyMotion::move(const BodyLoad &load, double lag)
 
 void LargeBodyMotion::move_servo(BodyState &state, const BodyLoad &load, double lag)
 {
-  const double rate = servo.rate(load.force, load.torque);
-  const double ahead = lag > 0.0 && behind > 0.0 ? lag / (2.0 * behind) * (rate - servo_rate) : 0.0;
+  // of the product of slope and damping, beyond which speeds begin to flip: an extrapolated rate
+  // does from 1/3 on, that of the last step from 1 on
+  const double limit = lag > 0.0 ? 0.25 : 0.7;
+  const bool extrapolates = lag > 0.0 && behind > 0.0;
+  const double pressed = servo.pressed(load.force, load.torque), wanted = servo.wanted(pressed);
+  response.observe(servo.rate_of(extrapolates ? present : state), pressed);
+  const bool is_damped = response.product(servo.slope()) > limit;
+  const double next = is_damped ? response.next_rate(wanted, servo.slope()) : wanted;
+  const double rate = std::clamp(next, -servo.vmax, servo.vmax);
+  const double ahead =
+      extrapolates && !is_damped ? lag / (2.0 * behind) * (rate - servo_rate) : 0.0;
   servo.advance(state, rate + ahead, update->dt);
   servo_rate = rate;
 }
@@ -415,6 +424,8 @@ void LargeBodyMotion::to_array(double *a) const
   a += ExternalMotion::size;
   *a++ = behind;
   *a++ = servo_rate;
+  response.to_array(a);
+  a += ServoResponse::size;
   half_way.to_array(a);
   present.to_array(a + BodyState::size);
 }
@@ -431,6 +442,8 @@ bool LargeBodyMotion::from_array(const double *a)
   a += ExternalMotion::size;
   behind = *a++;
   servo_rate = *a++;
+  response.from_array(a);
+  a += ServoResponse::size;
   half_way = BodyState::from_array(a);
   present = BodyState::from_array(a + BodyState::size);
   show_kinematics();

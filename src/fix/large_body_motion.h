@@ -12,6 +12,7 @@
 #include "body/motion/external_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
+#include "body/motion/servo_response.h"
 #include "fix/constant_gravity.h"
 #include "lmptype.h"
 
@@ -67,8 +68,8 @@ class LargeBodyMotion : protected Pointers {
   int set_state(int narg, char **arg, double way, double reach);
 
   /// kind, state, clock, guide; lag, rate of a servo and what contacts of second order see
-  static constexpr int size_restart =
-      1 + Talus::BodyState::size + 3 + Talus::ExternalMotion::size + 2 + 2 * Talus::BodyState::size;
+  static constexpr int size_restart = 1 + 3 * Talus::BodyState::size + 3 +
+                                      Talus::ExternalMotion::size + 2 + Talus::ServoResponse::size;
   void to_array(double *a) const;
   /// False if the motion was of another kind: the body then begins where its words put it.
   bool from_array(const double *a);
@@ -109,6 +110,7 @@ class LargeBodyMotion : protected Pointers {
   Talus::ExternalMotion external;
   Talus::RigidBody rigid;
   Talus::Servo servo;
+  Talus::ServoResponse response;
   Talus::BodyState initial;    // velocities of a free body
   // of the last step, with integrators of second order: see BodyFrame, and advance()
   Talus::BodyState half_way, present;

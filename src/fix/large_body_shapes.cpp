@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -67,6 +68,35 @@ std::unique_ptr<LargeBodyShape> LargeBodyShapes::parse(bool two_sided)
   }
 }
 
+Talus::PeriodicEdges LargeBodyShapes::periodic_edges() const
+{
+  Talus::PeriodicEdges edges;
+  if (domain->triclinic) return edges;
+  edges.box = {Eigen::Vector3d(domain->boxlo), Eigen::Vector3d(domain->boxhi)};
+  for (int d = 0; d < 3; d++) edges.periodic[d] = domain->periodicity[d] != 0;
+  return edges;
+}
+
+/* A piece of this length along an axis of the box that is as long as the box, which is periodic
+   there, goes on behind both faces, further than particles go between two rebuilds. */
+
+double LargeBodyShapes::continued(double length, const Vector3<double> &center,
+                                  const Vector3<double> &direction) const
+{
+  constexpr double behind = 0.1;    // over the length, at each end
+  const double along[3] = {direction.x, direction.y, direction.z},
+               middle[3] = {center.x, center.y, center.z};
+  const PeriodicEdges edges = periodic_edges();
+  for (int d = 0; d < 3; d++) {
+    if (!edges.periodic[d] || std::fabs(along[d]) < 1.0 - 1.0e-9) continue;
+    const double allowed = PeriodicEdges::usual_tolerance * domain->prd[d];
+    if (std::fabs(middle[d] - 0.5 * length - domain->boxlo[d]) <= allowed &&
+        std::fabs(middle[d] + 0.5 * length - domain->boxhi[d]) <= allowed)
+      return (1.0 + 2.0 * behind) * length;
+  }
+  return length;
+}
+
 LargeBodyShapes::Shape LargeBodyShapes::plane(bool two_sided)
 {
   const Vector3<double> point = words.vector("point (px py pz)");
@@ -78,13 +108,16 @@ LargeBodyShapes::Shape LargeBodyShapes::rectangle(bool two_sided)
   const Vector3<double> center = words.vector("center (px py pz)");
   const Vector3<double> normal = words.direction("normal (nx ny nz)");
   const Vector3<double> edge = words.direction("first edge (ux uy uz)");
-  const double lu = words.positive("edge length lu"), lv = words.positive("edge length lv");
+  double lu = words.positive("edge length lu"), lv = words.positive("edge length lv");
 
   // the part of the edge that lies in the plane, so that users need not orthogonalise
   const Vector3<double> inside = edge - dot(edge, normal) * normal;
   const double length = std::sqrt(dot(inside, inside));
   if (length < 1.0e-6) words.fail(5, "first edge is parallel to the normal");
-  return std::make_unique<Rectangle>(center, normal, 1.0 / length * inside, lu, lv, two_sided);
+  const Vector3<double> first = 1.0 / length * inside;
+  lu = continued(lu, center, first);
+  lv = continued(lv, center, cross(normal, first));
+  return std::make_unique<Rectangle>(center, normal, first, lu, lv, two_sided);
 }
 
 bool LargeBodyShapes::parse_inside()
@@ -102,7 +135,12 @@ LargeBodyShapes::Shape LargeBodyShapes::box()
   const Vector3<double> center = words.vector("center (cx cy cz)");
   const double lx = words.positive("edge length lx"), ly = words.positive("edge length ly"),
                lz = words.positive("edge length lz");
-  return std::make_unique<Box>(center, Vector3<double>{lx, ly, lz}, parse_inside());
+  const bool inside = parse_inside();
+  Vector3<double> edges{lx, ly, lz};
+  if (!inside)
+    edges = {continued(lx, center, {1.0, 0.0, 0.0}), continued(ly, center, {0.0, 1.0, 0.0}),
+             continued(lz, center, {0.0, 0.0, 1.0})};
+  return std::make_unique<Box>(center, edges, inside);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::ball()
@@ -117,9 +155,10 @@ LargeBodyShapes::Shape LargeBodyShapes::cylinder()
   const Vector3<double> center = words.vector("center (cx cy cz)");
   const Vector3<double> axis = words.direction("axis (ax ay az)");
   const double radius = words.positive("radius r");
-  const double length =
+  double length =
       words.take("INF") ? std::numeric_limits<double>::infinity() : words.positive("length l");
   const Side side = parse_side();
+  if (side != Side::INSIDE) length = continued(length, center, axis);
   return std::make_unique<Frustum>(center, axis, radius, radius, length, side == Side::INSIDE,
                                    side == Side::OPEN);
 }
@@ -165,6 +204,7 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Vector3<double> shift{0.0, 0.0, 0.0};
   std::string side = two_sided ? "two-sided" : "";
+  std::optional<double> tolerance;
   for (bool more = true; more;) {    // scaled, then turned, then shifted, in whatever order given
     if (words.take("scale")) {
       scale = words.positive("scale s");
@@ -175,6 +215,8 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
       const Vector3<double> axis = words.direction("rotate axis (ax ay az)");
       rotation =
           Eigen::AngleAxisd(angle * std::acos(-1.0) / 180.0, to_eigen(axis)).toRotationMatrix();
+    } else if (words.take("tolerance")) {
+      tolerance = words.not_negative("tolerance d");
     } else {
       more = take_side(side);
     }
@@ -184,7 +226,10 @@ LargeBodyShapes::Shape LargeBodyShapes::mesh(bool two_sided)
 
   std::unique_ptr<MeshShape> shape;
   try {
-    TriangleMesh surface(soup, side != "one-sided");
+    const bool orient = side != "one-sided";
+    TriangleMesh surface =
+        tolerance ? TriangleMesh(soup, orient, *tolerance) : TriangleMesh(soup, orient);
+    surface.continue_behind(periodic_edges());
     const MeshSide acting = side == "one-sided" ? MeshSide::NORMALS : MeshSide::BOTH;
     shape = std::make_unique<MeshShape>(std::move(surface), acting, true);
   } catch (const std::runtime_error &problem) {
@@ -249,6 +294,13 @@ void LargeBodyShapes::tell(const MeshShape &shape, const std::string &side)
   if (r.repaired_edges)
     text += fmt::format(", triangles turned at {} edges where neighbors faced opposite sides",
                         r.repaired_edges);
+  if (r.joined_corners)
+    text += fmt::format(", {} corners joined that are up to {:.2g} apart", r.joined_corners,
+                        r.largest_gap);
+  if (r.divided_edges)
+    text += fmt::format(", triangles divided at {} edges on which corners of others lie (first: "
+                        "triangle {})",
+                        r.divided_edges, r.first_divided);
   static const char *const acts[] = {"on the side of its normals", "on the side behind its normals",
                                      "on both sides", "on the side where particles are"};
   const std::string where = side == "inside" || side == "outside"
@@ -257,7 +309,7 @@ void LargeBodyShapes::tell(const MeshShape &shape, const std::string &side)
   utils::logmesg(lmp,
                  "fix large/body mesh '{}': {} triangles, {}, acts {}; {:.3g} MB on each rank and "
                  "more where particles are\n",
-                 shape.name(), surface.size(), text, where, shape.memory_usage() / 1048576.0);
+                 shape.name(), surface.num_own(), text, where, shape.memory_usage() / 1048576.0);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::region()
@@ -269,7 +321,7 @@ LargeBodyShapes::Shape LargeBodyShapes::region()
   if (!refusal.empty()) words.fail(1, refusal);
   region->init();
   region->prematch();
-  return std::make_unique<RegionShape>(region, id.c_str());
+  return std::make_unique<RegionShape>(region, id.c_str(), *domain);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::custom()

@@ -34,6 +34,9 @@ class LargeBodyShapes : protected Pointers {
   Shape region();
   Shape custom();
   bool parse_inside();
+  Talus::PeriodicEdges periodic_edges() const;
+  double continued(double length, const Talus::Vector3<double> &center,
+                   const Talus::Vector3<double> &direction) const;
   enum class Side { INSIDE, OUTSIDE, OPEN };
   Side parse_side();
   Talus::StlContent stl(const std::string &file);

@@ -34,7 +34,7 @@ class LargeBodySurface : protected Pointers {
 
   /// Loads of triangles are asked for; how many there are.
   bool records() const { return with_loads; }
-  int size() const { return mesh ? mesh->surface().size() : 0; }
+  int size() const { return mesh ? mesh->surface().num_own() : 0; }
   /// 0: no pictures.
   int picture_interval() const { return interval; }
 

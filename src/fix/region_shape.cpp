@@ -2,8 +2,6 @@
 
 #include "fix/region_shape.h"
 
-#include "fix/region_surface.h"
-
 #include "fmt/format.h"
 #include "region.h"
 
@@ -17,16 +15,17 @@ using Talus::NearParts;
 using Talus::SurfaceContact;
 using Talus::Vector3;
 
-RegionShape::RegionShape(Region *r, const char *name) : region(r), id(name)
+RegionShape::RegionShape(Region *r, const char *name, const Domain &domain) : region(r), id(name)
 {
-  replace(r);
+  replace(r, domain);
 }
 
 /* Some versions of LAMMPS move the extent with the region, others have none of one that moves. */
 
-void RegionShape::replace(Region *now)
+void RegionShape::replace(Region *now, const Domain &domain)
 {
   region = now;
+  span = Talus::PeriodicSpan(*now, domain);
   middle = {0.0, 0.0, 0.0};
   if (region->dynamic) {
     const Talus::RegionMotion motion(*region);
@@ -55,10 +54,11 @@ std::string RegionShape::refusal(Region &region, bool moves)
   return "";
 }
 
-int RegionShape::find_contacts(const Vector3<double> &x, double radius, NearParts /*parts*/,
+int RegionShape::find_contacts(const Vector3<double> &center, double radius, NearParts /*parts*/,
                                SurfaceContact *found) const
 {
   const Talus::RegionAtRest at_rest(*region);
+  const Vector3<double> x = span.image_of(center);
   const int touched = region->surface(x.x, x.y, x.z, radius);
   std::vector<SurfaceContact> all;
   for (int k = 0; k < touched; k++) {
@@ -86,7 +86,11 @@ bool RegionShape::is_near(const Vector3<double> &x, double reach,
                           std::vector<NearPart> & /*parts*/) const
 {
   const Talus::RegionAtRest at_rest(*region);
-  return region->surface(x.x, x.y, x.z, reach) > 0;
+  bool near = false;
+  span.each_image(x, [&](const Vector3<double> &image) {
+    near = near || region->surface(image.x, image.y, image.z, reach) > 0;
+  });
+  return near;
 }
 
 /* Only is_near() is asked where there may be several contacts; a region does not know more. */

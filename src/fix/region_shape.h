@@ -4,11 +4,13 @@
 #define TALUS_FIX_REGION_SHAPE_H
 
 #include "body/shape/large_body_shape.h"
+#include "fix/region_surface.h"
 
 #include <string>
 
 namespace LAMMPS_NS {
 
+class Domain;
 class Region;
 
 /// The surface of a region of LAMMPS, seen from where its particles are, as fix wall/gran/region
@@ -16,11 +18,11 @@ class Region;
 /// The region keeps its contacts in its own arrays, so one thread asks it.
 class RegionShape : public Talus::LargeBodyShape {
  public:
-  RegionShape(Region *region, const char *id);
+  RegionShape(Region *region, const char *id, const Domain &domain);
 
   /// Regions may be deleted and defined again between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
-  void replace(Region *now);
+  void replace(Region *now, const Domain &domain);
 
   /// Why a region cannot be a body, or "". `moves`: the body has a motion of its own.
   static std::string refusal(Region &region, bool moves);
@@ -40,6 +42,7 @@ class RegionShape : public Talus::LargeBodyShape {
   Region *region;
   std::string id;
   Talus::Vector3<double> middle{0.0, 0.0, 0.0};
+  Talus::PeriodicSpan span;
 };
 
 }    // namespace LAMMPS_NS

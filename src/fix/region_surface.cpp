@@ -6,6 +6,7 @@
 #include "system/private_members.h"
 #include "system/time_formula.h"
 
+#include "domain.h"
 #include "input.h"
 #include "lammps.h"
 #include "region.h"
@@ -184,6 +185,40 @@ double RegionParts::largest_displacement(const std::vector<RegionPose> &then,
     if (simple[k]->dynamic) largest = std::max(largest, pose[k].largest_displacement(then[k], box));
   return largest;
 }
+
+/* ---------------------------------------------------------------------- */
+
+PeriodicSpan::PeriodicSpan(const Region &region, const Domain &domain)
+{
+  if (!region.bboxflag || region.varshape || region.dynamic || domain.triclinic) return;
+  const double lo[3] = {region.extent_xlo, region.extent_ylo, region.extent_zlo},
+               hi[3] = {region.extent_xhi, region.extent_yhi, region.extent_zhi};
+  constexpr double tolerance = 1.0e-6;    // of the length of the box
+  for (int d = 0; d < 3; d++) {
+    const double length = domain.prd[d], allowed = tolerance * length;
+    if (!domain.periodicity[d] || std::fabs(lo[d] - domain.boxlo[d]) > allowed ||
+        std::fabs(hi[d] - domain.boxhi[d]) > allowed)
+      continue;
+    low[d] = domain.boxlo[d];
+    period[d] = length;
+  }
+}
+
+Vector3<double> PeriodicSpan::image_of(Vector3<double> x) const
+{
+  constexpr double off_face = 1.0e-6;    // over the period: further than the tolerance above
+  double *const at[3] = {&x.x, &x.y, &x.z};
+  for (int d = 0; d < 3; d++) {
+    if (!(period[d] > 0.0)) continue;
+    const double least = off_face * period[d], s = *at[d] - low[d];
+    if (s > least && s < period[d] - least) continue;
+    const double wrapped = s - period[d] * std::floor(s / period[d]);
+    *at[d] = low[d] + std::clamp(wrapped, least, period[d] - least);
+  }
+  return x;
+}
+
+/* ---------------------------------------------------------------------- */
 
 /* Of all equal-style variables the first whose value depends on more than the time, or "". */
 

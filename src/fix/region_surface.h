@@ -14,6 +14,7 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class Domain;
 class LAMMPS;
 class Region;
 }    // namespace LAMMPS_NS
@@ -110,6 +111,36 @@ class RegionParts {
   std::vector<LAMMPS_NS::Region *> simple;
   std::vector<RegionPose> pose;
   std::vector<ConvexRegion> shape;
+};
+
+/// A region at rest that is as long as the box goes on behind the faces in which the box is
+/// periodic. Particles stay a little beyond a face until neighbor lists are made; they are asked
+/// about where their image is.
+class PeriodicSpan {
+ public:
+  PeriodicSpan() = default;
+  /// In init() of who asks. Regions without an extent in LAMMPS (`side out`, for one) have none.
+  PeriodicSpan(const LAMMPS_NS::Region &region, const LAMMPS_NS::Domain &domain);
+
+  bool is_empty() const { return !(period[0] > 0.0 || period[1] > 0.0 || period[2] > 0.0); }
+  /// x if it is within the box, else its image there. Never on a face, where a region that ends has
+  /// another side.
+  Vector3<double> image_of(Vector3<double> x) const;
+  /// Calls visit(y) for x and for its images one period away.
+  template <class Visit> void each_image(const Vector3<double> &x, Visit visit) const
+  {
+    for (int k = 0; k < 27; k++) {
+      const double shift[3] = {(k % 3 - 1) * period[0], (k / 3 % 3 - 1) * period[1],
+                               (k / 9 - 1) * period[2]};
+      bool is_new = true;    // where there is no period, once
+      for (int d = 0, rest = k; d < 3; d++, rest /= 3)
+        is_new = is_new && (period[d] > 0.0 || rest % 3 == 1);
+      if (is_new) visit(Vector3<double>{x.x + shift[0], x.y + shift[1], x.z + shift[2]});
+    }
+  }
+
+ private:
+  double low[3] = {0.0, 0.0, 0.0}, period[3] = {0.0, 0.0, 0.0};    // 0: none
 };
 
 /// Made of other regions.

@@ -16,13 +16,13 @@
 namespace Talus {
 
 /// Centers and radii of eight particles, in lanes.
-struct EightSpheres {
+struct SphereLanes {
   Vector3<Vec8> position;
   Vec8 radius;
 };
 
 /// Of the particles i[0] ... i[7].
-inline EightSpheres eight_spheres(const ParticleState &particles, const int *i)
+inline SphereLanes sphere_lanes(const ParticleState &particles, const int *i)
 {
   alignas(64) double center[3][lanes], radius[lanes];
   particles.spheres_at([&](int k) { return particles.place(i[k]); }, center, radius);

@@ -2,8 +2,12 @@
 
 #include "packing/sphere_packing.h"
 
+#include "packing/sphere_grid.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace Talus {
 
@@ -21,6 +25,43 @@ SpherePacking::SpherePacking(const PackingSpace &space, std::vector<Vector3<doub
   }
   for (int i = 0; i < movable; i++) sum += radius[i];
   skin = movable ? 0.3 * sum / movable : 0.0;
+  sort();
+}
+
+/* Spheres that are near to each other stand near to each other in memory, where all of them do not
+   fit into a cache. */
+
+void SpherePacking::sort()
+{
+  constexpr int fit_into_a_cache = 20000;
+  number.resize(movable);
+  std::iota(number.begin(), number.end(), 0);
+  if (movable < fit_into_a_cache) return;
+  const double width = 8.0 * skin / 0.3;    // of cells with some ten spheres of the mean size
+  const auto cell = [&](int i) {
+    const auto at = [width](double place, double low) {
+      return static_cast<long long>(std::floor((place - low) / width));
+    };
+    return std::array<long long, 3>{at(x[i].z, space.lo.z), at(x[i].y, space.lo.y),
+                                    at(x[i].x, space.lo.x)};
+  };
+  std::vector<std::array<long long, 3>> cells(movable);
+  for (int i = 0; i < movable; i++) cells[i] = cell(i);
+  std::sort(number.begin(), number.end(),
+            [&](int a, int b) { return cells[a] != cells[b] ? cells[a] < cells[b] : a < b; });
+  const std::vector<Vector3<double>> places = x;
+  const std::vector<double> radii = radius;
+  for (int i = 0; i < movable; i++) {
+    x[i] = places[number[i]];
+    radius[i] = radii[number[i]];
+  }
+}
+
+std::vector<Vector3<double>> SpherePacking::places() const
+{
+  std::vector<Vector3<double>> given = x;
+  for (int i = 0; i < movable; i++) given[number[i]] = x[i];
+  return given;
 }
 
 /* Of two points in the box, the nearest images. */
@@ -37,55 +78,28 @@ Vector3<double> SpherePacking::nearest(Vector3<double> d) const
   return d;
 }
 
-/* ---- pairs: cells as wide as the largest reach ---------------------------------------------- */
+/* ---- pairs ---------------------------------------------------------------------------------- */
+
+/* A sphere looks for those of its own size class, with higher numbers, and for all that are larger:
+   each pair is found once. */
 
 void SpherePacking::find_pairs()
 {
   const int count = static_cast<int>(x.size());
   const double widest = radius.empty() ? 0.0 : *std::max_element(radius.begin(), radius.end());
-  const double reach = 2.0 * widest + skin;
-  const double low[3] = {space.lo.x, space.lo.y, space.lo.z};
-  const double high[3] = {space.hi.x, space.hi.y, space.hi.z};
-  int cells[3];
-  double per_length[3];
-  for (int d = 0; d < 3; d++) {
-    cells[d] = std::clamp(static_cast<int>((high[d] - low[d]) / reach), 1, 1024);
-    per_length[d] = cells[d] / (high[d] - low[d]);
-  }
-  const auto cell_of = [&](const Vector3<double> &p, int d) {
-    const double at = d == 0 ? p.x : d == 1 ? p.y : p.z;
-    return std::clamp(static_cast<int>((at - low[d]) * per_length[d]), 0, cells[d] - 1);
-  };
-  std::vector<int> first(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2], -1), next(count);
-  const auto number = [&](int a, int b, int c) {
-    return (static_cast<std::size_t>(c) * cells[1] + b) * cells[0] + a;
-  };
-  for (int i = count - 1; i >= 0; i--) {
-    int &head = first[number(cell_of(x[i], 0), cell_of(x[i], 1), cell_of(x[i], 2))];
-    next[i] = head;
-    head = i;
-  }
-
+  GridBox box{space.lo, space.hi, {space.periodic[0], space.periodic[1], space.periodic[2]}};
+  SphereGrid grid(box, widest, skin, count);
+  for (int i = count - 1; i >= 0; i--) grid.add(i, x[i], radius[i]);
   pairs.clear();
-  for (int i = 0; i < movable; i++) {
-    int from[3], to[3];
-    for (int d = 0; d < 3; d++) {
-      const int c = cell_of(x[i], d);
-      // with less than three cells, neighbors on both sides are the same
-      const bool all = space.periodic[d] && cells[d] < 3;
-      from[d] = all ? 0 : space.periodic[d] ? c - 1 : std::max(0, c - 1);
-      to[d] = all ? cells[d] - 1 : space.periodic[d] ? c + 1 : std::min(cells[d] - 1, c + 1);
-    }
-    const auto wrap = [&](int c, int d) { return (c + cells[d]) % cells[d]; };
-    for (int c = from[2]; c <= to[2]; c++)
-      for (int b = from[1]; b <= to[1]; b++)
-        for (int a = from[0]; a <= to[0]; a++)
-          for (int j = first[number(wrap(a, 0), wrap(b, 1), wrap(c, 2))]; j >= 0; j = next[j]) {
-            if (j <= i) continue;
-            const Vector3<double> d = nearest(x[i] - x[j]);
-            const double near = radius[i] + radius[j] + skin;
-            if (dot(d, d) < near * near) pairs.push_back({i, j});
-          }
+  for (int i = 0; i < count; i++) {
+    const int own = grid.class_of(radius[i]);
+    for (int n = 0; n <= own; n++)
+      grid.visit_near(n, x[i], radius[i], [&](int j) {
+        if ((n == own && j <= i) || (i >= movable && j >= movable)) return;
+        const Vector3<double> d = nearest(x[i] - x[j]);
+        const double near = radius[i] + radius[j] + skin;
+        if (dot(d, d) < near * near) pairs.push_back({std::min(i, j), std::max(i, j)});
+      });
   }
   x_of_list = x;
 }

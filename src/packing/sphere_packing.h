@@ -46,12 +46,14 @@ class SpherePacking {
   /// The largest overlap over the smaller radius, as of the last step.
   double largest_overlap() const { return largest; }
   int steps() const { return step; }
-  const std::vector<Vector3<double>> &places() const { return x; }
+  /// In the order in which they were given.
+  std::vector<Vector3<double>> places() const;
 
  private:
   struct Pair {
     int i, j;
   };
+  void sort();
   void find_pairs();
   void compute_forces();
   void move();
@@ -60,6 +62,7 @@ class SpherePacking {
   const PackingSpace &space;
   std::vector<Vector3<double>> x, v, f, x_of_list;
   std::vector<double> radius;
+  std::vector<int> number;    // of each of the spheres that move, as it was given
   int movable;
   double period[3], half[3], skin;
   std::vector<Pair> pairs;

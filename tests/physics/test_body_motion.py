@@ -187,6 +187,24 @@ fix mean all ave/time 1 2000 2000 f_body[3] mode scalar
         self.assertLess(abs(last["f_body[16]"]), 1e-2)
         self.assertAlmostEqual(-last["f_case[3]"], 200.0 + 64 * MASS, delta=3.0)
 
+    def test_holds_it_against_any_damping(self):
+        """A grain between a floor and a plate: beyond G = target / (vmax gain) the speed would flip in each step."""
+        for order in "1", "2":
+            for damping in 5, 300, 500, 3000:
+                for vmax in 0.2, 2.0:
+                    with self.subTest(order=order, damping=damping, vmax=vmax):
+                        law = f"hooke 1e4 {damping} limit_damping"
+                        rows = self.simulate([Sphere((0, 0, 0.5), diameter=1.0, density=1.0)], f"""
+fix step all nve/sphere/symplectic order {order}
+fix floor all large/body plane 0 0 0 0 0 1 contact {law}
+fix body all large/body rectangle 0 0 1.05 0 0 -1 1 0 0 2 2 contact {law} servo force 0 0 -1 10 {vmax}
+fix mean all ave/time 1 2000 4000 f_body[3] f_floor[3]
+""", 16000, dt=2.5e-4, pair=law, columns=VECTOR + " f_mean[1] f_mean[2]", every=4000)
+                        last = rows[-1]
+                        self.assertAlmostEqual(last["f_mean[1]"], 10.0, delta=0.02)
+                        self.assertAlmostEqual(last["f_mean[2]"], -10.0, delta=0.02)
+                        self.assertAlmostEqual(last["f_body[16]"], 0.0, delta=1e-3)
+
 
 class Balance(MotionCase):
 

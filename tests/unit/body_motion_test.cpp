@@ -7,6 +7,7 @@
 #include "body/motion/external_motion.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
+#include "body/motion/servo_response.h"
 
 #include <gtest/gtest.h>
 
@@ -279,7 +280,7 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
   const double stiffness = 1000.0;
   for (int n = 0; n < 4000; n++) {
     const double pressed = std::max(0.0, -0.1 - state.position.z) * stiffness;
-    servo.advance(state, servo.rate({0, 0, pressed}, {0, 0, 0}), 1e-3);
+    servo.advance(state, servo.wanted(pressed), 1e-3);
     fastest = std::max(fastest, std::fabs(state.velocity.z));
   }
   EXPECT_NEAR(state.position.z, -0.15, 1e-6);
@@ -288,9 +289,65 @@ TEST(ServoTest, HoldsAForceAgainstASpring)
 
   servo.turns = true;
   state = BodyState{};
-  servo.advance(state, servo.rate({9, 9, 9}, {0, 0, 0}), 1e-3);
+  servo.advance(state, servo.wanted(servo.pressed({9, 9, 9}, {0, 0, 0})), 1e-3);
   EXPECT_NEAR(length(state.omega - V{0, 0, -0.2}), 0.0, 1e-15);
   EXPECT_EQ(length(state.position), 0.0);
+}
+
+// A spring and a dashpot, from one that is hardly felt to one against which the speed would flip.
+TEST(ServoTest, HoldsAForceAgainstAnyDamping)
+{
+  for (const double damping : {1.0, 200.0, 1.0e3, 1.0e4, 1.0e6})
+    for (const double stiffness : {1.0e2, 1.0e4, 1.0e5}) {
+      if (damping > 1.0e3 * stiffness) continue;    // takes hours to be at rest
+      Servo servo;
+      servo.axis = {0, 0, 1};
+      servo.target = 10.0;
+      servo.vmax = 0.2;
+      ServoResponse response;
+      BodyState state;
+      const double dt = 5.0e-4;
+      double rate = 0.0, at_rest = 0.0, worst = 0.0;
+      const int steps = 40000 + static_cast<int>(damping / stiffness / dt * 20.0);
+      for (int n = 0; n < steps; n++) {
+        const double depth = state.position.z - 0.01;
+        const double pressed =
+            depth > 0.0 ? std::max(0.0, stiffness * depth + damping * rate) : 0.0;
+        response.observe(rate, pressed);
+        rate = servo.wanted(pressed);
+        if (response.product(servo.slope()) > 0.7) rate = response.next_rate(rate, servo.slope());
+        servo.advance(state, rate, dt);
+        rate = servo.rate_of(state);
+        if (n < steps - 2000) continue;
+        at_rest += pressed / 2000.0;
+        worst = std::max(worst, std::fabs(pressed - servo.target));
+      }
+      EXPECT_NEAR(at_rest, 10.0, 0.01) << damping << " " << stiffness;
+      EXPECT_LT(worst, 0.5) << damping << " " << stiffness;
+    }
+}
+
+TEST(ServoTest, DampingIsFoundAndForgotten)
+{
+  ServoResponse response;
+  double rate = 0.1;
+  const auto flip = [&](double damping) {
+    rate = -rate;
+    response.observe(rate, 3.0 + damping * rate);
+  };
+  for (int n = 0; n < 10; n++) flip(500.0);
+  EXPECT_NEAR(response.damping(), 500.0, 1e-9);
+  EXPECT_NEAR(response.product(1.0e-3), 0.5, 1e-12);
+  EXPECT_NEAR(response.next_rate(1.0, 0.1), rate + (1.0 - rate) / 51.0, 1e-12);
+  double all[ServoResponse::size];
+  response.to_array(all);
+  ServoResponse copy;
+  copy.from_array(all);
+  EXPECT_EQ(copy.next_rate(1.0, 0.1), response.next_rate(1.0, 0.1));
+  for (int n = 0; n < 100; n++) flip(0.0);    // nothing is touched
+  EXPECT_LT(response.damping(), 1e-6);
+  for (int n = 0; n < 100; n++) response.observe(0.1 * n, 3.0 - 50.0 * n);    // follows the force
+  EXPECT_EQ(response.damping(), 0.0);
 }
 
 }    // namespace

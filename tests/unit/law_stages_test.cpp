@@ -71,7 +71,7 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
     }
     EXPECT_EQ(find_law(stage, "no such law"), nullptr);
   }
-  EXPECT_EQ(count, 61);
+  EXPECT_EQ(count, 64);
 }
 
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)

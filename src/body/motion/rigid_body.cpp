@@ -89,13 +89,6 @@ void RigidBody::turn_with_locks(BodyState &state, const Vector3<double> &momentu
   state.omega = omega_of(momentum, state.orientation);
 }
 
-double Servo::rate(const Vector3<double> &force, const Vector3<double> &torque) const
-{
-  const double pressed = -dot(turns ? torque : force, axis);
-  const double wanted = gain * vmax * (target - pressed) / std::fabs(target);
-  return std::clamp(wanted, -vmax, vmax);
-}
-
 void Servo::set_rate(BodyState &state, double rate) const
 {
   (turns ? state.omega : state.velocity) = std::clamp(rate, -vmax, vmax) * axis;

@@ -5,6 +5,8 @@
 
 #include "body/motion/body_state.h"
 
+#include <cmath>
+
 namespace Talus {
 
 /// A free rigid body whose reference point is its center of mass.
@@ -53,14 +55,24 @@ class RigidBody {
 
 /// Holds a force or torque by moving along, or turning about, one axis: the velocity is
 /// vmax gain (target - pressed)/|target|, at most vmax either way, where `pressed` is what the
-/// body exerts on the particles along the axis.
+/// body exerts on the particles along the axis. See ServoResponse for how damping is dealt with.
 struct Servo {
   bool turns = false;                     ///< holds a torque
   Vector3<double> axis{0.0, 0.0, 1.0};    ///< unit vector
   double target = 0.0, vmax = 0.0, gain = 1.0;
 
-  /// Speed, or angular speed. `force` and `torque`: of the particles on the body.
-  double rate(const Vector3<double> &force, const Vector3<double> &torque) const;
+  /// `force` and `torque`: of the particles on the body.
+  double pressed(const Vector3<double> &force, const Vector3<double> &torque) const
+  {
+    return -dot(turns ? torque : force, axis);
+  }
+  /// By which speed, or angular speed, changes with what is pressed.
+  double slope() const { return gain * vmax / std::fabs(target); }
+  /// Speed without the limit to vmax.
+  double wanted(double pressed) const
+  {
+    return gain * vmax * (target - pressed) / std::fabs(target);
+  }
   double rate_of(const BodyState &state) const
   {
     return dot(turns ? state.omega : state.velocity, axis);

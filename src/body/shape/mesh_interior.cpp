@@ -11,8 +11,8 @@ namespace {
 std::vector<Eigen::AlignedBox3d> shadows(const TriangleMesh &mesh)
 {
   std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(mesh.size());
-  for (int t = 0; t < mesh.size(); t++) {
+  boxes.reserve(mesh.num_own());
+  for (int t = 0; t < mesh.num_own(); t++) {
     Eigen::AlignedBox3d box = bounds_of(mesh.triangle(t));
     box.min().x() = box.max().x() = 0.0;
     boxes.push_back(box);

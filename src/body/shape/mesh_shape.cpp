@@ -90,7 +90,7 @@ bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius
   const bool on_face = nearest.feature == NearestPoint::FACE;
   face_height = on_face ? std::fabs(height) : 0.0;
   contact.overlap = radius - distance;
-  contact.part = detail->number(t);
+  contact.part = mesh.own(detail->number(t));
   if (on_face || distance == 0.0)
     contact.normal = height < 0.0 || (height == 0.0 && acting == MeshSide::BACKS)
                          ? -detail->normal(t)
@@ -119,7 +119,8 @@ bool MeshShape::is_hidden(const SurfaceContact &contact, const Vector3<double> &
   const double distance = just_before * (radius - contact.overlap);
   const Vector3<double> to = center - distance * contact.normal;
   return std::any_of(parts.begin, parts.end, [&](const NearPart &p) {
-    return detail->number(p.part) != contact.part && detail->is_between(p.part, center, to);
+    return mesh.own(detail->number(p.part)) != contact.part &&
+           detail->is_between(p.part, center, to);
   });
 }
 
@@ -189,7 +190,7 @@ Passage MeshShape::passage(const Vector3<double> &from, const Vector3<double> &t
   const double way = length(to - from);
   for (const NearPart *p = parts.begin; p != parts.end && p->distance <= way; p++)
     if (detail->is_between(p->part, from, to))
-      return {detail->number(p->part), acts_at(dot(from - to, detail->normal(p->part)))};
+      return {mesh.own(detail->number(p->part)), acts_at(dot(from - to, detail->normal(p->part)))};
   return {};
 }
 
@@ -202,7 +203,7 @@ int MeshShape::idle_part(const Vector3<double> &center, double radius, NearParts
     double height;
     if (nearest.square >= least || !detail->is_local_minimum(p->part, nearest, height)) continue;
     least = nearest.square;
-    idle = acts_at(height) ? -1 : detail->number(p->part);
+    idle = acts_at(height) ? -1 : mesh.own(detail->number(p->part));
   }
   return idle;
 }
@@ -252,7 +253,7 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
 void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                            std::vector<Triangle> &triangles) const
 {
-  for (int t = 0; t < mesh.size(); t++) triangles.push_back(mesh.triangle(t));
+  for (int t = 0; t < mesh.num_own(); t++) triangles.push_back(mesh.triangle(t));
 }
 
 void MeshShape::visit_surfaces(SurfaceVisitor &visitor) const

@@ -50,14 +50,17 @@ std::vector<Triangle> parse_binary(const std::string &content, std::size_t count
   return triangles;
 }
 
-/// Words of an ASCII file in lower case, with the line they stand in.
+/// Words of an ASCII file in lower case, with the line they stand in. What follows a # is a comment.
 class StlWords {
  public:
   explicit StlWords(const std::string &content) : text(content) {}
 
   bool next(std::string &word)
   {
-    for (; at < text.size() && is_space(text[at]); at++) line += text[at] == '\n' ? 1 : 0;
+    for (; at < text.size() && (is_space(text[at]) || text[at] == '#'); at++) {
+      if (text[at] == '#') skip_line();
+      if (at < text.size() && text[at] == '\n') line++;
+    }
     word.clear();
     for (; at < text.size() && !is_space(text[at]); at++) word.push_back(lower(text[at]));
     return !word.empty();

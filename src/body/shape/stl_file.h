@@ -19,11 +19,11 @@ struct StlContent {
 
 /// Reads the content of a file (all its bytes), in any locale. A file is binary if its length is
 /// that which the count after the 80 bytes of header demands; otherwise ASCII if it is text that
-/// begins with `solid`, in upper or lower case; otherwise binary with bytes after the last
-/// triangle. Normals in the file are not used: the order of the corners decides. Throws
-/// std::runtime_error with a text that names the triangle (from 1) or the line, and the cause, if
-/// the content is empty, truncated, no STL, holds a coordinate that is not a finite number, or no
-/// triangle.
+/// begins with `solid`, in upper or lower case, perhaps after comments (from a # to the end of the
+/// line); otherwise binary with bytes after the last triangle. Normals in the file are not used: the
+/// order of the corners decides. Throws std::runtime_error with a text that names the triangle (from
+/// 1) or the line, and the cause, if the content is empty, truncated, no STL, holds a coordinate that
+/// is not a finite number, or no triangle.
 StlContent parse_stl(const std::string &content);
 
 }    // namespace Talus

@@ -3,6 +3,7 @@
 #include "body/shape/triangle_mesh.h"
 
 #include "body/shape/mesh_interior.h"
+#include "body/shape/mesh_seams.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 #include <numeric>
 #include <set>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace Talus {
 namespace {
@@ -24,14 +24,20 @@ void note(int &count, int &first, int number)
   if (count++ == 0) first = number + 1;
 }
 
-struct CoordinateHash {
-  std::size_t operator()(const std::array<double, 3> &x) const
-  {
-    std::size_t h = 0;
-    for (const double c : x) h = 1000003 * h + std::hash<double>{}(c);
-    return h;
-  }
-};
+double usual_tolerance_of(const std::vector<Triangle> &soup)
+{
+  Eigen::AlignedBox3d box;
+  for (const Triangle &t : soup) box.extend(bounds_of(t));
+  return soup.empty() ? 0.0 : TriangleMesh::usual_tolerance * length(from_eigen(box.sizes()));
+}
+
+/// Thinner than rounding leaves a direction to the normal.
+bool has_no_area(const Vector3<double> &p, const Vector3<double> &q, const Vector3<double> &r)
+{
+  const Vector3<double> a = q - p, b = r - p, c = r - q;
+  const double longest = std::max({length(a), length(b), length(c)});
+  return !(length(cross(a, b)) > 1.0e-12 * longest * longest);
+}
 
 }    // namespace
 
@@ -42,46 +48,68 @@ Eigen::AlignedBox3d bounds_of(const Triangle &t)
   return box;
 }
 
-TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup, bool to_orient)
+TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup, bool to_orient) :
+    TriangleMesh(soup, to_orient, usual_tolerance_of(soup))
 {
-  join_corners(soup);
+}
+
+TriangleMesh::TriangleMesh(const std::vector<Triangle> &soup, bool to_orient, double tolerance)
+{
+  joins_within = tolerance;
+  join_corners(soup, tolerance);
   if (triangles.empty()) throw std::runtime_error("all its triangles are without area");
+  if (tolerance > 0.0) join_edges(tolerance);
   vertices.shrink_to_fit();
   triangles.shrink_to_fit();
-  if (triangles.size() == soup.size()) file_numbers.clear();
+  if (triangles.size() == soup.size() && !findings.divided_edges) file_numbers.clear();
   file_numbers.shrink_to_fit();
   for (const Vector3<double> &p : vertices) extent.extend(to_eigen(p));
   if (to_orient) orient(MeshEdges(triangles));
-  const MeshEdges edges(triangles);
-  look_at_edges(edges);
-  find_patches(edges);
-  find_planes(edges);
-  find_hollows(edges);
+  look_at_edges(MeshEdges(triangles));
+  find_smooth_parts();
   find_volume();
 }
 
-void TriangleMesh::join_corners(const std::vector<Triangle> &soup)
+void TriangleMesh::find_smooth_parts()
 {
-  std::unordered_map<std::array<double, 3>, int, CoordinateHash> known;
+  const MeshEdges edges(triangles);
+  find_patches(edges);
+  find_planes(edges);
+  find_hollows(edges);
+}
+
+void TriangleMesh::continue_behind(const PeriodicEdges &edges)
+{
+  const std::array<bool, 3> ended = edges.ended(extent);
+  if (!ended[0] && !ended[1] && !ended[2]) return;
+  MeshVertices joined(joins_within);
+  for (const Vector3<double> &p : vertices) joined.at(p);    // in their order: the same numbers
+  const MeshImages behind = images_behind_faces(joined, triangles, edges.box, ended);
+  vertices = joined.all();
+  triangles.insert(triangles.end(), behind.triangles.begin(), behind.triangles.end());
+  images = behind.own;
+  for (const Vector3<double> &p : vertices) extent.extend(to_eigen(p));
+  find_smooth_parts();
+}
+
+void TriangleMesh::join_corners(const std::vector<Triangle> &soup, double tolerance)
+{
+  MeshVertices joined(tolerance);
   std::set<std::array<int, 3>> seen;
-  const auto vertex_at = [&](const Vector3<double> &p) {
-    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};    // -0 is 0
-    const auto [place, is_new] = known.try_emplace(key, static_cast<int>(vertices.size()));
-    if (is_new) vertices.push_back(p);
-    return place->second;
-  };
   triangles.reserve(soup.size());
   for (std::size_t n = 0; n < soup.size(); n++) {
     const int number = static_cast<int>(n);
     const Vector3<double> *p = soup[n].corner;
-    const Vector3<double> a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
-    const double longest = std::max({length(a), length(b), length(c)});
-    // thinner than rounding leaves a direction to the normal
-    if (!(length(cross(a, b)) > 1.0e-12 * longest * longest)) {
+    if (has_no_area(p[0], p[1], p[2])) {
       note(findings.degenerate, findings.first_degenerate, number);
       continue;
     }
-    const Corners corners{{vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])}};
+    const Corners corners{{joined.at(p[0]), joined.at(p[1]), joined.at(p[2])}};
+    const auto place = [&](int k) { return joined.all()[corners.vertex[k]]; };
+    if (has_no_area(place(0), place(1), place(2))) {
+      note(findings.degenerate, findings.first_degenerate, number);
+      continue;
+    }
     std::array<int, 3> sorted{corners.vertex[0], corners.vertex[1], corners.vertex[2]};
     std::sort(sorted.begin(), sorted.end());
     if (!seen.insert(sorted).second) {
@@ -91,6 +119,21 @@ void TriangleMesh::join_corners(const std::vector<Triangle> &soup)
     triangles.push_back(corners);
     file_numbers.push_back(number);
   }
+  vertices = joined.all();
+  findings.joined_corners = joined.num_joined();
+  findings.largest_gap = joined.largest_gap();
+}
+
+void TriangleMesh::join_edges(double tolerance)
+{
+  DividedTriangles parts = divide_at_vertices(triangles, vertices, tolerance);
+  if (!parts.edges) return;
+  findings.divided_edges = parts.edges;
+  findings.first_divided = file_numbers[parts.first] + 1;
+  std::vector<int> numbers;
+  for (const int t : parts.divided) numbers.push_back(file_numbers[t]);
+  triangles = std::move(parts.triangles);
+  file_numbers = std::move(numbers);
 }
 
 Triangle TriangleMesh::triangle(int t) const
@@ -295,7 +338,8 @@ void TriangleMesh::find_volume()
 double TriangleMesh::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(vertices) + bytes(triangles) + bytes(patches) + bytes(planes) + bytes(file_numbers);
+  return bytes(vertices) + bytes(triangles) + bytes(patches) + bytes(planes) + bytes(file_numbers) +
+         bytes(images);
 }
 
 }    // namespace Talus

@@ -9,6 +9,7 @@
 #include "base/linear_algebra.h"
 #include "body/shape/large_body_shape.h"
 #include "body/shape/mesh_edges.h"
+#include "body/shape/mesh_images.h"
 
 #include <utility>
 #include <vector>
@@ -25,22 +26,41 @@ struct MeshReport {
   int inconsistent_edges = 0,
       first_inconsistent = 0;                    ///< whose two triangles face opposite sides
   int repaired_edges = 0, first_repaired = 0;    ///< did, until triangles were turned
+  int joined_corners = 0;      ///< places of corners that were not quite those of vertices
+  double largest_gap = 0.0;    ///< (length) between them
+  int divided_edges = 0, first_divided = 0;    ///< on which vertices lay: triangles were divided
   bool closed() const { return open_edges + nonmanifold_edges + inconsistent_edges == 0; }
 };
 
 class TriangleMesh {
  public:
-  /// Joins corners that have equal coordinates. The angle between the normals of two triangles
+  /// Joins corners that are not further apart than the tolerance (length), and triangles at edges on
+  /// which corners of others lie: these are divided. The angle between the normals of two triangles
   /// below which their common edge counts as part of one smooth patch is smooth_angle. `orient`:
   /// triangles are turned such that connected ones face the same side, as far as that can be; and
   /// the normals of all parts of a closed mesh point out of what it encloses, or all of them into
   /// it. Throws std::runtime_error if no triangle is left.
+  TriangleMesh(const std::vector<Triangle> &soup, bool orient, double tolerance);
+  /// With usual_tolerance times the size of the mesh.
   explicit TriangleMesh(const std::vector<Triangle> &soup, bool orient = false);
+
+  /// Over the diagonal of the box around all triangles. Files have coordinates of seven digits, at
+  /// some distance from the origin.
+  static constexpr double usual_tolerance = 1.0e-6;
 
   static constexpr double smooth_angle = 30.0;          // degrees
   static constexpr double smooth_cosine = 0.8660254;    // its cosine
 
+  /// Where the mesh ends on a face in which the box is periodic it goes on behind it: with images,
+  /// whose numbers follow those of the mesh. Before anything refers to its triangles.
+  void continue_behind(const PeriodicEdges &edges);
+
+  /// Images included.
   int size() const { return static_cast<int>(triangles.size()); }
+  /// Without images.
+  int num_own() const { return static_cast<int>(triangles.size() - images.size()); }
+  /// The triangle that an image is one of; itself if it is none.
+  int own(int t) const { return t < num_own() ? t : images[t - num_own()]; }
   int num_vertices() const { return static_cast<int>(vertices.size()); }
   const MeshReport &report() const { return findings; }
   const Corners &corners(int t) const { return triangles[t]; }
@@ -52,7 +72,7 @@ class TriangleMesh {
   /// Of the corners as they are; contacts use that of the plane, see plane_of().
   Vector3<double> normal(int t) const;
   /// Number of the triangle in the file, from 0.
-  int number_in_file(int t) const { return file_numbers.empty() ? t : file_numbers[t]; }
+  int number_in_file(int t) const { return file_numbers.empty() ? own(t) : file_numbers[own(t)]; }
   /// Triangles that are connected over smooth edges have the same patch.
   int patch(int t) const { return patches[t]; }
   /// Triangles that are connected and lie in one plane but for rounding have the same: the first of
@@ -73,12 +93,14 @@ class TriangleMesh {
   double memory_usage() const;
 
  private:
-  void join_corners(const std::vector<Triangle> &soup);
+  void join_corners(const std::vector<Triangle> &soup, double tolerance);
+  void join_edges(double tolerance);
   void orient(const MeshEdges &edges);
   void orient_along(int first, int number, const MeshEdges &edges, std::vector<int> &part);
   void orient_parts(const std::vector<int> &part, int num_parts);
   void flip(int t) { std::swap(triangles[t].vertex[1], triangles[t].vertex[2]); }
   void look_at_edges(const MeshEdges &edges);
+  void find_smooth_parts();
   void find_patches(const MeshEdges &edges);
   void find_planes(const MeshEdges &edges);
   void spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do);
@@ -89,6 +111,8 @@ class TriangleMesh {
   std::vector<Corners> triangles;
   std::vector<int> patches, planes;
   std::vector<int> file_numbers;    // empty: those of the file
+  std::vector<int> images;          // of which triangle each image is one
+  double joins_within = 0.0;        // the tolerance for corners
   MeshReport findings;
   Eigen::AlignedBox3d extent;
   bool outward = true, hollow[2] = {false, false};

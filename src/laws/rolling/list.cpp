@@ -3,7 +3,9 @@
 // The laws of stage rolling.
 
 #include "laws/law_definition.h"
+#include "laws/rolling/cdt.h"
 #include "laws/rolling/delayed.h"
+#include "laws/rolling/epsd2.h"
 #include "laws/rolling/holding.h"
 #include "laws/rolling/holding_order_2.h"
 #include "laws/rolling/none.h"
@@ -26,8 +28,8 @@ const Law *SdsRolling::order_2(bool /*adhesive*/)
 std::vector<const Law *> rolling_laws()
 {
   return {
-      &law<RollingNone>, &law<HoldingRolling>,  &law<DelayedRolling>,
-      &law<SdsRolling>,  &law<SynchronizedSds>,
+      &law<RollingNone>,     &law<HoldingRolling>, &law<DelayedRolling>, &law<SdsRolling>,
+      &law<SynchronizedSds>, &law<CdtRolling>,     &law<CappedCdt>,      &law<Epsd2Rolling>,
   };
 }
 

@@ -45,8 +45,9 @@ double MeshContacts::height_over(int triangle, const Vector &x) const
 
 const NearTriangle *MeshContacts::near_of(int triangle) const
 {
+  const TriangleMesh &mesh = surface.surface();    // an image or the triangle: one of them is near
   for (const NearTriangle &one : with.near)
-    if (one.triangle == triangle) return &one;
+    if (mesh.own(one.triangle) == mesh.own(triangle)) return &one;
   return nullptr;
 }
 
@@ -119,7 +120,7 @@ void MeshContacts::add_corner(const MeshCorner &corner, int t)
   contact.weight = 1.0;
   contact.name = contact_name(ContactParts::VERTEX_OF_B, 0, 0);
   contact.surface = static_cast<std::uint32_t>(corner.vertex);
-  contact.part = t;
+  contact.part = surface.surface().own(t);
   with.of_corner.emplace_back(corner.vertex, static_cast<int>(points.size()));
   points.push_back(contact);
 }

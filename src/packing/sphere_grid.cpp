@@ -1,0 +1,92 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "packing/sphere_grid.h"
+
+#include <cmath>
+
+namespace Talus {
+namespace {
+
+constexpr int most_classes = 20;      // the last one has all that are smaller
+constexpr int most_cells = 100000;    // along an edge: numbers of cells fit into keys
+
+double part_of(const Vector3<double> &x, int d)
+{
+  return d == 0 ? x.x : d == 1 ? x.y : x.z;
+}
+
+}    // namespace
+
+SphereGrid::SphereGrid(const GridBox &space, double largest, double near, std::size_t expected) :
+    box(space), skin(near)
+{
+  for (int n = 0; n < most_classes; n++) {
+    SizeClass cells{};
+    cells.largest = std::ldexp(largest, -n);
+    for (int d = 0; d < 3; d++) {
+      const double length = part_of(box.hi, d) - part_of(box.lo, d);
+      const double wanted = length / (2.0 * cells.largest + skin);
+      cells.cells[d] = wanted < most_cells ? std::max(1, static_cast<int>(wanted)) : most_cells;
+      cells.per_length[d] = cells.cells[d] / length;
+    }
+    classes.push_back(cells);
+  }
+  int bits = 10;
+  while (bits < 30 && (std::size_t(1) << bits) < 2 * expected) bits++;
+  shift = 64 - bits;
+  first.assign(std::size_t(1) << bits, -1);
+  entries.reserve(expected);
+}
+
+int SphereGrid::class_of(double radius) const
+{
+  int n = 0;
+  while (n + 1 < most_classes && radius <= classes[n + 1].largest) n++;
+  return n;
+}
+
+/* What is outside counts as in the cell at the edge; in a periodic direction as where its image is. */
+
+int SphereGrid::cell_of(const SizeClass &cells, double at, int d) const
+{
+  const double place = std::floor((at - part_of(box.lo, d)) * cells.per_length[d]);
+  const int last = cells.cells[d] - 1;
+  if (box.periodic[d]) {
+    const double inside = place - (last + 1) * std::floor(place / (last + 1));
+    return inside > last ? 0 : static_cast<int>(inside);
+  }
+  return place < 0.0 ? 0 : place > last ? last : static_cast<int>(place);
+}
+
+void SphereGrid::range_of(const SizeClass &cells, const Vector3<double> &x, double reach,
+                          int (&from)[3], int (&to)[3]) const
+{
+  for (int d = 0; d < 3; d++) {
+    const double at = part_of(x, d);
+    if (!box.periodic[d]) {
+      from[d] = cell_of(cells, at - reach, d);
+      to[d] = cell_of(cells, at + reach, d);
+      continue;
+    }
+    const int middle = cell_of(cells, at, d),
+              around = static_cast<int>(
+                  std::min<double>(std::ceil(reach * cells.per_length[d]), cells.cells[d]));
+    const bool all = 2 * around + 1 > cells.cells[d];
+    from[d] = all ? 0 : middle - around;
+    to[d] = all ? cells.cells[d] - 1 : middle + around;
+  }
+}
+
+void SphereGrid::add(int number, const Vector3<double> &x, double radius)
+{
+  const int size_class = class_of(radius);
+  SizeClass &cells = classes[size_class];
+  cells.count++;
+  const std::uint64_t key =
+      key_of(size_class, cell_of(cells, x.x, 0), cell_of(cells, x.y, 1), cell_of(cells, x.z, 2));
+  int &head = first[bucket_of(key)];
+  entries.push_back({key, number, head});
+  head = static_cast<int>(entries.size()) - 1;
+}
+
+}    // namespace Talus
