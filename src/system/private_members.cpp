@@ -165,27 +165,34 @@ std::array<const char *, 4> variables_of(const Region &region)
           region.*pointer_to(Angle{})};
 }
 
+/* The fix as the class of its style, or nullptr. */
+
+template <class Style> static const Style *as(const Fix &fix)
+{
+  return dynamic_cast<const Style *>(&fix);
+}
+
 FixVariables variables_of(const Fix &fix)
 {
   FixVariables found;
-  if (const auto *added = dynamic_cast<const FixAddForce *>(&fix)) {
+  if (const auto *added = as<FixAddForce>(fix)) {
     found.names = {added->*pointer_to(AddedX{}), added->*pointer_to(AddedY{}),
                    added->*pointer_to(AddedZ{}), added->*pointer_to(AddedEnergy{})};
-  } else if (const auto *set = dynamic_cast<const FixSetForce *>(&fix)) {
+  } else if (const auto *set = as<FixSetForce>(fix)) {
     found.names = {set->*pointer_to(SetX{}), set->*pointer_to(SetY{}), set->*pointer_to(SetZ{})};
-  } else if (const auto *mean = dynamic_cast<const FixAveForce *>(&fix)) {
+  } else if (const auto *mean = as<FixAveForce>(fix)) {
     found.names = {mean->*pointer_to(MeanX{}), mean->*pointer_to(MeanY{}),
                    mean->*pointer_to(MeanZ{})};
-  } else if (const auto *move = dynamic_cast<const FixMove *>(&fix)) {
+  } else if (const auto *move = as<FixMove>(fix)) {
     found.names = {move->*pointer_to(MovedX{}),  move->*pointer_to(MovedY{}),
                    move->*pointer_to(MovedZ{}),  move->*pointer_to(MovedVx{}),
                    move->*pointer_to(MovedVy{}), move->*pointer_to(MovedVz{})};
-  } else if (const auto *spring = dynamic_cast<const FixSpringSelf *>(&fix)) {
+  } else if (const auto *spring = as<FixSpringSelf>(fix)) {
     found.names = {spring->*pointer_to(SpringConstant{})};
-  } else if (const auto *langevin = dynamic_cast<const FixLangevin *>(&fix)) {
+  } else if (const auto *langevin = as<FixLangevin>(fix)) {
     found.names = {langevin->*pointer_to(LangevinTarget{})};
     found.more = langevin->*pointer_to(LangevinBias{}) != 0;
-  } else if (const auto *reflect = dynamic_cast<const FixWallReflect *>(&fix)) {
+  } else if (const auto *reflect = as<FixWallReflect>(fix)) {
     found.more = reflect->*pointer_to(ReflectingVariables{}) != 0;
   }
   return found;
