@@ -161,6 +161,13 @@ def _run_to_end(command, cwd, env, timeout):
         return returncode, sink.read()
 
 
+def _crashed_in_finalize(returncode, log, np):
+    """LAMMPS and the plugin were gone, and so said; what is left is MPI_Finalize(), in which Open MPI 4 crashes about once in a
+    thousand times (its issue 10117)."""
+    segmentation_fault = 128 + 11
+    return np > 1 and returncode == segmentation_fault and "\nTotal wall time: " in log
+
+
 def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, cwd=None,
                timeout=DEFAULT_TIMEOUT, arguments=(), name="script"):
     """Run an input script on np ranks; return a Result.
@@ -198,7 +205,7 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     if expect_error and (returncode != 1
                          or not re.search("^ERROR(:| on proc)", log + "\n" + output, re.MULTILINE)):
         raise problem(f"a LAMMPS error was expected, got return code {returncode}")
-    if not expect_error and returncode != 0:
+    if not expect_error and returncode != 0 and not _crashed_in_finalize(returncode, log, np):
         raise problem(f"return code {returncode}")
     return result
 
