@@ -190,7 +190,8 @@ double RegionParts::largest_displacement(const std::vector<RegionPose> &then,
 
 PeriodicSpan::PeriodicSpan(const Region &region, const Domain &domain)
 {
-  if (!region.bboxflag || region.varshape || region.dynamic || domain.triclinic) return;
+  if (!region.bboxflag || region.varshape || region.dynamic) return;
+  if (domain.triclinic || domain.box_change) return;
   const double lo[3] = {region.extent_xlo, region.extent_ylo, region.extent_zlo},
                hi[3] = {region.extent_xhi, region.extent_yhi, region.extent_zhi};
   constexpr double tolerance = 1.0e-6;    // of the length of the box

@@ -119,7 +119,8 @@ class RegionParts {
 class PeriodicSpan {
  public:
   PeriodicSpan() = default;
-  /// In init() of who asks. Regions without an extent in LAMMPS (`side out`, for one) have none.
+  /// In init() of who asks. Regions without an extent in LAMMPS (`side out`, for one) have none, nor
+  /// have those in a box that changes or is tilted.
   PeriodicSpan(const LAMMPS_NS::Region &region, const LAMMPS_NS::Domain &domain);
 
   bool is_empty() const { return !(period[0] > 0.0 || period[1] > 0.0 || period[2] > 0.0); }

@@ -140,7 +140,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// After particles have moved: largest distance of an owned particle from where it was when
   /// neighbor lists were made; infinity if that is not known.
   double moved_since_rebuild();
-  /// The forces of all contacts between particles. `report`, if given, is called for each of them.
+  /// The forces of all contacts between particles. `tally`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const TalliedContact &)> *tally);
   /// Changes of velocities are kept: for second order, and for the work of contacts.
   bool needs_changes() const { return needs_changes(movers.order()); }
