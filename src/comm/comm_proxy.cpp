@@ -55,7 +55,7 @@ double gap(const RankBox &a, const RankBox &b, int d, double period)
 
 /* ---- bricks ---------------------------------------------------------------------------------- */
 
-template <> std::vector<ProxyOrigin> CommProxy<CommBrick>::trace_origins(MPI_Comm communicator)
+template <> std::vector<ProxyOrigin> CommProxy<CommReach>::trace_origins(MPI_Comm communicator)
 {
   std::vector<ProxyOrigin> all = origins_of_owned(*atom, me);
   for (int swap = 0; swap < nswap; swap++) {
@@ -76,7 +76,7 @@ template <> std::vector<ProxyOrigin> CommProxy<CommBrick>::trace_origins(MPI_Com
 /* All ranks within the reach of the swaps. The reach is the same for all ranks, so this is
    symmetric. */
 
-template <> std::vector<int> CommProxy<CommBrick>::possible_neighbors()
+template <> std::vector<int> CommProxy<CommReach>::possible_neighbors()
 {
   std::vector<int> along[3];
   for (int d = 0; d < 3; d++) {

@@ -10,9 +10,9 @@
 #ifndef LMP_COMM_PROXY_H
 #define LMP_COMM_PROXY_H
 
+#include "comm/comm_reach.h"
 #include "comm/direct_exchange.h"
 
-#include "comm_brick.h"
 #include "comm_tiled.h"
 
 #include <cstring>
@@ -20,7 +20,7 @@
 
 namespace LAMMPS_NS {
 
-/// Base: CommBrick or CommTiled.
+/// Base: CommReach or CommTiled.
 template <class Base> class CommProxy : public Base, private StagedExchange {
  public:
   /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
@@ -118,12 +118,12 @@ template <class Base> class CommProxy : public Base, private StagedExchange {
   DirectExchange direct;
 };
 
-template <> std::vector<Talus::ProxyOrigin> CommProxy<CommBrick>::trace_origins(MPI_Comm);
-template <> std::vector<int> CommProxy<CommBrick>::possible_neighbors();
+template <> std::vector<Talus::ProxyOrigin> CommProxy<CommReach>::trace_origins(MPI_Comm);
+template <> std::vector<int> CommProxy<CommReach>::possible_neighbors();
 template <> std::vector<Talus::ProxyOrigin> CommProxy<CommTiled>::trace_origins(MPI_Comm);
 template <> std::vector<int> CommProxy<CommTiled>::possible_neighbors();
 
-using CommProxyBrick = CommProxy<CommBrick>;
+using CommProxyBrick = CommProxy<CommReach>;
 using CommProxyTiled = CommProxy<CommTiled>;
 
 /// What takes the place of `old`, with its settings.

@@ -10,7 +10,8 @@ namespace Talus {
 enum ExchangeTag {
   TAG_REQUEST = 1,    ///< ProxyExchange: which particles a rank wants as proxies
   TAG_STATE,          ///< ProxyExchange: their state
-  TAG_ORIGIN          ///< CommProxy: where proxies come from
+  TAG_ORIGIN,         ///< CommProxy: where proxies come from
+  TAG_BORDER          ///< CommReach, on the communicator of LAMMPS: particles that become proxies
 };
 
 }    // namespace Talus

@@ -217,7 +217,7 @@ void NeighborSearch::find_rows(const Spheres &s, Chunk &mine, int begin, int end
   if (mine.entries.empty()) mine.entries.resize(usual * (end - begin));
   for (int a = begin; a < end; a++) {
     const std::size_t before = mine.count;
-    find_row(s, a, mine);
+    if (a >= s.first_row) find_row(s, a, mine);
     int *const row = mine.entries.data() + before, *last = mine.entries.data() + mine.count;
     if (excluded) last = std::remove_if(row, last, [&](int b) { return excluded(a, b); });
     size[a] = static_cast<int>(last - row);

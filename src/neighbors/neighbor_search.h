@@ -30,6 +30,7 @@ class NeighborSearch {
     int owned, total;
     const double *x, *radius;
     double skin;
+    int first_row = 0;    ///< rows of spheres before this one stay empty
   };
 
   /// `excluded(i, j)`, if given: pairs that are left out; called from all threads. Throws

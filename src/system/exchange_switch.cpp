@@ -2,16 +2,21 @@
 
 #include "system/exchange_switch.h"
 
+#include "system/fix_list.h"
 #include "system/granular_system.h"
 #include "system/private_members.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "comm_brick.h"
 #include "comm_tiled.h"
+#include "compute.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <memory>
@@ -95,11 +100,32 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
   if (lmp->kokkos)
     return "the direct exchange does not run with the KOKKOS package: start LAMMPS without '-k on'";
   // each side of a contact is computed where its particle is owned: a large one needs its small partners
-  if (leaves_out_small(*comm)) return "'comm_modify reduce/multi' is not supported: remove it";
+  if (in_run && leaves_out_small(*comm) && !needs_beyond_contacts().empty())
+    return "'comm_modify reduce/multi' is not supported: remove it";
   // what LAMMPS adds to the velocities of ghosts depends on their order in its messages
   constexpr int all = 1;
   if (in_run && domain->deform_vremap && comm->ghost_velocity && domain->deform_groupbit != all)
     return "fix deform with 'remap v' is supported for group all only";
+  return "";
+}
+
+/* Who looks at ghosts has a neighbor list of LAMMPS, asks ghosts for something, or binds particles to
+   each other. */
+
+std::string ExchangeSwitch::needs_beyond_contacts() const
+{
+  const auto system = GranularSystem::of(lmp);
+  if (!system->has_pair_style()) return "no pair style of Talus";
+  if (!system->neighbors().reason_for_lammps_lists().empty() || neighbor->nlist > 1)
+    return "neighbor lists of LAMMPS";
+  if (comm->cutghostuser > 0.0 || comm->cutusermulti || sends_one_group(*comm))
+    return "comm_modify";
+  if (domain->triclinic) return "a triclinic box";
+  if (atom->molecular != Atom::ATOMIC) return "molecules";
+  for (const Fix *fix : fix_list(*modify))
+    if (utils::strmatch(fix->style, "^rigid")) return fmt::format("fix {}", fix->style);
+  for (const Compute *compute : modify->get_compute_list())
+    if (compute->comm_forward) return fmt::format("compute {}", compute->style);
   return "";
 }
 
