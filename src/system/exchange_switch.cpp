@@ -4,6 +4,7 @@
 
 #include "system/fix_list.h"
 #include "system/granular_system.h"
+#include "system/lammps_compat.h"
 #include "system/private_members.h"
 
 #include "atom.h"
@@ -19,6 +20,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <memory>
 
 using namespace LAMMPS_NS;
@@ -28,6 +30,26 @@ namespace Talus {
 namespace {
 
 ExchangeSwitch::MakeDirect make_direct = nullptr;
+
+/* For comm_modify mode multi, of collections or types. */
+
+bool has_cutoffs_by_kind(const Comm &comm)
+{
+#if TALUS_HOST_HAS_MULTI_OLD
+  if (comm.cutusermultiold) return true;
+#endif
+  return comm.cutusermulti != nullptr;
+}
+
+/* LAMMPS copies as many bytes as there are numbers. */
+
+void copy_cutoffs_by_kind(const Comm &from, Comm &to, [[maybe_unused]] int types)
+{
+  if (from.cutusermulti) std::copy_n(from.cutusermulti, from.ncollections_cutoff, to.cutusermulti);
+#if TALUS_HOST_HAS_MULTI_OLD
+  if (from.cutusermultiold) std::copy_n(from.cutusermultiold, types + 1, to.cutusermultiold);
+#endif
+}
 
 /* The stock object. It holds the system, and with it what the user has chosen, until `clear`. */
 
@@ -100,8 +122,9 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
   if (lmp->kokkos)
     return "the direct exchange does not run with the KOKKOS package: start LAMMPS without '-k on'";
   // each side of a contact is computed where its particle is owned: a large one needs its small partners
-  if (in_run && leaves_out_small(*comm) && !needs_beyond_contacts().empty())
-    return "'comm_modify reduce/multi' is not supported: remove it";
+  if (in_run && leaves_out_small(*comm))
+    if (const std::string other = needs_beyond_contacts(); !other.empty())
+      return fmt::format("'comm_modify reduce/multi' is not supported with {}: remove it", other);
   // what LAMMPS adds to the velocities of ghosts depends on their order in its messages
   constexpr int all = 1;
   if (in_run && domain->deform_vremap && comm->ghost_velocity && domain->deform_groupbit != all)
@@ -115,11 +138,11 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
 std::string ExchangeSwitch::needs_beyond_contacts() const
 {
   const auto system = GranularSystem::of(lmp);
-  if (!system->has_pair_style()) return "no pair style of Talus";
+  if (!system->has_pair_style()) return "pair styles of LAMMPS";
   if (!system->neighbors().reason_for_lammps_lists().empty() || neighbor->nlist > 1)
     return "neighbor lists of LAMMPS";
-  if (comm->cutghostuser > 0.0 || comm->cutusermulti || sends_one_group(*comm))
-    return "comm_modify";
+  if (comm->cutghostuser > 0.0 || has_cutoffs_by_kind(*comm) || sends_one_group(*comm))
+    return "'comm_modify cutoff' or 'group'";
   if (domain->triclinic) return "a triclinic box";
   if (atom->molecular != Atom::ATOMIC) return "molecules";
   for (const Fix *fix : fix_list(*modify))
@@ -141,6 +164,7 @@ void ExchangeSwitch::replace_comm(Comm *with)
 {
   settle_brick();
   Comm *old = comm;
+  copy_cutoffs_by_kind(*old, *with, atom->ntypes);
   comm = with;
   settle_brick();
   delete old;

@@ -52,7 +52,8 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   /// "" or what of the present settings the direct exchange does not support, and the cure.
   /// `in_run`: after Domain::init(); else only what can be known before.
   std::string unsupported(bool in_run) const;
-  /// "" if nothing but contacts looks at proxies in this run, else what does. After Neighbor::init().
+  /// "" if nothing but contacts looks at proxies in this run, else what does, as text for messages.
+  /// After Neighbor::init().
   std::string needs_beyond_contacts() const;
 
  private:

@@ -49,6 +49,9 @@
 #error "link the CMake target lammps_host: it defines TALUS_HOST_SCALES_CLASSIC_SLIP"
 #endif
 
+// comm_modify mode multi/old and its cutoffs by type were removed in 2026.
+#define TALUS_HOST_HAS_MULTI_OLD (TALUS_LAMMPS_VERSION < 20260000)
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

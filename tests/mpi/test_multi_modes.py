@@ -1,7 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
-"""comm_modify mode multi and multi/old, neighbor multi: the same bits as without them, in the records, with fewer
-proxies."""
+"""comm_modify mode multi and multi/old, neighbor multi: the same bits as without them, in the records, with the same proxies."""
 
 import os
 import random
@@ -68,16 +67,31 @@ class Modes(SceneCase):
                 with self.subTest(mode=name, np=np):
                     frame, proxies = self.run_scene(modes, np, newton)
                     self.assert_same_bits(first, frame)
-                    if np == 1 and name == "multi with collections":
-                        self.assertLess(proxies, 0.9 * most)
+                    if np == 1:
+                        self.assertEqual(proxies, most)
 
-    def test_half_of_the_proxies_is_not_enough(self):
-        """reduce/multi: the exchange is that of LAMMPS, with the reason in the log."""
-        write_sphere_data(self.path("grains"), ((0, LENGTH), (0, LENGTH), (-0.5, 12)), grains(), types=2)
-        script = SCENE.format(modes=MODES["multi"] + " reduce/multi", newton="on").replace("comm_proxy info", "")
+    def test_cutoffs(self):
+        """Of the user, by collection and type: kept, so that there are more proxies."""
+        first, least = self.run_scene(MODES["single"], 1)
+        for name in MODES.keys() & {"multi", "multi/old"}:
+            for np in 1, 2:
+                frame, proxies = self.run_scene(f"{MODES[name]} cutoff/{name} 1 3.5", np)
+                self.assert_same_bits(first, frame)
+                if np == 1:
+                    self.assertGreater(proxies, 1.3 * least)
+
+    def test_reduced(self):
+        """reduce/multi leaves out proxies that a contact has on one side. Where contacts choose them it changes nothing, and
+        with cutoffs of the user the exchange is that of LAMMPS, with the reason in the log."""
+        first, most = self.run_scene(MODES["single"], 1)
+        for np in 1, 2:
+            frame, proxies = self.run_scene(MODES["multi"] + " reduce/multi", np, newton="on")
+            self.assert_same_bits(first, frame)
+        script = SCENE.format(modes=MODES["multi"] + " reduce/multi cutoff/multi 1 2.0", newton="on").replace("comm_proxy info", "")
         for np in 1, 2:
             log = self.run_lammps(script, np=np).log
-            self.assertIn("the exchange is the one of LAMMPS: 'comm_modify reduce/multi' is not supported: remove it", log)
+            self.assertIn("the exchange is the one of LAMMPS: 'comm_modify reduce/multi' is not supported with "
+                          "'comm_modify cutoff' or 'group': remove it", log)
 
 
 if __name__ == "__main__":

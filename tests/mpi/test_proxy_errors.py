@@ -68,8 +68,8 @@ class Messages(SceneCase):
     def test_refusals(self):
         box = BOX.format(before="")
         reduce = "neighbor 0.3 multi\ncomm_modify mode multi reduce/multi"
-        self.refused(box + reduce + "\ncomm_proxy yes\n", "'comm_modify reduce/multi' is not supported: remove it")
-        self.refused(SCENE.format(before="newton on\n", middle=reduce), "'comm_modify reduce/multi' is not supported: remove it")
+        self.refused(SCENE.format(before="newton on\n", middle=reduce + " cutoff/multi 1 2.0"),
+                     "'comm_modify reduce/multi' is not supported with 'comm_modify cutoff' or 'group': remove it")
         deform = "group some id 1 2\nfix shape some deform 1 x erate 0.1 remap v"
         self.refused(SCENE.format(before="", middle=deform),
                      "fix deform with 'remap v' is supported for group all only")
