@@ -276,6 +276,8 @@ void ContactChunk::add_up(ParticleRecords &particles, const std::uint32_t *block
     const int lane = one_law ? n : lane_of_contact[n];
     const bool same = b == last, kept = !pairs.is_foreign(a);
     last = b;
+    particles.has_acted(b);
+    if (kept) particles.has_acted(a);
     const Vec4 f = load4(force_of_lane[lane]);
     if (kept) store(i[0], load4(i[0]) + f);
     if constexpr (weights)    // never waits for what the last turn has stored

@@ -41,7 +41,7 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neig
   }
   chunks.resize(work.num_chunks());
   claims = std::vector<Claim>(work.num_ranges());
-  travels.assign(work.num_ranges(), RecordTravel{});
+  speeds.assign(work.num_ranges(), {});
   for_chunks([&](int c) { chunks[c].pairs.collect(order, work, rows, c); });
   ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
   std::sort(ghost_slots.begin(), ghost_slots.end());
@@ -110,7 +110,6 @@ void ContactPipeline::release_records()
   if (memory_usage() < release_threshold) return;
   particles.release_sums();
   deferred.release();
-  Talus::release(held);
   for (ContactChunk &chunk : chunks) chunk.forget_contacts();
 }
 
@@ -193,8 +192,7 @@ void ContactPipeline::load_shared(const ParticleView &arrays, const ContactStep 
   if (step.read)
     particles.read(order, arrays, of_thread(shared_owned, thread));
   else if (move_pending)
-    travels[thread].join(
-        particles.advance(move, role, held_or_null(), of_thread(moved_first, thread)));
+    speeds[thread].join(particles.advance(move, role, of_thread(moved_first, thread)));
   else    // they have not been moved: only the sums are those of the last step
     particles.clear(range.begin, range.end);
 }
@@ -231,7 +229,7 @@ void ContactPipeline::load(const ParticleView &arrays, const ContactStep &step, 
     particles.read(order, arrays, slots);
   } else if (move_pending) {
     slots.marked = flags(is_moved_before);
-    travels[range].join(particles.advance(move, role, held_or_null(), slots));
+    speeds[range].join(particles.advance(move, role, slots));
   }
 }
 

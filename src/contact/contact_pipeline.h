@@ -110,10 +110,8 @@ class ContactPipeline {
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
   /// by local index: the number of the step that moves a particle, -1 if none does (asked by all
-  /// threads); whose states are sent away before forces are computed; and where they were when
-  /// lists were made, rows of three doubles, nullptr if the travel is not needed.
-  void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent,
-                       const double *x_then);
+  /// threads); and whose states are sent away before forces are computed.
+  void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent);
   bool can_move() const { return prepared; }
   /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the
   /// way through the next compute().
@@ -122,8 +120,10 @@ class ContactPipeline {
   bool is_moving() const { return move_pending; }
   /// Moves those that are still to be moved now, in a pass of its own.
   void complete_move();
-  /// How far they went, after compute() or complete_move().
-  RecordTravel travel() const;
+  /// Of the last move, after compute() or complete_move(): the largest speed of an owned particle
+  /// after it, and whether all of them were moved by it.
+  double fastest() const;
+  bool moves_all_owned() const { return all_owned_move; }
   /// Ends holds_state(): completes an advance() and writes the state of all owned particles to the
   /// arrays of LAMMPS: positions, velocities, angular velocities and the changes of velocities that
   /// are kept. With forces those and torques are set to the ones in the records.
@@ -204,7 +204,6 @@ class ContactPipeline {
   }
   /// Those of a list in ascending order that are in the range of a thread.
   SlotChoice of_thread(const std::vector<int> &slots, int thread) const;
-  const Record *held_or_null() const { return held.empty() ? nullptr : held.data(); }
   template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   ContactScene scene;
@@ -236,8 +235,13 @@ class ContactPipeline {
   std::vector<int> moved_at_once;                ///< slots that are sent
   std::vector<int> moved_first;                  ///< others that several ranges read
   std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
-  AlignedVector<Record> held;                    ///< by slot, or empty
-  std::vector<RecordTravel> travels;             ///< by range
+  bool all_owned_move = false;
+  struct alignas(64) Speed {    // in a cache line of its own: written every few hundred particles
+    double largest = 0.0;
+
+    void join(double speed) { largest = std::max(largest, speed); }
+  };
+  std::vector<Speed> speeds;    ///< by range
 };
 
 }    // namespace Talus

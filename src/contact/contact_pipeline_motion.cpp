@@ -11,9 +11,9 @@
 namespace Talus {
 
 void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
-                                      const std::vector<int> &sent, const double *x_then)
+                                      const std::vector<int> &sent)
 {
-  std::atomic<bool> all{true};
+  std::atomic<bool> all{true}, all_owned{true};
   role.resize(order.size());
   in_ranges(order.size(), [&](int begin, int end) {
     for (int s = begin; s < end; s++) {
@@ -23,9 +23,11 @@ void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
                 : moved_by < 0     ? ParticleRecords::RESTS
                                    : ParticleRecords::Role(ParticleRecords::MOVES + moved_by);
       if (role[s] != ParticleRecords::MOVES) all.store(false, std::memory_order_relaxed);
+      if (role[s] == ParticleRecords::RESTS) all_owned.store(false, std::memory_order_relaxed);
     }
   });
   if (all) role.clear();
+  all_owned_move = all_owned;
 
   moved_at_once.clear();
   for (const int a : sent) moved_at_once.push_back(order.slot_of_atom[a]);
@@ -38,15 +40,6 @@ void ContactPipeline::prepare_to_move(const std::function<int(int)> &mover,
   mark(moved_first, is_moved_before);
   if (work.in_two_phases()) mark(ghost_slots, is_moved_before);
 
-  renew(held, x_then ? order.size() : 0);
-  in_ranges(static_cast<std::int64_t>(held.size()), [&](int begin, int end) {
-    for (int s = begin; s < end; s++) {
-      const int a = order.atom_of_slot[s];
-      if (!order.is_owned(a)) continue;
-      const double *x = x_then + 3L * a;
-      held[s] = {{x[0], x[1], x[2], particles.position[s].c[3]}};
-    }
-  });
   prepared = true;
 }
 
@@ -55,10 +48,10 @@ void ContactPipeline::advance(const std::vector<RecordStep> &steps)
   move = steps;
   particles.extrapolation = steps[0].extrapolation;
   move_pending = true;
-  travels.assign(travels.size(), RecordTravel{});
+  speeds.assign(speeds.size(), {});
   if (moved_at_once.empty()) return;
   in_parallel(threads, threads, [&](int t) {
-    travels[t] = particles.advance(move, role, held_or_null(), of_thread(moved_at_once, t));
+    speeds[t].join(particles.advance(move, role, of_thread(moved_at_once, t)));
   });
 }
 
@@ -78,21 +71,21 @@ void ContactPipeline::set_own_masses(const double *of_atom)
   particles.set_own_masses(std::move(own_mass));
 }
 
-RecordTravel ContactPipeline::travel() const
+double ContactPipeline::fastest() const
 {
-  RecordTravel all;
-  for (const RecordTravel &one : travels) all.join(one);
-  return all;
+  Speed all;
+  for (const Speed &one : speeds) all.join(one.largest);
+  return all.largest;
 }
 
 void ContactPipeline::complete_move()
 {
   if (!move_pending) return;
   Talus::in_ranges(order.size(), threads, [&](int t, int begin, int end) {
-    travels[t].join(particles.advance(move, role, held_or_null(), of_thread(moved_first, t)));
+    speeds[t].join(particles.advance(move, role, of_thread(moved_first, t)));
     SlotChoice slots{begin, end};
     slots.marked = is_moved_before.empty() ? nullptr : is_moved_before.data();
-    travels[t].join(particles.advance(move, role, held_or_null(), slots));
+    speeds[t].join(particles.advance(move, role, slots));
   });
   move_pending = false;
 }

@@ -109,6 +109,7 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
   constexpr std::size_t row_stride = rotation ? 2 : 1;
   const auto touches = [this](const Entry &e) { return load[row_stride * e.place].c[3] == step; };
   Record *sums = &particles.load[row_stride * row.slot];
+  particles.has_acted(row.slot);
   Vec4 force = row.has_all ? particles.weight(row.slot) : load4(sums[0]), torque_per_radius{};
   if constexpr (rotation) torque_per_radius = kept_if(!row.has_all, load4(sums[1]));
   for (const Entry *e = begin; e < end; e++) {

@@ -73,12 +73,18 @@ void ExchangePlan::add_to_runs(const ProxyOrigin &origin, int proxy, ExchangeNei
 void ExchangePlan::arrange_message(ExchangeNeighbor &from)
 {
   std::vector<int> &wanted = from.receive_index;
-  wanted = from.receive_place;
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  for (int &place : from.receive_place)
-    place =
-        static_cast<int>(std::lower_bound(wanted.begin(), wanted.end(), place) - wanted.begin());
+  wanted.clear();
+  if (from.receive_place.empty()) return;
+  // by index of the owner: wanted, and then where in the message
+  const auto last = std::max_element(from.receive_place.begin(), from.receive_place.end());
+  std::vector<int> place_of(*last + 1, -1);
+  for (const int index : from.receive_place) place_of[index] = 0;
+  for (int index = 0; index <= *last; index++)
+    if (place_of[index] == 0) {
+      place_of[index] = static_cast<int>(wanted.size());
+      wanted.push_back(index);
+    }
+  for (int &place : from.receive_place) place = place_of[place];
 }
 
 std::vector<int> ExchangePlan::request_for(int rank) const

@@ -161,9 +161,13 @@ void FixWallGranRegionTalus::add_contacts()
   begin_step();
   find_wall_temperature();
   begin_account();
-  const double moved = bounded ? system->moved_since_rebuild() : 0.0;
   const ParticleState particles = system->particles();
-  if (candidates.are_stale(moved, displacement(), atom->nlocal)) find_candidates(moved, particles);
+  const auto are_stale = [this](double moved) {
+    return candidates.are_stale(moved, displacement(), atom->nlocal);
+  };
+  if (are_stale(bounded ? system->moved_at_most() : 0.0))
+    if (const double moved = bounded ? system->moved_since_rebuild() : 0.0; are_stale(moved))
+      find_candidates(moved, particles);
   if (keeps_contacts()) clear_stored_contacts();
   add_contacts_of_candidates(particles);
   system->account().add(batch.work);

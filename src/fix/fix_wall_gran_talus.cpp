@@ -137,9 +137,12 @@ void FixWallGranTalus::find_candidates(double moved)
 void FixWallGranTalus::add_contacts()
 {
   place();
-  const double moved = system->moved_since_rebuild();
-  if (candidates.are_stale(moved, std::abs(displacement() - listed_at), atom->nlocal))
-    find_candidates(moved);
+  const auto are_stale = [this](double moved) {
+    return candidates.are_stale(moved, std::abs(displacement() - listed_at), atom->nlocal);
+  };
+  if (are_stale(system->moved_at_most()))
+    if (const double moved = system->moved_since_rebuild(); are_stale(moved))
+      find_candidates(moved);
   if (keeps_contacts()) clear_stored_contacts();
   find_wall_temperature();
   begin_account();

@@ -16,9 +16,6 @@ namespace Talus {
 namespace {
 
 constexpr int width = 16;
-/// Cells per unit of place. What lies side by side along x is one piece of the sorted spheres:
-/// short cells there leave out more, and thick ones across make few pieces that fill vectors.
-constexpr double cells_per_place[3] = {2.0, 0.5, 0.5};
 constexpr std::size_t usual = 16;    // neighbors in the row of a sphere, or less
 using Floats = VectorOf<float, width>;
 using Ints = VectorOf<std::int32_t, width>;
@@ -29,7 +26,7 @@ using Ints = VectorOf<std::int32_t, width>;
 
 int NeighborSearch::Grid::cell(double place, int d) const
 {
-  return std::clamp(static_cast<int>(std::floor(place * cells_per_place[d])), 0, cells[d] - 1);
+  return std::clamp(static_cast<int>(std::floor(place * per_place[d])), 0, cells[d] - 1);
 }
 
 /* Of the places and sizes of all spheres. */
@@ -81,37 +78,50 @@ NeighborSearch::Extent NeighborSearch::extent_of(const Spheres &s, int threads)
   return all;
 }
 
-/* As wide as the reach of a sphere of the mean radius, or of all if they differ little; wider if
-   there would be far more cells than spheres. */
+/* By the reach of a sphere of the mean radius, or of all if they differ little. */
 
 NeighborSearch::Grid NeighborSearch::make_grid(const Spheres &s, int threads)
 {
   const Extent extent = extent_of(s, threads);
   if (extent.check != 0.0) throw std::domain_error("a position is not a number");
-  constexpr double similar = 1.5, cells_per_sphere = 4.0, least = 4096.0;
+  constexpr double similar = 1.5;
   const double mean = extent.sum / s.total;
   const bool all_alike = extent.largest < similar * mean;
   double edge = 2.0 * (all_alike ? extent.largest : mean) + s.skin;
   if (edge <= 0.0) edge = 1.0;    // points without a skin: any cells do
-  double number = 0.0;
-  // cells are numbered with 32 bits
-  const double most = std::min(cells_per_sphere * s.total + least, 2.0e9);
-  for (;; edge *= 1.3) {
-    number = 1.0;
-    for (int d = 0; d < 3; d++)
-      number *= std::floor((extent.high[d] - extent.low[d]) / edge * cells_per_place[d]) + 1.0;
-    if (number <= most) break;
-  }
   Grid grid{};
-  grid.per_length = 1.0 / edge;
-  grid.largest = extent.largest / edge;
+  choose_cells(grid, extent, edge, s.total);
+  grid.largest = extent.largest * grid.per_length;
   grid.alike = all_alike ? static_cast<float>(grid.largest) : 0.0F;
-  for (int d = 0; d < 3; d++) {
-    grid.low[d] = extent.low[d];
-    grid.cells[d] = 1 + static_cast<int>((extent.high[d] - extent.low[d]) * grid.per_length *
-                                         cells_per_place[d]);
-  }
   return grid;
+}
+
+/* What lies side by side along x is one piece of the sorted spheres: short cells there leave out
+   more, and thick ones across make few pieces that fill vectors. Wider ones if there would be far
+   more cells than spheres. */
+
+void NeighborSearch::choose_cells(Grid &grid, const Extent &extent, double edge, int spheres)
+{
+  constexpr double cells_per_sphere = 4.0, least = 4096.0, most = 2.0e9;    // numbered with 32 bits
+  constexpr double per_x = 2.0, thinnest = 2.0, thickest = 8.0, in_a_piece = 8.0;
+  double volume = 1.0;    // in edges
+  for (int d = 0; d < 3; d++) volume *= (extent.high[d] - extent.low[d]) / edge + 1.0;
+  const double length = 2.0 + 1.0 / per_x;    // of a piece
+  const double thickness =
+      std::clamp(std::sqrt(in_a_piece * volume / (length * spheres)), thinnest, thickest);
+  for (;; edge *= 1.3) {
+    double number = 1.0;
+    grid.per_length = 1.0 / edge;
+    for (int d = 0; d < 3; d++) {
+      grid.low[d] = extent.low[d];
+      grid.per_place[d] = d == 0 ? per_x : 1.0 / thickness;
+      const double cells =
+          std::floor((extent.high[d] - extent.low[d]) / edge * grid.per_place[d]) + 1.0;
+      number *= cells;
+      grid.cells[d] = static_cast<int>(std::min(cells, most));
+    }
+    if (number <= std::min(cells_per_sphere * spheres + least, most)) return;
+  }
 }
 
 /* Spheres in a cell stand in ascending order. They are counted by up to eight threads, each for
@@ -153,7 +163,7 @@ void NeighborSearch::sort_into_cells(const Spheres &s, int threads)
   constexpr float rounding = 1.0e-6F;
   skin = static_cast<float>(s.skin * grid.per_length);
   double extent = 0.0;
-  for (int d = 0; d < 3; d++) extent = std::max(extent, grid.cells[d] / cells_per_place[d]);
+  for (int d = 0; d < 3; d++) extent = std::max(extent, grid.cells[d] / grid.per_place[d]);
   slack = rounding * (static_cast<float>(extent) + 2.0F * static_cast<float>(grid.largest) + skin);
 }
 

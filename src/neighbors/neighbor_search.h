@@ -4,12 +4,14 @@
 // |x_i - x_j| < r_i + r_j + skin of which at least one is owned, and a few that are slightly
 // further apart. Does the work of LAMMPS' neighbor lists for contacts, on all threads.
 //
-// Spheres are sorted into cells as wide as the reach of a usual one. Each looks for those around it
+// Spheres are sorted into cells by the reach of a usual one. Each looks for those around it
 // with a lower index, so that a pair is found once and where the candidate list will have it. If
 // sizes differ much, it looks for the smaller ones instead: a large sphere among many small ones
 // looks into many cells, which is better than every small one looking far. A row of cells along x
 // stands in one piece of memory and is compared 16 spheres at a time, in single precision: places
-// in cells of the box around all spheres, with a reach that is wider by more than the rounding.
+// in units of that reach in the box around all spheres, with a reach that is wider by more than the
+// rounding. Cells are the thicker the thinner spheres are sown, so that these pieces are not nearly
+// empty.
 
 #ifndef TALUS_NEIGHBORS_NEIGHBOR_SEARCH_H
 #define TALUS_NEIGHBORS_NEIGHBOR_SEARCH_H
@@ -52,7 +54,8 @@ class NeighborSearch {
 
  private:
   struct Grid {
-    double low[3], per_length;    ///< lowest corner of the cells; cells per length
+    double low[3], per_length;    ///< lowest corner of the cells; places per length
+    double per_place[3];          ///< cells per unit of place
     double largest;               ///< radius (in cells)
     int cells[3];
     float alike;    ///< the largest radius (in cells) if sizes differ little, else 0
@@ -76,6 +79,7 @@ class NeighborSearch {
   };
   static Extent extent_of(const Spheres &spheres, int threads);
   static Grid make_grid(const Spheres &spheres, int threads);
+  static void choose_cells(Grid &grid, const Extent &extent, double edge, int spheres);
   void sort_into_cells(const Spheres &spheres, int threads);
   void release_cells();
   void find_rows(const Spheres &spheres, Chunk &mine, int begin, int end,

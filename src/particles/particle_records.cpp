@@ -29,6 +29,7 @@ void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques
   renew(motion, stride * (n + copies));
   renew(change, changes ? n + copies : 0);
   renew(load, stride * n);
+  acted.assign(n, 1);
   renew(twisting_torque, twisting_torques ? n : 0);
 }
 
@@ -78,9 +79,11 @@ inline void ParticleRecords::read_eight(const ParticleOrder &order, const Partic
 
 void ParticleRecords::set_gravity(const double *acceleration)
 {
+  const Record before = gravity;
   gravity = Record{};
   if (acceleration) std::copy(acceleration, acceleration + 3, gravity.c);
   has_gravity = gravity.c[0] != 0.0 || gravity.c[1] != 0.0 || gravity.c[2] != 0.0;
+  if (!std::equal(gravity.c, gravity.c + 3, before.c)) std::fill(acted.begin(), acted.end(), 1);
 }
 
 void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &arrays, int begin,

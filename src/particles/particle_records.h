@@ -88,19 +88,6 @@ struct SlotChoice {
   }
 };
 
-/// How far particles have gone: maxima over particles of the distance from where they were when
-/// lists were made, and of the speed (see MotionForecast). In a cache line of its own: each thread
-/// writes one every few hundred particles.
-struct alignas(64) RecordTravel {
-  double moved = 0.0, speed = 0.0;
-
-  void join(const RecordTravel &other)
-  {
-    moved = std::max(moved, other.moved);
-    speed = std::max(speed, other.speed);
-  }
-};
-
 class ParticleRecords {
  public:
   /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
@@ -161,10 +148,10 @@ class ParticleRecords {
 
   /// Moves the particles of some slots and resets their sums. `role` of each slot: a ghost, at
   /// rest, or MOVES + n for the ones that the step n moves; empty: all are moved by the first step.
-  /// `held`: position records when lists were made, or nullptr if the travel is not needed.
+  /// Returns the largest speed of those that are not ghosts.
   enum Role : unsigned char { GHOST, RESTS, MOVES };
-  RecordTravel advance(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
-                       const Record *held, const SlotChoice &slots);
+  double advance(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
+                 const SlotChoice &slots);
   /// Only resets the sums.
   void clear(int begin, int end);
 
@@ -186,11 +173,14 @@ class ParticleRecords {
     const std::size_t s = slot;
     return torque_of(s, load4(position[s]), load4(load[2 * s]));
   }
+  /// To be called for each slot whose sums are changed: of others advance() reads and resets none.
+  void has_acted(std::size_t slot) { acted[slot] = 1; }
   /// For forces other than contacts between particles: from here on until advance() the second half
   /// of the load is the torque itself, which others may add to.
   void settle_torque(int slot)
   {
     Record *loads = &load[2 * static_cast<std::size_t>(slot)];
+    has_acted(slot);
     if (loads[0].c[3] != 0.0) return;
     store(loads[1], torque(slot));
     loads[0].c[3] = 1.0;
@@ -242,16 +232,15 @@ class ParticleRecords {
   void read_eight(const ParticleOrder &order, const ParticleView &arrays, const int *slots,
                   int count);
   struct Kick;
-  struct Moved {
-    Vec4 x, v;    // position and velocity records
-  };
-  template <bool rotation, bool changes> Moved kick(const Kick &with, std::size_t slot);
+  template <bool rotation, bool changes, bool sums> Vec4 kick(const Kick &with, std::size_t slot);
+  bool are_idle(const std::vector<Role> &role, const SlotChoice &slots, int begin) const;
   template <bool rotation, bool changes>
-  RecordTravel advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
-                           const Record *held, const SlotChoice &slots);
+  double advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
+                     const SlotChoice &slots);
   /// The sums of a slot with this velocity record, before anything is added.
   void begin_sums(std::size_t slot, Vec4 velocity_record)
   {
+    acted[slot] = 0;
     store(load[stride * slot], weight(slot, velocity_record));
     if (stride == 2) store(load[2 * slot + 1], Vec4{});
     if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
@@ -264,6 +253,7 @@ class ParticleRecords {
     return twisting_torque.empty() ? of_forces : of_forces + load4(twisting_torque[slot]);
   }
 
+  std::vector<unsigned char> acted;    // by slot: something was added to its sums
   bool has_gravity = false;
   Record gravity{};    // fourth place 0
   std::vector<unsigned char> weightless;

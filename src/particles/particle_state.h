@@ -81,7 +81,9 @@ class ParticleState {
   /// by forces other than those of contacts.
   double *f(int i) const
   {
-    return in_records ? in_records->load[in_records->stride * slots[i]].c : arrays.f + 3L * i;
+    if (!in_records) return arrays.f + 3L * i;
+    in_records->has_acted(slots[i]);
+    return in_records->load[in_records->stride * slots[i]].c;
   }
   double *torque(int i) const
   {
@@ -258,6 +260,7 @@ TALUS_INLINE void ParticleState::add_at(Place place, int count, const EightRows 
     const int at = place(k);
     if (in_records) {
       Record *const sums = &in_records->load[in_records->stride * at];
+      in_records->has_acted(at);
       const Vec4 sum = load4(sums[0]) + load4(force[k]);
       if (torques) store(sums[1], in_records->torque(at) + load4(torque[k]));
       store(sums[0], torques ? shuffle<0, 1, 2, 4>(sum, four(1.0, 1.0, 1.0, 1.0)) : sum);

@@ -2,6 +2,8 @@
 
 #include "run/rebuild_check.h"
 
+#include "system/granular_system.h"
+
 #include "atom.h"
 #include "domain.h"
 #include "neighbor.h"
@@ -50,7 +52,7 @@ void RebuildCheck::list_is_new()
   corners_of_list = box_corners();
 }
 
-void RebuildCheck::ask(const RecordTravel *travel)
+void RebuildCheck::ask(GranularSystem *in_records)
 {
   drop();
   const int ago = neighbor->ago + 1;    // in the next step
@@ -61,8 +63,8 @@ void RebuildCheck::ask(const RecordTravel *travel)
 
   const int n = neighbor->includegroup ? atom->nfirst : atom->nlocal;
   MotionForecast here;
-  if (travel)
-    here = {travel->moved, update->dt * travel->speed};
+  if (in_records)
+    here = forecast(*in_records);
   else if (n)
     here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
@@ -70,6 +72,17 @@ void RebuildCheck::ask(const RecordTravel *travel)
   corners_when_asked = box_corners();
   MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
   asked = true;
+}
+
+/* A bound of the moves is enough while it is far from the limit: then the next step is not one of
+   new lists, whatever other ranks say. With `every N` the forecast alone decides. */
+
+MotionForecast RebuildCheck::forecast(GranularSystem &in_records) const
+{
+  MotionForecast here{in_records.moved_at_most(), update->dt * in_records.pipeline().fastest()};
+  if (neighbor->every > 1 || here.may_leave(limit(), 1))
+    here.moved = in_records.moved_since_rebuild();
+  return here;
 }
 
 /* LAMMPS decides first, as if there were no check: that tells whether a fix or a restart file

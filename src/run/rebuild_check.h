@@ -15,7 +15,6 @@
 #define TALUS_RUN_REBUILD_CHECK_H
 
 #include "exchange/motion_forecast.h"
-#include "particles/particle_records.h"
 
 #include "pointers.h"
 
@@ -24,6 +23,8 @@
 #include <memory>
 
 namespace Talus {
+
+class GranularSystem;
 
 class RebuildCheck : protected LAMMPS_NS::Pointers {
  public:
@@ -38,9 +39,9 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   void list_is_new();
 
   /// After the particles of this step have moved and lists, if due, are made: starts to find out
-  /// how far particles may be in the next step, if a check is due there. Does not wait. `travel`:
-  /// what is known of that already, where the arrays of LAMMPS are not up to date.
-  void ask(const RecordTravel *travel);
+  /// how far particles may be in the next step, if a check is due there. Does not wait.
+  /// `in_records`: who knows, where the arrays of LAMMPS are not up to date, or nullptr.
+  void ask(Talus::GranularSystem *in_records);
 
   /// Once per step, after particles have moved: whether lists are rebuilt in this step. `moved`:
   /// tells how far the particles of this rank are from where they were when lists were made.
@@ -57,6 +58,7 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   void start_count() { delayed = unforeseen = 0; }
 
  private:
+  MotionForecast forecast(Talus::GranularSystem &in_records) const;
   using Corners = std::array<std::array<double, 3>, 8>;
   Corners box_corners() const;
   double limit() const;

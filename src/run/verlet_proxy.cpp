@@ -158,10 +158,7 @@ void VerletProxy::step()
     timer->stamp();
   }
   compute_forces(to_arrays);
-  if (in_records) {
-    const RecordTravel travel = system->pipeline().travel();
-    lists->ask(&travel);
-  }
+  if (in_records) lists->ask(system.get());
 
   fixes.post_force(vflag);
   fixes.final_integrate();

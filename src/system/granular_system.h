@@ -26,6 +26,7 @@
 #include "system/exchange_switch.h"
 #include "system/integrators.h"
 #include "system/large_bodies.h"
+#include "system/largest_move.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_states.h"
 #include "system/proxy_updates.h"
@@ -138,8 +139,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// looked at.
   void complete_move() { contact_pipeline->complete_move(); }
   /// After particles have moved: largest distance of an owned particle from where it was when
-  /// neighbor lists were made; infinity if that is not known.
-  double moved_since_rebuild();
+  /// neighbor lists were made, or a little more; and exactly. Infinity if that is not known.
+  double moved_at_most() { return largest_move.at_most(*contact_pipeline); }
+  double moved_since_rebuild() { return largest_move.exactly(*contact_pipeline); }
   /// The forces of all contacts between particles. `tally`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const TalliedContact &)> *tally);
   /// Changes of velocities are kept: for second order, and for the work of contacts.
@@ -188,7 +190,6 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void change_order_of_histories();
   NeighborView without_shapes(const NeighborView &all);
   void complete_step();
-  double moved_in_arrays() const;
   bool needs_changes(int order) const;
   void find_changes(ContactStep &step, int order);
   float weight_of_changes(bool setting_up) const;
@@ -222,12 +223,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   SystemShapes *shaped = nullptr;
   Weights gravity;
   StepsInRecords record_steps;
-  bool stays_in_records = false;              // after this step
-  LAMMPS_NS::bigint moved_in_records = -1;    // last step whose move was made there
-  struct {
-    LAMMPS_NS::bigint step = -1, lists = -1;    // and how often these had been made
-    double moved = 0.0;
-  } farthest;    // answer of moved_since_rebuild()
+  bool stays_in_records = false;    // after this step
+  LargestMove largest_move;
 };
 
 }    // namespace Talus

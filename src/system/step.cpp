@@ -38,7 +38,7 @@ namespace Talus {
 void GranularSystem::start_run(bool pairs_computed)
 {
   proxies.forget_plan();
-  moved_in_records = farthest.step = -1;    // reset_timestep may bring a step back
+  largest_move.forget();    // reset_timestep may bring a step back
   record_steps.start_run(pairs_computed);
   large_bodies.start_run();
 }
@@ -54,51 +54,11 @@ void GranularSystem::advance(const Fix *integrator, const RecordStep &step, int 
   }
   if (!movers.give(step)) return;
   if (!contact_pipeline->can_move()) {
-    double **then = neighbor->dist_check ? neighbor->get_xhold() : nullptr;
-    contact_pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, proxies.sent(),
-                                      then && atom->nlocal ? then[0] : nullptr);
+    contact_pipeline->prepare_to_move([this](int i) { return movers.mover_of(i); }, proxies.sent());
   }
   gravity.begin_step(*contact_pipeline);
   contact_pipeline->advance(movers.steps());
-  moved_in_records = update->ntimestep;
-}
-
-/* On the way through the records, or from the arrays: these are up to date after all other moves,
-   also if the particles have gone to the records since. */
-
-double GranularSystem::moved_since_rebuild()
-{
-  if (!neighbor->dist_check || neighbor->includegroup) return HUGE_VAL;
-  const bigint now = update->ntimestep;
-  if (moved_in_records == now && neighbor->ago > 0) {
-    contact_pipeline->complete_move();
-    return contact_pipeline->travel().moved;
-  }
-  if (farthest.step == now && farthest.lists == neighbor->ncalls && !update->setupflag)
-    return farthest.moved;
-  farthest = {now, neighbor->ncalls, moved_in_arrays()};
-  return farthest.moved;
-}
-
-double GranularSystem::moved_in_arrays() const
-{
-  double **then = neighbor->get_xhold();
-  if (!then) return HUGE_VAL;
-  std::vector<double> largest(comm->nthreads, 0.0);
-  in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
-    double most = 0.0;
-    for (int i = begin; i < end; i++) {
-      const double *x = atom->x[i], *x0 = then[i];
-      const double d[3] = {x[0] - x0[0], x[1] - x0[1], x[2] - x0[2]};
-      const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-      if (!(squared <= most)) most = squared;    // also if it is not a number
-    }
-    largest[t] = most;
-  });
-  double most = 0.0;
-  for (const double one : largest)
-    if (!(one <= most)) most = one;
-  return std::sqrt(most);
+  largest_move.moves_in_records();
 }
 
 bool GranularSystem::begin_forces(bigint step, bool tallied)
@@ -167,7 +127,7 @@ void GranularSystem::find_changes(ContactStep &step, int order)
     contact_store->keep_changes(needed);
   }
   if (!contact_pipeline->keeps_changes()) return;
-  const bool moved_in_arrays = step.read && moved_in_records != update->ntimestep;
+  const bool moved_in_arrays = step.read && !largest_move.was_in_records();
   if (moved_in_arrays && !update->setupflag)
     contact_store->follow_velocities(movers.groups_with_changes(), shaped);
   step.weight_of_changes = weight_of_changes(update->setupflag != 0);
