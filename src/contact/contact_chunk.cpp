@@ -65,9 +65,7 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   tallied = 0;
   chunk_work = EnergyByCause{};
   work_left.clear();
-  if (step.weight_of_changes == 0.0F)
-    for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
-      clear_lanes(vector, 0, ContactBatch::width);
+  if (step.weight_of_changes == 0.0F) clear_changes();
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
@@ -76,6 +74,16 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
     compute_all<false, false>(step);
   if (pairs.is_late()) tally_early_before(std::numeric_limits<int>::max(), 0, step);
   if (!pairs.foreign.empty()) streams_are_done();
+}
+
+/* Only gather() writes them. */
+
+void ContactChunk::clear_changes()
+{
+  if (changes_are_clear) return;
+  for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
+    clear_lanes(vector, 0, ContactBatch::width);
+  changes_are_clear = true;
 }
 
 /* Particles are loaded, pairs tested and forces computed stretch by stretch, all in ascending
@@ -153,6 +161,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
+  changes_are_clear = step.weight_of_changes == 0.0F;
   if (step.weight_of_changes > 0.0F)
     gather<friction, history_kept, true>(step, end);
   else

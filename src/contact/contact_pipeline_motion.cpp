@@ -55,7 +55,7 @@ void ContactPipeline::advance(const std::vector<RecordStep> &steps)
   move = steps;
   particles.extrapolation = steps[0].extrapolation;
   move_pending = true;
-  travels.assign(travels.size(), RecordTravel{});
+  std::fill(travels.begin(), travels.end(), RecordTravel{});
   if (moved_at_once.empty()) return;
   in_parallel(threads, threads, [&](int t) {
     travels[t] = particles.advance(move, role, held_or_null(), of_thread(moved_at_once, t));

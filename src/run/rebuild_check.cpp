@@ -3,12 +3,14 @@
 #include "run/rebuild_check.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -67,9 +69,12 @@ void RebuildCheck::ask(const RecordTravel *travel)
     here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
   lengths->mine[1] = here.step;
-  corners_when_asked = box_corners();
-  MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  if (domain->box_change) corners_when_asked = box_corners();
   asked = true;
+  if (comm->nprocs > 1)
+    MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  else
+    std::copy(std::begin(lengths->mine), std::end(lengths->mine), lengths->all);
 }
 
 /* LAMMPS decides first, as if there were no check: that tells whether a fix or a restart file
@@ -85,8 +90,7 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
   const bool forced = neighbor->ago == age;
   if (forced || !with_check || !asked) return true;
 
-  MPI_Wait(&request, MPI_STATUS_IGNORE);
-  asked = false;
+  drop();
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
   if (!forecast.may_leave(limit_when_asked(), neighbor->every)) return false;
   if (neighbor->every == 1 && !has_left(moved())) return false;
@@ -100,7 +104,7 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
 
 void RebuildCheck::drop()
 {
-  if (asked) MPI_Wait(&request, MPI_STATUS_IGNORE);
+  if (request != MPI_REQUEST_NULL) MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
 }
 
