@@ -8,6 +8,7 @@
 #include "material/run_laws.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -101,10 +102,11 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
-  const LastsBeyondContact lasts = [&](std::int64_t pair) {
+  const auto beyond = [&](std::int64_t pair) {
     if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair);
     return has_just_ended(history.record(pair).c[3], step.advance);
   };
+  const LastsBeyondContact lasts = std::cref(beyond);    // needs no memory
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.progress && begin % between_calls == 0) (*step.progress)();
