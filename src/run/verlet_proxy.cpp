@@ -153,7 +153,7 @@ void VerletProxy::step()
   // asked later where particles move on the way through the computation of forces
   const bool in_records = system->pipeline().holds_state();
   if (!in_records) lists->ask(nullptr);
-  timer->stamp(Timer::COMM);
+  if (comm->nprocs > 1 || atom->nghost > 0) timer->stamp(Timer::COMM);
 
   if (to_arrays) force_clear();
   compute_forces(to_arrays);
