@@ -8,6 +8,7 @@
 #include "material/run_laws.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -65,9 +66,7 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   tallied = 0;
   chunk_work = EnergyByCause{};
   work_left.clear();
-  if (step.weight_of_changes == 0.0F)
-    for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
-      clear_lanes(vector, 0, ContactBatch::width);
+  if (step.weight_of_changes == 0.0F) clear_changes();
   if (scene.with_history)
     compute_all<true, true>(step);
   else if (scene.with_friction)
@@ -76,6 +75,16 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
     compute_all<false, false>(step);
   if (pairs.is_late()) tally_early_before(std::numeric_limits<int>::max(), 0, step);
   if (!pairs.foreign.empty()) streams_are_done();
+}
+
+/* Only gather() writes them. */
+
+void ContactChunk::clear_changes()
+{
+  if (changes_are_clear) return;
+  for (auto *vector : {batch.velocity_change, batch.rotation_change, batch.omega_change})
+    clear_lanes(vector, 0, ContactBatch::width);
+  changes_are_clear = true;
 }
 
 /* Particles are loaded, pairs tested and forces computed stretch by stretch, all in ascending
@@ -93,10 +102,11 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
-  const LastsBeyondContact lasts = [&](std::int64_t pair) {
+  const auto beyond = [&](std::int64_t pair) {
     if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair);
     return has_just_ended(history.record(pair).c[3], step.advance);
   };
+  const LastsBeyondContact lasts = std::cref(beyond);    // needs no memory
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.progress && begin % between_calls == 0) (*step.progress)();
@@ -153,6 +163,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   const std::uint32_t *block = &contacts[begin];
   const ContactScene &scene = step.scene;
   const int end = arrange(scene, block, count);
+  changes_are_clear = step.weight_of_changes == 0.0F;
   if (step.weight_of_changes > 0.0F)
     gather<friction, history_kept, true>(step, end);
   else

@@ -132,6 +132,7 @@ class ContactChunk {
     const Load &load;
     const Frontier &frontier;
   };
+  void clear_changes();
   template <bool friction, bool history_kept> void compute_all(const Step &step);
   bool lasts_beyond_contact(const ContactScene &scene, const Record *position,
                             std::int64_t pair) const;
@@ -183,6 +184,7 @@ class ContactChunk {
     int law, begin, used, end;    ///< lanes behind used-1 are copies
   };
   ContactBatch batch;
+  bool changes_are_clear = false;    ///< those of velocities, in all lanes
   std::uint32_t pair_of_lane[ContactBatch::width];
   int lane_of_contact[ContactBatch::width];
   AlignedVector<LawRange> ranges;

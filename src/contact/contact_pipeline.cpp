@@ -3,6 +3,7 @@
 #include "contact/contact_pipeline.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace Talus {
 
@@ -176,6 +177,7 @@ void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &st
 
 SlotChoice ContactPipeline::of_thread(const std::vector<int> &slots, int thread) const
 {
+  if (slots.empty()) return {0, 0};
   const SlotRange range = work.range_of_thread(thread);
   const auto place = [&](int slot) {
     return static_cast<int>(std::lower_bound(slots.begin(), slots.end(), slot) - slots.begin());
@@ -233,12 +235,13 @@ void ContactPipeline::load(const ParticleView &arrays, const ContactStep &step, 
   }
 }
 
-/* visit(chunk) for what a thread does of a phase: what no other one has claimed before. */
+/* visit(chunk) for what a thread does of a phase: what no other one has claimed before. Of a single
+   range there is nothing to claim. */
 
 template <class Visit> void ContactPipeline::for_each_chunk_of(int thread, int phase, Visit visit)
 {
   work.for_each_wanted(thread, [&](int range) {
-    if (!claims[range].taken.exchange(true, std::memory_order_relaxed))
+    if (claims.size() == 1 || !claims[range].taken.exchange(true, std::memory_order_relaxed))
       visit(work.chunk(phase, range));
   });
 }
@@ -264,8 +267,8 @@ void ContactPipeline::run_phase(const ParticleView &arrays, const ContactStep &s
     if (t) thread_step.progress = nullptr;
     for_each_chunk_of(t, phase, [&](int c) {
       const int range = c % work.num_ranges();
-      chunks[c].compute(scene, particles, thread_step,
-                        [&](int begin, int end) { load(arrays, step, range, begin, end); },
+      const auto load_slots = [&](int begin, int end) { load(arrays, step, range, begin, end); };
+      chunks[c].compute(scene, particles, thread_step, std::cref(load_slots),
                         {&deferred, deferred.first_place(c), first ? nullptr : &chunks[range]});
     });
   };

@@ -167,6 +167,7 @@ class ContactPipeline {
   const LawTable &law_table() const { return scene.laws; }
   bool keeps_history() const { return scene.with_history; }
   bool keeps_omega() const { return scene.with_friction; }
+  bool conducts_heat() const { return scene.with_heat; }
   double memory_usage() const;
 
  private:

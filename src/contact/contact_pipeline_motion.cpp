@@ -48,7 +48,7 @@ void ContactPipeline::advance(const std::vector<RecordStep> &steps)
   move = steps;
   particles.extrapolation = steps[0].extrapolation;
   move_pending = true;
-  speeds.assign(speeds.size(), {});
+  std::fill(speeds.begin(), speeds.end(), Speed{});
   if (moved_at_once.empty()) return;
   in_parallel(threads, threads, [&](int t) {
     speeds[t].join(particles.advance(move, role, of_thread(moved_at_once, t)));

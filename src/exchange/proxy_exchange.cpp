@@ -189,6 +189,13 @@ bool ProxyExchange::may_progress_beside(int threads)
 void ProxyExchange::finish()
 {
   if (!pending()) return;
+  if (!receives.empty() || the_plan.self().send_count()) take_states();
+  packer = nullptr;
+  open_receives();
+}
+
+void ProxyExchange::take_states()
+{
   double before = MPI_Wtime();
   const auto lap = [&before](double &sum) {
     const double now = MPI_Wtime();
@@ -206,8 +213,6 @@ void ProxyExchange::finish()
     unpack_from(n);
     lap(counters.unpack_seconds);
   }
-  packer = nullptr;
-  open_receives();
 }
 
 /* ---------------------------------------------------------------------- */

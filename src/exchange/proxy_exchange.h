@@ -90,6 +90,7 @@ class ProxyExchange {
   void cancel_receives();
   void pack_and_send(int n);
   void copy_to_self();
+  void take_states();
   void unpack_from(int n);
   void complete_sends();
   void complete_or_cancel();

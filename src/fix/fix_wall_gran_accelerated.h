@@ -157,16 +157,17 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   void deliver(WallBatch &batch, const ParticleState &particles)
   {
     if (report) {
-      batch.report(report->requested, report->visit);
+      batch.report(particles, report->requested, report->visit);
       return;
     }
+    batch.compute(particles);
     const bool keeps = keeps_contacts();
-    batch.compute([&](const WallBatch::Result &result) {
-      const auto vector = [](const double *row) { return Vector3<double>{row[0], row[1], row[2]}; };
-      particles.add(result.atom, vector(result.force), vector(result.torque));
-      if (this->heat_flag) this->atom->heatflow[result.atom] += result.heat_flow;
-      if (keeps) keep_contact(result);
-    });
+    if (this->heat_flag || keeps)
+      batch.for_each_result([&](const WallBatch::Result &result) {
+        if (this->heat_flag) this->atom->heatflow[result.atom] += result.heat_flow;
+        if (keeps) keep_contact(result);
+      });
+    batch.clear();
   }
 
  private:

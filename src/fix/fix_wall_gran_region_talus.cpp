@@ -273,7 +273,6 @@ void FixWallGranRegionTalus::add_contact(int i, int ic, const ParticleState &par
   if (dynamic) find_wall_velocity(particles.x(i), ic);
   const double separation[3] = {contact.delx, contact.dely, contact.delz};
   batch.add({i, separation, contact.r, radius, system->masses().of_body(i), contact.radius,
-             particles.v(i), velocity, particles.w(i), temperature_difference(i), history,
-             contact.iwall, particles.change(i)});
+             velocity, temperature_difference(i), history, contact.iwall});
   if (batch.is_full()) deliver(batch, particles);
 }

@@ -190,9 +190,8 @@ void FixWallGranTalus::add_contacts_of(WallBatch &batch, const ParticleState &pa
     }
     candidates.touched[c] = 1;
     if (beyond) history_one[i][0] = 1;
-    batch.add({i, g.d, std::sqrt(squared), radius, system->masses().of_body(i), g.radius,
-               particles.v(i), velocity, particles.w(i), temperature_difference(i),
-               use_history ? history_one[i] : nullptr, g.part, particles.change(i)});
+    batch.add({i, g.d, std::sqrt(squared), radius, system->masses().of_body(i), g.radius, velocity,
+               temperature_difference(i), use_history ? history_one[i] : nullptr, g.part});
     if (batch.is_full()) deliver(batch, particles);
   }
   deliver(batch, particles);

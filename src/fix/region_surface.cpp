@@ -205,7 +205,7 @@ PeriodicSpan::PeriodicSpan(const Region &region, const Domain &domain)
   }
 }
 
-Vector3<double> PeriodicSpan::image_of(Vector3<double> x) const
+Vector3<double> PeriodicSpan::wrapped(Vector3<double> x) const
 {
   constexpr double off_face = 1.0e-6;    // over the period: further than the tolerance above
   double *const at[3] = {&x.x, &x.y, &x.z};

@@ -126,7 +126,7 @@ class PeriodicSpan {
   bool is_empty() const { return !(period[0] > 0.0 || period[1] > 0.0 || period[2] > 0.0); }
   /// x if it is within the box, else its image there. Never on a face, where a region that ends has
   /// another side.
-  Vector3<double> image_of(Vector3<double> x) const;
+  Vector3<double> image_of(const Vector3<double> &x) const { return is_empty() ? x : wrapped(x); }
   /// Calls visit(y) for x and for its images one period away.
   template <class Visit> void each_image(const Vector3<double> &x, Visit visit) const
   {
@@ -141,6 +141,8 @@ class PeriodicSpan {
   }
 
  private:
+  Vector3<double> wrapped(Vector3<double> x) const;
+
   double low[3] = {0.0, 0.0, 0.0}, period[3] = {0.0, 0.0, 0.0};    // 0: none
 };
 

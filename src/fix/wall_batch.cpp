@@ -36,101 +36,97 @@ double WallLaw::pulloff_distance(double radius, double wall_radius) const
 WallBatch::WallBatch()
 {
   batch.clear();
-  for (int d = 0; d < 3; d++) std::fill(separation[d], separation[d] + ContactBatch::width, 1.0);
-  for (double *lane : {distance, radius, mass, wall_radius})
-    std::fill(lane, lane + ContactBatch::width, 1.0);
+  for (Row &row : rows) row = {{{1.0, 1.0, 1.0, 1.0}}, {{1.0, 1.0, 1.0, 0.0}}, {}};
 }
 
-void WallBatch::add(const Contact &c)
-{
-  const int k = filled++;
-  atoms[k] = c.atom;
-  parts[k] = c.part;
-  histories[k] = c.history;
-  distance[k] = c.distance;
-  radius[k] = c.radius;
-  mass[k] = c.mass;
-  wall_radius[k] = c.wall_radius;
-  for (int d = 0; d < 3; d++) {
-    separation[d][k] = c.separation[d];
-    batch.velocity[d][k] = c.velocity[d] - c.wall_velocity[d];
-    batch.relative_omega[d][k] = c.omega[d];
-  }
-  batch.temperature_difference[k] = c.temperature_difference;
-  if (account) set_change(k, c);
-  if (!c.history) return;
-  for (std::size_t n = 0; n < law->history_index.size(); n++)
-    if (law->history_index[n] >= 0) batch.history[law->history_index[n]][k] = c.history[n];
-}
+/* What follows from what was put in, eight at a time. Behind the last contact are old ones, with the
+   motion of the last particle. */
 
-/* What follows from what was put in, eight at a time. */
-
-void WallBatch::set_lanes(int end)
+void WallBatch::set_lanes(const ParticleState &particles)
 {
   const Vec8 zero{}, one = splat<Vec8>(1.0);
-  for (int k = 0; k < end; k += lanes) {
-    const Vec8 r = load8(&radius[k]), length = load8(&distance[k]), wall = load8(&wall_radius[k]);
+  for (int k = 0; k < end(); k += lanes) {
+    const EightRows geometry = to_lanes([&](int q) -> Record & { return rows[k + q].geometry; }),
+                    sizes = to_lanes([&](int q) -> Record & { return rows[k + q].sizes; }),
+                    wall = to_lanes([&](int q) -> Record & { return rows[k + q].wall_velocity; });
+    const Vec8 length = geometry.number[3], r = sizes.number[0], curvature = sizes.number[2];
+    const ParticleState::Motion motion = particles.motion_at(
+        [&](int q) { return particles.place(atoms[std::min(k + q, filled - 1)]); }, r, true);
+    const Vec8 v[3] = {motion.velocity.x, motion.velocity.y, motion.velocity.z};
+    const Vec8 omega[3] = {motion.omega.x, motion.omega.y, motion.omega.z};
     for (int d = 0; d < 3; d++) {
-      store(&batch.normal[d][k], load8(&separation[d][k]) / length);
-      store(&batch.surface_rotation[d][k], r * load8(&batch.relative_omega[d][k]));
+      store(&batch.normal[d][k], geometry.number[d] / length);
+      store(&batch.velocity[d][k], v[d] - wall.number[d]);
+      store(&batch.relative_omega[d][k], omega[d]);
+      store(&batch.surface_rotation[d][k], r * omega[d]);
     }
+    store(&radius[k], r);
     store(&batch.overlap[k], r - length);
-    store(&batch.inverse_mass[k], one / load8(&mass[k]));
+    store(&batch.inverse_mass[k], one / sizes.number[1]);
     const Vec8 flat = one / r;
-    store(&batch.inverse_radius[k], select(wall == zero, flat, flat + one / wall));
+    store(&batch.inverse_radius[k], select(curvature == zero, flat, flat + one / curvature));
+    store(&batch.temperature_difference[k], sizes.number[3]);
   }
+  for (int k = 0; account && k < filled; k++) set_change(k, particles.change(atoms[k]));
 }
 
 /* The velocity of the wall is that of the time of the positions. */
 
-void WallBatch::set_change(int k, const Contact &c)
+void WallBatch::set_change(int k, const ChangeRecord *change)
 {
   for (int d = 0; d < 3; d++) {
-    const double of_velocity = c.change ? c.change->c[d] : 0.0,
-                 of_rotation = c.change ? c.change->c[4 + d] : 0.0;
+    const double of_velocity = change ? change->c[d] : 0.0,
+                 of_rotation = change ? change->c[4 + d] : 0.0;
     batch.velocity_change[d][k] = of_velocity;
     batch.rotation_change[d][k] = of_rotation;
-    batch.omega_change[d][k] = of_rotation / c.radius;
+    batch.omega_change[d][k] = of_rotation / radius[k];
   }
 }
 
-/* Lanes behind the last contact hold old ones. */
-
-void WallBatch::run()
+void WallBatch::compute(const ParticleState &particles)
 {
   if (!filled) return;
-  const int end = (filled + lanes - 1) / lanes * lanes;
-  set_lanes(end);
-  run_laws(batch, 0, 0, end, {law->table, dt, true, account});
+  set_lanes(particles);
+  run_laws(batch, 0, 0, end(), {law->table, dt, true, account});
   for (int k = 0; k < filled; k++)
     for (std::size_t n = 0; histories[k] && n < law->history_index.size(); n++)
       if (law->history_index[n] >= 0) histories[k][n] = batch.history[law->history_index[n]][k];
   if (account) add_to_account();
-  set_torques(end);
-  keep_forces(end);
+  set_torques();
+  keep_forces();
+  const auto eight = [](const Lanes &of, int k) {
+    return EightRows{{load8(&of[0][k]), load8(&of[1][k]), load8(&of[2][k]), Vec8{}}};
+  };
+  for (int k = 0; k < filled; k += lanes) {
+    const EightRows torques = eight(torque, k);
+    particles.add_at([&](int q) { return particles.place(atoms[k + q]); },
+                     std::min(lanes, filled - k), eight(batch.force, k), &torques);
+  }
 }
 
-void WallBatch::set_torques(int end)
+void WallBatch::set_torques()
 {
   const bool twists = law->law().twists();
   for (int d = 0; d < 3; d++)
-    for (int k = 0; k < end; k += lanes) {
+    for (int k = 0; k < end(); k += lanes) {
       const Vec8 of_force = -load8(&radius[k]) * load8(&batch.torque_per_radius[d][k]);
       store(&torque[d][k], twists ? of_force + load8(&batch.twisting_torque[d][k]) : of_force);
     }
 }
 
-void WallBatch::keep_forces(int end)
+void WallBatch::keep_forces()
 {
   const std::size_t n = kept / ContactBatch::width;
   if (n == last.size()) last.emplace_back();
   LastForces &forces = last[n];
   std::copy_n(atoms, filled, forces.atoms);
-  for (int d = 0; d < 3; d++) {
-    std::copy_n(batch.force[d], end, forces.force[d]);
-    std::copy_n(batch.torque_per_radius[d], end, forces.torque_per_radius[d]);
-    if (law->law().twists()) std::copy_n(batch.twisting_torque[d], end, forces.twisting_torque[d]);
-  }
+  const auto copy = [this](const Lanes &from, Lanes &to) {
+    for (int d = 0; d < 3; d++)
+      for (int k = 0; k < end(); k += lanes) store(&to[d][k], load8(&from[d][k]));
+  };
+  copy(batch.force, forces.force);
+  copy(batch.torque_per_radius, forces.torque_per_radius);
+  if (law->law().twists()) copy(batch.twisting_torque, forces.twisting_torque);
   kept += filled;
 }
 
@@ -157,10 +153,10 @@ void WallBatch::find_last(int k, ContactReport &found)
   if (law->law().twists()) found.twisting_torque = lane_of(forces.twisting_torque, lane);
 }
 
-void WallBatch::report(ContactData requested,
+void WallBatch::report(const ParticleState &particles, ContactData requested,
                        const std::function<void(const ContactReport &)> &visit)
 {
-  set_lanes((filled + lanes - 1) / lanes * lanes);
+  set_lanes(particles);
   for (int k = 0; k < filled; k++) {
     HistoryValues history{};
     for (std::size_t n = 0; histories[k] && n < law->history_index.size(); n++)
@@ -187,7 +183,7 @@ WallBatch::Result WallBatch::result(int k) const
   for (int d = 0; d < 3; d++) {
     found.force[d] = batch.force[d][k];
     found.torque[d] = torque[d][k];
-    found.separation[d] = separation[d][k];
+    found.separation[d] = rows[k].geometry.c[d];
   }
   return found;
 }

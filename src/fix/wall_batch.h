@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Contacts of particles with a granular wall of LAMMPS: added one by one, computed several at a
-// time by the kernel of its contact law, and returned in the same order, as forces or, for outputs,
-// as reports. Lever arms against a wall are full radii.
+// time by the kernel of its contact law, and their forces are added in the same order, or, for
+// outputs, reported. Lever arms against a wall are full radii.
 
 #ifndef TALUS_FIX_WALL_BATCH_H
 #define TALUS_FIX_WALL_BATCH_H
@@ -11,7 +11,7 @@
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
-#include "particles/change_record.h"
+#include "particles/particle_state.h"
 #include "system/granular_spec.h"
 
 #include <functional>
@@ -42,11 +42,10 @@ class WallBatch {
     double distance;             ///< its length
     double radius, mass;
     double wall_radius;    ///< 0: flat, < 0: the particle is inside of the curvature
-    const double *velocity, *wall_velocity, *omega;
+    const double *wall_velocity;
     double temperature_difference;    ///< of the wall over the particle; 0 if no heat is conducted
     double *history;    ///< as LAMMPS keeps it, or nullptr; must stay until the batch is computed
     int part = -1;      ///< of the wall, see ContactReport
-    const ChangeRecord *change = nullptr;    ///< of the particle's velocities, for an account
   };
 
   WallBatch();
@@ -69,32 +68,34 @@ class WallBatch {
     filled = 0;
     reported = 0;
   }
-  void add(const Contact &contact);
+  TALUS_INLINE void add(const Contact &contact);
   bool is_full() const { return filled == ContactBatch::width; }
   struct Result {
     int atom;
     double force[3], torque[3], separation[3], heat_flow;
   };
-  /// Computes all, calls deliver(result) for each, and empties the batch.
-  template <class Deliver> void compute(Deliver deliver)
+  /// Computes all and adds their forces to the particles, which have the state of this step.
+  void compute(const ParticleState &particles);
+  /// visit(result) for each after that, where more of them is wanted than forces.
+  template <class Visit> void for_each_result(Visit visit) const
   {
-    run();
-    for (int k = 0; k < filled; k++) deliver(result(k));
-    filled = 0;
+    for (int k = 0; k < filled; k++) visit(result(k));
   }
+  /// Empties the batch.
+  void clear() { filled = 0; }
   /// In the place of compute(): visit(contact) for each, which changes nothing.
-  void report(ContactData requested, const std::function<void(const ContactReport &)> &visit);
+  void report(const ParticleState &particles, ContactData requested,
+              const std::function<void(const ContactReport &)> &visit);
 
   /// Since begin_step(), if there is an account.
   EnergyByCause work;
 
  private:
-  void set_lanes(int end);
-  void run();
-  void set_change(int lane, const Contact &contact);
+  void set_lanes(const ParticleState &particles);
+  void set_change(int lane, const ChangeRecord *change);
   void add_to_account();
-  void set_torques(int end);
-  void keep_forces(int end);
+  void set_torques();
+  void keep_forces();
   void find_last(int lane, ContactReport &found);
   Result result(int lane) const;
 
@@ -102,6 +103,8 @@ class WallBatch {
   double dt = 0.0;
   const WorkAccount *account = nullptr;
   int filled = 0;
+  /// Lanes in use: those of the contacts, filled up to a multiple of eight.
+  int end() const { return (filled + lanes - 1) / lanes * lanes; }
 
   using Lane = double[ContactBatch::width];
   using Lanes = double[3][ContactBatch::width];
@@ -118,9 +121,32 @@ class WallBatch {
   ContactBatch batch;
   int atoms[ContactBatch::width], parts[ContactBatch::width];
   double *histories[ContactBatch::width];
-  alignas(64) Lanes separation, torque;
-  alignas(64) Lane distance, radius, mass, wall_radius;
+  /// A contact as it is added. A row is written and read whole: what is written number by number and
+  /// read as a vector at once is late.
+  struct alignas(64) Row {
+    Record geometry;         // separation, distance
+    Record sizes;            // radius, mass, radius of the wall, difference of temperatures
+    Record wall_velocity;    // fourth place not used
+  };
+  Row rows[ContactBatch::width];
+  alignas(64) Lanes torque;
+  alignas(64) Lane radius;
 };
+
+TALUS_INLINE void WallBatch::add(const Contact &c)
+{
+  const int k = filled++;
+  atoms[k] = c.atom;
+  parts[k] = c.part;
+  histories[k] = c.history;
+  const double *s = c.separation, *v = c.wall_velocity;
+  store(rows[k].geometry, four(s[0], s[1], s[2], c.distance));
+  store(rows[k].sizes, four(c.radius, c.mass, c.wall_radius, c.temperature_difference));
+  store(rows[k].wall_velocity, four(v[0], v[1], v[2], 0.0));
+  if (!c.history) return;
+  for (std::size_t n = 0; n < law->history_index.size(); n++)
+    if (law->history_index[n] >= 0) batch.history[law->history_index[n]][k] = c.history[n];
+}
 
 }    // namespace Talus
 

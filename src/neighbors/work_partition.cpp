@@ -72,13 +72,6 @@ void WorkPartition::assign_roles(const ParticleOrder &order, const PairRows &row
   rows.for_each_beside_ghosts([&](int slot) { role[slot] = LATE; });
 }
 
-SlotRange WorkPartition::range_of_thread(int thread) const
-{
-  const int home = thread * (1 + 2 * small_ranges);
-  return {range(std::max(0, home - small_ranges)).begin,
-          range(std::min(num_ranges() - 1, home + small_ranges)).end};
-}
-
 double WorkPartition::memory_usage() const
 {
   return static_cast<double>(sizeof(int) * ends.capacity() + sizeof(Role) * role.capacity());

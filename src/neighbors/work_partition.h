@@ -62,7 +62,12 @@ class WorkPartition {
   bool is_late(int slot) const { return role[slot] == LATE; }
 
   /// All slots divided among the threads: with the large range the nearer half of the small ones.
-  SlotRange range_of_thread(int thread) const;
+  SlotRange range_of_thread(int thread) const
+  {
+    const int home = thread * (1 + 2 * small_ranges);
+    return {range(std::max(0, home - small_ranges)).begin,
+            range(std::min(num_ranges() - 1, home + small_ranges)).end};
+  }
 
   /// visit(range) for the ranges that a thread may do, the most wanted first: its own one, then
   /// small ones by distance. All in ascending order if one thread after the other claims its own.

@@ -5,12 +5,14 @@
 #include "system/granular_system.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -69,9 +71,12 @@ void RebuildCheck::ask(GranularSystem *in_records)
     here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
   lengths->mine[1] = here.step;
-  corners_when_asked = box_corners();
-  MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  if (domain->box_change) corners_when_asked = box_corners();
   asked = true;
+  if (comm->nprocs > 1)
+    MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
+  else
+    std::copy(std::begin(lengths->mine), std::end(lengths->mine), lengths->all);
 }
 
 /* A bound of the moves is enough while it is far from the limit: then the next step is not one of
@@ -98,8 +103,7 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
   const bool forced = neighbor->ago == age;
   if (forced || !with_check || !asked) return true;
 
-  MPI_Wait(&request, MPI_STATUS_IGNORE);
-  asked = false;
+  drop();
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
   if (!forecast.may_leave(limit_when_asked(), neighbor->every)) return false;
   if (neighbor->every == 1 && !has_left(moved())) return false;
@@ -113,7 +117,7 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
 
 void RebuildCheck::drop()
 {
-  if (asked) MPI_Wait(&request, MPI_STATUS_IGNORE);
+  if (request != MPI_REQUEST_NULL) MPI_Wait(&request, MPI_STATUS_IGNORE);
   asked = false;
 }
 

@@ -9,7 +9,6 @@
 #include "modify.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace LAMMPS_NS;
@@ -48,13 +47,6 @@ void EffectiveMasses::update()
 double EffectiveMasses::unit() const
 {
   return 1.0 / force->ftm2v;
-}
-
-double EffectiveMasses::of_body(int i) const
-{
-  const bool replaced =
-      bodies_are_rigid() && !masses.empty() && masses[i] > 0.0 && std::isfinite(masses[i]);
-  return replaced ? masses[i] / unit() : atom->rmass[i];
 }
 
 double EffectiveMasses::mass(int i) const

@@ -8,8 +8,10 @@
 #ifndef TALUS_SYSTEM_EFFECTIVE_MASSES_H
 #define TALUS_SYSTEM_EFFECTIVE_MASSES_H
 
+#include "atom.h"
 #include "pointers.h"
 
+#include <cmath>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -37,7 +39,12 @@ class EffectiveMasses : protected Pointers {
 
   /// Of an owned particle that is a member of a rigid body: that of the body, else its own; as
   /// walls of LAMMPS see it, frozen or not, not converted.
-  double of_body(int i) const;
+  double of_body(int i) const
+  {
+    const bool replaced =
+        bodies_are_rigid() && !masses.empty() && masses[i] > 0.0 && std::isfinite(masses[i]);
+    return replaced ? masses[i] / unit() : atom->rmass[i];
+  }
   /// Whether update() has seen this owned particle; of those that come later it is not known which
   /// body they belong to.
   bool knows(int i) const { return !bodies_are_rigid() || i < num_known; }

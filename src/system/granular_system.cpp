@@ -3,6 +3,7 @@
 #include "system/granular_system.h"
 
 #include "system/fix_contact_store.h"
+#include "system/private_members.h"
 #include "system/system_run_style.h"
 #include "system/system_shapes.h"
 
@@ -97,7 +98,7 @@ void GranularSystem::detach(const Pair *one)
 
 bool GranularSystem::pair_style_is_alone() const
 {
-  return pair && force->pair == pair;
+  return pair && (force->pair == pair || computes_all_of_hybrid(*pair, *force, atom->ntypes));
 }
 
 std::string GranularSystem::reason_of_pair_style() const

@@ -120,7 +120,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void init_pair_style();
   /// The same, before it, collective: "", or why contacts cannot have a history here.
   std::string reason_against_history();
-  /// All pairs are computed here: it is not part of hybrid. Valid after init() of LAMMPS.
+  /// All pairs are computed here: it is not part of hybrid, or the only one. Valid in init() of LAMMPS
+  /// and after it.
   bool pair_style_is_alone() const;
   /// "" if so, else why not, as text for messages.
   std::string reason_of_pair_style() const;

@@ -33,7 +33,7 @@ class NoBins : public NBin {
 
 std::string NeighborSource::reason_for_lammps_lists() const
 {
-  if (force->pair_match("^hybrid", 0)) return "pair style hybrid";
+  if (!GranularSystem::of(lmp)->pair_style_is_alone()) return "pair style hybrid";
   if (atom->nbonds > 0 || force->bond) return "bonds may scale forces";
   if (neighbor->includegroup || atom->firstgroupname) return "they are those of a group";
   return "";

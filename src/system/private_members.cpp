@@ -17,7 +17,9 @@
 #include "fix_setforce.h"
 #include "fix_spring_self.h"
 #include "fix_wall_reflect.h"
+#include "force.h"
 #include "neighbor.h"
+#include "pair_hybrid.h"
 #include "region.h"
 #include "region_block.h"
 #include "region_cone.h"
@@ -28,6 +30,7 @@
 #include "variable.h"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 #if TALUS_HOST_HAS_GRANULAR
 #include "gran_sub_mod_normal.h"
@@ -58,6 +61,9 @@ TALUS_PRIVATE_MEMBER(BorderGroup, int Comm::*, &Comm::bordergroup)
 TALUS_PRIVATE_MEMBER(ReducesMulti, int Comm::*, &Comm::multi_reduce)
 TALUS_PRIVATE_MEMBER(LocalSendList, int *CommBrick::*, &CommBrick::localsendlist)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
+TALUS_PRIVATE_MEMBER(HybridCount, int PairHybrid::*, &PairHybrid::nstyles)
+TALUS_PRIVATE_MEMBER(HybridStyles, Pair **PairHybrid::*, &PairHybrid::styles)
+TALUS_PRIVATE_MEMBER(HybridCountOfTypes, int **PairHybrid::*, &PairHybrid::nmap)
 TALUS_PRIVATE_MEMBER(Disable, int FixGravity::*, &FixGravity::disable)
 TALUS_PRIVATE_MEMBER(Point, VectorOf<Region>, &Region::point)
 TALUS_PRIVATE_MEMBER(Axis, VectorOf<Region>, &Region::runit)
@@ -142,6 +148,24 @@ void forget_local_send_list(CommBrick &comm)
 NBin **bins_of(Neighbor &neighbor)
 {
   return neighbor.*pointer_to(Bins{});
+}
+
+/* A pair of types that is not set will be mixed from pairs of this style. */
+
+bool computes_all_of_hybrid(const Pair &style, const Force &force, int types)
+{
+  if (std::strcmp(force.pair_style, "hybrid") != 0 &&
+      std::strcmp(force.pair_style, "hybrid/overlay") != 0)
+    return false;
+  auto *hybrid = dynamic_cast<PairHybrid *>(force.pair);
+  if (!hybrid || hybrid->*pointer_to(HybridCount{}) != 1 ||
+      (hybrid->*pointer_to(HybridStyles{}))[0] != &style || !style.compute_flag)
+    return false;
+  int **styles_of = hybrid->*pointer_to(HybridCountOfTypes{});
+  for (int i = 1; hybrid->allocated && i <= types; i++)
+    for (int j = i; j <= types; j++)
+      if (hybrid->setflag[i][j] && styles_of[i][j] != 1) return false;    // `none`
+  return true;
 }
 
 bool is_disabled(const FixGravity &gravity)

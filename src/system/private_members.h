@@ -14,8 +14,10 @@ class Comm;
 class CommBrick;
 class Fix;
 class FixGravity;
+class Force;
 class NBin;
 class Neighbor;
+class Pair;
 class RegBlock;
 class RegCone;
 class RegCylinder;
@@ -46,6 +48,10 @@ void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
+
+/// The pair style is hybrid or hybrid/overlay with only this part, which computes the pairs of all
+/// types; from init_style() on.
+bool computes_all_of_hybrid(const LAMMPS_NS::Pair &style, const LAMMPS_NS::Force &force, int types);
 
 /// `disable` of fix gravity: it computes the field and applies nothing.
 bool is_disabled(const LAMMPS_NS::FixGravity &gravity);

@@ -93,7 +93,7 @@ void GranularSystem::compute_contacts(const std::function<void(const TalliedCont
   step.read_ghosts = !proxies.take_arrived_in_records();
   step.deliver = !stays_in_records;
   find_changes(step, order);
-  if (contact_pipeline->law_table().conducts_heat()) step.temperature = atom->temperature;
+  if (contact_pipeline->conducts_heat()) step.temperature = atom->temperature;
 
   gravity.begin_step(*contact_pipeline);
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
@@ -185,7 +185,7 @@ ParticleView GranularSystem::view() const
           effective_masses.override_or_null(),
           any ? atom->f[0] : nullptr,
           any ? atom->torque[0] : nullptr,
-          contact_pipeline->law_table().conducts_heat() ? atom->heatflow : nullptr,
+          contact_pipeline->conducts_heat() ? atom->heatflow : nullptr,
           contact_store ? contact_store->all_changes() : nullptr};
 }
 

@@ -92,6 +92,7 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
   if (!force->pair) return how("there is no pair style");
   if (const auto *talus_pair = SystemPair::of(force->pair))
     return how(talus_pair->reason_for_stock());
+  if (system.pair_style_is_alone()) return how("");    // the only part of hybrid
   if (system.has_pair_style())
     return "sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock";
   if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");

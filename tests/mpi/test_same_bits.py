@@ -24,7 +24,8 @@ BOX = ((-1, 25), (-1, 11), (-1, 22))
 STEPS, EVERY = 1200, 400     # beyond step 1000, where the order of sums is renewed
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
-HYBRID = f"pair_style hybrid/overlay gran/penalty\npair_coeff * * gran/penalty {LAW}\n"
+HYBRID = ("pair_style hybrid/overlay zero 0.1 gran/penalty\npair_coeff * * zero\n"
+          f"pair_coeff * * gran/penalty {LAW}\n")
 STOCK = "pair_style gran/hertz/history 4000.0 NULL 40.0 NULL 0.5 1\npair_coeff * *\n"
 
 START = """

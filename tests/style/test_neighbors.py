@@ -2,7 +2,7 @@
 # ctest: timeout=240
 """Neighbors that pair_style gran/penalty finds itself, against the lists of LAMMPS: the same bits.
 
-As the only part of pair_style hybrid it takes the lists of LAMMPS.  What neigh_modify excludes is excluded in both."""
+As one of several parts of pair_style hybrid it takes the lists of LAMMPS.  What neigh_modify excludes is excluded in both."""
 
 import os
 import re
@@ -15,7 +15,8 @@ from tossed_grains import LAW, PAIR, TossedCase
 
 OWN = "Talus gran/penalty: finds neighbors itself"
 HOST = "Talus gran/penalty: neighbor lists are those of LAMMPS: "
-IN_HYBRID = "pair_style hybrid gran/penalty\npair_coeff * * gran/penalty {law}"
+IN_HYBRID = ("pair_style hybrid/overlay zero 0.1 gran/penalty\npair_coeff * * zero\n"
+             "pair_coeff * * gran/penalty {law}")
 OUTPUT = """
 compute touching all contact/atom
 compute pairs all pair gran/penalty
@@ -49,6 +50,19 @@ class Neighbors(TossedCase):
         for np in 1, 2:
             with self.subTest(ranks=np):
                 self.assert_same(np=np, threads=3)
+
+    def test_the_only_part_of_hybrid(self):
+        own, _, _ = self.run_scene(np=2)
+        for style in "hybrid", "hybrid/overlay":
+            with self.subTest(style):
+                alone, log, _ = self.run_scene(pair=f"pair_style {style} gran/penalty\n"
+                                                    "pair_coeff * * gran/penalty {law}", np=2)
+                self.assertIn(OWN, log)
+                self.assertRegex(log, f"pair {style} +accelerated\n")
+                self.assertEqual(own, alone)
+        _, log, _ = self.run_scene(pair="pair_style hybrid gran/penalty\npair_coeff * * gran/penalty {law}\n"
+                                        "pair_coeff 1 2 none", np=2)
+        self.assertIn(HOST + "pair style hybrid", log)
 
     def test_periodic_box(self):
         self.assert_same(boundary="p p f", np=2, more="neigh_modify every 10 check no")

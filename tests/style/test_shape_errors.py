@@ -105,7 +105,8 @@ class ShapeErrors(SceneCase):
                  f"compute c (group/group) {OF_SPHERES} the rows of compute contact/gran/local"),
                 (f"{FIX}\nminimize 0 1e-4 10 10", "minimize"),
                 (f"{FIX}\nrun_style respa 1", "respa"),
-                (f"{FIX}\npair_style hybrid gran/penalty\npair_coeff * * gran/penalty hooke 1e4 10", "hybrid"),
+                (f"{FIX}\npair_style hybrid/overlay zero 0.1 gran/penalty\npair_coeff * * zero\n"
+                 "pair_coeff * * gran/penalty hooke 1e4 10", "hybrid"),
                 (FIX, "rolling or twisting resistance", "hooke 1e4 10 tangential multistep NULL NULL 0.5 rolling 0.1"),
                 (f"{FIX}\nfix p all pour 10 2 4711 vol 0.2 10 diam one 1.0 region top", "give it a diameter of 1.73205"),
                 (f"run 1\n{FIX}\nrun 1 pre no", PRE_NO),
