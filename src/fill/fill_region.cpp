@@ -97,7 +97,7 @@ int FillRegion::count_spheres(double volume) const
 {
   if (!(volume > 0.0)) error->all(FLERR, "fill_region: region '{}' has no volume", region_id);
   if (number) return number;
-  const double count = std::round(fraction * volume / sizes.mean_volume());
+  const double count = std::round(sizes.count_of(fraction * volume));
   if (count < 1.0)
     error->all(FLERR, "fill_region: less than one sphere in region '{}' of volume {:.6g}",
                region_id, volume);

@@ -104,11 +104,13 @@ TEST(SphereGridTest, DoesNotLookAtMoreForOtherSizes)
     small.push_back({random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4)});
     grid.add(i, small.back(), 0.01);
   }
-  long looked = 0;
+  long found = 0, looked = 0;
   for (const V &x : small)
     for (int n = 0; n < grid.num_classes(); n++)
-      grid.visit_near(n, x, 0.01, [&](int) { looked++; });
-  EXPECT_LT(static_cast<double>(looked) / static_cast<double>(small.size()), 3.0);
+      looked += grid.visit_near(n, x, 0.01, [&](int) { found++; });
+  const auto count = static_cast<double>(small.size());
+  EXPECT_LT(static_cast<double>(found) / count, 3.0);
+  EXPECT_LT(static_cast<double>(looked) / count, 3.0 * 27 * 2);    // cells of two classes
 }
 
 }    // namespace
