@@ -31,11 +31,26 @@ SphereGrid::SphereGrid(const GridBox &space, double largest, double near, std::s
     }
     classes.push_back(cells);
   }
+  entries.reserve(expected);
+  make_buckets(2 * expected);
+}
+
+/* Entries go to their buckets in the order in which they came. */
+
+void SphereGrid::make_buckets(std::size_t least)
+{
   int bits = 10;
-  while (bits < 30 && (std::size_t(1) << bits) < 2 * expected) bits++;
+  while (bits < 30 && (std::size_t(1) << bits) < least) bits++;
   shift = 64 - bits;
   first.assign(std::size_t(1) << bits, -1);
-  entries.reserve(expected);
+  for (std::size_t n = 0; n < entries.size(); n++) link(static_cast<int>(n));
+}
+
+void SphereGrid::link(int entry)
+{
+  int &head = first[bucket_of(entries[entry].key)];
+  entries[entry].next = head;
+  head = entry;
 }
 
 int SphereGrid::class_of(double radius) const
@@ -88,9 +103,11 @@ void SphereGrid::add(int number, const Vector3<double> &x, double radius)
   cells.count++;
   const std::uint64_t key =
       key_of(size_class, cell_of(cells, x.x, 0), cell_of(cells, x.y, 1), cell_of(cells, x.z, 2));
-  int &head = first[bucket_of(key)];
-  entries.push_back({key, number, head});
-  head = static_cast<int>(entries.size()) - 1;
+  entries.push_back({key, number, -1});
+  if (entries.size() > first.size())
+    make_buckets(2 * entries.size());
+  else
+    link(static_cast<int>(entries.size()) - 1);
 }
 
 }    // namespace Talus

@@ -26,7 +26,8 @@ struct GridBox {
 class SphereGrid {
  public:
   /// `largest`: radius of the largest sphere; `skin`: surfaces that are not further apart are near
-  /// (length, >= 0); `expected`: number of spheres.
+  /// (length, >= 0); `expected`: number of spheres, or a
+  /// guess.
   SphereGrid(const GridBox &box, double largest, double skin, std::size_t expected);
 
   /// Number of size classes: 0 has the largest spheres.
@@ -86,6 +87,8 @@ class SphereGrid {
   {
     return k < cells.cells[d] ? k : k - cells.cells[d];
   }
+  void make_buckets(std::size_t least);
+  void link(int entry);
   int cell_of(const SizeClass &cells, double at, int d) const;
   void range_of(const SizeClass &cells, const Vector3<double> &x, double reach, int (&from)[3],
                 int (&to)[3]) const;
