@@ -115,6 +115,7 @@ double SizeDistribution::count_of(double volume) const
 std::vector<double> SizeDistribution::diameters(int count, RandomNumbers &random) const
 {
   std::vector<double> all;
+  all.reserve(count);
   for (int k = 0; k < count; k++) all.push_back(quantile((k + 0.5) / count));
   random.shuffle(all);
   return all;
