@@ -3,6 +3,7 @@
 #include "fill/fill_region.h"
 
 #include "fill/region_space.h"
+#include "packing/random_packing.h"
 #include "system/command_words.h"
 
 #include "atom.h"
@@ -96,7 +97,7 @@ int FillRegion::count_spheres(double volume) const
 {
   if (!(volume > 0.0)) error->all(FLERR, "fill_region: region '{}' has no volume", region_id);
   if (number) return number;
-  const double count = std::round(fraction * volume / sizes.mean_volume());
+  const double count = std::round(sizes.count_of(fraction * volume));
   if (count < 1.0)
     error->all(FLERR, "fill_region: less than one sphere in region '{}' of volume {:.6g}",
                region_id, volume);
@@ -131,21 +132,16 @@ std::vector<KnownSphere> FillRegion::pack(const RegionSpace &space, int count, d
   std::vector<double> radii;
   for (const double d : diameters) radii.push_back(0.5 * d);
   require_room(radii, volume);
-  std::vector<Vector3<double>> places(count);
+  std::vector<Vector3<double>> places(count), fixed;
   if (comm->me == 0) {
-    for (Vector3<double> &x : places) {
-      do x = space.draw(random);
-      while (!space.contains(x));
-    }
-    std::vector<double> all_radii = radii;
+    std::vector<double> fixed_radii;
     for (const KnownSphere &sphere : present) {
-      places.push_back(sphere.x);
-      all_radii.push_back(sphere.radius);
+      fixed.push_back(sphere.x);
+      fixed_radii.push_back(sphere.radius);
     }
-    SpherePacking packing(space, places, all_radii, count);
-    packing.relax(limit, most_steps);
+    RandomPacking packing(space, radii, fixed, fixed_radii);
+    packing.pack(random, limit, most_steps);
     places = packing.places();
-    places.resize(count);
     reached = packing.largest_overlap();
     steps = packing.steps();
   }

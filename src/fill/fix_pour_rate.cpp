@@ -112,7 +112,7 @@ std::vector<KnownSphere> FixPourRate::find_places(const RegionSpace &space)
   const GridBox box{{lo[0], lo[1], lo[2]},
                     {hi[0], hi[1], hi[2]},
                     {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
-  SphereGrid grid(box, largest, 0.0, known.size() + 1000);
+  SphereGrid grid(box, largest, 0.0, known.size());
   for (std::size_t n = 0; n < known.size(); n++)
     grid.add(static_cast<int>(n), known[n].x, known[n].radius);
   while (due >= 0.5 * mass_of(next_diameter) && !is_over()) {

@@ -33,7 +33,7 @@ class RegionSpace : public Talus::PackingSpace, protected Pointers {
   Talus::Vector3<double> low_corner() const { return {low[0], low[1], low[2]}; }
   Talus::Vector3<double> high_corner() const { return {high[0], high[1], high[2]}; }
   /// Somewhere between these corners.
-  Talus::Vector3<double> draw(Talus::RandomNumbers &random) const;
+  Talus::Vector3<double> draw(Talus::RandomNumbers &random) const override;
 
  private:
   bool is_periodic_face(const Talus::Vector3<double> &at, const Talus::Vector3<double> &n) const;

@@ -83,20 +83,39 @@ double SizeDistribution::largest() const
   return kind == Kind::DISCRETE ? *std::max_element(sizes.begin(), sizes.end()) : hi;
 }
 
-double SizeDistribution::mean_volume() const
+/* Of that many spheres, as diameters() has them. */
+
+double SizeDistribution::mean_volume(int count) const
 {
-  constexpr int parts = 20000;
   double sum = 0.0;
-  for (int k = 0; k < parts; k++) {
-    const double d = quantile((k + 0.5) / parts);
+  for (int k = 0; k < count; k++) {
+    const double d = quantile((k + 0.5) / count);
     sum += sixth_of_pi * d * d * d;
   }
-  return sum / parts;
+  return sum / count;
+}
+
+/* Of few spheres of a wide distribution by mass, none is as large as the largest would be of many, and
+   their mean volume is smaller. */
+
+double SizeDistribution::count_of(double volume) const
+{
+  constexpr int most_parts = 100000, most_rounds = 30;
+  int parts = most_parts;
+  double count = 0.0;
+  for (int n = 0; n < most_rounds; n++) {
+    count = volume / mean_volume(parts);
+    const int next = static_cast<int>(std::clamp(std::round(count), 1.0, double(most_parts)));
+    if (next == parts) break;
+    parts = next;
+  }
+  return count;
 }
 
 std::vector<double> SizeDistribution::diameters(int count, RandomNumbers &random) const
 {
   std::vector<double> all;
+  all.reserve(count);
   for (int k = 0; k < count; k++) all.push_back(quantile((k + 0.5) / count));
   random.shuffle(all);
   return all;

@@ -23,12 +23,14 @@ class SizeDistribution {
   /// The diameter (length) that the share q of the number of spheres does not exceed, 0 < q < 1.
   double quantile(double q) const;
   double largest() const;
-  /// Of a sphere, by number (volume).
-  double mean_volume() const;
+  /// How many spheres have that volume together; it may be less than 1. An estimate beyond 1e5.
+  double count_of(double volume) const;
   /// As near to the distribution as that many spheres can be, in random order.
   std::vector<double> diameters(int count, RandomNumbers &random) const;
 
  private:
+  double mean_volume(int count) const;
+
   enum class Kind { NONE, UNIFORM, LOGNORMAL, DISCRETE };
 
   Kind kind = Kind::NONE;

@@ -31,11 +31,26 @@ SphereGrid::SphereGrid(const GridBox &space, double largest, double near, std::s
     }
     classes.push_back(cells);
   }
+  entries.reserve(expected);
+  make_buckets(2 * expected);
+}
+
+/* Entries go to their buckets in the order in which they came. */
+
+void SphereGrid::make_buckets(std::size_t least)
+{
   int bits = 10;
-  while (bits < 30 && (std::size_t(1) << bits) < 2 * expected) bits++;
+  while (bits < 30 && (std::size_t(1) << bits) < least) bits++;
   shift = 64 - bits;
   first.assign(std::size_t(1) << bits, -1);
-  entries.reserve(expected);
+  for (std::size_t n = 0; n < entries.size(); n++) link(static_cast<int>(n));
+}
+
+void SphereGrid::link(int entry)
+{
+  int &head = first[bucket_of(entries[entry].key)];
+  entries[entry].next = head;
+  head = entry;
 }
 
 int SphereGrid::class_of(double radius) const
@@ -58,22 +73,26 @@ int SphereGrid::cell_of(const SizeClass &cells, double at, int d) const
   return place < 0.0 ? 0 : place > last ? last : static_cast<int>(place);
 }
 
+/* Only cells that the reach touches. In a periodic direction from the first one on, which is in the
+   box, to the last one, which may be behind it. */
+
 void SphereGrid::range_of(const SizeClass &cells, const Vector3<double> &x, double reach,
                           int (&from)[3], int (&to)[3]) const
 {
+  constexpr double rounding = 1e-9;    // of an image's place, in cells
   for (int d = 0; d < 3; d++) {
-    const double at = part_of(x, d);
-    if (!box.periodic[d]) {
-      from[d] = cell_of(cells, at - reach, d);
-      to[d] = cell_of(cells, at + reach, d);
-      continue;
+    const double at = part_of(x, d) - part_of(box.lo, d), last = cells.cells[d] - 1;
+    const double low = std::floor((at - reach) * cells.per_length[d] - rounding);
+    const double high = std::floor((at + reach) * cells.per_length[d] + rounding);
+    const bool all = box.periodic[d] && high - low >= last;
+    if (!box.periodic[d] || all) {
+      from[d] = all ? 0 : static_cast<int>(std::clamp(low, 0.0, last));
+      to[d] = static_cast<int>(all ? last : std::clamp(high, 0.0, last));
+    } else {
+      const double periods = std::floor(low / (last + 1.0));
+      from[d] = static_cast<int>(low - periods * (last + 1.0));
+      to[d] = from[d] + static_cast<int>(high - low);
     }
-    const int middle = cell_of(cells, at, d),
-              around = static_cast<int>(
-                  std::min<double>(std::ceil(reach * cells.per_length[d]), cells.cells[d]));
-    const bool all = 2 * around + 1 > cells.cells[d];
-    from[d] = all ? 0 : middle - around;
-    to[d] = all ? cells.cells[d] - 1 : middle + around;
   }
 }
 
@@ -84,9 +103,11 @@ void SphereGrid::add(int number, const Vector3<double> &x, double radius)
   cells.count++;
   const std::uint64_t key =
       key_of(size_class, cell_of(cells, x.x, 0), cell_of(cells, x.y, 1), cell_of(cells, x.z, 2));
-  int &head = first[bucket_of(key)];
-  entries.push_back({key, number, head});
-  head = static_cast<int>(entries.size()) - 1;
+  entries.push_back({key, number, -1});
+  if (entries.size() > first.size())
+    make_buckets(2 * entries.size());
+  else
+    link(static_cast<int>(entries.size()) - 1);
 }
 
 }    // namespace Talus

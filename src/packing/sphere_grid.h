@@ -26,7 +26,8 @@ struct GridBox {
 class SphereGrid {
  public:
   /// `largest`: radius of the largest sphere; `skin`: surfaces that are not further apart are near
-  /// (length, >= 0); `expected`: number of spheres.
+  /// (length, >= 0); `expected`: number of spheres, or a
+  /// guess.
   SphereGrid(const GridBox &box, double largest, double skin, std::size_t expected);
 
   /// Number of size classes: 0 has the largest spheres.
@@ -37,12 +38,13 @@ class SphereGrid {
   void add(int number, const Vector3<double> &x, double radius);
 
   /// Calls visit(number) for each sphere of a size class that may be near to one with this place and
-  /// radius, and for some others, once each.
+  /// radius, and for some others, once each. Returns how many cells and spheres were looked at.
   template <class Visit>
-  void visit_near(int size_class, const Vector3<double> &x, double radius, Visit visit) const
+  long visit_near(int size_class, const Vector3<double> &x, double radius, Visit visit) const
   {
     const SizeClass &cells = classes[size_class];
-    if (!cells.count) return;
+    if (!cells.count) return 0;
+    long looked = 0;
     int from[3], to[3];
     range_of(cells, x, radius + cells.largest + skin, from, to);
     for (int c = from[2]; c <= to[2]; c++)
@@ -50,9 +52,13 @@ class SphereGrid {
         for (int a = from[0]; a <= to[0]; a++) {
           const std::uint64_t key =
               key_of(size_class, wrapped(cells, a, 0), wrapped(cells, b, 1), wrapped(cells, c, 2));
-          for (int n = first[bucket_of(key)]; n >= 0; n = entries[n].next)
+          looked++;
+          for (int n = first[bucket_of(key)]; n >= 0; n = entries[n].next) {
+            looked++;
             if (entries[n].key == key) visit(entries[n].number);
+          }
         }
+    return looked;
   }
 
  private:
@@ -77,10 +83,12 @@ class SphereGrid {
   {
     return static_cast<std::size_t>((key * 0x9e37'79b9'7f4a'7c15U) >> shift);
   }
-  int wrapped(const SizeClass &cells, int k, int d) const
+  static int wrapped(const SizeClass &cells, int k, int d)
   {
-    return box.periodic[d] ? (k + cells.cells[d]) % cells.cells[d] : k;
+    return k < cells.cells[d] ? k : k - cells.cells[d];
   }
+  void make_buckets(std::size_t least);
+  void link(int entry);
   int cell_of(const SizeClass &cells, double at, int d) const;
   void range_of(const SizeClass &cells, const Vector3<double> &x, double reach, int (&from)[3],
                 int (&to)[3]) const;

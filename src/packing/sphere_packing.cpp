@@ -2,8 +2,6 @@
 
 #include "packing/sphere_packing.h"
 
-#include "packing/sphere_grid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,30 +12,27 @@ namespace Talus {
 SpherePacking::SpherePacking(const PackingSpace &space, std::vector<Vector3<double>> places,
                              std::vector<double> radii, int fixed_from) :
     space(space),
-    x(std::move(places)), v(x.size()), f(x.size()), radius(std::move(radii)), movable(fixed_from)
+    nearest(space.box()), x(std::move(places)), v(x.size()), f(x.size()), radius(std::move(radii)),
+    mass(x.size()), contacts(x.size()), movable(fixed_from)
 {
-  const double length[3] = {space.hi.x - space.lo.x, space.hi.y - space.lo.y,
-                            space.hi.z - space.lo.z};
   double sum = 0.0;
-  for (int d = 0; d < 3; d++) {
-    period[d] = space.periodic[d] ? length[d] : 0.0;
-    half[d] = 0.5 * period[d];
-  }
   for (int i = 0; i < movable; i++) sum += radius[i];
-  skin = movable ? 0.3 * sum / movable : 0.0;
-  sort();
+  const double mean_radius = movable ? sum / movable : 0.0;
+  // with less, pairs are searched for more often; with more, they are many
+  skin = 0.7 * mean_radius;
+  sort(mean_radius);
 }
 
 /* Spheres that are near to each other stand near to each other in memory, where all of them do not
    fit into a cache. */
 
-void SpherePacking::sort()
+void SpherePacking::sort(double mean_radius)
 {
   constexpr int fit_into_a_cache = 20000;
   number.resize(movable);
   std::iota(number.begin(), number.end(), 0);
   if (movable < fit_into_a_cache) return;
-  const double width = 8.0 * skin / 0.3;    // of cells with some ten spheres of the mean size
+  const double width = 8.0 * mean_radius;    // of cells with some ten spheres of the mean size
   const auto cell = [&](int i) {
     const auto at = [width](double place, double low) {
       return static_cast<long long>(std::floor((place - low) / width));
@@ -64,20 +59,6 @@ std::vector<Vector3<double>> SpherePacking::places() const
   return given;
 }
 
-/* Of two points in the box, the nearest images. */
-
-Vector3<double> SpherePacking::nearest(Vector3<double> d) const
-{
-  double *c[3] = {&d.x, &d.y, &d.z};
-  for (int k = 0; k < 3; k++) {
-    if (*c[k] > half[k])
-      *c[k] -= period[k];
-    else if (*c[k] < -half[k])
-      *c[k] += period[k];
-  }
-  return d;
-}
-
 /* ---- pairs ---------------------------------------------------------------------------------- */
 
 /* A sphere looks for those of its own size class, with higher numbers, and for all that are larger:
@@ -87,14 +68,13 @@ void SpherePacking::find_pairs()
 {
   const int count = static_cast<int>(x.size());
   const double widest = radius.empty() ? 0.0 : *std::max_element(radius.begin(), radius.end());
-  GridBox box{space.lo, space.hi, {space.periodic[0], space.periodic[1], space.periodic[2]}};
-  SphereGrid grid(box, widest, skin, count);
+  SphereGrid grid(space.box(), widest, skin, count);
   for (int i = count - 1; i >= 0; i--) grid.add(i, x[i], radius[i]);
   pairs.clear();
   for (int i = 0; i < count; i++) {
     const int own = grid.class_of(radius[i]);
     for (int n = 0; n <= own; n++)
-      grid.visit_near(n, x[i], radius[i], [&](int j) {
+      looked += grid.visit_near(n, x[i], radius[i], [&](int j) {
         if ((n == own && j <= i) || (i >= movable && j >= movable)) return;
         const Vector3<double> d = nearest(x[i] - x[j]);
         const double near = radius[i] + radius[j] + skin;
@@ -102,23 +82,31 @@ void SpherePacking::find_pairs()
       });
   }
   x_of_list = x;
+  std::fill(mass.begin(), mass.end(), 1.0);
 }
 
 /* ---- overlaps ------------------------------------------------------------------------------- */
 
+/* Masses are those of the most contacts since pairs were found: stable, and not tossed about. */
+
 void SpherePacking::compute_forces()
 {
+  constexpr double contacts_per_mass = 6.0;
   std::fill(f.begin(), f.end(), Vector3<double>{0.0, 0.0, 0.0});
+  std::fill(contacts.begin(), contacts.end(), 0);
   largest = 0.0;
-  for (const Pair &pair : pairs) {
-    const Vector3<double> d = nearest(x[pair.i] - x[pair.j]);
-    const double touch = radius[pair.i] + radius[pair.j], rsq = dot(d, d);
+  looked += static_cast<long>(pairs.size());
+  for (const auto &[i, j] : pairs) {
+    const Vector3<double> d = nearest(x[i] - x[j]);
+    const double touch = radius[i] + radius[j], rsq = dot(d, d);
     if (rsq >= touch * touch) continue;
     const double r = std::sqrt(rsq), overlap = touch - r;
-    largest = std::max(largest, overlap / std::min(radius[pair.i], radius[pair.j]));
+    largest = std::max(largest, overlap / std::min(radius[i], radius[j]));
     const Vector3<double> push = r > 0.0 ? (overlap / r) * d : Vector3<double>{overlap, 0.0, 0.0};
-    f[pair.i] = f[pair.i] + push;
-    if (pair.j < movable) f[pair.j] = f[pair.j] - push;
+    f[i] = f[i] + push;
+    f[j] = f[j] - push;
+    contacts[i]++;
+    contacts[j]++;
   }
   for (int i = 0; i < movable; i++) {
     walls.clear();
@@ -127,6 +115,7 @@ void SpherePacking::compute_forces()
       largest = std::max(largest, overlap / radius[i]);
       f[i] = f[i] + overlap * normal;
     }
+    mass[i] = std::max(mass[i], contacts[i] / contacts_per_mass);
   }
 }
 
@@ -138,12 +127,12 @@ void SpherePacking::move()
   double power = 0.0, speed = 0.0, force = 0.0;
   for (int i = 0; i < movable; i++) {
     power += dot(f[i], v[i]);
-    speed += dot(v[i], v[i]);
-    force += dot(f[i], f[i]);
+    speed += mass[i] * dot(v[i], v[i]);
+    force += dot(f[i], f[i]) / mass[i];
   }
   if (power > 0.0) {
     const double share = force > 0.0 ? mixing * std::sqrt(speed / force) : 0.0;
-    for (int i = 0; i < movable; i++) v[i] = (1.0 - mixing) * v[i] + share * f[i];
+    for (int i = 0; i < movable; i++) v[i] = (1.0 - mixing) * v[i] + (share / mass[i]) * f[i];
     if (++downhill > 5) {
       dt = std::min(dt * grow, largest_dt);
       mixing *= least_mixing;
@@ -157,16 +146,17 @@ void SpherePacking::move()
 
   double farthest = 0.0;
   for (int i = 0; i < movable; i++) {
-    v[i] = v[i] + dt * f[i];
+    v[i] = v[i] + (dt / mass[i]) * f[i];
     const double speed_of_i = length(v[i]), most = 0.25 * radius[i] / dt;
     if (speed_of_i > most) v[i] = (most / speed_of_i) * v[i];
     Vector3<double> to = x[i] + dt * v[i];
     double *c[3] = {&to.x, &to.y, &to.z};
     const double low[3] = {space.lo.x, space.lo.y, space.lo.z};
+    const double high[3] = {space.hi.x, space.hi.y, space.hi.z};
     for (int d = 0; d < 3; d++) {
       if (!space.periodic[d]) continue;
-      if (*c[d] < low[d]) *c[d] += period[d];
-      if (*c[d] >= low[d] + period[d]) *c[d] -= period[d];
+      if (*c[d] < low[d]) *c[d] += high[d] - low[d];
+      if (*c[d] >= high[d]) *c[d] -= high[d] - low[d];
     }
     if (space.contains(to))
       x[i] = to;

@@ -104,11 +104,30 @@ TEST(SphereGridTest, DoesNotLookAtMoreForOtherSizes)
     small.push_back({random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4)});
     grid.add(i, small.back(), 0.01);
   }
-  long looked = 0;
+  long found = 0, looked = 0;
   for (const V &x : small)
     for (int n = 0; n < grid.num_classes(); n++)
-      grid.visit_near(n, x, 0.01, [&](int) { looked++; });
-  EXPECT_LT(static_cast<double>(looked) / static_cast<double>(small.size()), 3.0);
+      looked += grid.visit_near(n, x, 0.01, [&](int) { found++; });
+  const auto count = static_cast<double>(small.size());
+  EXPECT_LT(static_cast<double>(found) / count, 3.0);
+  EXPECT_LT(static_cast<double>(looked) / count, 3.0 * 27 * 2);    // cells of two classes
+}
+
+// Nor for more than were expected.
+TEST(SphereGridTest, Grows)
+{
+  RandomSource random(14);
+  constexpr int count = 50000;
+  const GridBox box{{0, 0, 0}, {1, 1, 1}, {true, true, true}};
+  SphereGrid grid(box, 0.01, 0.0, 0);
+  for (int i = 0; i < count; i++)
+    grid.add(i, {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)}, 0.01);
+  long looked = 0, found = 0;
+  constexpr int queries = 1000;
+  for (int i = 0; i < queries; i++)
+    looked += grid.visit_near(0, {0.507, random.uniform(0, 1), 0.507}, 0.01, [&](int) { found++; });
+  EXPECT_GT(found, 5 * queries);
+  EXPECT_LT(looked, 27 * queries + 2 * found);
 }
 
 }    // namespace

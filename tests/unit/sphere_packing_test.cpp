@@ -3,6 +3,7 @@
 // Packings of spheres: overlaps after relaxation, walls, periods, spheres that stay; what cannot fit; and the quantiles of
 // distributions of sizes.
 
+#include "cube_of_spheres.h"
 #include "packing/size_distribution.h"
 #include "packing/sphere_packing.h"
 
@@ -16,43 +17,6 @@
 using namespace Talus;
 
 namespace {
-
-/// The unit cube, periodic along x and y.
-class Cube : public PackingSpace {
- public:
-  Cube()
-  {
-    lo = {0.0, 0.0, 0.0};
-    hi = {1.0, 1.0, 1.0};
-    periodic[0] = periodic[1] = true;
-    periodic[2] = false;
-  }
-  bool contains(const Vector3<double> &x) const override { return x.z >= 0.0 && x.z < 1.0; }
-  void find_walls(const Vector3<double> &x, double radius,
-                  std::vector<std::pair<Vector3<double>, double>> &walls) const override
-  {
-    if (x.z < radius) walls.push_back({{0.0, 0.0, 1.0}, radius - x.z});
-    if (1.0 - x.z < radius) walls.push_back({{0.0, 0.0, -1.0}, radius - (1.0 - x.z)});
-  }
-};
-
-double nearest(double d)
-{
-  return d - std::round(d);
-}
-
-double deepest(const std::vector<Vector3<double>> &x, const std::vector<double> &radius)
-{
-  double worst = 0.0;
-  for (std::size_t i = 0; i < x.size(); i++) {
-    worst = std::max({worst, 1.0 - x[i].z / radius[i], 1.0 - (1.0 - x[i].z) / radius[i]});
-    for (std::size_t j = 0; j < i; j++) {
-      const Vector3<double> d{nearest(x[i].x - x[j].x), nearest(x[i].y - x[j].y), x[i].z - x[j].z};
-      worst = std::max(worst, (radius[i] + radius[j] - length(d)) / std::min(radius[i], radius[j]));
-    }
-  }
-  return worst;
-}
 
 struct Spheres {
   std::vector<Vector3<double>> x;
@@ -150,8 +114,24 @@ TEST(SizeDistribution, quantiles)
   EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000").quantile(0.5), 1.0, 1e-9);
   EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000 mass").quantile(0.5), std::exp(-3 * 0.04), 1e-9);
   // the moment of order 3 of a lognormal distribution
-  EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000").mean_volume(),
-              0.5235987755982989 * std::exp(4.5 * 0.04), 1e-3);
+  constexpr double pi_6 = 0.5235987755982989;
+  EXPECT_NEAR(sizes_of("lognormal 1 0.2 0.001 1000").count_of(1e6 * pi_6 * std::exp(4.5 * 0.04)),
+              1e6, 1e3);
+}
+
+// Also where the largest spheres have most of the volume, and there are few.
+TEST(SizeDistribution, spheres_have_the_volume)
+{
+  for (const char *text : {"uniform 1 10 mass", "uniform 1 30 mass", "uniform 1 100 mass"})
+    for (const double volume : {4e3, 4e4, 4e5, 4e6}) {
+      RandomNumbers random(1);
+      double sum = 0.0;
+      const int count = static_cast<int>(std::round(sizes_of(text).count_of(volume)));
+      for (const double d : sizes_of(text).diameters(count, random))
+        sum += 0.5235987755982989 * d * d * d;
+      EXPECT_NEAR(sum, volume, 5e-3 * volume) << text;
+    }
+  EXPECT_LT(sizes_of("2").count_of(1.0), 0.5);
 }
 
 TEST(SizeDistribution, diameters_follow_it)
