@@ -53,6 +53,13 @@ void ParticleRecords::write_forces(int slot, double *f, double *torque_row) cons
   std::copy(total_torque.c, total_torque.c + 3, torque_row);
 }
 
+void ParticleRecords::set_forces(int slot, const double *f, const double *torque_row)
+{
+  const std::size_t s = slot;
+  store(load[stride * s], four(f[0], f[1], f[2], stride == 2 ? 1.0 : 0.0));
+  if (stride == 2) store(load[2 * s + 1], four(torque_row[0], torque_row[1], torque_row[2], 0.0));
+}
+
 /* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they
    are: 0 is added to them. */
 

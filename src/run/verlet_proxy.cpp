@@ -46,14 +46,15 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 
 std::string VerletProxy::reason_for_stock() const
 {
-  if (!system->pair_style_is_alone()) return system->reason_of_pair_style();
+  const std::string of_pair_style = system->reason_of_pair_style();
+  if (!of_pair_style.empty()) return of_pair_style;
   return pair_compute_flag ? "" : "'pair_modify compute no' is set";
 }
 
 void VerletProxy::init()
 {
   Verlet::init();
-  if (system->pair_style_is_alone()) system->exchange().start_run();
+  if (system->reason_of_pair_style().empty()) system->exchange().start_run();
 }
 
 void VerletProxy::setup(int flag)
@@ -125,7 +126,7 @@ void VerletProxy::run(int n)
 bool VerletProxy::others_act_on_ghosts() const
 {
   return force->bond || force->angle || force->dihedral || force->improper || force->kspace ||
-         modify->n_pre_force || modify->n_pre_reverse;
+         modify->n_pre_force || modify->n_pre_reverse || !system->pair_style_is_alone();
 }
 
 /* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. */
@@ -153,11 +154,13 @@ void VerletProxy::step()
   if (!in_records) lists->ask(nullptr);
   timer->stamp(Timer::COMM);
 
-  if (to_arrays) {
+  const bool others_in_arrays = system->begin_pair_styles();
+  if (to_arrays || others_in_arrays) {
     force_clear();
     timer->stamp();
   }
-  compute_forces(to_arrays);
+  compute_forces(to_arrays || others_in_arrays);
+  if (others_in_arrays) system->end_pair_styles();
   if (in_records) {
     const RecordTravel travel = system->pipeline().travel();
     lists->ask(&travel);
@@ -165,7 +168,7 @@ void VerletProxy::step()
 
   fixes.post_force(vflag);
   fixes.final_integrate();
-  if (modify->n_end_of_step) modify->end_of_step();
+  fixes.end_of_step();
   timer->stamp(Timer::MODIFY);
 
   if (now == output->next) {

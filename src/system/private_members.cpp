@@ -10,14 +10,23 @@
 #include "comm.h"
 #include "comm_brick.h"
 #include "fix_addforce.h"
+#include "fix_ave_atom.h"
+#include "fix_ave_chunk.h"
+#include "fix_ave_correlate.h"
+#include "fix_ave_histo.h"
+#include "fix_ave_time.h"
 #include "fix_aveforce.h"
+#include "fix_efield.h"
 #include "fix_gravity.h"
+#include "fix_indent.h"
 #include "fix_langevin.h"
 #include "fix_move.h"
 #include "fix_setforce.h"
 #include "fix_spring_self.h"
+#include "fix_wall.h"
 #include "fix_wall_reflect.h"
 #include "neighbor.h"
+#include "pair_hybrid.h"
 #include "region.h"
 #include "region_block.h"
 #include "region_cone.h"
@@ -87,6 +96,34 @@ TALUS_PRIVATE_NAME(MovedVy, FixMove, vyvarstr)
 TALUS_PRIVATE_NAME(MovedVz, FixMove, vzvarstr)
 TALUS_PRIVATE_NAME(SpringConstant, FixSpringSelf, kstr)
 TALUS_PRIVATE_NAME(LangevinTarget, FixLangevin, tstr)
+TALUS_PRIVATE_NAME(FieldX, FixEfield, xstr)
+TALUS_PRIVATE_NAME(FieldY, FixEfield, ystr)
+TALUS_PRIVATE_NAME(FieldZ, FixEfield, zstr)
+TALUS_PRIVATE_NAME(FieldEnergy, FixEfield, estr)
+TALUS_PRIVATE_NAME(FieldPotential, FixEfield, pstr)
+TALUS_PRIVATE_NAME(IndenterX, FixIndent, xstr)
+TALUS_PRIVATE_NAME(IndenterY, FixIndent, ystr)
+TALUS_PRIVATE_NAME(IndenterZ, FixIndent, zstr)
+TALUS_PRIVATE_NAME(IndenterRadius, FixIndent, rstr)
+TALUS_PRIVATE_NAME(IndenterPlane, FixIndent, pstr)
+TALUS_PRIVATE_NAME(IndenterRadiusLo, FixIndent, rlostr)
+TALUS_PRIVATE_NAME(IndenterRadiusHi, FixIndent, rhistr)
+TALUS_PRIVATE_NAME(IndenterLo, FixIndent, lostr)
+TALUS_PRIVATE_NAME(IndenterHi, FixIndent, histr)
+TALUS_PRIVATE_NAME(GravityM, FixGravity, mstr)
+TALUS_PRIVATE_NAME(GravityV, FixGravity, vstr)
+TALUS_PRIVATE_NAME(GravityP, FixGravity, pstr)
+TALUS_PRIVATE_NAME(GravityT, FixGravity, tstr)
+TALUS_PRIVATE_NAME(GravityX, FixGravity, xstr)
+TALUS_PRIVATE_NAME(GravityY, FixGravity, ystr)
+TALUS_PRIVATE_NAME(GravityZ, FixGravity, zstr)
+TALUS_PRIVATE_MEMBER(WallVariables, int FixWall::*, &FixWall::varflag)
+TALUS_PRIVATE_MEMBER(Substyles, int PairHybrid::*, &PairHybrid::nstyles)
+TALUS_PRIVATE_MEMBER(NextTime, bigint FixAveTime::*, &FixAveTime::nvalid)
+TALUS_PRIVATE_MEMBER(NextAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid)
+TALUS_PRIVATE_MEMBER(NextChunk, bigint FixAveChunk::*, &FixAveChunk::nvalid)
+TALUS_PRIVATE_MEMBER(NextHisto, bigint FixAveHisto::*, &FixAveHisto::nvalid)
+TALUS_PRIVATE_MEMBER(NextCorrelate, bigint FixAveCorrelate::*, &FixAveCorrelate::nvalid)
 TALUS_PRIVATE_MEMBER(LangevinBias, int FixLangevin::*, &FixLangevin::tbiasflag)
 TALUS_PRIVATE_MEMBER(ReflectingVariables, int FixWallReflect::*, &FixWallReflect::varflag)
 
@@ -172,6 +209,22 @@ template <class Style> static const Style *as(const Fix &fix)
   return dynamic_cast<const Style *>(&fix);
 }
 
+int number_of_substyles(const Pair &pair)
+{
+  const auto *const hybrid = dynamic_cast<const PairHybrid *>(&pair);
+  return hybrid ? hybrid->*pointer_to(Substyles{}) : 0;
+}
+
+bigint next_reading_of(const Fix &fix)
+{
+  if (const auto *time = as<FixAveTime>(fix)) return time->*pointer_to(NextTime{});
+  if (const auto *atom = as<FixAveAtom>(fix)) return atom->*pointer_to(NextAtom{});
+  if (const auto *chunk = as<FixAveChunk>(fix)) return chunk->*pointer_to(NextChunk{});
+  if (const auto *histo = as<FixAveHisto>(fix)) return histo->*pointer_to(NextHisto{});
+  if (const auto *lags = as<FixAveCorrelate>(fix)) return lags->*pointer_to(NextCorrelate{});
+  return -1;
+}
+
 FixVariables variables_of(const Fix &fix)
 {
   FixVariables found;
@@ -192,8 +245,26 @@ FixVariables variables_of(const Fix &fix)
   } else if (const auto *langevin = as<FixLangevin>(fix)) {
     found.names = {langevin->*pointer_to(LangevinTarget{})};
     found.more = langevin->*pointer_to(LangevinBias{}) != 0;
+  } else if (const auto *field = as<FixEfield>(fix)) {
+    found.names = {field->*pointer_to(FieldX{}), field->*pointer_to(FieldY{}),
+                   field->*pointer_to(FieldZ{}), field->*pointer_to(FieldEnergy{}),
+                   field->*pointer_to(FieldPotential{})};
+  } else if (const auto *indenter = as<FixIndent>(fix)) {
+    found.names = {
+        indenter->*pointer_to(IndenterX{}),        indenter->*pointer_to(IndenterY{}),
+        indenter->*pointer_to(IndenterZ{}),        indenter->*pointer_to(IndenterRadius{}),
+        indenter->*pointer_to(IndenterPlane{}),    indenter->*pointer_to(IndenterRadiusLo{}),
+        indenter->*pointer_to(IndenterRadiusHi{}), indenter->*pointer_to(IndenterLo{}),
+        indenter->*pointer_to(IndenterHi{})};
+  } else if (const auto *gravity = as<FixGravity>(fix)) {
+    found.names = {gravity->*pointer_to(GravityM{}), gravity->*pointer_to(GravityV{}),
+                   gravity->*pointer_to(GravityP{}), gravity->*pointer_to(GravityT{}),
+                   gravity->*pointer_to(GravityX{}), gravity->*pointer_to(GravityY{}),
+                   gravity->*pointer_to(GravityZ{})};
   } else if (const auto *reflect = as<FixWallReflect>(fix)) {
     found.more = reflect->*pointer_to(ReflectingVariables{}) != 0;
+  } else if (const auto *wall = as<FixWall>(fix)) {
+    found.more = wall->*pointer_to(WallVariables{}) != 0;
   }
   return found;
 }
