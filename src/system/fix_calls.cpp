@@ -10,10 +10,12 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "fix.h"
 #include "group.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "region.h"
 #include "update.h"
 
 #include <algorithm>
@@ -249,11 +251,29 @@ void FixCalls::forget_members()
     for (Called &called : *phase) called.lists = -1;
 }
 
-/* What decides on members may read all that a formula can tell of particles. */
+/* A region at rest reads positions of particles of this rank; what else decides on members may read
+   all that a formula can tell of particles. */
+
+bool FixCalls::reads_positions_alone(Fix *group_fix) const
+{
+  int unused = 0;
+  if (group_fix->extract("variable", unused) || neighbor->find_request(group_fix)) return false;
+  const auto *const id = static_cast<const char *>(group_fix->extract("region", unused));
+  const Region *const region = id ? domain->get_region_by_id(id) : nullptr;
+  return !region || !(region->dynamic || region->varshape);
+}
 
 void FixCalls::update_groups(int vflag)
 {
-  system.show_particles();
+  if (std::all_of(groups.begin(), groups.end(),
+                  [this](Fix *fix) { return reads_positions_alone(fix); })) {
+    const ParticleState particles = system.particles();
+    in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
+      for (int i = begin; i < end; i++) copy_row(particles.x(i), atom->x[i]);
+    });
+  } else {
+    system.show_particles();
+  }
   for (Fix *const fix : groups) fix->post_force(vflag);
 }
 

@@ -68,6 +68,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   using Phase = std::vector<Called>;
   template <class Call> void call_all(Phase &phase, Call call);
   bool groups_are_due() const;
+  bool reads_positions_alone(LAMMPS_NS::Fix *group_fix) const;
   void update_groups(int vflag);
   void forget_members();
   void find_members(Called &called) const;

@@ -315,6 +315,19 @@ class FixesThatRead(RecordsCase):
         more = "compute ke all ke\nfix time all ave/time 1 1 40 c_ke file means format ' %a'\n"
         self.assert_same_end((STOCK, ""), "vx omegax fx tqx", more=more)
 
+    def test_forces_on_walls_by_particle(self):
+        more = ("suffix talus\nfix wall all wall/gran hooke/history 4000 NULL 40 NULL 0.5 1 zplane 0.1 NULL contacts\n"
+                "compute touch all reduce sum f_wall[1] f_wall[2] f_wall[4] f_wall[7]\n"
+                "fix each all ave/time 1 1 1 c_touch[*] file means format ' %a'\n")
+        results = []
+        for style in STOCK, "":
+            frames, log = self.run_scene(style, more=more)
+            with open(self.path("means")) as file:
+                results.append((frames, file.read()))
+        self.assertIn(RECORDS, log)
+        self.assertRegex(results[0][1], r"(?m)^\d+ 0x1")
+        self.assertEqual(*results)
+
     def test_those_that_change_particles(self):
         _, log = self.run_scene("", more="fix mom all momentum 1 linear 1 1 1", run="run 20")
         self.assertIn(HOST + "fix mom (momentum): may change particles at the end of every step: a larger Nevery", log)
