@@ -101,7 +101,12 @@ std::string FixCalls::reason_of_variables(const Fix &fix) const
   for (const char *name : variables.names)
     if (name && !reads_only_time(lmp, name))
       return std::string("variable ") + name + " reads more than time";
-  return "";
+  const Region *const region =
+      variables.region ? domain->get_region_by_id(variables.region) : nullptr;
+  const std::string variable = region ? variable_that_may_read_particles(lmp, *region) : "";
+  return variable.empty()
+             ? ""
+             : "its region may move with particles: v_" + variable + " reads more than time";
 }
 
 /* Particles are moved by one fix: by this one, or in the pass through the records. */
@@ -251,7 +256,7 @@ void FixCalls::forget_members()
     for (Called &called : *phase) called.lists = -1;
 }
 
-/* A region at rest reads positions of particles of this rank; what else decides on members may read
+/* A region needs positions of particles of this rank alone; what else decides on members may read
    all that a formula can tell of particles. */
 
 bool FixCalls::reads_positions_alone(Fix *group_fix) const
@@ -260,7 +265,7 @@ bool FixCalls::reads_positions_alone(Fix *group_fix) const
   if (group_fix->extract("variable", unused) || neighbor->find_request(group_fix)) return false;
   const auto *const id = static_cast<const char *>(group_fix->extract("region", unused));
   const Region *const region = id ? domain->get_region_by_id(id) : nullptr;
-  return !region || !(region->dynamic || region->varshape);
+  return !region || variable_that_may_read_particles(lmp, *region).empty();
 }
 
 void FixCalls::update_groups(int vflag)

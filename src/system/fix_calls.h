@@ -17,7 +17,7 @@
 
 namespace LAMMPS_NS {
 class Fix;
-}
+}    // namespace LAMMPS_NS
 
 namespace Talus {
 

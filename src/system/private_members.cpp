@@ -82,6 +82,10 @@ TALUS_PRIVATE_NAME(AddedX, FixAddForce, xstr)
 TALUS_PRIVATE_NAME(AddedY, FixAddForce, ystr)
 TALUS_PRIVATE_NAME(AddedZ, FixAddForce, zstr)
 TALUS_PRIVATE_NAME(AddedEnergy, FixAddForce, estr)
+TALUS_PRIVATE_NAME(AddedRegion, FixAddForce, idregion)
+TALUS_PRIVATE_NAME(SetRegion, FixSetForce, idregion)
+TALUS_PRIVATE_NAME(MeanRegion, FixAveForce, idregion)
+TALUS_PRIVATE_NAME(FieldRegion, FixEfield, idregion)
 TALUS_PRIVATE_NAME(SetX, FixSetForce, xstr)
 TALUS_PRIVATE_NAME(SetY, FixSetForce, ystr)
 TALUS_PRIVATE_NAME(SetZ, FixSetForce, zstr)
@@ -231,11 +235,14 @@ FixVariables variables_of(const Fix &fix)
   if (const auto *added = as<FixAddForce>(fix)) {
     found.names = {added->*pointer_to(AddedX{}), added->*pointer_to(AddedY{}),
                    added->*pointer_to(AddedZ{}), added->*pointer_to(AddedEnergy{})};
+    found.region = added->*pointer_to(AddedRegion{});
   } else if (const auto *set = as<FixSetForce>(fix)) {
     found.names = {set->*pointer_to(SetX{}), set->*pointer_to(SetY{}), set->*pointer_to(SetZ{})};
+    found.region = set->*pointer_to(SetRegion{});
   } else if (const auto *mean = as<FixAveForce>(fix)) {
     found.names = {mean->*pointer_to(MeanX{}), mean->*pointer_to(MeanY{}),
                    mean->*pointer_to(MeanZ{})};
+    found.region = mean->*pointer_to(MeanRegion{});
   } else if (const auto *move = as<FixMove>(fix)) {
     found.names = {move->*pointer_to(MovedX{}),  move->*pointer_to(MovedY{}),
                    move->*pointer_to(MovedZ{}),  move->*pointer_to(MovedVx{}),
@@ -249,6 +256,7 @@ FixVariables variables_of(const Fix &fix)
     found.names = {field->*pointer_to(FieldX{}), field->*pointer_to(FieldY{}),
                    field->*pointer_to(FieldZ{}), field->*pointer_to(FieldEnergy{}),
                    field->*pointer_to(FieldPotential{})};
+    found.region = field->*pointer_to(FieldRegion{});
   } else if (const auto *indenter = as<FixIndent>(fix)) {
     found.names = {
         indenter->*pointer_to(IndenterX{}),        indenter->*pointer_to(IndenterY{}),

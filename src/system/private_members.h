@@ -68,6 +68,7 @@ const double *axis_of_rotation(const LAMMPS_NS::Region &region);
 /// step: names of variables, nullptr where there is none; `more`: something else, such as a compute.
 struct FixVariables {
   std::vector<const char *> names;
+  const char *region = nullptr;    ///< ID of the region that it acts in
   bool more = false;
 };
 FixVariables variables_of(const LAMMPS_NS::Fix &fix);

@@ -152,6 +152,10 @@ class RecordSteps(RecordsCase):
         cases = {
             "fix back all recenter NULL NULL NULL": "fix back (recenter): may look at particles in every step",
             "variable a atom x\nfix push all addforce v_a 0 0": "fix push (addforce): variable a reads more than time",
+            "variable a equal xcm(all,x)\nregion near sphere v_a 3 3 2\nfix push all addforce 1 0 0 region near":
+                "fix push (addforce): its region may move with particles: v_a reads more than time",
+            "variable a equal vcm(all,x)*step*dt\nregion near sphere 3 3 3 2 move v_a NULL NULL\nfix push all addforce 1 0 0 region near":
+                "fix push (addforce): its region may move with particles: v_a reads more than time",
             "fix step2 loose move linear 0 0 0\nfix step3 base move linear 0 0 0\n":
                 "fix step2 (move): fix step may move the same particles",
             "fix t all langevin 1 1 1 4711\ncompute part all temp/partial 1 1 0\nfix_modify t temp part":
@@ -183,6 +187,8 @@ WINDOWS = {
     "addforce": "fix w all addforce 0.2 0 0.1",
     "addforce of time": "variable w equal 2*sin(20*step*dt)\nfix w all addforce v_w 0 0",
     "addforce in a region": "region near block INF 5 INF INF INF 3\nfix w all addforce 1 0 0 region near",
+    "addforce in a region that moves": "variable w equal 3*step*dt\nregion near block INF 5 INF INF INF 3 move v_w NULL NULL\n"
+                                       "fix w all addforce 1 0 0 region near",
     "setforce": "group some id 3 7 50 111\nfix w some setforce 0 NULL 0.5",
     "aveforce": "group some id 3 7 50 111\nfix w some aveforce NULL NULL 0.1",
     "spring": "group some id 3 7 50 111\nfix w some spring tether 20 4 4 4 0.5",
