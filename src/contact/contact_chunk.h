@@ -66,6 +66,8 @@ struct ContactStep {
   const std::function<void()> *progress = nullptr;
   const std::function<void(int thread, int begin, int end)> *add_other_forces = nullptr;
   bool read = true, read_ghosts = true, deliver = true;    ///< see ContactPipeline::compute()
+  bool add_to_arrays =
+      false;    ///< forces, though they stay in the records: others add theirs there
   const double *temperature = nullptr;    ///< by local index, in scenes that conduct heat
   double lag = 0.0;    ///< time by which velocities are behind positions; for second order
   /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work

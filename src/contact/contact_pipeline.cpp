@@ -167,9 +167,15 @@ void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &st
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }
-  if (!step.deliver) return;
-  in_ranges(order.size(), [&](int begin, int end) { particles.add_to(order, arrays, begin, end); });
-  if (step.read) return;
+  const bool forces = step.deliver || step.add_to_arrays;
+  if (forces || arrays.heat_flow)
+    in_ranges(order.size(), [&](int begin, int end) {
+      if (forces)
+        particles.add_to(order, arrays, begin, end);
+      else
+        particles.add_heat_to(order, arrays, begin, end);
+    });
+  if (!step.deliver || step.read) return;
   in_ranges(order.owned, [&](int begin, int end) {
     for (int a = begin; a < end; a++) write_state(a, arrays);
   });

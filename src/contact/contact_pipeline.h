@@ -130,6 +130,11 @@ class ContactPipeline {
   void return_state(const ParticleView &arrays, bool with_forces);
   /// Copies the state of some owned particles to the arrays, for code that only reads it.
   void copy_states_to_arrays(const std::vector<int> &atoms, const ParticleView &arrays) const;
+  /// The same of all of them, and of proxies if their state is in the records; sets forces and
+  /// torques of owned particles there to those in the records.
+  void show(const ParticleView &arrays, bool proxies, bool forces) const;
+  /// Sets forces and torques in the records to those in the arrays.
+  void take_forces(const ParticleView &arrays);
   /// Whether changes of velocities are kept from now on, see ParticleRecords::keep_changes().
   void keep_changes(bool yes);
   bool keeps_changes() const { return with_changes; }
@@ -184,6 +189,7 @@ class ContactPipeline {
   void start_step();
   void end_step(const ParticleView &arrays, const ContactStep &step);
   void write_state(int atom, const ParticleView &arrays) const;
+  void write_forces(int atom, const ParticleView &arrays) const;
   void find_shared();
   void run_phase(const ParticleView &arrays, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);

@@ -97,8 +97,7 @@ void ContactPipeline::return_state(const ParticleView &arrays, bool with_forces)
   in_ranges(order.owned, [&](int begin, int end) {
     for (int a = begin; a < end; a++) {
       write_state(a, arrays);
-      if (with_forces)
-        particles.write_forces(order.slot_of_atom[a], arrays.f + 3L * a, arrays.torque + 3L * a);
+      if (with_forces) write_forces(a, arrays);
     }
   });
 }
@@ -115,6 +114,30 @@ void ContactPipeline::copy_states_to_arrays(const std::vector<int> &atoms,
                                             const ParticleView &arrays) const
 {
   for (const int a : atoms) write_state(a, arrays);
+}
+
+void ContactPipeline::write_forces(int atom, const ParticleView &arrays) const
+{
+  const std::int64_t row = 3L * atom;
+  particles.write_forces(order.slot_of_atom[atom], arrays.f + row, arrays.torque + row);
+}
+
+void ContactPipeline::show(const ParticleView &arrays, bool proxies, bool forces) const
+{
+  in_ranges(proxies ? order.size() : order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++) {
+      write_state(a, arrays);
+      if (forces && order.is_owned(a)) write_forces(a, arrays);
+    }
+  });
+}
+
+void ContactPipeline::take_forces(const ParticleView &arrays)
+{
+  in_ranges(order.owned, [&](int begin, int end) {
+    for (int a = begin; a < end; a++)
+      particles.set_forces(order.slot_of_atom[a], arrays.f + 3L * a, arrays.torque + 3L * a);
+  });
 }
 
 void ContactPipeline::keep_changes(bool yes)

@@ -296,7 +296,7 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
   v_init(vflag);
   find_particles();
   if (kick_is_due) share_loads();
-  if (moves_in_lanes())
+  if (kick_is_due && moves_in_lanes())
     move_in_lanes([this](auto &s, auto loads) {
       if (id_gravity) loads.force = loads.force + weight(s.mass);
       s.kick(dtf, loads.force, loads.torque);

@@ -37,7 +37,8 @@ void FixShapeGran::check_scene()
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
                "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",
-               system->reason_of_pair_style());
+               system->has_pair_style() ? "the pair style is hybrid"
+                                        : system->reason_of_pair_style());
   const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty())
     error->all(FLERR, Error::NOLASTLINE,

@@ -15,6 +15,7 @@
 #include "fix/wall_batch.h"
 #include "fix/wall_candidates.h"
 #include "system/granular_system.h"
+#include "system/time_formula.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -94,7 +95,8 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   std::string needs_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
-    if (this->heat_flag) return "it conducts heat";
+    if (this->heat_flag && this->tstr && !reads_only_time(this->lmp, this->tstr))
+      return std::string("variable ") + this->tstr + " reads more than time";
     if (!system->pipeline().keeps_omega())
       return "it exerts torques and the contacts between particles do not";
     return what_reads_arrays();
@@ -122,8 +124,12 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     return this->atom->avec->size_forward > 3 || !this->modify->get_fix_by_style("^adapt").empty();
   }
   bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
-  /// Forces by particle are kept for output; steps in the records have no output.
-  bool keeps_contacts() const { return this->peratom_flag && system->particles().is_in_arrays(); }
+  /// Forces by particle are kept for output.
+  bool keeps_contacts() const
+  {
+    return this->peratom_flag && (system->particles().is_in_arrays() ||
+                                  system->steps_in_records().fix_calls().somebody_looks());
+  }
   bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
   /// The temperature of the wall in this step, if it conducts heat.
@@ -165,20 +171,20 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     if (this->heat_flag || keeps)
       batch.for_each_result([&](const WallBatch::Result &result) {
         if (this->heat_flag) this->atom->heatflow[result.atom] += result.heat_flow;
-        if (keeps) keep_contact(result);
+        if (keeps) keep_contact(result, particles);
       });
     batch.clear();
   }
 
  private:
   /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
-  void keep_contact(const WallBatch::Result &result)
+  void keep_contact(const WallBatch::Result &result, const ParticleState &particles)
   {
     double *row = this->array_atom[result.atom];
     row[0] = 1.0;
     for (int d = 0; d < 3; d++) {
       row[1 + d] = result.force[d];
-      row[4 + d] = this->atom->x[result.atom][d] - result.separation[d];
+      row[4 + d] = particles.x(result.atom)[d] - result.separation[d];
     }
     row[7] = this->atom->radius[result.atom];
     if (this->size_peratom_cols > 8) row[8] = result.heat_flow;

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "region.h"
+#include "system/time_formula.h"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 
 #include "fmt/format.h"
 #include "region.h"
+#include "system/time_formula.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,15 +2,11 @@
 
 #include "fix/region_surface.h"
 
-#include "system/lammps_compat.h"
 #include "system/private_members.h"
 #include "system/time_formula.h"
 
 #include "domain.h"
-#include "input.h"
-#include "lammps.h"
 #include "region.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +15,6 @@
 using namespace LAMMPS_NS;
 
 namespace Talus {
-
-bool is_composite(const Region &region)
-{
-  return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
-}
 
 void LanesOfBox::add(const Vector3<Vec8> &x)
 {
@@ -222,39 +213,6 @@ Vector3<double> PeriodicSpan::wrapped(Vector3<double> x) const
 /* ---------------------------------------------------------------------- */
 
 /* Of all equal-style variables the first whose value depends on more than the time, or "". */
-
-static std::string variable_of_more_than_time(LAMMPS *lmp)
-{
-  Variable &all = *lmp->input->variable;
-#if TALUS_HOST_TELLS_FORMULAS
-  const int count = all.get_nvar();
-  const auto name = [&all](int n) { return all.get_name(n); };
-#else
-  const int count = all.nvar;
-  const auto name = [&all](int n) { return all.names[n]; };
-#endif
-  for (int n = 0; n < count; n++)
-    if (all.equalstyle(n) && !reads_only_time(lmp, name(n))) return name(n);
-  return "";
-}
-
-/* The variables of a shape are known to each style alone: all must do. */
-
-std::string variable_that_may_read_particles(LAMMPS *lmp, Region &region)
-{
-  if (region.varshape) return variable_of_more_than_time(lmp);
-  if (is_composite(region)) {
-    for (int n = 0; n < region.nregion; n++) {
-      const std::string variable = variable_that_may_read_particles(lmp, *region.reglist[n]);
-      if (!variable.empty()) return variable;
-    }
-    return "";
-  }
-  if (!region.dynamic) return "";
-  for (const char *name : variables_of(region))
-    if (name && !reads_only_time(lmp, name)) return name;
-  return "";
-}
 
 /* ---------------------------------------------------------------------- */
 

@@ -146,14 +146,6 @@ class PeriodicSpan {
   double low[3] = {0.0, 0.0, 0.0}, period[3] = {0.0, 0.0, 0.0};    // 0: none
 };
 
-/// Made of other regions.
-bool is_composite(const LAMMPS_NS::Region &region);
-
-/// "" if the variables that move a region, or shape it, depend on the time alone; else the name of
-/// one that may depend on particles. Of a region that changes its shape all variables of the script
-/// are asked.
-std::string variable_that_may_read_particles(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::Region &region);
-
 /// While it exists, a simple region answers as it was before it moved.
 class RegionAtRest {
  public:

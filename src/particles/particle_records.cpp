@@ -95,8 +95,17 @@ void ParticleRecords::add_to(const ParticleOrder &order, const ParticleView &arr
     if (!order.is_owned(a)) continue;
     add_to_row(arrays.f + 3L * a, load4(load[stride * s]));
     if (rotation) add_to_row(arrays.torque + 3L * a, torque(s));
-    if (arrays.heat_flow) arrays.heat_flow[a] += twisting_torque[s].c[3];
   }
+  add_heat_to(order, arrays, begin, end);
+}
+
+void ParticleRecords::add_heat_to(const ParticleOrder &order, const ParticleView &arrays, int begin,
+                                  int end) const
+{
+  if (!arrays.heat_flow) return;
+  for (int s = begin; s < end; s++)
+    if (const int a = order.atom_of_slot[s]; order.is_owned(a))
+      arrays.heat_flow[a] += twisting_torque[s].c[3];
 }
 
 double ParticleRecords::memory_usage() const

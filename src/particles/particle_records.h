@@ -129,13 +129,18 @@ class ParticleRecords {
   Vec4 weight(int slot) const { return weight(slot, load4(velocity(slot))); }
 
   /// Adds the summed forces, and torques if angular velocities are kept, of slots begin ... end-1
-  /// to LAMMPS' rows of owned particles: f += F, torque += C - r M.
+  /// to LAMMPS' rows of owned particles: f += F, torque += C - r M; and the heat flows.
   void add_to(const ParticleOrder &order, const ParticleView &arrays, int begin, int end) const;
+  /// The heat flows alone: they and temperatures are kept in the arrays of LAMMPS in every step.
+  void add_heat_to(const ParticleOrder &order, const ParticleView &arrays, int begin,
+                   int end) const;
 
   /// Writes x, v and, if angular velocities are kept, omega of a slot to LAMMPS' row.
   void write_state(int slot, double *x, double *v, double *omega) const;
   /// Sets LAMMPS' row of forces, and that of torques if angular velocities are kept.
   void write_forces(int slot, double *f, double *torque) const;
+  /// Sets the sums to those of LAMMPS' rows, as settle_torque() leaves them.
+  void set_forces(int slot, const double *f, const double *torque);
 
   /// Keeps the changes of a slot whose records of velocities and angular velocities were replaced
   /// in a step: also of proxies, to which it happens what has happened to their owners.

@@ -35,24 +35,35 @@ inline Vec4 square(Vec4 row)
   return halves + shuffle<2, 3, 0, 1>(halves, halves);
 }
 
+/* Number by number: std::copy would call a function. */
+
+TALUS_INLINE void write_row(Vec4 from, double *to)
+{
+  for (int d = 0; d < 3; d++) to[d] = from[d];
+}
+
 }    // namespace
 
 void ParticleRecords::write_state(int slot, double *x, double *v, double *omega) const
 {
   const Record *moves = &motion[stride * slot];
-  std::copy(position[slot].c, position[slot].c + 3, x);
-  std::copy(moves[0].c, moves[0].c + 3, v);
-  if (stride == 2) std::copy(moves[1].c, moves[1].c + 3, omega);
+  write_row(load4(position[slot]), x);
+  write_row(load4(moves[0]), v);
+  if (stride == 2) write_row(load4(moves[1]), omega);
 }
 
 void ParticleRecords::write_forces(int slot, double *f, double *torque_row) const
 {
-  const Record &force = load[stride * slot];
-  std::copy(force.c, force.c + 3, f);
-  if (stride == 1) return;
-  Record total_torque;
-  store(total_torque, torque(slot));
-  std::copy(total_torque.c, total_torque.c + 3, torque_row);
+  write_row(load4(load[stride * slot]), f);
+  if (stride == 2) write_row(torque(slot), torque_row);
+}
+
+void ParticleRecords::set_forces(int slot, const double *f, const double *torque_row)
+{
+  const std::size_t s = slot;
+  has_acted(s);
+  store(load[stride * s], four(f[0], f[1], f[2], stride == 2 ? 1.0 : 0.0));
+  if (stride == 2) store(load[2 * s + 1], four(torque_row[0], torque_row[1], torque_row[2], 0.0));
 }
 
 /* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they

@@ -46,14 +46,15 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 
 std::string VerletProxy::reason_for_stock() const
 {
-  if (!system->pair_style_is_alone()) return system->reason_of_pair_style();
+  const std::string of_pair_style = system->reason_of_pair_style();
+  if (!of_pair_style.empty()) return of_pair_style;
   return pair_compute_flag ? "" : "'pair_modify compute no' is set";
 }
 
 void VerletProxy::init()
 {
   Verlet::init();
-  if (system->pair_style_is_alone()) system->exchange().start_run();
+  if (system->reason_of_pair_style().empty()) system->exchange().start_run();
 }
 
 void VerletProxy::setup(int flag)
@@ -126,7 +127,7 @@ void VerletProxy::run(int n)
 bool VerletProxy::others_act_on_ghosts() const
 {
   return force->bond || force->angle || force->dihedral || force->improper || force->kspace ||
-         modify->n_pre_force || modify->n_pre_reverse;
+         modify->n_pre_force || modify->n_pre_reverse || !system->pair_style_is_alone();
 }
 
 /* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. With few particles
@@ -155,13 +156,15 @@ void VerletProxy::step()
   if (!in_records) lists->ask(nullptr);
   if (comm->nprocs > 1 || atom->nghost > 0) timer->stamp(Timer::COMM);
 
-  if (to_arrays) force_clear();
-  compute_forces(to_arrays);
+  const bool others_in_arrays = system->begin_pair_styles();
+  if (to_arrays || others_in_arrays) force_clear();
+  compute_forces(to_arrays || others_in_arrays);
+  if (others_in_arrays) system->end_pair_styles();
   if (in_records) lists->ask(system.get());
 
   fixes.post_force(vflag);
   fixes.final_integrate();
-  if (modify->n_end_of_step) modify->end_of_step();
+  fixes.end_of_step();
 
   if (now == output->next) {
     timer->stamp(Timer::MODIFY);

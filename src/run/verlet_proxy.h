@@ -36,7 +36,7 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
  private:
   enum class Overlap { AUTOMATIC, YES, NO };
 
-  bool makes_own_steps() const { return system->pair_style_is_alone() && pair_compute_flag; }
+  bool makes_own_steps() const { return reason_for_stock().empty(); }
   void decide_on_overlap();
   bool others_act_on_ghosts() const;
   void step();

@@ -10,9 +10,13 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "fix.h"
+#include "group.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "region.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +29,7 @@ namespace {
 
 constexpr int within_steps =
     INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
-constexpr int integrates = INITIAL_INTEGRATE | FINAL_INTEGRATE;
+constexpr int both_kicks = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 
 }    // namespace
 
@@ -35,30 +39,42 @@ constexpr int integrates = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 const FixCalls::Window *FixCalls::window_of(const Fix *fix)
 {
   static const Window windows[] = {
-      {"addforce", POST_FORCE, X, F},
-      {"addtorque", POST_FORCE, X | V, F},
-      {"aveforce", POST_FORCE, X, F},
-      {"drag", POST_FORCE, X, F},
-      {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE},
-      {"langevin", POST_FORCE, V | OMEGA, F | TORQUE},
-      {"lineforce", POST_FORCE, 0, F},
-      {"move", integrates, F, X | V | OMEGA},
-      {"nve", integrates, F, X | V},
-      {"nve/limit", integrates, F, X | V},
-      {"nve/noforce", integrates, V, X},
-      {"planeforce", POST_FORCE, 0, F},
-      {"setforce", POST_FORCE, X, F},
-      {"smd", POST_FORCE, X, F, true},
-      {"spring", POST_FORCE, X, F, true},
-      {"spring/self", POST_FORCE, X, F},
-      {"viscous", POST_FORCE, V, F},
-      {"viscous/sphere", POST_FORCE, OMEGA, TORQUE},
-      {"wall/reflect", POST_INTEGRATE, 0, X | V},
+      {"addforce", POST_FORCE, X, F},        {"addtorque", POST_FORCE, X | V, F},
+      {"aveforce", POST_FORCE, X, F},        {"drag", POST_FORCE, X, F},
+      {"efield", POST_FORCE, X, F | TORQUE}, {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE},
+      {"gravity", POST_FORCE, X, F},         {"heat/flow", PRE_FORCE | FINAL_INTEGRATE, 0, 0},
+      {"indent", POST_FORCE, X, F},          {"langevin", POST_FORCE, V | OMEGA, F | TORQUE},
+      {"lineforce", POST_FORCE, 0, F},       {"move", both_kicks, F, X | V | OMEGA},
+      {"nve", both_kicks, F, X | V},         {"nve/limit", both_kicks, F, X | V},
+      {"nve/noforce", both_kicks, V, X},     {"planeforce", POST_FORCE, 0, F},
+      {"setforce", POST_FORCE, X, F},        {"smd", POST_FORCE, X, F, true},
+      {"spring", POST_FORCE, X, F, true},    {"spring/self", POST_FORCE, X, F},
+      {"viscous", POST_FORCE, V, F},         {"viscous/sphere", POST_FORCE, OMEGA, TORQUE},
+      {"wall/harmonic", POST_FORCE, X, F},   {"wall/lj1043", POST_FORCE, X, F},
+      {"wall/lj126", POST_FORCE, X, F},      {"wall/lj93", POST_FORCE, X, F},
+      {"wall/morse", POST_FORCE, X, F},      {"wall/reflect", POST_INTEGRATE, 0, X | V},
   };
   const auto *const found =
       std::find_if(std::begin(windows), std::end(windows),
                    [&](const Window &w) { return std::strcmp(w.style, fix->style) == 0; });
   return found == std::end(windows) ? nullptr : found;
+}
+
+bool FixCalls::integrates(const Window *window)
+{
+  return (window->calls & INITIAL_INTEGRATE) != 0;
+}
+
+/* They may be asked for numbers by others, and change variables, but no particle. */
+
+bool FixCalls::only_reads(const Fix *fix)
+{
+  static const char *const styles[] = {
+      "ave/atom", "ave/chunk", "ave/correlate",    "ave/correlate/long",
+      "ave/grid", "ave/histo", "ave/histo/weight", "ave/time",
+      "halt",     "print",     "store/state",      "vector"};
+  return std::any_of(std::begin(styles), std::end(styles),
+                     [fix](const char *style) { return std::strcmp(style, fix->style) == 0; });
 }
 
 std::string FixCalls::reason_against(const Fix *fix)
@@ -69,11 +85,12 @@ std::string FixCalls::reason_against(const Fix *fix)
   const bool moves = (window->writes & X) != 0;
   if (moves && system.needs_changes())
     return "particles that it moves have no accelerations for order 2 or energies";
+  if (moves && group->dynamic[fix->igroup]) return "its group is dynamic";
   if ((window->writes & TORQUE) != 0 && (window->writes & V) == 0 &&
       !system.law_table().has_friction())
     return "it acts on rotations, and contacts do not";
   const std::string of_variables = reason_of_variables(*fix);
-  if (!of_variables.empty() || (window->calls & integrates) == 0) return of_variables;
+  if (!of_variables.empty() || !integrates(window)) return of_variables;
   return reason_of_mover(fix);
 }
 
@@ -84,7 +101,12 @@ std::string FixCalls::reason_of_variables(const Fix &fix) const
   for (const char *name : variables.names)
     if (name && !reads_only_time(lmp, name))
       return std::string("variable ") + name + " reads more than time";
-  return "";
+  const Region *const region =
+      variables.region ? domain->get_region_by_id(variables.region) : nullptr;
+  const std::string variable = region ? variable_that_may_read_particles(lmp, *region) : "";
+  return variable.empty()
+             ? ""
+             : "its region may move with particles: v_" + variable + " reads more than time";
 }
 
 /* Particles are moved by one fix: by this one, or in the pass through the records. */
@@ -96,8 +118,7 @@ std::string FixCalls::reason_of_mover(const Fix *fix) const
     if (other == fix) continue;
     const auto *const talus_fix = SystemFix::of(other);
     const Window *const window = talus_fix ? nullptr : window_of(other);
-    const bool moves =
-        talus_fix ? talus_fix->integrates() : window && (window->calls & integrates) != 0;
+    const bool moves = talus_fix ? talus_fix->integrates() : window && integrates(window);
     if (!moves) continue;
     int both = fix->groupbit == all || other->groupbit == all || fix->groupbit == other->groupbit;
     for (int i = 0; i < atom->nlocal && !both; i++)
@@ -157,6 +178,8 @@ void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 void FixCalls::start_run()
 {
   for (Phase *phase : {&initial, &post, &forces, &final}) phase->clear();
+  groups.clear();
+  readers.clear();
   const std::vector<Fix *> fixes = fix_list(*modify);
   for (Fix *const fix : fixes) {
     const int calls = modify->get_fix_mask(fix);
@@ -165,6 +188,8 @@ void FixCalls::start_run()
     if (calls & POST_INTEGRATE) post.push_back(one);
     if (calls & POST_FORCE) forces.push_back(one);
     if (calls & FINAL_INTEGRATE) final.push_back(one);
+    if (calls & END_OF_STEP && only_reads(fix)) readers.push_back(fix);
+    if (std::strcmp(fix->style, "GROUP") == 0) groups.push_back(fix);
   }
   // Those that move particles come first: their forces are cleared on the way through the records,
   // which may begin with the last integrator of Talus. They have no particle in common with it.
@@ -204,7 +229,12 @@ void FixCalls::post_integrate()
 void FixCalls::post_force(int vflag)
 {
   if (!modify->n_post_force_any) return;
-  if (!system.pipeline().holds_state()) return modify->post_force(vflag);
+  const bool in_records = system.pipeline().holds_state();
+  if (groups_are_due()) {
+    forget_members();
+    if (in_records) update_groups(vflag);
+  }
+  if (!in_records) return modify->post_force(vflag);
   call_all(forces, [vflag](Fix *fix) { fix->post_force(vflag); });
 }
 
@@ -212,6 +242,60 @@ void FixCalls::final_integrate()
 {
   if (!system.pipeline().holds_state()) return modify->final_integrate();
   call_all(final, [](Fix *fix) { fix->final_integrate(); });
+}
+
+bool FixCalls::groups_are_due() const
+{
+  return std::any_of(groups.begin(), groups.end(),
+                     [this](const Fix *fix) { return update->ntimestep % fix->nevery == 0; });
+}
+
+void FixCalls::forget_members()
+{
+  for (Phase *phase : {&initial, &post, &forces, &final})
+    for (Called &called : *phase) called.lists = -1;
+}
+
+/* A region needs positions of particles of this rank alone; what else decides on members may read
+   all that a formula can tell of particles. */
+
+bool FixCalls::reads_positions_alone(Fix *group_fix) const
+{
+  int unused = 0;
+  if (group_fix->extract("variable", unused) || neighbor->find_request(group_fix)) return false;
+  const auto *const id = static_cast<const char *>(group_fix->extract("region", unused));
+  const Region *const region = id ? domain->get_region_by_id(id) : nullptr;
+  return !region || variable_that_may_read_particles(lmp, *region).empty();
+}
+
+void FixCalls::update_groups(int vflag)
+{
+  if (std::all_of(groups.begin(), groups.end(),
+                  [this](Fix *fix) { return reads_positions_alone(fix); })) {
+    const ParticleState particles = system.particles();
+    in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
+      for (int i = begin; i < end; i++) copy_row(particles.x(i), atom->x[i]);
+    });
+  } else {
+    system.show_particles();
+  }
+  for (Fix *const fix : groups) fix->post_force(vflag);
+}
+
+bool FixCalls::somebody_looks() const
+{
+  const bigint now = update->ntimestep;
+  return std::any_of(readers.begin(), readers.end(), [now](const Fix *fix) {
+    const bigint next = next_reading_of(*fix);
+    return now % fix->nevery == 0 && (next < 0 || next == now);
+  });
+}
+
+void FixCalls::end_of_step()
+{
+  if (!modify->n_end_of_step) return;
+  if (system.pipeline().holds_state() && somebody_looks()) system.show_step();
+  modify->end_of_step();
 }
 
 }    // namespace Talus

@@ -2,8 +2,10 @@
 //
 // Calls the fixes of a step, as Modify does. In steps in the records fixes of LAMMPS that are known
 // to read and change a few quantities of the particles of their group only see these in the arrays of
-// LAMMPS: before the call they are copied there, and what the fix may change is copied back. All
-// other fixes of LAMMPS that act within steps keep a run from having steps in the records.
+// LAMMPS: before the call they are copied there, and what the fix may change is copied back. Fixes
+// that read particles at the end of a step, such as fix ave/time, find all of them there, complete,
+// while the run goes on in the records; and so does what updates dynamic groups. All other fixes of
+// LAMMPS that act within steps keep a run from having steps in the records.
 
 #ifndef TALUS_SYSTEM_FIX_CALLS_H
 #define TALUS_SYSTEM_FIX_CALLS_H
@@ -15,7 +17,7 @@
 
 namespace LAMMPS_NS {
 class Fix;
-}
+}    // namespace LAMMPS_NS
 
 namespace Talus {
 
@@ -28,6 +30,10 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   /// At the start of a run, of a fix of LAMMPS that acts within steps: "", or why it needs the arrays
   /// in each step, as text for messages. Collective.
   std::string reason_against(const LAMMPS_NS::Fix *fix);
+  /// What this fix of LAMMPS does at the end of a step changes no particle.
+  static bool only_reads(const LAMMPS_NS::Fix *fix);
+  /// One of these reads particles at the end of the present step.
+  bool somebody_looks() const;
 
   /// At the start of a run, after all of them were asked.
   void start_run();
@@ -37,6 +43,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   void post_integrate();
   void post_force(int vflag);
   void final_integrate();
+  void end_of_step();
 
  private:
   /// What a style of LAMMPS does: in which calls, with which quantities of its group.
@@ -48,6 +55,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   enum Quantity : int { X = 1, V = 2, OMEGA = 4, F = 8, TORQUE = 16 };
 
   static const Window *window_of(const LAMMPS_NS::Fix *fix);
+  static bool integrates(const Window *window);
   std::string reason_of_mover(const LAMMPS_NS::Fix *fix) const;
   std::string reason_of_variables(const LAMMPS_NS::Fix &fix) const;
   struct Called {
@@ -59,11 +67,16 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   };
   using Phase = std::vector<Called>;
   template <class Call> void call_all(Phase &phase, Call call);
+  bool groups_are_due() const;
+  bool reads_positions_alone(LAMMPS_NS::Fix *group_fix) const;
+  void update_groups(int vflag);
+  void forget_members();
   void find_members(Called &called) const;
   void copy(const Called &called, int quantities, bool to_arrays) const;
 
   GranularSystem &system;
-  Phase initial, post, forces, final;    // of this run
+  Phase initial, post, forces, final;               // of this run
+  std::vector<LAMMPS_NS::Fix *> groups, readers;    // that are dynamic; at the end of a step
 };
 
 }    // namespace Talus

@@ -101,10 +101,16 @@ bool GranularSystem::pair_style_is_alone() const
   return pair && (force->pair == pair || computes_all_of_hybrid(*pair, *force, atom->ntypes));
 }
 
+/* Style hybrid/scaled multiplies forces, and other ones are not known. */
+
 std::string GranularSystem::reason_of_pair_style() const
 {
-  if (pair_style_is_alone()) return "";
-  return has_pair_style() ? "the pair style is hybrid" : "the pair style is not accelerated";
+  if (!pair) return "the pair style is not accelerated";
+  if (force->pair == pair) return "";
+  const std::string style_of_all = force->pair_style;
+  if (style_of_all != "hybrid" && style_of_all != "hybrid/overlay")
+    return "the pair style is " + style_of_all;
+  return pair->compute_flag ? "" : "'pair_modify compute no' is set";
 }
 
 void GranularSystem::init_pair_style()

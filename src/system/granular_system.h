@@ -123,7 +123,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// All pairs are computed here: it is not part of hybrid, or the only one. Valid in init() of LAMMPS
   /// and after it.
   bool pair_style_is_alone() const;
-  /// "" if so, else why not, as text for messages.
+  /// "" if it is computed in each step, alone or with other sub-styles, else why not, as text for
+  /// messages. The same.
   std::string reason_of_pair_style() const;
   double memory_usage() const
   {
@@ -165,6 +166,16 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   bool begin_forces(LAMMPS_NS::bigint step, bool tallied);
   /// Updates the proxies, after begin_forces(); pending on return if `overlap`.
   void update_proxies(bool overlap);
+  /// Around the pair style in a step in the records: other sub-styles of a hybrid one find particles
+  /// in the arrays of LAMMPS, where they add their forces to those of contacts; these are taken
+  /// from there in the end. Returns whether that is to come: forces are to be cleared there in
+  /// between, and summed up before the end.
+  bool begin_pair_styles();
+  void end_pair_styles();
+  /// Shows particles in the arrays of LAMMPS, and goes on in the records: to those who read them
+  /// at the end of a step, or before forces other than those of pairs are added.
+  void show_step();
+  void show_particles();
   /// New neighbor lists are due: the particles come back to the arrays of LAMMPS.
   void begin_rebuild();
   /// The same between two steps, or at the end of a run, however it ends: with the forces that will
@@ -191,6 +202,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void change_order_of_histories();
   NeighborView without_shapes(const NeighborView &all);
   void complete_step();
+  void complete_step_where(bool integrating, bool placing);
   bool needs_changes(int order) const;
   void find_changes(ContactStep &step, int order);
   float weight_of_changes(bool setting_up) const;
@@ -225,6 +237,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Weights gravity;
   StepsInRecords record_steps;
   bool stays_in_records = false;    // after this step
+  LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;
 };
 

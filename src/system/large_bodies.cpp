@@ -48,6 +48,8 @@ bool LargeBodies::account() const
 void LargeBodies::start_run()
 {
   may_join.clear();
+  // what updates dynamic groups may read forces, and comes first
+  if (!modify->get_fix_by_style("^GROUP$").empty()) return;
   for (const auto &fix : fix_list(*modify)) {
     const auto *talus_fix = SystemFix::of(fix);
     const int mask = modify->get_fix_mask(fix);

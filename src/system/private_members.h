@@ -6,8 +6,11 @@
 #ifndef TALUS_SYSTEM_PRIVATE_MEMBERS_H
 #define TALUS_SYSTEM_PRIVATE_MEMBERS_H
 
+#include "lmptype.h"
+
 #include <array>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class Comm;
@@ -46,6 +49,9 @@ bool leaves_out_small(const LAMMPS_NS::Comm &comm);
 /// in the end: to be called before it is deleted, unless fix bond/react has asked for the list.
 void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 
+/// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
+LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);
+
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 
@@ -63,7 +69,8 @@ const double *axis_of_rotation(const LAMMPS_NS::Region &region);
 /// What a fix of LAMMPS that can be called in a step in the records (see FixCalls) evaluates in every
 /// step: names of variables, nullptr where there is none; `more`: something else, such as a compute.
 struct FixVariables {
-  std::array<const char *, 6> names{};
+  std::vector<const char *> names;
+  const char *region = nullptr;    ///< ID of the region that it acts in
   bool more = false;
 };
 FixVariables variables_of(const LAMMPS_NS::Fix &fix);

@@ -38,7 +38,8 @@ class ProxyStates : protected LAMMPS_NS::Pointers {
   void update(bool overlap, ContactPipeline &particles, const ParticleView &arrays, bool stay);
   /// Waits for those that are under way.
   void finish();
-  /// Those of the last update() have come to the records. Asked once.
+  /// Those of the last update() have come to the records; and asked once.
+  bool have_arrived_in_records() const { return in_records; }
   bool take_arrived_in_records() { return std::exchange(in_records, false); }
 
  private:

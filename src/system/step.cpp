@@ -39,6 +39,7 @@ void GranularSystem::start_run(bool pairs_computed)
 {
   proxies.forget_plan();
   largest_move.forget();    // reset_timestep may bring a step back
+  shown = -1;
   record_steps.start_run(pairs_computed);
   large_bodies.start_run();
 }
@@ -86,12 +87,14 @@ void GranularSystem::compute_contacts(const std::function<void(const TalliedCont
   ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, tally,
                    energies.begin_step(setting_up)};
   run_contacts.forget();
+  const bool alone = pair_style_is_alone();
   const int order =
       contact_store->order_of_histories();    // that of the run, since pairs were numbered
   step.lag = order == 2 ? movers.lag() : 0.0;
   step.read = !contact_pipeline->holds_state();
   step.read_ghosts = !proxies.take_arrived_in_records();
   step.deliver = !stays_in_records;
+  step.add_to_arrays = stays_in_records && !alone;
   find_changes(step, order);
   if (contact_pipeline->conducts_heat()) step.temperature = atom->temperature;
 
@@ -99,8 +102,8 @@ void GranularSystem::compute_contacts(const std::function<void(const TalliedCont
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
     large_bodies.add_to_slots(thread, begin, end);
   };
-  // contacts of shapes come before those of bodies, and after those of spheres
-  if (!shaped && !step.read && !step.deliver && large_bodies.join_step())
+  // contacts of shapes come before those of bodies, and after those of spheres; so do other pairs
+  if (!shaped && alone && !step.read && !step.deliver && large_bodies.join_step())
     step.add_other_forces = &add_bodies;
 
   compute_around_proxies(step);
@@ -218,16 +221,57 @@ void GranularSystem::leave_records(bool with_forces)
   contact_pipeline->return_state(view(), with_forces);
 }
 
-/* Fix freeze of LAMMPS acts on its arrays only. */
+bool GranularSystem::begin_pair_styles()
+{
+  if (pair_style_is_alone()) return false;
+  if (contact_pipeline->holds_state()) {
+    contact_pipeline->complete_move();
+    contact_pipeline->show(view(), proxies.have_arrived_in_records(), false);
+  }
+  return stays_in_records;
+}
+
+void GranularSystem::end_pair_styles()
+{
+  contact_pipeline->take_forces(view());
+}
+
+void GranularSystem::show_particles()
+{
+  contact_pipeline->show(view(), true, true);
+}
+
+/* Clumps know themselves whether their step is complete, and so do the spheres that they place; the
+   others end it in the arrays alone. */
+
+void GranularSystem::show_step()
+{
+  complete_step_where(true, true);
+  show_particles();
+  complete_step_where(false, false);
+  complete_step_where(true, false);
+  shown = update->ntimestep;
+}
+
+/* Where a run ends after a step that has been shown, clumps have completed it. */
 
 void GranularSystem::complete_step()
 {
-  for (const bool integrating : {false, true})
-    for (Fix *fix : fix_list(*modify)) {
-      auto *talus_fix = SystemFix::of(fix);
-      if (talus_fix && talus_fix->integrates() == integrating) talus_fix->complete_step();
-      if (!talus_fix && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
-    }
+  complete_step_where(false, false);
+  complete_step_where(true, false);
+  if (shown != update->ntimestep) complete_step_where(true, true);
+}
+
+/* Fix freeze of LAMMPS acts on its arrays only. */
+
+void GranularSystem::complete_step_where(bool integrating, bool placing)
+{
+  for (Fix *fix : fix_list(*modify)) {
+    auto *talus_fix = SystemFix::of(fix);
+    if (!talus_fix && !integrating && utils::strmatch(fix->style, "^freeze")) fix->post_force(0);
+    if (!talus_fix || talus_fix->integrates() != integrating) continue;
+    if (talus_fix->places_particles() == placing) talus_fix->complete_step();
+  }
 }
 
 }    // namespace Talus

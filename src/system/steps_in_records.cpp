@@ -50,7 +50,7 @@ void StepsInRecords::start_run(bool pairs_computed)
 void StepsInRecords::report(bool pairs_computed)
 {
   // laws tell what the fixes are asked; they are known since init(), if there are particles to be
-  if (system.pair_style_is_alone()) static_cast<void>(system.law_table());
+  if (system.reason_of_pair_style().empty()) static_cast<void>(system.law_table());
   styles.print(system, find_reason_against(pairs_computed));
 }
 
@@ -70,17 +70,19 @@ bool StepsInRecords::is_looked_at(bigint step) const
 
 std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
 {
-  if (!system.pair_style_is_alone()) return system.reason_of_pair_style();
+  const std::string of_pair_style = system.reason_of_pair_style();
+  if (!of_pair_style.empty()) return of_pair_style;
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!SystemRunStyle::of(update->integrate))
     return std::string("run style ") + update->integrate_style;
-  if (system.laws().conducts_heat()) return "contacts conduct heat";
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
+  if (!system.pair_style_is_alone() && !system.law_table().has_friction())
+    return "the pair style is hybrid, and contacts have no torques";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
@@ -104,10 +106,10 @@ std::string StepsInRecords::find_reason_against(bool pairs_computed)
                                : acts_within_steps(fix, mask) ? calls.reason_against(fix)
                                                               : "";
     if (!reason.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + reason;
-    if ((mask & END_OF_STEP) == 0 || fix == system.store()) continue;
+    if ((mask & END_OF_STEP) == 0 || fix == system.store() || FixCalls::only_reads(fix)) continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
-             "): looks at particles at the end of every step: a larger Nevery";
+             "): may change particles at the end of every step: a larger Nevery";
     at_end_of_step.push_back(fix);
   }
   return integrators.reason_against_records(system.shapes());

@@ -57,7 +57,7 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
   FixCalls calls;
   std::string reason = "no run yet";               // "" if this run has such steps, as text for
                                                    // messages
-  std::vector<LAMMPS_NS::Fix *> at_end_of_step;    // fixes that look at particles then
+  std::vector<LAMMPS_NS::Fix *> at_end_of_step;    // fixes that may change particles then
 };
 
 }    // namespace Talus

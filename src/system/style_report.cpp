@@ -94,7 +94,8 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
     return how(talus_pair->reason_for_stock());
   if (system.pair_style_is_alone()) return how("");    // the only part of hybrid
   if (system.has_pair_style())
-    return "sub-styles of Talus accelerated, in the arrays of LAMMPS; others stock";
+    return system.pair_style_is_alone() ? "accelerated"
+                                        : "sub-styles of Talus accelerated; others stock";
   if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");
   return how(why_stock(*force->pair_map, force->pair_style));
 }

@@ -2,15 +2,18 @@
 
 #include "system/time_formula.h"
 
+#include "system/lammps_compat.h"
 #include "system/private_members.h"
 
 #include "input.h"
 #include "lammps.h"
+#include "region.h"
 #include "variable.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <cstring>
 #include <set>
 
 using namespace LAMMPS_NS;
@@ -93,6 +96,44 @@ bool reads_only_time(LAMMPS *lmp, const std::string &variable)
 {
   std::set<std::string> met;
   return reads_only_time(*lmp->input->variable, variable, met);
+}
+
+bool is_composite(const Region &region)
+{
+  return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
+}
+
+static std::string variable_of_more_than_time(LAMMPS *lmp)
+{
+  Variable &all = *lmp->input->variable;
+#if TALUS_HOST_TELLS_FORMULAS
+  const int count = all.get_nvar();
+  const auto name = [&all](int n) { return all.get_name(n); };
+#else
+  const int count = all.nvar;
+  const auto name = [&all](int n) { return all.names[n]; };
+#endif
+  for (int n = 0; n < count; n++)
+    if (all.equalstyle(n) && !reads_only_time(lmp, name(n))) return name(n);
+  return "";
+}
+
+/* The variables of a shape are known to each style alone: all must do. */
+
+std::string variable_that_may_read_particles(LAMMPS *lmp, const Region &region)
+{
+  if (region.varshape) return variable_of_more_than_time(lmp);
+  if (is_composite(region)) {
+    for (int n = 0; n < region.nregion; n++) {
+      const std::string variable = variable_that_may_read_particles(lmp, *region.reglist[n]);
+      if (!variable.empty()) return variable;
+    }
+    return "";
+  }
+  if (!region.dynamic) return "";
+  for (const char *name : variables_of(region))
+    if (name && !reads_only_time(lmp, name)) return name;
+  return "";
 }
 
 }    // namespace Talus

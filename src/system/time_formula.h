@@ -10,7 +10,8 @@
 
 namespace LAMMPS_NS {
 class LAMMPS;
-}
+class Region;
+}    // namespace LAMMPS_NS
 
 namespace Talus {
 
@@ -22,6 +23,15 @@ bool reads_only_time(LAMMPS_NS::LAMMPS *lmp, const std::string &variable);
 /// The same of the text of a formula, apart from the variables in it, whose names are added to
 /// `variables`.
 bool formula_reads_only_time(const std::string &formula, std::vector<std::string> &variables);
+
+/// Made of other regions.
+bool is_composite(const LAMMPS_NS::Region &region);
+
+/// "" if the variables that move a region, or shape it, depend on the time alone; else the name of
+/// one that may depend on particles. Of a region that changes its shape all variables of the script
+/// are asked.
+std::string variable_that_may_read_particles(LAMMPS_NS::LAMMPS *lmp,
+                                             const LAMMPS_NS::Region &region);
 
 }    // namespace Talus
 

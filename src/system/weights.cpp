@@ -15,7 +15,8 @@ namespace Talus {
 
 std::string Weights::take(SystemGravity *gravity_fix)
 {
-  if (!system.pair_style_is_alone()) return system.reason_of_pair_style();
+  const std::string of_pair_style = system.reason_of_pair_style();
+  if (!of_pair_style.empty()) return of_pair_style;
   if (!force->pair->compute_flag) return "'pair_modify compute no' is set";
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";

@@ -148,7 +148,7 @@ fix grav gravity                  accelerated
 fix 4 wall/gran/region            accelerated
 fix 5 wall/gran/region            accelerated
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: contacts conduct heat
+steps without output              in the records
 """, steps=4000, every=500, long_steps=10000, bench_steps=10000),
     StockInput("examples/granular/in.restitution", """
 pair granular                     accelerated

@@ -12,7 +12,7 @@ units lj
 boundary {boundary}
 atom_style sphere
 atom_modify map yes
-newton off
+newton {newton}
 comm_modify vel yes
 read_data grains
 {pair}
@@ -52,10 +52,10 @@ class TossedCase(SceneCase):
         write_sphere_data(self.path("grains"), ((0, 9.5), (0, 7.2), (-0.5, 6.5)), grains)
 
     def run_tossed(self, np=1, threads=1, law=LAW, pair=PAIR, movers=MOVERS, start="plain", boundary="f f f", more="",
-                   every=20, columns="", run="run 130"):
+                   every=20, columns="", run="run 130", newton="off"):
         """The text of the dump and of the log."""
         script = SCENE.format(boundary=boundary, pair=pair.format(law=law), movers=movers.format(start=start), law=law,
-                              more=more, every=every, columns=columns, run=run)
+                              more=more, every=every, columns=columns, run=run, newton=newton)
         log = self.run_lammps(script, np=np, env={"OMP_NUM_THREADS": str(threads)}).log
         with open(self.path("dump")) as file:
             frames = file.read()

@@ -121,6 +121,24 @@ class Clumps(ClumpCase):
                     for frame in frames:
                         self.assert_same_bits(frame, reference[frame.step])
 
+    def test_what_reads_each_step(self):
+        """It finds clumps and their spheres complete, while steps go on in the records, also where one moves clumps alone."""
+        reading = ("compute spin all property/atom omegax tqy\n"
+                   "compute sums all reduce sum vx z fx c_spin[1] c_spin[2]\ncompute most all reduce max vz\n"
+                   "fix say all print 1 '$(c_sums[1]:%.17g) $(c_sums[2]:%.17g) $(c_sums[3]:%.17g) $(c_sums[4]:%.17g) "
+                   "$(c_sums[5]:%.17g) $(c_most:%.17g) $(f_move:%.17g)' file said screen no\n")
+        for move, rest in MOVES:
+            for np in 1, 2:
+                with self.subTest(move=move, ranks=np):
+                    found = []
+                    for style, expect in ("run_style verlet/stock", None), ("run_style verlet", RECORDS):
+                        frames = self.simulate(move, np, style=f"{reading}comm_proxy yes\n{style}", expect=expect, **rest)
+                        with open(self.path("said")) as file:
+                            found.append((frames, file.read()))
+                    for a, b in zip(found[0][0], found[1][0], strict=True):
+                        self.assert_same_bits(a, b)
+                    self.assertEqual(found[0][1], found[1][1])
+
     def test_runs_and_restarts_go_on(self):
         """A new set-up would find the masses and axes anew, with other rounding."""
         restart = f"read_restart state.restart\n{MOLECULES}"

@@ -545,7 +545,7 @@ dump_modify heat format float %.17g
                 with self.subTest(model=title, newton=newton):
                     log = self.compare(words, newton=newton)
                     self.assert_accelerated(log)
-                    self.assertRegex(log, "through the arrays of LAMMPS: contacts conduct heat")
+                    self.assertRegex(log, "steps without output +in the records")
 
     def test_after_one_step(self):
         for title, words in self.MODELS.items():
@@ -593,6 +593,30 @@ dump_modify pairs format float %.17g
         for others in frames[1:]:
             for a, b in zip(frames[0], others, strict=True):
                 self.assert_same_bits(a, b)
+
+    def test_in_the_records(self):
+        low, high = self.box[0]
+        words = self.MODELS["area"]
+        wall = f"variable hot equal 2.0+20*step*dt\nfix w all wall/gran granular {words} zplane {low} {high} temperature v_hot\n"
+        each = ("compute warm all reduce ave c_hot[1]\nfix mean all ave/time 1 1 1 c_warm file means format ' %a'\n")
+        for np in 1, 2:
+            found = []
+            for style in "run_style verlet/stock\n", "run_style verlet\n":
+                text = self.heated(words, more=wall + each + "comm_proxy yes\n" + style, run="run 200", every=50)
+                log = self.run_suffix(True, "ours", text, np=np).log
+                with open(self.path("ours/means")) as file:
+                    found.append((read_dump(self.path("ours/heat")) + read_dump(self.path("ours/state")), file.read()))
+            self.assertRegex(log, "steps without output +in the records")
+            for a, b in zip(found[0][0], found[1][0], strict=True):
+                self.assert_same_bits(a, b)
+            self.assertEqual(found[0][1], found[1][1])
+
+    def test_wall_whose_temperature_reads_particles(self):
+        low, high = self.box[0]
+        words = self.MODELS["area"]
+        wall = f"variable hot equal 2.0+vcm(all,x)\nfix w all wall/gran granular {words} zplane {low} {high} temperature v_hot\n"
+        log = self.run_suffix(True, "ours", self.heated(words, more=wall, run="run 20")).log
+        self.assertRegex(log, r"through the arrays of LAMMPS: fix w \(wall/gran\): variable hot reads more than time")
 
     def test_without_temperature(self):
         text = self.scene(coeffs=f"pair_coeff * * {self.MODELS['area']}")
