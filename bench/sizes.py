@@ -45,10 +45,10 @@ atom_style sphere
 atom_modify map array
 boundary {side} {side} f
 newton off
-comm_modify {multi} vel yes
+neighbor {skin} {style}
+comm_modify {mode} vel yes
 """
-PHYSICS = """neighbor {skin} {style}
-neigh_modify every 1 delay 0 check yes
+PHYSICS = """neigh_modify every 1 delay 0 check yes
 pair_style gran/{law}
 pair_coeff * *
 timestep {dt}
@@ -70,6 +70,10 @@ variable class atom 1+floor(ln(1.0000001*c_size/{d})/ln(2))
 run 0
 set group all type v_class
 """
+
+
+def head(side, multi=False):
+    return HEAD.format(side=SIDES[side], skin=SKIN, style="multi" if multi else "bin", mode="mode multi" if multi else "mode single")
 
 
 def mean_volume(name):
@@ -104,8 +108,7 @@ class Bed:
 
     def commands(self, begin, multi=False):
         walls = WALLS.format(law=LAW, wide=self.wide) if self.side == "walls" else ""
-        return HEAD.format(side=SIDES[self.side], multi="mode multi" if multi else "") + begin \
-            + PHYSICS.format(law=LAW, dt=DT, gravity=GRAVITY, skin=SKIN, style="multi" if multi else "bin", walls=walls)
+        return head(self.side, multi) + begin + PHYSICS.format(law=LAW, dt=DT, gravity=GRAVITY, walls=walls)
 
     def make(self):
         """The states, once."""
@@ -214,7 +217,7 @@ def filling(bench):
         volume = (math.pi / 6 * D**3 * (float(large[1]) + 1000 * float(large[2])) * count / (float(large[1]) + float(large[2]))
                   if large else count * mean_volume("1:30" if "uniform" in sizes else "equal"))
         wide = (volume / fraction) ** (1 / 3)
-        script = HEAD.format(side="p", multi="") + BOX.format(wide=wide, high=wide, types=1) \
+        script = head("periodic") + BOX.format(wide=wide, high=wide, types=1) \
             + f"fill_region box 1 number {count} diameter {sizes} density 2500 seed 4711\n"
         bench.note(what)
         found = lammps.run(bench.workdir, "fill", script, TALUS, cores=paired.one_core())

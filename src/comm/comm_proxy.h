@@ -3,9 +3,9 @@
 // LAMMPS' communication object with a direct exchange, for comm_style brick and tiled:
 // ExchangeSwitch puts it in the place of the stock one. doc/comm_proxy.md is the user's page.
 //
-// Migration, borders and all exchanges of single styles stay LAMMPS' staged ones, so that the order
-// of ghost particles, and with it every neighbor list, is the stock one; forward_comm(), which runs
-// in every other step, is that of DirectExchange. Every method finishes a pending exchange first.
+// Migration and all exchanges of single styles stay those of LAMMPS, and borders too but where
+// CommReach chooses proxies; forward_comm(), which runs in every other step, is that of
+// DirectExchange. Every method finishes a pending exchange first.
 
 #ifndef LMP_COMM_PROXY_H
 #define LMP_COMM_PROXY_H
