@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Spheres of different sizes."""
 
+import itertools
 import math
 import os
 import re
@@ -14,25 +15,26 @@ from lammps import STOCK, TALUS
 
 TITLE = "Wide distributions of sizes"
 QUESTION = """What do sizes 1:10, 1:30 and 1:100 cost, beside equal spheres and beside the best that LAMMPS has for them,
-`neighbor multi` with a collection for each factor of two in size and `comm_modify mode multi`? A bed that falls on a floor, and
-when it has settled; periodic across or between walls. And how long does it take to fill a region?"""
+`neighbor multi` with a collection for each factor of two in size and `comm_modify mode multi`? Spheres that fall, at a solid fraction
+of .34, and settled ones; periodic across or between walls. And how long does it take to fill a region?"""
 
 D = 0.002       # of the smallest
 LOGNORMAL = 2.5, 0.5, 8      # median over D, deviation, largest over D
-# name: sizes as fill_region has them, largest over smallest
+# name: sizes as fill_region has them, largest over smallest, solid fraction from which they settle
 SIZES = {
-    "equal": (f"{D}", 1),
-    "lognormal": (f"lognormal {LOGNORMAL[0] * D} {LOGNORMAL[1]} {D} {LOGNORMAL[2] * D} mass", LOGNORMAL[2]),
-    "two 1:10": (f"discrete 2 {D} 1 {10 * D} 1 mass", 10),
-    "1:10": (f"uniform {D} {10 * D} mass", 10),
-    "1:30": (f"uniform {D} {30 * D} mass", 30),
-    "1:100": (f"uniform {D} {100 * D} mass", 100),
+    "equal": (f"{D}", 1, 0.58),
+    "lognormal": (f"lognormal {LOGNORMAL[0] * D} {LOGNORMAL[1]} {D} {LOGNORMAL[2] * D} mass", LOGNORMAL[2], 0.6),
+    "two 1:10": (f"discrete 2 {D} 1 {10 * D} 1 mass", 10, 0.6),
+    "1:10": (f"uniform {D} {10 * D} mass", 10, 0.62),
+    "1:30": (f"uniform {D} {30 * D} mass", 30, 0.62),
+    "1:100": (f"uniform {D} {100 * D} mass", 100, 0.62),
 }
 SIDES = {"periodic": "p", "walls": "f"}
-MOMENTS = {"falling": 0.7, "settled": 4.0}    # in times of a fall
+FALLING, FALL = 0.34, 0.5                     # solid fraction, speed
+SETTLING = 20000                              # steps
 FLOORS = {"falling": 2.5, "settled": 4.0}     # of the ratio to LAMMPS
 LIMITS = 1.2, 1.3                             # of rebuilds and memory, over those of equal spheres
-FRACTION, DT, GRAVITY, SKIN = 0.34, 5e-6, 9.81, 0.0003
+DT, GRAVITY, SKIN = 5e-6, 9.81, 0.0003
 LAW = "hertz/history 1e7 NULL 5e3 NULL 0.5 1"
 FILLS = [(f"80 large and {small} thousand small", f"discrete 2 {D} {1000 * small} {10 * D} 80", 80 + 1000 * small, 0.5)
          for small in (5, 10, 20, 40)] + [
@@ -63,6 +65,11 @@ WALLS = """fix x all wall/gran {law} xplane 0 {wide}
 fix y all wall/gran {law} yplane 0 {wide}"""
 BOX = """region box block 0 {wide} 0 {wide} 0 {high} units box
 create_box {types} box
+"""
+FALLING_SPEEDS = """variable across atom random(-0.1,0.1,4711)
+variable along atom random(-0.1,0.1,4712)
+variable down atom -{speed}+random(-0.1,0.1,4713)
+velocity all set v_across v_along v_down
 """
 # a type, and so a collection of LAMMPS, for each factor of two
 CLASSES = """compute size all property/atom diameter
@@ -95,41 +102,45 @@ def mean_volume(name):
 
 
 class Bed:
-    """So many spheres with these sizes and sides."""
+    """So many spheres with these sizes and sides, at this moment."""
 
-    def __init__(self, bench, name, side, count):
-        self.bench, self.name, self.side, self.count = bench, name, side, count
-        self.types = 1 + int(math.log2(SIZES[name][1]))
-        self.wide = (count * mean_volume(name) / FRACTION / 2) ** (1 / 3)
-        self.high = 2 * self.wide
+    def __init__(self, bench, name, side, moment, count):
+        self.bench, self.name, self.side, self.moment, self.count = bench, name, side, moment, count
+        self.sizes, ratio, settled = SIZES[name]
+        self.fraction = settled - bench.size(0.0, 0.1) if moment == "settled" else FALLING
+        self.types = 1 + int(math.log2(ratio))
+        self.wide = (count * mean_volume(name) / self.fraction) ** (1 / 3)
 
-    def path(self, moment):
-        return beds.cache_path(f"sizes-{re.sub(r'[^a-z0-9]', '', self.name)}-{self.side}-{self.count}-{moment}")
+    def path(self):
+        name = re.sub(r"[^a-z0-9]", "", self.name)
+        return beds.cache_path(f"sizes-{name}-{self.side}-{self.count}-{self.moment}")
 
     def commands(self, begin, multi=False):
         walls = WALLS.format(law=LAW, wide=self.wide) if self.side == "walls" else ""
         return head(self.side, multi) + begin + PHYSICS.format(law=LAW, dt=DT, gravity=GRAVITY, walls=walls)
 
     def make(self):
-        """The states, once."""
-        if all(os.path.exists(self.path(moment)) for moment in MOMENTS):
+        """Once."""
+        if os.path.exists(self.path()):
             return
-        self.bench.note(f"filling and settling {self.count} spheres, {self.name}, {self.side}, once")
-        script = self.commands(BOX.format(wide=self.wide, high=self.high, types=self.types)) \
-            + f"fill_region box 1 number {self.count} diameter {SIZES[self.name][0]} density 2500 seed 4711\n"
+        self.bench.note(f"filling with {self.count} spheres, {self.name}, {self.side}, {self.moment}, once")
+        script = self.commands(BOX.format(wide=self.wide, high=1.1 * self.wide, types=self.types)) \
+            + f"region fill block 0 {self.wide} 0 {self.wide} 0 {self.wide} units box\n" \
+            f"fill_region fill 1 number {self.count} diameter {self.sizes} density 2500 seed 4711\n"
         if self.types > 1:
             script += CLASSES.format(d=D)
-        fall, done = math.sqrt(2 * 0.4 * self.high / GRAVITY) / DT, 0
-        for moment, share in MOMENTS.items():
-            script += f"run {int(share * fall) - done}\nwrite_data {self.path(moment)} nocoeff\n"
-            done = int(share * fall)
-        lammps.run(self.bench.workdir, "make", script, TALUS, arguments=["-sf", "talus"], ranks=min(2, len(machine.cores())))
+        steps = self.bench.size(SETTLING, SETTLING // 10)
+        if self.moment == "falling":
+            steps = 200
+            script += FALLING_SPEEDS.format(speed=FALL)
+        script += f"run {steps}\nwrite_data {self.path()} nocoeff\n"
+        lammps.run(self.bench.workdir, "make", script, TALUS, arguments=["-sf", "talus"])
 
-    def script(self, moment, code, steps):
-        return self.commands(f"read_data {self.path(moment)}\n", code == STOCK and self.types > 1) + f"run 50\nrun {steps}\n"
+    def script(self, code, steps):
+        return self.commands(f"read_data {self.path()}\n", code == STOCK and self.types > 1) + f"run 50\nrun {steps}\n"
 
-    def run(self, moment, code, steps, cores):
-        return lammps.run(self.bench.workdir, "bed", self.script(moment, code, steps), code, cores=cores, ranks=len(cores),
+    def run(self, code, steps, cores):
+        return lammps.run(self.bench.workdir, "bed", self.script(code, steps), code, cores=cores, ranks=len(cores),
                           arguments=["-sf", "talus"] if code == TALUS else [])
 
 
@@ -138,16 +149,16 @@ def after_loop(result, pattern):
     return float(re.findall(pattern + r"\s*=?:?\s*([\d.]+)", result.log)[-1])
 
 
-def ratio(bench, bed, moment, cores, steps):
+def ratio(bench, bed, cores, steps):
     runs = {code: [] for code in (STOCK, TALUS)}
 
     def once(code):
-        runs[code].append(bed.run(moment, code, steps, cores))
+        runs[code].append(bed.run(code, steps, cores))
         return runs[code][-1].loops()[-1].nanoseconds()
 
     series = paired.measure({code: lambda c=code: once(c) for code in runs}, bench.rounds)
     for k, (plain, ours) in enumerate(zip(series[STOCK].values, series[TALUS].values)):
-        bench.section.record(case=bed.name, sides=bed.side, moment=moment, ranks=len(cores), round=k + 1, stock_ns=plain,
+        bench.section.record(case=bed.name, sides=bed.side, moment=bed.moment, ranks=len(cores), round=k + 1, stock_ns=plain,
                              talus_ns=ours, ratio=plain / ours)
     return series, paired.ratio(series[STOCK], series[TALUS]), runs[TALUS][-1], runs[STOCK][-1]
 
@@ -160,31 +171,32 @@ def per_rebuild(result):
 
 
 def settle(bench):
-    count, steps = bench.size(30000, 3000), bench.size(1000, 200)
+    steps = bench.size(1000, 200)
     rows, equal = [], {}
     for name in SIZES:
-        if not bench.wants(name):
+        # of few spheres none of the largest is among them
+        count = bench.size(120000, 0) if name == "1:100" else bench.size(30000, 8000)
+        if not bench.wants(name) or not count:
             continue
-        for side in SIDES:
-            bed = Bed(bench, name, side, count)
+        for side, moment in itertools.product(SIDES, FLOORS):
+            bed = Bed(bench, name, side, moment, count)
             bed.make()
-            for moment in MOMENTS:
-                bench.note(f"{name}, {side}, {moment}")
-                series, gain, ours, stock = ratio(bench, bed, moment, paired.one_core(), steps)
-                two = ratio(bench, bed, moment, machine.cores()[-2:], steps)[1] if len(machine.cores()) > 1 else "-"
-                rebuild = per_rebuild(ours)
-                if name == "equal":
-                    equal[side, moment] = rebuild
-                more = rebuild / equal[side, moment] if (side, moment) in equal else float("nan")
-                rows.append([name, side, moment, series[TALUS].median, str(gain), str(two), after_loop(ours, "Nghost") / count,
-                             after_loop(stock, "Nghost") / count, f"{more:.2f}"])
-                if gain.median < FLOORS[moment] and name != "equal":
-                    bench.section.headline(f"sizes, {name}, {side}, {moment}: ratio {gain.median:.2f}, less than the {FLOORS[moment]} "
-                                           "that was aimed at.")
+            bench.note(f"{name}, {side}, {moment}")
+            series, gain, ours, stock = ratio(bench, bed, paired.one_core(), steps)
+            two = ratio(bench, bed, machine.cores()[-2:], steps)[1] if len(machine.cores()) > 1 else "-"
+            rebuild = per_rebuild(ours)
+            if name == "equal":
+                equal[side, moment] = rebuild
+            more = rebuild / equal[side, moment] if (side, moment) in equal else float("nan")
+            rows.append([name, count, side, moment, series[TALUS].median, str(gain), str(two), after_loop(ours, "Nghost") / count,
+                         after_loop(stock, "Nghost") / count, f"{more:.2f}"])
+            if gain.median < FLOORS[moment] and name != "equal":
+                bench.section.headline(f"sizes, {name}, {side}, {moment}: ratio {gain.median:.2f}, less than the {FLOORS[moment]} "
+                                       "that was aimed at.")
     bench.section.heading("Beds")
-    bench.section.table(["sizes", "sides", "moment", "ns per particle and step", "times LAMMPS, one rank", "two ranks", "proxies per "
+    bench.section.table(["sizes", "spheres", "sides", "moment", "ns per particle and step", "times LAMMPS, one rank", "two ranks", "proxies per "
                          "particle", "of LAMMPS", "rebuild over equal"], rows)
-    bench.section.text(f"""{count} spheres. Sizes with a ratio alone have the same mass in each interval of diameters of the same width.
+    bench.section.text(f"""Sizes with a ratio alone have the same mass in each interval of diameters of the same width.
 Rebuild: time of category Neigh per particle and rebuild, over that of equal spheres; aimed at: {LIMITS[0]}.""")
 
 
@@ -193,12 +205,12 @@ def memory(bench):
     for name in ("equal", "1:10", "1:30"):
         if not bench.wants(name):
             continue
-        counts = bench.size((10000, 30000), (1000, 3000))
+        counts = bench.size((10000, 30000), (4000, 8000))
         peaks = []
         for count in counts:
-            bed = Bed(bench, name, "walls", count)
+            bed = Bed(bench, name, "walls", "settled", count)
             bed.make()
-            peaks.append(lammps.measured_peak(bed.run("settled", TALUS, 200, paired.one_core())))
+            peaks.append(lammps.measured_peak(bed.run(TALUS, 200, paired.one_core())))
         each = (peaks[1] - peaks[0]) / (counts[1] - counts[0])
         first = first or each
         rows.append([name, each, each / first])
@@ -212,7 +224,7 @@ def filling(bench):
         return
     rows = []
     for what, sizes, count, fraction in FILLS:
-        count = bench.size(count, count // 20)
+        count = bench.size(count, count // 4)
         large = re.search(r"discrete 2 \S+ (\S+) \S+ (\S+)", sizes)
         volume = (math.pi / 6 * D**3 * (float(large[1]) + 1000 * float(large[2])) * count / (float(large[1]) + float(large[2]))
                   if large else count * mean_volume("1:30" if "uniform" in sizes else "equal"))

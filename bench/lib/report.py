@@ -7,7 +7,7 @@ import re
 
 import machine
 
-ORDER = ("single", "dropin", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "shapes", "accuracy",
+ORDER = ("single", "dropin", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "shapes", "sizes", "accuracy",
          "timestep", "stability")
 HEAD = """# Benchmarks
 
