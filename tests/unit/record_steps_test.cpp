@@ -130,8 +130,7 @@ class RecordSteps : public testing::TestWithParam<Division> {
 
   void advance()
   {
-    if (!fast.can_move())
-      fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent);
+    if (!fast.can_move()) fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent);
     fast.advance({euler});
   }
 
