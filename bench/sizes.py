@@ -205,7 +205,7 @@ def memory(bench):
     for name in ("equal", "1:10", "1:30"):
         if not bench.wants(name):
             continue
-        counts = bench.size((10000, 30000), (4000, 8000))
+        counts = bench.size((30000, 60000), (4000, 8000))
         peaks = []
         for count in counts:
             bed = Bed(bench, name, "walls", "settled", count)
