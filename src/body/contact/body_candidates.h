@@ -7,11 +7,13 @@
 #define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 
 #include "base/linear_algebra.h"
+#include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "particles/particle_state.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -23,6 +25,11 @@ class BodyCandidates {
   /// `beyond`. `threads` are used for shapes that are thread_safe() and touch at one point at most.
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
             const int *mask, int group, double skin, double beyond, int threads);
+
+  /// The same of a wall: the particles that may touch it, and those for which keep(i) holds; `way`: of
+  /// both together, beyond zero overlap.
+  void list(const WallSurface &wall, const ParticleState &view, const int *mask, int group,
+            double way, const std::function<bool(int)> &keep, int threads);
 
   /// The body has moved so far that particles must be listed again.
   bool are_stale(const BodyFrame &frame, double skin) const;
@@ -51,6 +58,7 @@ class BodyCandidates {
   /// Sorts candidates by slot, so that a step goes through the records from their beginning to
   /// their end; returns whether this changed anything. Only without parts.
   bool sort_by_slot(const int *slot_of_atom);
+  bool have_parts() const { return !listed.empty(); }
 
   /// The parts that candidate c can have reached since it was listed, if it is at `x` (frame of the
   /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.
@@ -65,6 +73,7 @@ class BodyCandidates {
 
  private:
   struct Search;
+  void clear();
   void list_near(const Search &search, int threads);
   void list_with_parts(const Search &search);
 

@@ -48,6 +48,17 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   if (with_history) history.follow(candidates.atoms(), candidates.room());
 }
 
+void BodyContacts::find_candidates(const WallSurface &wall, const ParticleState &view,
+                                   const int *mask, int group, double way, int threads)
+{
+  index.clear();
+  history.put_aside();
+  candidates.list(
+      wall, view, mask, group, way + largest_pulloff_distance(view, mask, group),
+      [this](int i) { return with_history && history.is_aside(i); }, threads);
+  if (with_history) history.follow(candidates.atoms(), candidates.room());
+}
+
 double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,
                                               int group) const
 {
@@ -62,11 +73,11 @@ double BodyContacts::largest_pulloff_distance(const ParticleState &view, const i
 
 /* Where a step goes through the records, it does so from their beginning to their end. */
 
-void BodyContacts::index_candidates(const LargeBodyShape &shape, const ParticleState &view)
+void BodyContacts::index_candidates(const ParticleState &view)
 {
   const int *const order = view.order();
   if (candidates.size() == 0 || (!index.empty() && order_of_index == order)) return;
-  const bool sorted = order && shape.most_contacts() == 1 && candidates.sort_by_slot(order);
+  const bool sorted = order && !candidates.have_parts() && candidates.sort_by_slot(order);
   if (sorted && with_history) history.follow(candidates.atoms(), candidates.room());
   order_of_index = order;
   index.clear();
@@ -94,7 +105,8 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           nullptr,
           ContactData::ALL,
           with_history,
-          laws.history_records()};
+          laws.history_records(),
+          step.wall};
 }
 
 void BodyContacts::start_batches(int threads)
@@ -113,8 +125,8 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
                                const ParticleState &view, const BodyStep &step)
 {
   const bool many = step.threads > 1 && shape.thread_safe();
-  const int threads = many ? step.threads : 1;
-  index_candidates(shape, view);
+  const int threads = threads_of_step = many ? step.threads : 1;
+  index_candidates(view);
   history.begin_step();
   start_batches(threads);
   const BodyTask task = task_of(shape, frame, view, step);
@@ -140,7 +152,7 @@ bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &fr
 {
   const bool is_plain = !step.exact && !step.touched && !step.virial;
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
-  index_candidates(shape, view);
+  index_candidates(view);
   history.begin_step();
   start_batches(step.threads);
   in_pieces = {&shape, &frame, view, step};
@@ -175,16 +187,22 @@ EnergyByCause BodyContacts::static_work() const
 
 void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
                                     const ParticleState &view, double dt, ContactData requested,
-                                    const VisitContact &visit)
+                                    const VisitContact &visit, const WallStep *wall)
 {
-  index_candidates(shape, view);
+  index_candidates(view);
   BodyStep step;
   step.dt = dt;
   step.advance = false;
+  step.wall = wall;
   BodyTask task = task_of(shape, frame, view, step);
   task.report = &visit;
   task.requested = requested;
-  BodyBatch{}.compute(task, 0, candidates.size());
+  if (!wall) {
+    BodyBatch{}.compute(task, 0, candidates.size());
+    return;
+  }
+  for (int t = 0; t < threads_of_step; t++)    // each has kept its forces
+    batches[t]->compute(task, first_of(t, threads_of_step), first_of(t + 1, threads_of_step));
 }
 
 BodyFindings BodyContacts::find_worst(const LargeBodyShape &shape, const BodyFrame &frame,
