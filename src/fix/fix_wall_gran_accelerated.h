@@ -135,8 +135,8 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
     if (!has_forces) return;
     place();
     const WallStep wall = step_of_wall();
-    contacts.for_each_contact(surface(), BodyFrame{}, system->particles(), this->update->dt,
-                              requested, visit, &wall);
+    contacts.for_each_contact(surface(), at_rest, system->particles(), this->update->dt, requested,
+                              visit, &wall);
   }
   std::string needs_arrays() override
   {
@@ -228,21 +228,23 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
     constexpr std::size_t worth_a_thread = 100;    // candidates
     WallStep wall = step_of_wall();
     if (keeps_contacts()) wall.computed = [this](const ContactReport &one) { keep_contact(one); };
-    WorkAccount account = system->account().part_of_step();
+    const bool accounts = system->account().is_asked();
+    WorkAccount account;
+    if (accounts) account = system->account().part_of_step();
     BodyStep step;
     step.dt = this->update->setupflag ? 0.0 : this->update->dt;
     step.threads = static_cast<int>(std::clamp<std::size_t>(
         contacts.num_candidates() / worth_a_thread, 1, this->comm->nthreads));
-    step.account = system->account().is_asked() ? &account : nullptr;
+    step.account = accounts ? &account : nullptr;
     step.wall = &wall;
-    contacts.compute(surface(), BodyFrame{}, system->particles(), step);
-    if (step.account) system->account().add(account.sum);
+    contacts.compute(surface(), at_rest, system->particles(), step);
+    if (accounts) system->account().add(account.sum);
   }
   /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
   void keep_contact(const ContactReport &one)
   {
     double *row = this->array_atom[one.i];
-    const double *x = this->atom->x[one.i];
+    const double *x = system->particles().x(one.i);
     const Vector3<double> &force = one.force, &arm = one.arm[0];
     const double values[8] = {1.0,          force.x,      force.y,      force.z,
                               x[0] + arm.x, x[1] + arm.y, x[2] + arm.z, this->atom->radius[one.i]};
@@ -250,6 +252,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
     if (this->size_peratom_cols > 8) row[8] = one.heat_flow;
   }
 
+  const BodyFrame at_rest{};
   const char *plain_style;
   std::string stock_reason;
   bool has_forces = false;    // of a step

@@ -48,7 +48,7 @@ bool RegionWall::is_inside(const Vector3<double> &center) const
   return in_frame ? RegionInFrame(*region, motion).match(x) : region->match(x[0], x[1], x[2]);
 }
 
-int RegionWall::contacts_at(const Vector3<double> &center, double radius) const
+TALUS_INLINE int RegionWall::contacts_at(const Vector3<double> &center, double radius) const
 {
   const Vector3<double> at = span.image_of(center);
   const double x[3] = {at.x, at.y, at.z};
@@ -64,10 +64,8 @@ bool RegionWall::have_normals(int count) const
 
 /* A center that is on the surface has no normal: that of a place beside it on the inner side. */
 
-int RegionWall::contacts_with_normals(const Vector3<double> &center, double radius) const
+int RegionWall::contacts_beside(const Vector3<double> &center, double radius) const
 {
-  const int count = contacts_at(center, radius);
-  if (have_normals(count)) return count;
   const double aside = 1.0e-9 * radius;
   for (const double s : {aside, -aside}) {
     const Vector3<double> beside = center + s * Vector3<double>{1.0, 0.7, 0.4};
@@ -80,20 +78,24 @@ int RegionWall::contacts_with_normals(const Vector3<double> &center, double radi
 /* As in LAMMPS, only particles on the inner side are looked at: others keep their histories. With a
    simple region what has contacts is there, unless its center is on the surface. */
 
-int RegionWall::find_contacts(const Vector3<double> &center, double radius, NearParts /*parts*/,
-                              SurfaceContact *found) const
+int RegionWall::find(const Vector3<double> &center, double radius, SurfaceContact *found,
+                     Point *points) const
 {
   if (!simple && !is_inside(center)) return -1;
-  const int touched = contacts_with_normals(center, radius);
+  int touched = contacts_at(center, radius);
+  if (!have_normals(touched)) touched = contacts_beside(center, radius);
   const bool known = simple && touched > 0 && region->contact[0].r > 0.0;
   if (simple && !known && !is_inside(center)) return -1;
   int count = 0;
-  for (int k = 0; k < std::min(touched, most_of_wall); k++) {
+  for (int k = 0; k < touched; k++) {
     const Region::Contact &c = region->contact[k];
     if (!(c.r < radius)) continue;
     const double inverse = 1.0 / c.r;
-    found[count++] = {
-        {c.delx * inverse, c.dely * inverse, c.delz * inverse}, radius - c.r, c.iwall};
+    found[count] = {{c.delx * inverse, c.dely * inverse, c.delz * inverse}, radius - c.r, c.iwall};
+    Point &point = points[count++];
+    point.part = c.iwall;
+    point.curvature = c.radius != 0.0 ? 1.0 / c.radius : 0.0;
+    if (dynamic) point.velocity = velocity_at(center, k);
   }
   return count;
 }
@@ -102,9 +104,10 @@ bool RegionWall::touches(const Vector3<double> &center, double radius,
                          SurfaceContact &contact) const
 {
   SurfaceContact found[most_of_wall];
-  const int count = find_contacts(center, radius, {nullptr, nullptr}, found);
-  if (count > 0) contact = found[0];
-  return count > 0;
+  Point points[most_of_wall];
+  const bool any = find(center, radius, found, points) > 0;
+  if (any) contact = found[0];
+  return any;
 }
 
 unsigned RegionWall::may_touch(const EightSpheres &spheres, bool listed) const
@@ -133,35 +136,20 @@ unsigned RegionWall::near_in_images(const Vector3<Vec8> &x, Vec8 reach, bool lis
   return bits;
 }
 
-WallSurface::Point RegionWall::point(const Vector3<double> &center,
-                                     const SurfaceContact &contact) const
-{
-  int k = 0;
-  while (region->contact[k].iwall != contact.part) k++;
-  Point found;
-  found.part = contact.part;
-  if (const double radius = region->contact[k].radius; radius != 0.0)
-    found.curvature = 1.0 / radius;
-  if (dynamic) {
-    double velocity[3];
-    find_velocity(center, k, velocity);
-    found.velocity = {velocity[0], velocity[1], velocity[2]};
-  }
-  return found;
-}
-
 /* LAMMPS computes the point of contact only if the region turns, but reads it if the region changes
    its shape. */
 
-void RegionWall::find_velocity(const Vector3<double> &center, int k, double *velocity) const
+Vector3<double> RegionWall::velocity_at(const Vector3<double> &center, int k) const
 {
-  double x[3] = {center.x, center.y, center.z};
+  double x[3] = {center.x, center.y, center.z}, velocity[3];
   const int varies = region->varshape;
   if (!region->rotateflag) region->varshape = 0;
   region->velocity_contact(velocity, x, k);
   region->varshape = varies;
   const Region::Contact &contact = region->contact[k];
-  if (region->rotateflag || !varies || !contact.varflag) return;
-  double at[3] = {x[0] - contact.delx, x[1] - contact.dely, x[2] - contact.delz};
-  region->velocity_contact_shape(velocity, at);
+  if (!region->rotateflag && varies && contact.varflag) {
+    double at[3] = {x[0] - contact.delx, x[1] - contact.dely, x[2] - contact.delz};
+    region->velocity_contact_shape(velocity, at);
+  }
+  return {velocity[0], velocity[1], velocity[2]};
 }

@@ -34,20 +34,18 @@ class RegionWall : public Talus::WallSurface {
                Talus::SurfaceContact &contact) const override;
   int most_contacts() const override;
   bool thread_safe() const override { return false; }
-  int find_contacts(const Talus::Vector3<double> &center, double radius, Talus::NearParts parts,
-                    Talus::SurfaceContact *found) const override;
   unsigned may_touch(const Talus::EightSpheres &spheres, bool listed) const override;
-  Point point(const Talus::Vector3<double> &center,
-              const Talus::SurfaceContact &contact) const override;
+  int find(const Talus::Vector3<double> &center, double radius, Talus::SurfaceContact *found,
+           Point *points) const override;
 
  private:
   bool is_inside(const Talus::Vector3<double> &center) const;
-  int contacts_with_normals(const Talus::Vector3<double> &center, double radius) const;
+  int contacts_beside(const Talus::Vector3<double> &center, double radius) const;
   int contacts_at(const Talus::Vector3<double> &center, double radius) const;
   bool have_normals(int count) const;
   unsigned near_in_images(const Talus::Vector3<Talus::Vec8> &x, Talus::Vec8 reach,
                           bool listed) const;
-  void find_velocity(const Talus::Vector3<double> &center, int contact, double *velocity) const;
+  Talus::Vector3<double> velocity_at(const Talus::Vector3<double> &center, int contact) const;
 
   Region *region = nullptr;
   bool dynamic = false;          // it moves or changes its shape

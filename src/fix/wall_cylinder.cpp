@@ -28,8 +28,7 @@ unsigned WallCylinder::may_touch(const EightSpheres &spheres, bool /*listed*/) c
 
 /* LAMMPS takes the diameter for the radius. */
 
-WallSurface::Point WallCylinder::point(const Vector3<double> &center,
-                                       const SurfaceContact & /*contact*/) const
+WallSurface::Point WallCylinder::point(const Vector3<double> &center) const
 {
   const bool inside = std::sqrt(center.x * center.x + center.y * center.y) < radius;
   return {velocity, (inside ? -0.5 : 0.5) / radius, -1};

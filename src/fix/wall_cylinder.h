@@ -21,7 +21,7 @@ class WallCylinder : public WallSurface {
   bool touches(const Vector3<double> &center, double sphere,
                SurfaceContact &contact) const override;
   unsigned may_touch(const EightSpheres &spheres, bool listed) const override;
-  Point point(const Vector3<double> &center, const SurfaceContact &contact) const override;
+  Point point(const Vector3<double> &center) const override;
 
  private:
   double radius = 0.0;

@@ -11,7 +11,7 @@ void WallPlanes::place(int across, double lower, double upper, const Vector3<dou
   axis = across;
   low = lower;
   high = upper;
-  velocity = v;
+  all.velocity = v;
 }
 
 double WallPlanes::nearer(double x) const
@@ -52,11 +52,10 @@ unsigned WallPlanes::may_touch(const EightSpheres &spheres, bool /*listed*/) con
          less_bits(magnitude(splat<Vec8>(high) - x), radius);
 }
 
-WallSurface::Point WallPlanes::point(const Vector3<double> &center,
-                                     const SurfaceContact & /*contact*/) const
+WallSurface::Point WallPlanes::point(const Vector3<double> &center) const
 {
   const double x = along(center);
-  return {velocity, 0.0, x - low < high - x ? 0 : 1};
+  return {all.velocity, 0.0, x - low < high - x ? 0 : 1};
 }
 
 }    // namespace Talus

@@ -20,7 +20,8 @@ class WallPlanes : public WallSurface {
   unsigned touches_eight(const EightSpheres &spheres, int count,
                          EightContacts &contacts) const override;
   unsigned may_touch(const EightSpheres &spheres, bool listed) const override;
-  Point point(const Vector3<double> &center, const SurfaceContact &contact) const override;
+  const Point *everywhere() const override { return &all; }
+  Point point(const Vector3<double> &center) const override;
 
  private:
   double along(const Vector3<double> &x) const { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
@@ -29,7 +30,7 @@ class WallPlanes : public WallSurface {
 
   int axis = 0;
   double low = 0.0, high = 0.0;
-  Vector3<double> velocity{0.0, 0.0, 0.0};
+  Point all;
 };
 
 }    // namespace Talus

@@ -50,6 +50,7 @@ void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
   const bool several = task->shape.most_contacts() > 1, by_parts = several && !task->wall;
   if (task->report) last.rewind();
+  if (task->wall) set_all_points();
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
     for (std::size_t c = begin; c < end_of_range && by_parts; c++) look_at_parts(c, end_of_range);
@@ -270,7 +271,6 @@ void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x
   candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
   slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
   part_of_lane[filled] = contact.part;
-  if (task->wall) set_point(filled, x, contact);
   if (needs_normal_changes()) set_normal_change(filled, contact.normal, normal_before);
   if (++filled == ContactBatch::width) flush();
 }
@@ -283,7 +283,8 @@ void BodyBatch::flush()
   end = (filled + lanes - 1) / lanes * lanes;
   std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
-  std::fill(curvature + filled, curvature + end, 0.0);
+  if (task->wall && !task->wall->surface.everywhere())
+    std::fill(curvature + filled, curvature + end, 0.0);
   gather();
   batch.lag = task->lag;
   if (task->report) {
@@ -297,8 +298,10 @@ void BodyBatch::flush()
   if (task->record_parts) record_parts();
   if (task->frame.turned) rotate_to_space();
   add_to_particles();
-  if (task->wall) pass_on();
-  add_load();
+  if (task->wall)
+    pass_on();
+  else
+    add_load();
   if (task->virial) add_virials();
   touching += filled;
   filled = 0;

@@ -123,8 +123,9 @@ class BodyBatch {
   // walls of LAMMPS
   void look_at_eight_of_wall(std::size_t first, int low, int high);
   void look_at_wall(std::size_t candidate);
+  void set_all_points();
   void take_points(unsigned bits);
-  void set_point(int lane, const Vector3<double> &x, const SurfaceContact &contact);
+  void set_point(int lane, const WallSurface::Point &point);
   void see_from_wall(Motion &m, int k) const;
   void gather_temperatures();
   void pass_on();
@@ -173,6 +174,8 @@ class BodyBatch {
   // only of walls
   alignas(64) Lanes wall_velocity = {};
   alignas(64) double curvature[ContactBatch::width] = {};
+  SurfaceContact found_on_wall[WallSurface::most_of_wall];
+  WallSurface::Point points_of_wall[WallSurface::most_of_wall];
   LastForces last;
 
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body

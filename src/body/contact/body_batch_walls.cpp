@@ -35,29 +35,42 @@ void BodyBatch::look_at_eight_of_wall(std::size_t first, int low, int high)
 void BodyBatch::look_at_wall(std::size_t c)
 {
   const int k = static_cast<int>(c % width);
-  const Vector3<double> x{spheres.center[0][k], spheres.center[1][k], spheres.center[2][k]};
+  const Vector3<double> x = task->view.position_at(task->index[c]);
   const double r = spheres.radius[k];
-  SurfaceContact found[WallSurface::most_of_wall];
-  const int count = task->shape.find_contacts(x, r, {nullptr, nullptr}, found);
+  const int count = task->wall->surface.find(x, r, found_on_wall, points_of_wall);
   if (count < 0) return;
-  std::uint32_t slots[WallSurface::most_of_wall] = {};
-  if (task->with_history) task->history.continue_parts(c, found, count, slots);
-  for (int n = 0; n < count; n++) append(c, slots[n], x, r, found[n], {});
-}
-
-void BodyBatch::take_points(unsigned bits)
-{
-  for (int lane = filled; bits; bits &= bits - 1U, lane++) {
-    const int k = __builtin_ctz(bits);
-    const SurfaceContact contact{
-        {contacts.normal[0][k], contacts.normal[1][k], contacts.normal[2][k]}, contacts.overlap[k]};
-    set_point(lane, {spheres.center[0][k], spheres.center[1][k], spheres.center[2][k]}, contact);
+  std::uint32_t slots[WallSurface::most_of_wall];
+  if (task->with_history) task->history.continue_parts(c, found_on_wall, count, slots);
+  for (int n = 0; n < count; n++) {
+    set_point(filled, points_of_wall[n]);
+    append(c, task->with_history ? slots[n] : 0, x, r, found_on_wall[n], {});
   }
 }
 
-void BodyBatch::set_point(int lane, const Vector3<double> &x, const SurfaceContact &contact)
+void BodyBatch::set_all_points()
 {
-  const WallSurface::Point point = task->wall->surface.point(x, contact);
+  if (const WallSurface::Point *all = task->wall->surface.everywhere()) {
+    std::fill_n(wall_velocity[0], ContactBatch::width, all->velocity.x);
+    std::fill_n(wall_velocity[1], ContactBatch::width, all->velocity.y);
+    std::fill_n(wall_velocity[2], ContactBatch::width, all->velocity.z);
+    std::fill_n(curvature, ContactBatch::width, all->curvature);
+  }
+}
+
+/* Only reports ask for parts. */
+
+void BodyBatch::take_points(unsigned bits)
+{
+  if (!task->report && task->wall->surface.everywhere()) return;
+  for (int lane = filled; bits; bits &= bits - 1U, lane++) {
+    const int k = __builtin_ctz(bits);
+    set_point(lane, task->wall->surface.point(
+                        {spheres.center[0][k], spheres.center[1][k], spheres.center[2][k]}));
+  }
+}
+
+void BodyBatch::set_point(int lane, const WallSurface::Point &point)
+{
   wall_velocity[0][lane] = point.velocity.x;
   wall_velocity[1][lane] = point.velocity.y;
   wall_velocity[2][lane] = point.velocity.z;

@@ -48,7 +48,7 @@ class BodyCandidates {
   /// Local indices.
   const std::vector<int> &atoms() const { return particles; }
   int atom(std::size_t c) const { return particles[c]; }
-  /// How many contacts each may have at the same time; only of shapes with several.
+  /// How many contacts each may have at the same time; only of shapes with several, and of walls.
   const std::vector<std::uint8_t> &room() const { return most_contacts; }
 
   /// Where candidate c was when it was listed, in the frame of the body; of shapes with several
@@ -58,7 +58,6 @@ class BodyCandidates {
   /// Sorts candidates by slot, so that a step goes through the records from their beginning to
   /// their end; returns whether this changed anything. Only without parts.
   bool sort_by_slot(const int *slot_of_atom);
-  bool have_parts() const { return !listed.empty(); }
 
   /// The parts that candidate c can have reached since it was listed, if it is at `x` (frame of the
   /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.

@@ -20,6 +20,7 @@ void BodyContacts::set_laws(const LawTable &table)
 {
   laws = table;
   with_history = laws.has_history();
+  history_records = laws.history_records();
   batches.clear();    // their lanes hold rows of the old table
 }
 
@@ -77,7 +78,7 @@ void BodyContacts::index_candidates(const ParticleState &view)
 {
   const int *const order = view.order();
   if (candidates.size() == 0 || (!index.empty() && order_of_index == order)) return;
-  const bool sorted = order && !candidates.have_parts() && candidates.sort_by_slot(order);
+  const bool sorted = order && candidates.room().empty() && candidates.sort_by_slot(order);
   if (sorted && with_history) history.follow(candidates.atoms(), candidates.room());
   order_of_index = order;
   index.clear();
@@ -105,7 +106,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           nullptr,
           ContactData::ALL,
           with_history,
-          laws.history_records(),
+          history_records,
           step.wall};
 }
 

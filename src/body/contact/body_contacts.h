@@ -129,6 +129,7 @@ class BodyContacts {
 
   LawTable laws;
   bool with_history = false;
+  int history_records = 0;    // of the laws
   BodyCandidates candidates;
   std::vector<int> index;                 // places of candidates, and some more; empty: not known
   const int *order_of_index = nullptr;    // that of the particles when they were found

@@ -5,7 +5,6 @@
 #include "body/contact/wall_surface.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace Talus {
@@ -233,24 +232,19 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
   return left;
 }
 
-/* The contacts of a candidate with the parts of a wall, in places as fix wall/gran/region of LAMMPS has
-   them: the last one takes the place of one that has ended, new ones are behind the others. */
-
-int BodyHistory::place_of_part(std::size_t slot, int known, int part) const
-{
-  int k = 0;
-  while (k < known && parts[slot + k] != part) k++;
-  return k;
-}
+/* Of contacts with parts of a wall, places are those of fix wall/gran/region of LAMMPS: the last one takes
+   the place of one that has ended, new ones are behind the others. Numbers of parts of some regions
+   occur twice, and their contacts are known by their order as well. */
 
 int BodyHistory::drop_ended_parts(std::size_t slot, int known, const SurfaceContact *found,
                                   int count)
 {
+  unsigned going_on = 0;    // of `found`
   for (int k = 0; k < known;) {
-    const bool goes_on = std::any_of(found, found + count, [&](const SurfaceContact &contact) {
-      return contact.part == parts[slot + k];
-    });
-    if (goes_on) {
+    int n = 0;
+    while (n < count && (found[n].part != parts[slot + k] || (going_on >> n & 1U))) n++;
+    if (n < count) {
+      going_on |= 1U << n;
       k++;
       continue;
     }
@@ -264,23 +258,24 @@ int BodyHistory::drop_ended_parts(std::size_t slot, int known, const SurfaceCont
 /* `contact_at` leads from places to contacts, and is read the other way round, which makes a difference
    from three contacts on: so does LAMMPS. */
 
-void BodyHistory::continue_parts(std::size_t candidate, const SurfaceContact *found, int count,
-                                 std::uint32_t *slots)
+void BodyHistory::match_parts(std::size_t candidate, const SurfaceContact *found, int count,
+                              std::uint32_t *slots)
 {
   const std::size_t slot = first[candidate];
   const int known = drop_ended_parts(slot, counts[candidate], found, count);
   int all = known, contact_at[WallSurface::most_of_wall];
-  std::iota(contact_at, contact_at + count, 0);
+  unsigned taken = 0;    // places
   for (int n = 0; n < count; n++) {
-    int k = place_of_part(slot, known, found[n].part);
+    int k = 0;
+    while (k < known && (parts[slot + k] != found[n].part || (taken >> k & 1U))) k++;
     if (k == known) {
       k = all++;
       parts[slot + k] = found[n].part;
       rows.set_zero(slot + k);
     }
+    taken |= 1U << k;
     contact_at[k] = n;
   }
-  for (int n = all; n < count; n++) rows.set_zero(slot + n);    // parts of one number
   for (int n = 0; n < count; n++) slots[n] = static_cast<std::uint32_t>(slot + contact_at[n]);
   counts[candidate] = static_cast<std::uint8_t>(all);
 }

@@ -139,7 +139,16 @@ class BodyHistory {
                         Vector3<double> *before = nullptr, const Ends *ends = nullptr);
   /// The same of a wall: a contact continues that with the same part. Fills in the slot of each.
   void continue_parts(std::size_t candidate, const SurfaceContact *found, int count,
-                      std::uint32_t *slots);
+                      std::uint32_t *slots)
+  {
+    const std::uint32_t slot = first[candidate];
+    bool same = counts[candidate] == count;
+    for (int k = 0; k < count; k++) {
+      same = same && parts[slot + k] == found[k].part;
+      slots[k] = slot + k;
+    }
+    if (!same) match_parts(candidate, found, count, slots);
+  }
 
   /// Without several(), and if asked for: stores the normal of a contact, in the frame of the body,
   /// and returns the one before it, zero of a new one.
@@ -168,7 +177,8 @@ class BodyHistory {
   void set_zero(std::size_t slot);
   void put_in_lists(std::size_t candidate);
   int count_aside(int particle) const;
-  int place_of_part(std::size_t slot, int known, int part) const;
+  void match_parts(std::size_t candidate, const SurfaceContact *found, int count,
+                   std::uint32_t *slots);
   int drop_ended_parts(std::size_t slot, int known, const SurfaceContact *found, int count);
   void take_back(std::size_t candidate);
   void clear(std::size_t block, unsigned separated);

@@ -21,21 +21,28 @@ class WallSurface : public LargeBodyShape {
   /// A sphere has no more contacts with a wall than this.
   static constexpr int most_of_wall = 32;
 
-  /// Where a sphere touches it.
+  /// What laws read of it where a sphere touches it.
   struct Point {
-    Vector3<double> velocity{0.0, 0.0, 0.0};    ///< of the surface
-    double curvature = 0.0;                     ///< 1/radius; 0: flat, < 0: hollow
-    int part = -1;                              ///< for reports, see ContactReport
+    Vector3<double> velocity{0.0, 0.0, 0.0};
+    double curvature = 0.0;    ///< 1/radius; 0: flat, < 0: hollow
+    int part = -1;             ///< for reports, see ContactReport
   };
-  /// Of a contact that has just been found.
-  virtual Point point(const Vector3<double> &center, const SurfaceContact &contact) const = 0;
+  /// Of surfaces with one contact at most: where touches_eight() has found it.
+  virtual Point point(const Vector3<double> & /*center*/) const { return {}; }
+  /// If not nullptr: velocity and curvature are these at all points.
+  virtual const Point *everywhere() const { return nullptr; }
+
+  /// Of surfaces with several, in the place of find_contacts(): contacts, at most most_of_wall, and
+  /// their points. Their number, or -1 where contacts neither act nor end: behind the surface.
+  virtual int find(const Vector3<double> & /*center*/, double /*radius*/,
+                   SurfaceContact * /*found*/, Point * /*points*/) const
+  {
+    return 0;
+  }
 
   /// Bits of those of eight spheres that may touch it. `listed`: radii are as wide as particles may
   /// go until they are listed again, and then may be beyond a periodic face.
   virtual unsigned may_touch(const EightSpheres &spheres, bool listed) const = 0;
-
-  // With several contacts find_contacts(), by one thread, has room for most_of_wall, keeps the order of
-  // the wall, and returns -1 where contacts neither act nor end: with the center behind the surface.
 
   Vector3<double> reference_point() const override { return {0.0, 0.0, 0.0}; }
   /// may_touch() is asked instead.
