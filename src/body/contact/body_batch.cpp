@@ -34,10 +34,10 @@ BodyBatch::BodyBatch()
   std::fill(radius, radius + ContactBatch::width, 1.0);
 }
 
-void BodyBatch::start()
+void BodyBatch::start(bool with_exact)
 {
   load = BodyLoad{};
-  exact.clear();
+  if (with_exact) exact.clear();
   touched.clear();
   work = EnergyByCause{};
   last.clear();

@@ -82,8 +82,8 @@ class BodyBatch {
  public:
   BodyBatch();
 
-  /// Forgets the results of the last step.
-  void start();
+  /// Forgets the results of the last step; `with_exact`: those without rounding as well.
+  void start(bool with_exact);
 
   /// Computes the contacts of candidates begin ... end-1. Adds the forces to the particles, and
   /// keeps histories if the laws have them. Several threads may do so at the same time, each with a

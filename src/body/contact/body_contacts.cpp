@@ -110,11 +110,11 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.wall};
 }
 
-void BodyContacts::start_batches(int threads)
+void BodyContacts::start_batches(int threads, bool exact)
 {
   while (static_cast<int>(batches.size()) < threads)
     batches.push_back(std::make_unique<BodyBatch>());
-  for (auto &batch : batches) batch->start();
+  for (auto &batch : batches) batch->start(exact);
 }
 
 std::size_t BodyContacts::first_of(int thread, int threads) const
@@ -129,7 +129,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   const int threads = threads_of_step = many ? step.threads : 1;
   index_candidates(view);
   history.begin_step();
-  start_batches(threads);
+  start_batches(threads, step.exact);
   const BodyTask task = task_of(shape, frame, view, step);
   in_parallel(threads, threads, [&](int t) {
     batches[t]->compute(task, first_of(t, threads), first_of(t + 1, threads));
@@ -155,7 +155,7 @@ bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &fr
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
   index_candidates(view);
   history.begin_step();
-  start_batches(step.threads);
+  start_batches(step.threads, false);
   in_pieces = {&shape, &frame, view, step};
   return true;
 }

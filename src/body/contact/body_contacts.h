@@ -122,7 +122,7 @@ class BodyContacts {
   BodyTask task_of(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
                    const BodyStep &step);
   void index_candidates(const ParticleState &view);
-  void start_batches(int threads);
+  void start_batches(int threads, bool exact);
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
