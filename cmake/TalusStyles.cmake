@@ -5,7 +5,7 @@ talus_glob(talus_style_sources system pair fix compute dump fill comm run)
 # What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
 # talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
 if(NOT TALUS_HOST_HAS_GRANULAR)
-  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_batch)")
+  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_law)")
   foreach(source IN LISTS talus_style_sources)
     string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
     set(found "")

@@ -1,24 +1,25 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // What the accelerated variants of fix wall/gran and fix wall/gran/region share. They are the stock
-// classes (command line, histories, restart data, output), but look only at the particles near the
-// wall, and do so where the particles are: in the arrays of LAMMPS or in the records. The kernels
-// of the same contact law compute the contacts: the numbers are those of the stock class but for
-// rounding.
+// classes (command line, restart data, output), but their contacts are those of a large body with
+// the law of the stock fix (BodyContacts): the numbers are those of the stock class but for
+// rounding. Between steps in which particles are renumbered histories are with the candidates;
+// whenever LAMMPS may look, they are in the arrays of the stock class.
 //
 // Where that is not possible the methods of the stock class are used, with the reason in the log.
 
 #ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 #define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 
+#include "body/contact/body_contacts.h"
 #include "fix/plain_style.h"
-#include "fix/wall_batch.h"
-#include "fix/wall_candidates.h"
+#include "fix/wall_law.h"
 #include "system/granular_system.h"
 #include "system/time_formula.h"
 
 #include "atom.h"
 #include "atom_vec.h"
+#include "comm.h"
 #include "fix.h"
 #include "force.h"
 #include "gran_sub_mod.h"
@@ -31,13 +32,16 @@
 #include "utils.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Talus {
 
 /// Stock: FixWallGran or a class derived from it.
-template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
+template <class Stock>
+class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest {
  public:
   /// `plain`: name of the style without suffix.
   AcceleratedWall(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg, const char *plain) :
@@ -55,17 +59,20 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
 
   void init() override
   {
+    contacts.history.put_aside();
     Stock::init();
-    candidates.forget();
-    has_forces = false;
+    is_listed = has_forces = false;
     stock_reason = find_reason_for_stock();
     if (!stock_reason.empty()) return;
-    wall_law.take(*this->model);
+    wall_law.take(*this->model, this->atom->ntypes);
+    contacts.set_laws(wall_law.laws());
     begin_run();
+    contacts.history.keep_in(*this, surface().most_contacts() > 1);
+    contacts.history.keep_records(std::max(wall_law.laws().history_records(), 1));
   }
 
-  void setup_post_neighbor() override { candidates.forget(); }
-  void post_neighbor() override { candidates.forget(); }
+  void setup_post_neighbor() override { is_listed = false; }
+  void post_neighbor() override { is_listed = false; }
 
   void post_force(int vflag) override
   {
@@ -73,11 +80,51 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
       Stock::post_force(vflag);
       return;
     }
+    place();
+    list_if_needed();
+    if (keeps_contacts()) this->clear_stored_contacts();
     add_contacts();
     has_forces = true;
   }
 
-  double memory_usage() override { return Stock::memory_usage() + candidates.memory_usage(); }
+  double memory_usage() override { return Stock::memory_usage() + contacts.memory_usage(); }
+
+  // Particles get other indices, leave or come, or are written into a restart file.
+  void copy_arrays(int from, int to, int remove) override
+  {
+    contacts.history.put_aside();
+    Stock::copy_arrays(from, to, remove);
+  }
+  void set_arrays(int i) override
+  {
+    contacts.history.put_aside();
+    Stock::set_arrays(i);
+  }
+  int pack_exchange(int i, double *buf) override
+  {
+    contacts.history.put_aside();
+    return Stock::pack_exchange(i, buf);
+  }
+  int unpack_exchange(int i, double *buf) override
+  {
+    contacts.history.put_aside();
+    return Stock::unpack_exchange(i, buf);
+  }
+  int pack_restart(int i, double *buf) override
+  {
+    contacts.history.put_aside();
+    return Stock::pack_restart(i, buf);
+  }
+  void unpack_restart(int i, int nth) override
+  {
+    contacts.history.put_aside();
+    Stock::unpack_restart(i, nth);
+  }
+  int size_restart(int i) override
+  {
+    contacts.history.put_aside();
+    return Stock::size_restart(i);
+  }
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
@@ -87,32 +134,36 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   void for_each_contact(ContactData requested, const VisitContact &visit) override
   {
     if (!has_forces) return;
-    const ReportRequest request{requested, visit};
-    report = &request;
-    report_contacts();
-    report = nullptr;
+    place();
+    const WallStep wall = step_of_wall();
+    contacts.for_each_contact(surface(), at_rest, system->particles(), this->update->dt, requested,
+                              visit, &wall);
   }
   std::string needs_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
     if (this->heat_flag && this->tstr && !reads_only_time(this->lmp, this->tstr))
       return std::string("variable ") + this->tstr + " reads more than time";
-    if (!system->pipeline().keeps_omega())
+    if (wall_law.law().has_friction() && !system->pipeline().keeps_omega())
       return "it exerts torques and the contacts between particles do not";
     return what_reads_arrays();
   }
 
  protected:
   std::shared_ptr<GranularSystem> system;
-  WallCandidates candidates;
+  BodyContacts contacts;
   WallLaw wall_law;
 
   /// In init(), if the run is accelerated.
   virtual void begin_run() = 0;
-  /// The forces of a step, on particles of which each is where it is.
-  virtual void add_contacts() = 0;
-  /// Reports the contacts as add_contacts() has left them, through deliver().
-  virtual void report_contacts() = 0;
+  /// Its surface; where it is in this step.
+  virtual const WallSurface &surface() const = 0;
+  virtual void place() = 0;
+  /// Which particles cannot touch it for a while is known.
+  virtual bool is_bounded() const = 0;
+  /// Particles are listed that may touch it as it is; and how far a point of it has gone at most since.
+  virtual void are_listed(const ParticleState &particles) = 0;
+  virtual double displacement() const = 0;
   /// "", or why the methods of the stock class are needed by this kind of wall.
   virtual std::string what_only_stock_does() const = 0;
   /// "", or what in this wall may read the arrays of LAMMPS in every step.
@@ -123,84 +174,98 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   {
     return this->atom->avec->size_forward > 3 || !this->modify->get_fix_by_style("^adapt").empty();
   }
-  bool is_member(int i) const { return this->atom->mask[i] & this->groupbit; }
+
+ private:
   /// Forces by particle are kept for output.
   bool keeps_contacts() const
   {
     return this->peratom_flag && (system->particles().is_in_arrays() ||
                                   system->steps_in_records().fix_calls().somebody_looks());
   }
-  bool touches_beyond_contact() const { return this->model->beyond_contact; }
 
-  /// The temperature of the wall in this step, if it conducts heat.
-  void find_wall_temperature()
+  /// Particles and wall together may go as far as the skin.
+  bool is_stale(double moved) const
   {
-    if (this->heat_flag && this->tstr)
-      this->Twall = this->input->variable->compute_equal(this->tvar);
+    return !is_listed || this->atom->nlocal != owned_then ||
+           (is_bounded() && !(moved + moved_then + displacement() <= this->neighbor->skin));
   }
-  double temperature_difference(int i) const
+  void list_if_needed()
   {
-    return this->heat_flag ? this->Twall - this->atom->temperature[i] : 0.0;
+    const bool bounded = is_bounded();
+    if (!is_stale(bounded ? system->moved_at_most() : 0.0)) return;
+    const double moved = bounded ? system->moved_since_rebuild() : 0.0;
+    if (is_stale(moved)) list(moved);
+  }
+  void list(double moved)
+  {
+    constexpr double anywhere = 1.0e100;
+    const ParticleState particles = system->particles();
+    contacts.find_candidates(surface(), particles, this->atom->mask, this->groupbit,
+                             is_bounded() ? this->neighbor->skin : anywhere, this->comm->nthreads);
+    find_masses();
+    are_listed(particles);
+    is_listed = true;
+    owned_then = this->atom->nlocal;
+    moved_then = moved;
+  }
+  /// As LAMMPS has them here: those of bodies, but neither converted nor infinite.
+  void find_masses()
+  {
+    masses.clear();
+    if (!system->masses().needed()) return;
+    for (int i = 0; i < this->atom->nlocal; i++) masses.push_back(system->masses().of_body(i));
   }
 
-  /// Begins a step of a batch, or a report.
-  void begin(WallBatch &batch)
+  WallStep step_of_wall()
   {
-    const double dt = this->update->dt;
-    if (report)
-      batch.begin_report(dt);
-    else    // as in LAMMPS: histories stand still while a run is set up
-      batch.begin_step(wall_law, this->update->setupflag ? 0.0 : dt, accounts ? &account : nullptr);
+    WallStep wall{surface()};
+    wall.masses = masses.empty() ? nullptr : masses.data();
+    if (this->heat_flag) {
+      if (this->tstr) this->Twall = this->input->variable->compute_equal(this->tvar);
+      wall.temperature = this->atom->temperature;
+      wall.wall_temperature = this->Twall;
+      wall.heat_flow = this->atom->heatflow;
+    }
+    return wall;
   }
-
-  /// Before the batches of a step begin.
-  void begin_account()
+  /// As in LAMMPS, histories stand still while a run is set up, but what slips is set back.
+  void add_contacts()
   {
-    accounts = system->account().is_asked();
+    constexpr std::size_t worth_a_thread = 100;    // candidates
+    WallStep wall = step_of_wall();
+    if (keeps_contacts()) wall.computed = [this](const ContactReport &one) { keep_contact(one); };
+    const bool accounts = system->account().is_asked();
+    WorkAccount account;
     if (accounts) account = system->account().part_of_step();
+    BodyStep step;
+    step.dt = this->update->setupflag ? 0.0 : this->update->dt;
+    step.threads = static_cast<int>(std::clamp<std::size_t>(
+        contacts.num_candidates() / worth_a_thread, 1, this->comm->nthreads));
+    step.account = accounts ? &account : nullptr;
+    step.wall = &wall;
+    contacts.compute(surface(), at_rest, system->particles(), step);
+    if (accounts) system->account().add(account.sum);
   }
-
-  void deliver(WallBatch &batch, const ParticleState &particles)
-  {
-    if (report) {
-      batch.report(particles, report->requested, report->visit);
-      return;
-    }
-    batch.compute(particles);
-    const bool keeps = keeps_contacts();
-    if (this->heat_flag || keeps)
-      batch.for_each_result([&](const WallBatch::Result &result) {
-        if (this->heat_flag) this->atom->heatflow[result.atom] += result.heat_flow;
-        if (keeps) keep_contact(result, particles);
-      });
-    batch.clear();
-  }
-
- private:
   /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
-  void keep_contact(const WallBatch::Result &result, const ParticleState &particles)
+  void keep_contact(const ContactReport &one)
   {
-    double *row = this->array_atom[result.atom];
-    row[0] = 1.0;
-    for (int d = 0; d < 3; d++) {
-      row[1 + d] = result.force[d];
-      row[4 + d] = particles.x(result.atom)[d] - result.separation[d];
-    }
-    row[7] = this->atom->radius[result.atom];
-    if (this->size_peratom_cols > 8) row[8] = result.heat_flow;
+    double *row = this->array_atom[one.i];
+    const double *x = system->particles().x(one.i);
+    const Vector3<double> &force = one.force, &arm = one.arm[0];
+    const double values[8] = {1.0,          force.x,      force.y,      force.z,
+                              x[0] + arm.x, x[1] + arm.y, x[2] + arm.z, this->atom->radius[one.i]};
+    std::copy(values, values + 8, row);
+    if (this->size_peratom_cols > 8) row[8] = one.heat_flow;
   }
 
-  struct ReportRequest {
-    ContactData requested;
-    const VisitContact &visit;
-  };
-
+  const BodyFrame at_rest{};
   const char *plain_style;
   std::string stock_reason;
   bool has_forces = false;    // of a step
-  const ReportRequest *report = nullptr;
-  bool accounts = false;
-  WorkAccount account;
+  bool is_listed = false;
+  int owned_then = 0;    // when particles were listed
+  double moved_then = 0.0;
+  std::vector<double> masses;    // by particle, or empty
 
   std::string find_reason_for_stock() const
   {

@@ -7,6 +7,8 @@
 #define LMP_FIX_WALL_GRAN_TALUS_H
 
 #include "fix/fix_wall_gran_accelerated.h"
+#include "fix/wall_cylinder.h"
+#include "fix/wall_planes.h"
 #include "system/lammps_compat.h"
 
 #include "fix_wall_gran.h"
@@ -24,42 +26,44 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
 #endif
 
  protected:
-  void begin_run() override;
-  void add_contacts() override;
-  void report_contacts() override;
+  void begin_run() override {}
+  const Talus::WallSurface &surface() const override;
+  void place() override;
+  bool is_bounded() const override
+  {
+    return !radii_vary();
+  }
+  void are_listed(const Talus::ParticleState & /*particles*/) override
+  {
+    listed_at = gone();
+  }
+  double displacement() const override;
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override
   {
     return "";
   }
 
+  // HistoryAtRest
+  int count(int i) const override
+  {
+    return wall_law.touches(history_one[i]) ? 1 : 0;
+  }
+  int read(int i, int k, Talus::HistoryValues &values) const override;
+  void clear(int i) override;
+  void add(int i, int part, const Talus::HistoryValues &values) override;
+
  private:
-  /// Vector from the wall to a particle, and the radius of the wall there: 0 for planes, negative
-  /// on the inside of a cylinder; which of the planes, or -1.
-  struct Gap {
-    double d[3] = {0.0, 0.0, 0.0}, radius = 0.0;
-    int part = -1;
-  };
   bool is_cylinder() const
   {
     return wallstyle > 2;
   }
   double phase() const;    // of the oscillation
-  double displacement() const;
-  Gap gap(const double *x, double radius) const;
-  double distance(const double *x) const;
-  double radius_of_cylinder() const;
-  void place();
-  void find_candidates(double moved);
-  void clear_history(int i);
-  void add_contacts_of(Talus::WallBatch &batch, const Talus::ParticleState &particles, int begin,
-                       int end);
+  double gone() const;     // by the planes, along their normals
 
-  std::vector<Talus::WallBatch> batches;      // by thread
-  std::vector<std::pair<int, int>> ranges;    // of candidates, of the last step
-  double now[2] = {0.0, 0.0};                 // planes at lo and hi in this step
-  double velocity[3] = {0.0, 0.0, 0.0};
-  double listed_at = 0.0;    // displacement() when candidates were found
+  Talus::WallPlanes planes;
+  Talus::WallCylinder cylinder;
+  double listed_at = 0.0;    // gone() when candidates were found
 };
 
 }    // namespace LAMMPS_NS

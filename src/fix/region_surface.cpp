@@ -16,24 +16,6 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void LanesOfBox::add(const Vector3<Vec8> &x)
-{
-  lo = {-larger(-lo.x, -x.x), -larger(-lo.y, -x.y), -larger(-lo.z, -x.z)};
-  hi = {larger(hi.x, x.x), larger(hi.y, x.y), larger(hi.z, x.z)};
-}
-
-AxisBox::AxisBox(const LanesOfBox &points, double by)
-{
-  for (int k = 0; k < lanes; k++) {
-    const double low[3] = {points.lo.x[k], points.lo.y[k], points.lo.z[k]},
-                 high[3] = {points.hi.x[k], points.hi.y[k], points.hi.z[k]};
-    for (int d = 0; d < 3; d++) {
-      lo[d] = std::min(lo[d], low[d] - by);
-      hi[d] = std::max(hi[d], high[d] + by);
-    }
-  }
-}
-
 /* ---------------------------------------------------------------------- */
 
 RegionMotion::RegionMotion(const Region &region)
@@ -115,13 +97,14 @@ Vector3<double> RegionPose::turned(const Vector3<double> &v) const
 
 /* The displacement is an affine function of the point, so its length is largest in a corner. */
 
-double RegionPose::largest_displacement(const RegionPose &then, const AxisBox &box) const
+double RegionPose::largest_displacement(const RegionPose &then,
+                                        const Eigen::AlignedBox3d &box) const
 {
-  if (box.is_empty()) return 0.0;
+  if (box.isEmpty()) return 0.0;
   double largest = 0.0;
   for (int corner = 0; corner < 8; corner++) {
     double now[3], origin[3], before[3];
-    for (int d = 0; d < 3; d++) now[d] = corner & (1 << d) ? box.hi[d] : box.lo[d];
+    for (int d = 0; d < 3; d++) now[d] = corner & (1 << d) ? box.max()[d] : box.min()[d];
     origin_of(now, origin);
     then.place_of(origin, before);
     largest =
@@ -169,7 +152,7 @@ unsigned RegionParts::near(const Vector3<Vec8> &x, Vec8 reach) const
 }
 
 double RegionParts::largest_displacement(const std::vector<RegionPose> &then,
-                                         const AxisBox &box) const
+                                         const Eigen::AlignedBox3d &box) const
 {
   double largest = 0.0;
   for (std::size_t k = 0; k < simple.size(); k++)

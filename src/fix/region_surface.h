@@ -8,6 +8,7 @@
 #ifndef TALUS_FIX_REGION_SURFACE_H
 #define TALUS_FIX_REGION_SURFACE_H
 
+#include "base/linear_algebra.h"
 #include "fix/convex_region.h"
 
 #include <string>
@@ -20,23 +21,6 @@ class Region;
 }    // namespace LAMMPS_NS
 
 namespace Talus {
-
-/// Around points that come eight at a time.
-struct LanesOfBox {
-  Vector3<Vec8> lo = in_all_lanes<Vec8>({1.0e300, 1.0e300, 1.0e300}), hi = -lo;
-
-  void add(const Vector3<Vec8> &x);
-};
-
-/// A box with sides along the axes; empty while lo > hi.
-struct AxisBox {
-  double lo[3] = {1.0e300, 1.0e300, 1.0e300}, hi[3] = {-1.0e300, -1.0e300, -1.0e300};
-
-  AxisBox() = default;
-  /// Wider than the lanes by a length.
-  AxisBox(const LanesOfBox &points, double by);
-  bool is_empty() const { return lo[0] > hi[0]; }
-};
 
 /// How a simple region that moves or turns stands, in the words of its command: x = point + turned
 /// by `angle` about `axis` (x_0 - point) + displacement. `point` is the origin without `rotate`.
@@ -68,7 +52,7 @@ class RegionPose {
 
   /// Largest distance of a point that is inside the box from where the same point of the region was
   /// in the pose `then`.
-  double largest_displacement(const RegionPose &then, const AxisBox &box) const;
+  double largest_displacement(const RegionPose &then, const Eigen::AlignedBox3d &box) const;
 
   /// Where a point of the region is, and which point of the region is at x.
   void place_of(const double *x0, double *x) const;
@@ -98,7 +82,8 @@ class RegionParts {
   /// In each step, after Region::prematch().
   void place();
   /// See RegionPose; of all parts, since they had the poses `then`.
-  double largest_displacement(const std::vector<RegionPose> &then, const AxisBox &box) const;
+  double largest_displacement(const std::vector<RegionPose> &then,
+                              const Eigen::AlignedBox3d &box) const;
 
   /// See ConvexRegion; of all parts. A surface point of a union or intersection is one of its parts.
   unsigned near(const Vector3<Vec8> &x, Vec8 reach) const;

@@ -34,26 +34,34 @@ BodyBatch::BodyBatch()
   std::fill(radius, radius + ContactBatch::width, 1.0);
 }
 
-void BodyBatch::start()
+void BodyBatch::start(bool with_exact)
 {
   load = BodyLoad{};
-  exact.clear();
+  if (with_exact) exact.clear();
   touched.clear();
   work = EnergyByCause{};
+  last.clear();
 }
 
-void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t last)
+void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t end_of_range)
 {
   task = &new_task;
   touching = 0.0;
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
-  const bool by_parts = task->shape.most_contacts() > 1;
+  const bool several = task->shape.most_contacts() > 1, by_parts = several && !task->wall;
+  if (task->report) last.rewind();
+  if (task->wall) set_all_points();
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
-    for (std::size_t c = begin; c < last && by_parts; c++) look_at_parts(c, last);
-    for (std::size_t c = begin / width * width; c < last && !by_parts; c += width)
-      look_at_eight(c, static_cast<int>(begin > c ? begin - c : 0),
-                    static_cast<int>(std::min<std::size_t>(last - c, width)));
+    for (std::size_t c = begin; c < end_of_range && by_parts; c++) look_at_parts(c, end_of_range);
+    for (std::size_t c = begin / width * width; c < end_of_range && !by_parts; c += width) {
+      const int low = static_cast<int>(begin > c ? begin - c : 0),
+                high = static_cast<int>(std::min<std::size_t>(end_of_range - c, width));
+      if (several)
+        look_at_eight_of_wall(c, low, high);
+      else
+        look_at_eight(c, low, high);
+    }
     flush();
   }
   sum_up();
@@ -172,6 +180,7 @@ void BodyBatch::take(std::size_t first, unsigned bits)
   }
   pack_lanes(&radius[filled], spheres.radius, bits);
   pack_lanes(&batch.overlap[filled], contacts.overlap, bits);
+  if (task->wall) take_points(bits);
   filled += store_places(&candidate_of_lane[filled], static_cast<std::uint32_t>(first), bits);
   prefetch_contacts(first, bits);
   if (filled > ContactBatch::width - width) flush();    // no room for eight more
@@ -274,6 +283,8 @@ void BodyBatch::flush()
   end = (filled + lanes - 1) / lanes * lanes;
   std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
+  if (task->wall && !task->wall->surface.everywhere())
+    std::fill(curvature + filled, curvature + end, 0.0);
   gather();
   batch.lag = task->lag;
   if (task->report) {
@@ -287,7 +298,10 @@ void BodyBatch::flush()
   if (task->record_parts) record_parts();
   if (task->frame.turned) rotate_to_space();
   add_to_particles();
-  add_load();
+  if (task->wall)
+    pass_on();
+  else
+    add_load();
   if (task->virial) add_virials();
   touching += filled;
   filled = 0;
@@ -302,18 +316,25 @@ void BodyBatch::account()
   }
 }
 
-void BodyBatch::report() const
+/* In the frame of the body. */
+
+ContactReport BodyBatch::geometry_of(int lane) const
+{
+  ContactReport found;
+  found.i = task->candidates.atom(candidate_of_lane[lane]);
+  if (task->wall || task->shape.most_contacts() > 1) found.part = part_of_lane[lane];
+  found.normal = lane_of(batch.normal, lane);
+  found.overlap = batch.overlap[lane];
+  return found;
+}
+
+void BodyBatch::report()
 {
   const BodyFrame &frame = task->frame;
-  const bool by_parts = task->shape.most_contacts() > 1;
   for (int lane = 0; lane < filled; lane++) {
     HistoryValues history{};
     for (int n = 0; n < 4 * task->history_records; n++) history[n] = batch.history[n][lane];
-    ContactReport found;
-    found.i = task->candidates.atom(candidate_of_lane[lane]);
-    if (by_parts) found.part = part_of_lane[lane];
-    found.normal = lane_of(batch.normal, lane);
-    found.overlap = batch.overlap[lane];
+    ContactReport found = geometry_of(lane);
     report_contact(law, task->laws.coefficients(batch.coefficients[lane]),
                    state_of_lane(batch, lane), task->dt, history, task->requested, found);
     if (frame.turned) {
@@ -322,6 +343,7 @@ void BodyBatch::report() const
       found.torque_per_radius = frame.to_space(found.torque_per_radius);
       found.twisting_torque = frame.to_space(found.twisting_torque);
     }
+    if (task->wall) last.find(law.has_friction(), law.twists(), found);
     found.set_arms_of_spheres(radius[lane], 0.0);
     (*task->report)(found);
   }

@@ -3,7 +3,8 @@
 // Contact forces between particles and one large body: one batch for each thread, eight contacts at
 // a time. Everything is computed in the frame of the body, in which the body is at rest and
 // histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
-// laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results.
+// laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results,
+// body_batch_walls.cpp does what only walls of LAMMPS need.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
@@ -13,6 +14,8 @@
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
 #include "body/contact/body_load.h"
+#include "body/contact/last_forces.h"
+#include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/contact_batch.h"
@@ -54,8 +57,9 @@ struct BodyTask {
   /// If not nullptr: called with each contact, by one thread, instead of adding forces.
   const std::function<void(const ContactReport &)> *report;
   ContactData requested = ContactData::ALL;
-  bool with_history;      ///< of any law
-  int history_records;    ///< see LawTable
+  bool with_history;       ///< of any law
+  int history_records;     ///< see LawTable
+  const WallStep *wall;    ///< see BodyStep
 
   static constexpr int spare = 128;
 
@@ -78,8 +82,8 @@ class BodyBatch {
  public:
   BodyBatch();
 
-  /// Forgets the results of the last step.
-  void start();
+  /// Forgets the results of the last step; `with_exact`: those without rounding as well.
+  void start(bool with_exact);
 
   /// Computes the contacts of candidates begin ... end-1. Adds the forces to the particles, and
   /// keeps histories if the laws have them. Several threads may do so at the same time, each with a
@@ -94,6 +98,8 @@ class BodyBatch {
 
  private:
   using Lanes = double[3][ContactBatch::width];
+
+  using Motion = ParticleState::Motion;
 
   // contacts
   unsigned bits_of_law(std::size_t first, int low, int high) const;
@@ -110,11 +116,21 @@ class BodyBatch {
               const SurfaceContact &contact, const Vector3<double> &normal_before);
   void flush();
   void account();
-  void report() const;
+  ContactReport geometry_of(int lane) const;
+  void report();
   void record_parts();
 
+  // walls of LAMMPS
+  void look_at_eight_of_wall(std::size_t first, int low, int high);
+  void look_at_wall(std::size_t candidate);
+  void set_all_points();
+  void take_points(unsigned bits);
+  void set_point(int lane, const WallSurface::Point &point);
+  void see_from_wall(Motion &m, int k) const;
+  void gather_temperatures();
+  void pass_on();
+
   // lanes
-  using Motion = ParticleState::Motion;
   void gather();
   void gather_changes(const int *index, int k);
   void see_changes_from_body(int k);
@@ -152,9 +168,16 @@ class BodyBatch {
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
   std::uint32_t candidate_of_lane[ContactBatch::width] = {};
   std::uint32_t slot_of_lane[ContactBatch::width] = {};    // only with several contacts
-  int part_of_lane[ContactBatch::width] = {};              // the same
+  int part_of_lane[ContactBatch::width] = {};              // the same, and of walls
   alignas(64) Lanes place = {};                            // of particles, in space
   alignas(64) double radius[ContactBatch::width];
+  // only of walls
+  alignas(64) Lanes wall_velocity = {};
+  alignas(64) double curvature[ContactBatch::width] = {};
+  SurfaceContact found_on_wall[WallSurface::most_of_wall];
+  WallSurface::Point points_of_wall[WallSurface::most_of_wall];
+  LastForces last;
+
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
   // in space, in the frame of a body that moves, and with radii as far as contacts last

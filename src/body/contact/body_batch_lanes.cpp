@@ -64,9 +64,10 @@ void BodyBatch::gather()
       m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
     }
     if (frame.runs) run_past(m, k);
+    if (task->wall) see_from_wall(m, k);
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
-    store(&batch.inverse_radius[k], m.inverse_radius);
+    store(&batch.inverse_radius[k], m.inverse_radius + load8(&curvature[k]));
     if (law.has_friction()) store_at(batch.surface_rotation, k, load8(&radius[k]) * m.omega);
     if (law.resists()) {
       store_at(batch.relative_omega, k, m.omega);
@@ -76,6 +77,7 @@ void BodyBatch::gather()
     if (task->with_history) gather_histories(k);
   }
   if (law.resists()) gather_resistance();
+  if (task->wall && task->wall->temperature) gather_temperatures();
   if (!task->laws.uniform()) gather_coefficients();
 }
 

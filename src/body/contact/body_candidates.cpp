@@ -36,15 +36,20 @@ struct BodyCandidates::Search {
   }
 };
 
-void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
-                          const ParticleState &view, const int *mask, int group, double skin,
-                          double beyond, int threads)
+void BodyCandidates::clear()
 {
   particles.clear();
   listed.clear();
   most_contacts.clear();
   parts.clear();
   parts_begin.assign(1, 0);
+}
+
+void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
+                          const ParticleState &view, const int *mask, int group, double skin,
+                          double beyond, int threads)
+{
+  clear();
   listed_frame = frame;
   listed_reach = 0.0;
   const double margin = beyond + (frame.moves ? (1.0 + free_way) * skin : skin);
@@ -53,6 +58,30 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
     list_near(search, shape.thread_safe() ? threads : 1);
   else
     list_with_parts(search);
+}
+
+/* Rounding must not hide a particle. */
+
+void BodyCandidates::list(const WallSurface &wall, const ParticleState &view, const int *mask,
+                          int group, double way, const std::function<bool(int)> &keep, int threads)
+{
+  clear();
+  const Vec8 wider = splat<Vec8>(1.000001), margin = splat<Vec8>(way);
+  std::vector<std::vector<int>> found(threads);
+  in_ranges(view.owned(), threads, [&](int t, int begin, int end) {
+    EightSpheres spheres;
+    for (int first = begin; first < end; first += lanes) {
+      const auto place = [&](int k) { return view.place(std::min(first + k, end - 1)); };
+      view.spheres_at(place, spheres.center, spheres.radius);
+      store(spheres.radius, wider * (load8(spheres.radius) + margin));
+      const unsigned bits = wall.may_touch(spheres, true);
+      for (int k = 0, i = first; k < lanes && i < end; k++, i++)
+        if ((mask[i] & group) && ((bits >> k & 1U) || keep(i))) found[t].push_back(i);
+    }
+  });
+  for (const std::vector<int> &some : found)
+    particles.insert(particles.end(), some.begin(), some.end());
+  most_contacts.assign(particles.size(), static_cast<std::uint8_t>(wall.most_contacts()));
 }
 
 /* By several threads, each for a range of the particles. */

@@ -7,11 +7,13 @@
 #define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 
 #include "base/linear_algebra.h"
+#include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "particles/particle_state.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -23,6 +25,11 @@ class BodyCandidates {
   /// `beyond`. `threads` are used for shapes that are thread_safe() and touch at one point at most.
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
             const int *mask, int group, double skin, double beyond, int threads);
+
+  /// The same of a wall: the particles that may touch it, and those for which keep(i) holds; `way`: of
+  /// both together, beyond zero overlap.
+  void list(const WallSurface &wall, const ParticleState &view, const int *mask, int group,
+            double way, const std::function<bool(int)> &keep, int threads);
 
   /// The body has moved so far that particles must be listed again.
   bool are_stale(const BodyFrame &frame, double skin) const;
@@ -41,7 +48,7 @@ class BodyCandidates {
   /// Local indices.
   const std::vector<int> &atoms() const { return particles; }
   int atom(std::size_t c) const { return particles[c]; }
-  /// How many contacts each may have at the same time; only of shapes with several.
+  /// How many contacts each may have at the same time; only of shapes with several, and of walls.
   const std::vector<std::uint8_t> &room() const { return most_contacts; }
 
   /// Where candidate c was when it was listed, in the frame of the body; of shapes with several
@@ -65,6 +72,7 @@ class BodyCandidates {
 
  private:
   struct Search;
+  void clear();
   void list_near(const Search &search, int threads);
   void list_with_parts(const Search &search);
 

@@ -20,6 +20,7 @@ void BodyContacts::set_laws(const LawTable &table)
 {
   laws = table;
   with_history = laws.has_history();
+  history_records = laws.history_records();
   batches.clear();    // their lanes hold rows of the old table
 }
 
@@ -48,6 +49,17 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   if (with_history) history.follow(candidates.atoms(), candidates.room());
 }
 
+void BodyContacts::find_candidates(const WallSurface &wall, const ParticleState &view,
+                                   const int *mask, int group, double way, int threads)
+{
+  index.clear();
+  history.put_aside();
+  candidates.list(
+      wall, view, mask, group, way + largest_pulloff_distance(view, mask, group),
+      [this](int i) { return with_history && history.is_aside(i); }, threads);
+  if (with_history) history.follow(candidates.atoms(), candidates.room());
+}
+
 double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,
                                               int group) const
 {
@@ -62,11 +74,11 @@ double BodyContacts::largest_pulloff_distance(const ParticleState &view, const i
 
 /* Where a step goes through the records, it does so from their beginning to their end. */
 
-void BodyContacts::index_candidates(const LargeBodyShape &shape, const ParticleState &view)
+void BodyContacts::index_candidates(const ParticleState &view)
 {
   const int *const order = view.order();
   if (candidates.size() == 0 || (!index.empty() && order_of_index == order)) return;
-  const bool sorted = order && shape.most_contacts() == 1 && candidates.sort_by_slot(order);
+  const bool sorted = order && candidates.room().empty() && candidates.sort_by_slot(order);
   if (sorted && with_history) history.follow(candidates.atoms(), candidates.room());
   order_of_index = order;
   index.clear();
@@ -94,14 +106,15 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           nullptr,
           ContactData::ALL,
           with_history,
-          laws.history_records()};
+          history_records,
+          step.wall};
 }
 
-void BodyContacts::start_batches(int threads)
+void BodyContacts::start_batches(int threads, bool exact)
 {
   while (static_cast<int>(batches.size()) < threads)
     batches.push_back(std::make_unique<BodyBatch>());
-  for (auto &batch : batches) batch->start();
+  for (auto &batch : batches) batch->start(exact);
 }
 
 std::size_t BodyContacts::first_of(int thread, int threads) const
@@ -113,10 +126,10 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
                                const ParticleState &view, const BodyStep &step)
 {
   const bool many = step.threads > 1 && shape.thread_safe();
-  const int threads = many ? step.threads : 1;
-  index_candidates(shape, view);
+  const int threads = threads_of_step = many ? step.threads : 1;
+  index_candidates(view);
   history.begin_step();
-  start_batches(threads);
+  start_batches(threads, step.exact);
   const BodyTask task = task_of(shape, frame, view, step);
   in_parallel(threads, threads, [&](int t) {
     batches[t]->compute(task, first_of(t, threads), first_of(t + 1, threads));
@@ -140,9 +153,9 @@ bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &fr
 {
   const bool is_plain = !step.exact && !step.touched && !step.virial;
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
-  index_candidates(shape, view);
+  index_candidates(view);
   history.begin_step();
-  start_batches(step.threads);
+  start_batches(step.threads, false);
   in_pieces = {&shape, &frame, view, step};
   return true;
 }
@@ -175,16 +188,22 @@ EnergyByCause BodyContacts::static_work() const
 
 void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
                                     const ParticleState &view, double dt, ContactData requested,
-                                    const VisitContact &visit)
+                                    const VisitContact &visit, const WallStep *wall)
 {
-  index_candidates(shape, view);
+  index_candidates(view);
   BodyStep step;
   step.dt = dt;
   step.advance = false;
+  step.wall = wall;
   BodyTask task = task_of(shape, frame, view, step);
   task.report = &visit;
   task.requested = requested;
-  BodyBatch{}.compute(task, 0, candidates.size());
+  if (!wall) {
+    BodyBatch{}.compute(task, 0, candidates.size());
+    return;
+  }
+  for (int t = 0; t < threads_of_step; t++)    // each has kept its forces
+    batches[t]->compute(task, first_of(t, threads_of_step), first_of(t + 1, threads_of_step));
 }
 
 BodyFindings BodyContacts::find_worst(const LargeBodyShape &shape, const BodyFrame &frame,

@@ -28,7 +28,8 @@ struct BodyStep {
   WorkAccount *account = nullptr;                 ///< receives the work, if it advances
   ExactLoad *exact = nullptr;                     ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
-  double *virial = nullptr;    ///< added to, six for each owned particle: xx yy zz xy xz yz
+  double *virial = nullptr;          ///< added to, six for each owned particle: xx yy zz xy xz yz
+  const WallStep *wall = nullptr;    ///< only of walls of LAMMPS, whose shape is WallStep::surface
 };
 
 /// Largest values of what a run warns about, over the particles of this rank that are near the
@@ -64,6 +65,12 @@ class BodyContacts {
                        const ParticleState &view, const int *mask, int group, double skin,
                        int threads = 1);
 
+  /// The same of a wall, which is stale when the owner says so: `way` is that of a particle and the
+  /// wall together.
+  void find_candidates(const WallSurface &wall, const ParticleState &view, const int *mask,
+                       int group, double way, int threads);
+  std::size_t num_candidates() const { return candidates.size(); }
+
   /// How far contacts of these particles last beyond zero overlap at most (length).
   double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
 
@@ -98,7 +105,7 @@ class BodyContacts {
   using VisitContact = std::function<void(const ContactReport &)>;
   void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
                         const ParticleState &view, double dt, ContactData requested,
-                        const VisitContact &visit);
+                        const VisitContact &visit, const WallStep *wall = nullptr);
 
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.
@@ -114,19 +121,21 @@ class BodyContacts {
  private:
   BodyTask task_of(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
                    const BodyStep &step);
-  void index_candidates(const LargeBodyShape &shape, const ParticleState &view);
-  void start_batches(int threads);
+  void index_candidates(const ParticleState &view);
+  void start_batches(int threads, bool exact);
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
 
   LawTable laws;
   bool with_history = false;
+  int history_records = 0;    // of the laws
   BodyCandidates candidates;
   std::vector<int> index;                 // places of candidates, and some more; empty: not known
   const int *order_of_index = nullptr;    // that of the particles when they were found
 
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
+  int threads_of_step = 1;                            // of the last compute()
 
   struct StaticStep {
     const LargeBodyShape *shape = nullptr;

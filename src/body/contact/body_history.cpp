@@ -2,6 +2,8 @@
 
 #include "body/contact/body_history.h"
 
+#include "body/contact/wall_surface.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -34,16 +36,36 @@ void BodyHistory::put_aside()
   if (are_listed) return;
   are_listed = true;
   lists.clear();
-  for (std::size_t c = 0; c < owners.size(); c++)
-    for (int k = 0; k < count(c); k++) {
-      double *const to = lists.add(owners[c], 0, k);
-      const std::size_t slot = first_slot(c) + k;
-      const Vector3<double> normal = normal_at(slot);
-      to[0] = normal.x;
-      to[1] = normal.y;
-      to[2] = normal.z;
-      rows.write(slot, to + size_normal);
+  for (std::size_t c = 0; c < owners.size(); c++) {
+    if (!at_rest) {
+      put_in_lists(c);
+      continue;
     }
+    at_rest->clear(owners[c]);
+    for (int k = 0; k < count(c); k++) {
+      const std::size_t slot = first_slot(c) + k;
+      at_rest->add(owners[c], with_several ? parts[slot] : 0, rows.values(slot));
+    }
+  }
+}
+
+void BodyHistory::put_in_lists(std::size_t c)
+{
+  for (int k = 0; k < count(c); k++) {
+    double *const to = lists.add(owners[c], 0, k);
+    const std::size_t slot = first_slot(c) + k;
+    const Vector3<double> normal = normal_at(slot);
+    to[0] = normal.x;
+    to[1] = normal.y;
+    to[2] = normal.z;
+    rows.write(slot, to + size_normal);
+  }
+}
+
+int BodyHistory::count_aside(int particle) const
+{
+  return at_rest ? at_rest->count(particle)
+                 : std::min(lists.count(particle), LargeBodyShape::max_contacts);
 }
 
 void BodyHistory::grow(int num_particles)
@@ -91,7 +113,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   touching = std::vector<std::atomic<std::uint8_t>>(with_several ? 0 : (n + 7) / 8);
   std::size_t slots = with_several ? 0 : n;
   for (std::size_t c = 0; c < n && with_several; c++) {
-    const int number = std::min(lists.count(owners[c]), LargeBodyShape::max_contacts);
+    const int number = count_aside(owners[c]);
     counts.push_back(static_cast<std::uint8_t>(number));
     first.push_back(static_cast<std::uint32_t>(slots));
     slots += std::max(room[c], counts[c]);
@@ -99,6 +121,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   rows.clear();
   rows.resize(slots);
   normals.resize(with_normals ? slots : 0);
+  parts.resize(with_several && at_rest ? slots : 0);
   for (std::size_t c = 0; c < n; c++) take_back(c);
   lists.clear();
   are_listed = false;
@@ -108,15 +131,25 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
 
 void BodyHistory::take_back(std::size_t c)
 {
-  const int most = with_several ? counts[c] : 1;
+  const int most = with_several ? counts[c] : std::min(count_aside(owners[c]), 1);
   if (!with_several) set_zero(c);
   int k = 0;
-  lists.for_each(owners[c], [&](const ContactLists::Contact &contact) {
-    if (k == most) return;
-    const std::size_t slot = first_slot(c) + k++;
-    if (with_normals) normals[slot] = {contact.value[0], contact.value[1], contact.value[2]};
-    rows.read(slot, contact.value + size_normal);
-  });
+  if (at_rest) {
+    for (; k < most; k++) {
+      HistoryValues values{};
+      const int part = at_rest->read(owners[c], k, values);
+      if (with_several) parts[first_slot(c) + k] = part;
+      set_values(first_slot(c) + k, values);
+    }
+    at_rest->clear(owners[c]);
+  } else {
+    lists.for_each(owners[c], [&](const ContactLists::Contact &contact) {
+      if (k == most) return;
+      const std::size_t slot = first_slot(c) + k++;
+      if (with_normals) normals[slot] = {contact.value[0], contact.value[1], contact.value[2]};
+      rows.read(slot, contact.value + size_normal);
+    });
+  }
   if (!with_several && k)
     touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8), std::memory_order_relaxed);
 }
@@ -199,11 +232,59 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
   return left;
 }
 
+/* Of contacts with parts of a wall, places are those of fix wall/gran/region of LAMMPS: the last one takes
+   the place of one that has ended, new ones are behind the others. Numbers of parts of some regions
+   occur twice, and their contacts are known by their order as well. */
+
+int BodyHistory::drop_ended_parts(std::size_t slot, int known, const SurfaceContact *found,
+                                  int count)
+{
+  unsigned going_on = 0;    // of `found`
+  for (int k = 0; k < known;) {
+    int n = 0;
+    while (n < count && (found[n].part != parts[slot + k] || (going_on >> n & 1U))) n++;
+    if (n < count) {
+      going_on |= 1U << n;
+      k++;
+      continue;
+    }
+    known--;
+    parts[slot + k] = parts[slot + known];
+    set_values(slot + k, values(slot + known));
+  }
+  return known;
+}
+
+/* `contact_at` leads from places to contacts, and is read the other way round, which makes a difference
+   from three contacts on: so does LAMMPS. */
+
+void BodyHistory::match_parts(std::size_t candidate, const SurfaceContact *found, int count,
+                              std::uint32_t *slots)
+{
+  const std::size_t slot = first[candidate];
+  const int known = drop_ended_parts(slot, counts[candidate], found, count);
+  int all = known, contact_at[WallSurface::most_of_wall];
+  unsigned taken = 0;    // places
+  for (int n = 0; n < count; n++) {
+    int k = 0;
+    while (k < known && (parts[slot + k] != found[n].part || (taken >> k & 1U))) k++;
+    if (k == known) {
+      k = all++;
+      parts[slot + k] = found[n].part;
+      rows.set_zero(slot + k);
+    }
+    taken |= 1U << k;
+    contact_at[k] = n;
+  }
+  for (int n = 0; n < count; n++) slots[n] = static_cast<std::uint32_t>(slot + contact_at[n]);
+  counts[candidate] = static_cast<std::uint8_t>(all);
+}
+
 double BodyHistory::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(owners) + bytes(first) + bytes(counts) + bytes(normals) + bytes(touching) +
-         lists.memory_usage() + rows.memory_usage();
+  return bytes(owners) + bytes(first) + bytes(counts) + bytes(normals) + bytes(parts) +
+         bytes(touching) + lists.memory_usage() + rows.memory_usage();
 }
 
 }    // namespace Talus

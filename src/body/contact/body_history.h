@@ -5,7 +5,8 @@
 // which is that in which a step reads and writes them. A candidate has as many slots as it may have
 // contacts at the same time; where that is one, its slot has its own number. With the first call
 // that moves a particle (local index) they are moved to lists by particle, which follow particles
-// to other indices, ranks and restart files, until there are new candidates.
+// to other indices, ranks and restart files, until there are new candidates. Those of walls of LAMMPS
+// are moved to the arrays of the stock fix instead (HistoryAtRest).
 //
 //   particles are renumbered   copy(), forget(), pack(), unpack()
 //   new candidates             follow()
@@ -30,6 +31,20 @@
 
 namespace Talus {
 
+/// Where contacts are kept while they are not those of candidates, in the place of lists by particle.
+/// Owned particles by local index.
+class HistoryAtRest {
+ public:
+  virtual int count(int particle) const = 0;
+  /// Of contact k: the part that is touched, and its history.
+  virtual int read(int particle, int k, HistoryValues &values) const = 0;
+  virtual void clear(int particle) = 0;
+  virtual void add(int particle, int part, const HistoryValues &values) = 0;
+
+ protected:
+  ~HistoryAtRest() = default;
+};
+
 class BodyHistory {
  public:
   BodyHistory() { keep_records(HistoryRows::most_records); }    // laws are not known yet
@@ -40,6 +55,13 @@ class BodyHistory {
   {
     with_several = several;
     with_normals = several || normals;
+  }
+  /// Of a wall: contacts are known by the parts that they touch, and rest in `place`. All particles
+  /// that have some there are among the next candidates.
+  void keep_in(HistoryAtRest &place, bool several)
+  {
+    with_several = several;
+    at_rest = &place;
   }
   /// Of each contact from now on, see HistoryRows::keep().
   void keep_records(int records);
@@ -59,6 +81,11 @@ class BodyHistory {
   /// them have lost theirs. `room`: of each, how many contacts it may have; not asked for without
   /// several().
   void follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room);
+
+  /// Before the particles of candidates get other indices, or somebody reads what is at rest.
+  void put_aside();
+  /// This particle has contacts there.
+  bool is_aside(int particle) const { return count_aside(particle) > 0; }
 
   /// Before the histories of candidates change.
   void begin_step() { are_listed = false; }
@@ -110,6 +137,18 @@ class BodyHistory {
   };
   int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
                         Vector3<double> *before = nullptr, const Ends *ends = nullptr);
+  /// The same of a wall: a contact continues that with the same part. Fills in the slot of each.
+  void continue_parts(std::size_t candidate, const SurfaceContact *found, int count,
+                      std::uint32_t *slots)
+  {
+    const std::uint32_t slot = first[candidate];
+    bool same = counts[candidate] == count;
+    for (int k = 0; k < count; k++) {
+      same = same && parts[slot + k] == found[k].part;
+      slots[k] = slot + k;
+    }
+    if (!same) match_parts(candidate, found, count, slots);
+  }
 
   /// Without several(), and if asked for: stores the normal of a contact, in the frame of the body,
   /// and returns the one before it, zero of a new one.
@@ -136,20 +175,26 @@ class BodyHistory {
     return with_normals ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0};
   }
   void set_zero(std::size_t slot);
-  void put_aside();
+  void put_in_lists(std::size_t candidate);
+  int count_aside(int particle) const;
+  void match_parts(std::size_t candidate, const SurfaceContact *found, int count,
+                   std::uint32_t *slots);
+  int drop_ended_parts(std::size_t slot, int known, const SurfaceContact *found, int count);
   void take_back(std::size_t candidate);
   void clear(std::size_t block, unsigned separated);
 
   bool with_several = false, with_normals = false;
-  ContactLists lists;         // of contacts that have been put aside, or have arrived
-  bool are_listed = true;     // all are
-  std::vector<int> owners;    // of candidates: local indices
+  ContactLists lists;                  // of contacts that have been put aside, or have arrived
+  HistoryAtRest *at_rest = nullptr;    // those of walls are there
+  bool are_listed = true;              // all are
+  std::vector<int> owners;             // of candidates: local indices
   // by candidate, only with several contacts: first slot, contacts
   std::vector<std::uint32_t> first;
   std::vector<std::uint8_t> counts;
-  // by slot: history; normal, or empty
+  // by slot: history; normal, or empty; part, only of walls with several contacts
   HistoryRows rows;
   std::vector<Vector3<double>> normals;
+  std::vector<int> parts;
   // one bit for each candidate, only with one contact: its record may not be zero
   std::vector<std::atomic<std::uint8_t>> touching;
 };

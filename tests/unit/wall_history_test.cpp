@@ -1,0 +1,138 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Histories of contacts with walls of LAMMPS: they rest in the arrays of the stock fix, and contacts are
+// known by the parts that they touch, in the places that the stock fix gives them.
+
+#include "body/contact/body_history.h"
+#include "body/contact/wall_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+using namespace Talus;
+
+namespace {
+
+/// By particle: part and first value of each contact.
+class Arrays : public HistoryAtRest {
+ public:
+  using Row = std::vector<std::pair<int, double>>;
+  mutable std::map<int, Row> rows;
+
+  int count(int i) const override { return static_cast<int>(rows[i].size()); }
+  int read(int i, int k, HistoryValues &values) const override
+  {
+    values[0] = rows[i][k].second;
+    return rows[i][k].first;
+  }
+  void clear(int i) override { rows[i].clear(); }
+  void add(int i, int part, const HistoryValues &values) override
+  {
+    rows[i].emplace_back(part, values[0]);
+  }
+};
+
+class WallHistory : public testing::Test {
+ protected:
+  WallHistory() { history.keep_records(1); }
+
+  /// Of the first candidate: the contacts of a step; the slot of each.
+  std::vector<std::uint32_t> touch(const std::vector<int> &parts)
+  {
+    history.begin_step();
+    std::vector<SurfaceContact> found;
+    for (const int part : parts) found.push_back({{0.0, 0.0, 1.0}, 0.1, part});
+    std::vector<std::uint32_t> slots(parts.size());
+    history.continue_parts(0, found.data(), static_cast<int>(found.size()), slots.data());
+    return slots;
+  }
+  /// The same, where values tell the parts.
+  void expect_own_values(const std::vector<int> &parts)
+  {
+    const std::vector<std::uint32_t> slots = touch(parts);
+    for (std::size_t n = 0; n < parts.size(); n++)
+      EXPECT_EQ(history.record(slots[n]).c[0], 10.0 * parts[n]);
+  }
+  void fill(const std::vector<int> &parts)
+  {
+    const std::vector<std::uint32_t> slots = touch(parts);
+    for (std::size_t n = 0; n < parts.size(); n++) history.record(slots[n]).c[0] = 10.0 * parts[n];
+  }
+
+  Arrays arrays;
+  BodyHistory history;
+};
+
+TEST_F(WallHistory, RestsInTheArrays)
+{
+  history.keep_in(arrays, false);
+  arrays.rows[7] = {{0, 1.5}};
+  history.follow({2, 7}, {1, 1});
+  EXPECT_TRUE(arrays.rows[7].empty());
+  EXPECT_EQ(history.record(1).c[0], 1.5);
+  EXPECT_EQ(history.touched(0), 2U);
+  history.begin_step();
+  history.set_touching(0, 3U, 1U);
+  history.record(0).c[0] = 2.5;
+  history.put_aside();
+  EXPECT_EQ(arrays.rows[2], (Arrays::Row{{0, 2.5}}));
+  EXPECT_TRUE(arrays.rows[7].empty());
+  EXPECT_TRUE(history.is_aside(2));
+}
+
+// The arrays may be those of the stock fix until there are candidates.
+TEST_F(WallHistory, LeavesTheArraysAloneWhileAllIsAside)
+{
+  history.keep_in(arrays, true);
+  history.follow({4}, {3});
+  fill({5});
+  history.put_aside();
+  arrays.rows[4] = {{6, 60.0}, {5, 50.0}};
+  history.put_aside();
+  history.follow({1, 4}, {3, 3});
+  EXPECT_EQ(history.count(1), 2);
+  EXPECT_EQ(history.record(history.first_slot(1)).c[0], 60.0);
+}
+
+TEST_F(WallHistory, ContactsContinueThoseWithTheirParts)
+{
+  history.keep_in(arrays, true);
+  history.follow({4}, {6});
+  fill({5, 3});
+  expect_own_values({3, 5});
+  expect_own_values({3});
+  const std::uint32_t added = touch({3, 8})[1];
+  EXPECT_EQ(history.record(added).c[0], 0.0);
+  history.record(added).c[0] = 80.0;
+  expect_own_values({8, 3});
+  EXPECT_TRUE(touch({}).empty());
+  EXPECT_EQ(history.count(0), 0);
+}
+
+TEST_F(WallHistory, PlacesAreThoseOfTheStockFix)
+{
+  history.keep_in(arrays, true);
+  history.follow({4}, {6});
+  fill({1, 2, 3});
+  touch({2, 3});    // the last one takes the place of the first
+  history.put_aside();
+  EXPECT_EQ(arrays.rows[4], (Arrays::Row{{3, 30.0}, {2, 20.0}}));
+}
+
+TEST_F(WallHistory, PartsOfOneNumberHaveTheirOwn)
+{
+  history.keep_in(arrays, true);
+  history.follow({4}, {6});
+  const std::vector<std::uint32_t> slots = touch({5, 5});
+  EXPECT_NE(slots[0], slots[1]);
+  history.record(slots[0]).c[0] = 1.0;
+  history.record(slots[1]).c[0] = 2.0;
+  EXPECT_EQ(touch({5, 5}), slots);
+  touch({5});
+  EXPECT_EQ(history.count(0), 1);
+}
+
+}    // namespace
