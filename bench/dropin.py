@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Existing input scripts, run with -sf talus."""
 
+import math
 import os
 import re
 import sys
@@ -20,6 +21,7 @@ included."""
 
 SUFFIX = {STOCK: [], TALUS: ["-sf", "talus"]}
 FLOOR = 0.98            # of inputs of which nothing need be accelerated
+FLOORS = {"granregion.mixer": 2.5, "granregion.funnel": 2.5, "granregion.box": 1.0}
 CHUTE_FLOOR = 2.0
 LONG_CHUTE = 3000       # steps
 
@@ -52,6 +54,32 @@ GRANULAR_BEDS = [
     ("bed.jkr", "jkr {E} 50.0 0.3 0.01 tangential mindlin NULL 1.0 0.5 damping viscoelastic", (4.0, 3.0)),
 ]
 POISSON = 0.3
+
+# solid fraction, floor of its ratio
+GASES = [(0.02, 3.0), (0.1, 3.0), (0.3, 3.5)]
+GAS_SIDE = 30       # spheres
+GAS = """units si
+atom_style sphere
+boundary p p p
+newton off
+comm_modify vel yes
+region box block 0 {edge} 0 {edge} 0 {edge} units box
+create_box 1 box
+lattice sc {apart}
+create_atoms 1 box
+set type 1 diameter 0.002
+set type 1 density 2500
+velocity all create 1 4711 dist uniform
+velocity all scale 1e18
+pair_style gran/hertz/history 1e7 NULL 1e2 NULL 0.5 1
+pair_coeff * *
+neighbor 0.0006 bin
+neigh_modify every 1 delay 0 check yes
+timestep 5e-6
+fix move all nve/sphere
+thermo 1000
+run {steps}
+"""
 
 
 # ---- cases ------------------------------------------------------------------------------------
@@ -101,9 +129,18 @@ def bed_cases(bench):
         yield Case(bench, case, f"{count} spheres between walls, {what}", text, floors[zen4()])
 
 
+def gas_cases(bench):
+    for fraction, floor in GASES:
+        if not bench.wants(f"gas.{fraction}"):
+            continue
+        edge = GAS_SIDE * 0.002 * (math.pi / 6 / fraction) ** (1 / 3)
+        text = GAS.format(edge=edge, apart=edge / GAS_SIDE, steps=bench.size(3000, 300))
+        yield Case(bench, f"gas.{fraction}", f"{GAS_SIDE**3} spheres fly in a periodic box, solid fraction {fraction}", text, floor)
+
+
 def input_case(bench, given, steps):
     text = stock_inputs.shortened(stock_inputs.read_text(given, machine.HOST_SOURCE), steps)
-    return Case(bench, given.title[3:], given.name, text, FLOOR, given)
+    return Case(bench, given.title[3:], given.name, text, FLOORS.get(given.title[3:], FLOOR), given)
 
 
 def long_chute(bench, given):
@@ -115,6 +152,7 @@ def long_chute(bench, given):
 def cases(bench):
     """Those that are asked for and can be made."""
     yield from bed_cases(bench)
+    yield from gas_cases(bench)
     for given in stock_inputs.INPUTS:
         if not os.path.exists(os.path.join(machine.HOST_SOURCE, given.name)):
             bench.section.text(f"Left out: {given.name}, which the source of this LAMMPS does not have.")
