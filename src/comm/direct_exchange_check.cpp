@@ -5,6 +5,7 @@
 #include "comm/direct_exchange.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 
 #include <cmath>

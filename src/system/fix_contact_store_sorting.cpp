@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "force.h"
 
 #include <algorithm>
 #include <utility>
