@@ -122,8 +122,9 @@ bool ParticleRecords::are_idle(const std::vector<Role> &role, const SlotChoice &
     std::memcpy(&word, of + begin, eight);
     return word;
   };
-  return !slots.list && begin + eight <= slots.end && bytes(acted.data()) == 0 &&
-         (!slots.marked || bytes(slots.marked) == 0) &&
+  // of marked ones first: those are with other threads
+  return !slots.list && begin + eight <= slots.end && (!slots.marked || bytes(slots.marked) == 0) &&
+         bytes(acted.data()) == 0 &&
          (role.empty() || bytes(reinterpret_cast<const unsigned char *>(role.data())) == all_move);
 }
 
