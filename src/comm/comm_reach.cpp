@@ -9,10 +9,12 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "domain.h"
+#include "error.h"
 #include "neighbor.h"
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -87,13 +89,22 @@ void CommReach::borders()
   if (!by_reach) return CommBrick::borders();
   if (mode == Comm::MULTI) neighbor->build_collection(0);
   nswap = 0;
+  try {
+    choose_proxies();
+  } catch (const std::length_error &problem) {
+    error->one(FLERR, "comm_proxy: {}", problem.what());
+  }
+  make_buffers_fit();
+  if (map_style != Atom::MAP_NONE) atom->map_set();
+}
+
+void CommReach::choose_proxies()
+{
   const ProxyReach choice = reach();
   add_swaps(choice.in_shells(atom->nlocal, atom->nlocal ? atom->x[0] : nullptr, atom->radius));
   if (choice.has_larger_partners())
     add_swaps(choice.beyond_shells(atom->nlocal, atom->nlocal + atom->nghost ? atom->x[0] : nullptr,
                                    atom->radius, received()));
-  make_buffers_fit();
-  if (map_style != Atom::MAP_NONE) atom->map_set();
 }
 
 /* In the order of domains, which all ranks share: messages between two of them arrive in the order in
@@ -110,8 +121,8 @@ void CommReach::add_swaps(const ProxyReach::Lists &lists)
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
-/* What goes to a domain comes from the opposite one in the same swap. Where the box ends, there is
-   nobody. */
+/* What goes to a domain comes from the opposite one in the same swap. Beyond the end of a box there
+   is no rank. */
 
 void CommReach::add_swap(int domain, const std::vector<int> &list)
 {

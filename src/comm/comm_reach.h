@@ -31,6 +31,7 @@ class CommReach : public CommBrick {
   bool is_few_domains() const;
   Talus::DomainGrid domains() const;
   Talus::ProxyReach reach();
+  void choose_proxies();
   void add_swaps(const Talus::ProxyReach::Lists &lists);
   void add_swap(int domain, const std::vector<int> &list);
   void send(int first, std::vector<MPI_Request> &requests);

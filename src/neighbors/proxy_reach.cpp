@@ -85,15 +85,15 @@ double ProxyReach::to_faces(const double *x) const
   return least;
 }
 
+/* With the sums of in_shells() in its order, so that rounding makes no sphere a proxy twice. */
+
 bool ProxyReach::is_in_shell(const double *x, double radius, int domain) const
 {
-  double distance = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const int edges = static_cast<int>(domains.along[d].size());
-    distance += square(gap(x[d], domains.along[d][domain % edges]));
-    domain /= edges;
-  }
-  return distance < square(shell(radius));
+  const auto &[along_x, along_y, along_z] = domains.along;
+  const int nx = static_cast<int>(along_x.size()), ny = static_cast<int>(along_y.size());
+  const double from_z = square(gap(x[2], along_z[domain / (nx * ny)])),
+               from_y = from_z + square(gap(x[1], along_y[domain / nx % ny]));
+  return from_y + square(gap(x[0], along_x[domain % nx])) < square(shell(radius));
 }
 
 /* Most spheres are near no face, and those that are near one are near few domains. */

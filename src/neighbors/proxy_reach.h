@@ -35,8 +35,6 @@ struct DomainGrid {
 
   int size() const { return static_cast<int>(along[0].size() * along[1].size() * along[2].size()); }
   int own() const { return size() / 2; }
-  /// On the other side of the own one.
-  int opposite(int domain) const { return size() - 1 - domain; }
 };
 
 class ProxyReach {
