@@ -128,15 +128,19 @@ void read_particles(benchmark::State &state)
 }
 BENCHMARK(read_particles)->Apply(sizes);
 
-void advance_records(benchmark::State &state)
+/// Of particles that something has acted on since the last step, or nothing.
+void advance_records(benchmark::State &state, bool acted_on)
 {
   Prepared p = prepared(state);
-  AlignedVector<Record> held(p.records.position.begin(), p.records.position.end());
   const std::vector<RecordStep> at_rest{{0.0, 0.0, {0.0, 0.0, 0.0}, 0.4}};
-  repeat(state, p,
-         [&] { benchmark::DoNotOptimize(p.records.advance(at_rest, {}, held.data(), p.all())); });
+  repeat(state, p, [&] {
+    if (acted_on)
+      for (int s = 0; s < p.all().end; s++) p.records.has_acted(s);
+    benchmark::DoNotOptimize(p.records.advance(at_rest, {}, p.all()));
+  });
 }
-BENCHMARK(advance_records)->Apply(sizes);
+BENCHMARK_CAPTURE(advance_records, acted_on, true)->Apply(sizes);
+BENCHMARK_CAPTURE(advance_records, free, false)->Apply(sizes);
 
 void narrow_phase(benchmark::State &state)
 {

@@ -78,7 +78,7 @@ struct Canonical {
   }
   void start()
   {
-    pipeline.prepare_to_move([](int) { return 0; }, {}, bed.x.data());
+    pipeline.prepare_to_move([](int) { return 0; }, {});
   }
   void step()
   {
@@ -96,7 +96,7 @@ struct AsListed {
   ParticleRecords records;
   HistoryStore histories;
   ContactChunk part;
-  AlignedVector<Record> held, of_other_thread;
+  AlignedVector<Record> of_other_thread;
   std::vector<std::uint64_t> index;
   std::vector<ParticleRecords::Role> role;
 
@@ -109,7 +109,6 @@ struct AsListed {
     part.pairs.collect(order, work, PairRows(order, bed.neighbors.view()), 0);
     records.resize(order.size(), scene.with_friction, scene.with_resistance);
     records.read(order, bed.view(), {0, order.size()});
-    held = records.position;
     if (bed.size() > bed.owned) {
       role.assign(bed.size(), ParticleRecords::GHOST);
       std::fill_n(role.begin(), bed.owned, ParticleRecords::MOVES);
@@ -160,7 +159,7 @@ struct AsListed {
                  [this](int begin, int end) {
                    SlotChoice slots{begin, end};
                    slots.next_end = order.size();
-                   records.advance(at_rest, role, held.data(), slots);
+                   records.advance(at_rest, role, slots);
                  },
                  {});
     for (std::size_t k = 0; k < of_other_thread.size(); k++) {
