@@ -40,8 +40,12 @@ endfunction()
 # C++ symbols which another host lacks fails before its first line runs, with a mangled name as
 # the only hint. talusplugin.so therefore uses no symbol of LAMMPS at link time: it asks the host
 # for its version, and only then opens talusstyles.so, which holds everything else.
-talus_add_module(talusplugin lammpsplugin_init src/talusplugin.cpp)
+talus_add_module(talusplugin "lammpsplugin_init; talus_*" src/talusplugin.cpp)
+target_include_directories(talusplugin PRIVATE "${PROJECT_SOURCE_DIR}/src")
 target_link_libraries(talusplugin PRIVATE lammps_host talus_flags ${CMAKE_DL_LIBS})
+# What programs link that share a simulation (talus.h): the same file, so that it is there once.
+add_custom_command(TARGET talusplugin POST_BUILD
+  COMMAND ${CMAKE_COMMAND} -E create_symlink talusplugin.so "${PROJECT_BINARY_DIR}/libtalus.so")
 
 # In a portable build, talusstyles.so only chooses between files with the styles, one for each
 # instruction set of src/instruction_sets.h. Tests link the code of the baseline.

@@ -1,6 +1,6 @@
 # The styles: what needs LAMMPS.
 
-talus_glob(talus_style_sources system pair fix compute dump fill comm run)
+talus_glob(talus_style_sources system pair fix compute dump fill comm run coupling)
 
 # What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
 # talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.

@@ -1,88 +1,145 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-   Co-simulation: steering large bodies (fix large/body ... move external) of a LAMMPS instance from
-   C or C++ through the library interface of LAMMPS. Nothing to link but liblammps.
+   Coupling: what programs call that share a simulation with Talus. Plain C; doc/coupling.md is the user's page, and says
+   more of each call. Link with libtalus.so, which needs neither LAMMPS nor MPI; the instance of LAMMPS has Talus as a plugin
+   (LAMMPS_PLUGIN_PATH, `plugin load`, or talus_load()).
 
-   All functions are collective: every MPI rank of the instance calls them, with the same arguments,
-   and gets the same numbers. Units are those of the input script. Call them between runs:
-
-     talus_set_state(lmp, "wheel", state, 10);       // where the wheel is to be in 10 steps
-     talus_run(lmp, 10);
-     talus_get_load(lmp, "wheel", load);             // force, torque at that time
-
-   A state is 13 numbers: position of the reference point (3), orientation as a quaternion w x y z
-   of length 1 (4), velocity of the reference point (3), angular velocity about the axes of space
-   (3). A bad state (not finite, no unit quaternion, or so far away that the body would go more than
-   the skin in a step) ends in an error of LAMMPS; ask lammps_has_error() if your LAMMPS throws
-   exceptions. Include LAMMPS' library.h before this file. */
+   * Units are those of the input script, vectors are in the axes of the box, quaternions are w x y z.
+   * Calls are made between runs. All are collective but those marked "local": every MPI rank of the instance makes them, in
+     the same order.
+   * The partner lives on all ranks (root = TALUS_ALL_RANKS: all pass the same arguments and get the same results) or on one
+     (root = its rank in the communicator of the instance: only its arguments are read and only its results are written;
+     others may pass NULL and 0).
+   * A call returns TALUS_OK or a code below, the same on all ranks, and then has done nothing, if not said otherwise;
+     talus_error() has the text.
+   * Arrays belong to the caller, in both directions. Nothing is kept of them after the call. */
 
 #ifndef TALUS_H
 #define TALUS_H
 
-#include <locale.h>
-#include <stdio.h>
-#include <string.h>
+#include <stdint.h>
 
-#define TALUS_STATE_SIZE 13
-#define TALUS_LOAD_SIZE 6
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-/* Writes " x" as LAMMPS reads it, also where the program prints numbers with a decimal comma. Returns the
-   number of characters, as snprintf. */
-static inline int talus_write_number(char *to, size_t size, double x)
-{
-  const char *point = localeconv()->decimal_point;
-  const size_t length = strlen(point);
-  char text[64], *at;
-  snprintf(text, sizeof text, " %.17g", x);
-  at = strstr(text, point);
-  if (at) {
-    *at = '.';
-    memmove(at + 1, at + length, strlen(at + length) + 1);
-  }
-  return snprintf(to, size, "%s", text);
+/* Version of this interface; raised when a call changes its meaning. New calls do not raise it. */
+#define TALUS_INTERFACE 2
+#define TALUS_ALL_RANKS (-1)
+#define TALUS_STATE_SIZE 13    /* numbers of a body's state: position 3, quaternion 4, velocity 3, angular velocity 3 */
+#define TALUS_LOAD_SIZE 8      /* numbers of a body's load: impulse 3, angular impulse 3, work, time */
+
+enum {
+  TALUS_OK = 0,
+  TALUS_REFUSED = 1,          /* an argument is wrong; nothing was changed */
+  TALUS_HOST_ERROR = 2,       /* LAMMPS ended a command with an error; the instance may be used as after any error */
+  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank: all calls but talus_close() return this from then on */
+  TALUS_NOT_LOADED = 4        /* no instance of LAMMPS has loaded the plugin, or another version of it */
+};
+
+typedef struct talus_partner talus_partner;
+typedef struct talus_snapshot talus_snapshot;
+
+/* ---- life ---------------------------------------------------------------------------------------- */
+
+/* Local. The interface of the plugin that is loaded, 0: none is. */
+int talus_interface_version(void);
+/* `plugin load` with the file of this library, for programs that have not set LAMMPS_PLUGIN_PATH. */
+int talus_load(void *lmp);
+/* lmp: the instance (of lammps_open(), or `handle` of an instance in Python). */
+int talus_open(void *lmp, int root, talus_partner **partner);
+int talus_close(talus_partner *partner);
+/* Local. Text of the last call that did not return TALUS_OK, for one line of output; valid until the next call. NULL: of
+   talus_open() and talus_load(). */
+const char *talus_error(const talus_partner *partner);
+/* Says on one rank, instead of any call that the others make, that the partner cannot go on. The calls of all ranks then
+   return TALUS_PARTNER_FAILED with this text; nobody waits for ever. */
+int talus_fail(talus_partner *partner, const char *why);
+
+/* ---- time ---------------------------------------------------------------------------------------- */
+
+/* Local. Time at the end of the last step, time step, number of the step. Any may be NULL. */
+int talus_get_time(const talus_partner *partner, double *time, double *dt, int64_t *step);
+/* As `run N`. The first call, and the first one after talus_set_up(), begins with the set-up of a run. */
+int talus_advance(talus_partner *partner, int64_t steps);
+/* The same for a time (time units), which must be a whole number of time steps to 1e-6 of one. */
+int talus_advance_by(talus_partner *partner, double duration);
+/* After commands of the script that change more than numbers (fix, pair_coeff, ...): the next advance begins with the
+   set-up of a run. */
+int talus_set_up(talus_partner *partner);
+
+/* ---- rigid bodies: fix large/body, by the ID of the fix ---------------------------------------------- */
+
+/* The body, which is moved external, is to have this state after so many steps; 0: at once. See fix_modify state in
+   doc/fix_large_body.md. */
+int talus_put_body_state(talus_partner *partner, const char *body, const double *state, int64_t steps);
+/* Any body. */
+int talus_get_body_state(talus_partner *partner, const char *body, double *state);
+/* What the grains have given the body since the last talus_get_body_load() of it, or since talus_watch_body(): impulse,
+   angular impulse about its reference point or, if point is not NULL, about this point of the body (body frame, from the
+   reference point), work, and the time since then. Begins anew. */
+int talus_get_body_load(talus_partner *partner, const char *body, double *load);
+/* Loads of the body are summed from here on. point: NULL, or the point of the body (body frame, from the reference point)
+   about which angular impulses are, such as its center of mass. */
+int talus_watch_body(talus_partner *partner, const char *body, const double *point);
+
+/* ---- deforming meshes: fix large/body mesh ... move vertices ---------------------------------------- */
+
+/* Numbers of vertices and triangles. */
+int talus_get_mesh_size(talus_partner *partner, const char *body, int64_t *vertices, int64_t *triangles);
+/* Places of the vertices now (3 each) and their numbers, from 0, of each triangle (3 each). Either may be NULL. */
+int talus_get_mesh(talus_partner *partner, const char *body, double *x, int64_t *triangles);
+/* All vertices are to be at these places, with these velocities (NULL: those of the way), after so many steps; on the way
+   they go along straight lines at constant speed. */
+int talus_put_vertices(talus_partner *partner, const char *body, const double *x, const double *v, int64_t steps);
+/* Impulses (3 each) of the grains on vertices since the last call of this, only of vertices that were touched: how many,
+   their numbers, the impulses, and the work done on all. numbers and impulses have room for all vertices. */
+int talus_get_vertex_loads(talus_partner *partner, const char *body, int64_t *touched, int64_t *numbers,
+                           double *impulses, double *work, double *duration);
+
+/* ---- save and restore ---------------------------------------------------------------------------- */
+
+/* Keeps the whole state in memory, with all bits: steps after talus_restore() repeat those after talus_save(). As many
+   snapshots as memory holds. */
+int talus_save(talus_partner *partner, talus_snapshot **snapshot);
+/* Back to the state of the snapshot, which stays. */
+int talus_restore(talus_partner *partner, const talus_snapshot *snapshot);
+/* Local. */
+int talus_discard(talus_snapshot *snapshot);
+/* Local. Memory of this rank (bytes). */
+int64_t talus_snapshot_size(const talus_snapshot *snapshot);
+
+/* ---- particles, by ID ------------------------------------------------------------------------------ */
+
+/* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all of
+   them. n = 0: none from now on. */
+int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force, const double *torque);
+/* A drag force c (u - v): coefficient c (mass/time, > 0) and velocity u of the fluid (3 each), taken at the new velocity v
+   of each step, so that no coefficient is too large. Held and replaced as forces are. */
+int talus_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const double *coefficient,
+                   const double *fluid_velocity);
+/* Heat flow (energy/time) into particles that have a temperature. Held and replaced as forces are. */
+int talus_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const double *flow);
+/* Impulse (3 each) that the fluid has given n particles by drag since the last call of this. */
+int talus_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id, double *impulse);
+/* Number of particles; then their IDs ascending (n of them, room for all), and of the given ones places, velocities,
+   angular velocities (3 each), radii, masses. Any may be NULL. */
+int talus_get_num_particles(talus_partner *partner, int64_t *n);
+int talus_get_ids(talus_partner *partner, int64_t *id);
+int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, double *x, double *v, double *omega,
+                        double *radius, double *mass);
+
+/* ---- fields on a grid of the partner ----------------------------------------------------------------- */
+
+/* Means over cells of a grid, smeared as compute coarse/grid does with this width (distance units; 0: by centers): corners
+   of the grid, cells along x, y, z; x runs fastest. solid: volume of particles over that of the cell. momentum: of
+   particles per volume (3 each). exchange: impulse of drag per volume (3 each) since the last call of this with exchange.
+   Any may be NULL. What particles have inside the grid is in its cells to rounding. */
+int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells, double width,
+                    double *solid, double *momentum, double *exchange);
+
+#ifdef __cplusplus
 }
-
-/* The body is to have this state `after` steps from now; 0: at once, going on with its velocity. */
-static inline void talus_set_state(void *lmp, const char *id, const double *state, int after)
-{
-  char command[1024];
-  int k, n = snprintf(command, sizeof command, "fix_modify %s state", id);
-  for (k = 0; k < TALUS_STATE_SIZE && n < (int) sizeof command; k++)
-    n += talus_write_number(command + n, sizeof command - n, state[k]);
-  if (n < (int) sizeof command) snprintf(command + n, sizeof command - n, " after %d", after);
-  lammps_command(lmp, command);
-}
-
-static inline double talus_number(void *lmp, const char *id, int k)
-{
-  /* global, vector: a copy that is ours to free */
-  double *value = (double *) lammps_extract_fix(lmp, id, 0, 1, k, 0);
-  const double result = value ? *value : 0.0;
-  if (value) lammps_free(value);
-  return result;
-}
-
-/* The state of the body at the present step. */
-static inline void talus_get_state(void *lmp, const char *id, double *state)
-{
-  int k;
-  for (k = 0; k < TALUS_STATE_SIZE; k++) state[k] = talus_number(lmp, id, TALUS_LOAD_SIZE + k);
-}
-
-/* Force (3) and torque about the reference point (3) of the particles on the body, in the last
-   step. */
-static inline void talus_get_load(void *lmp, const char *id, double *load)
-{
-  int k;
-  for (k = 0; k < TALUS_LOAD_SIZE; k++) load[k] = talus_number(lmp, id, k);
-}
-
-/* Steps without the set-up of a new run: after one `run 0` at the beginning. */
-static inline void talus_run(void *lmp, int steps)
-{
-  char command[64];
-  snprintf(command, sizeof command, "run %d pre no post no", steps);
-  lammps_command(lmp, command);
-}
+#endif
 
 #endif

@@ -8,6 +8,7 @@
 // opens a plugin, and a missing one would stop it before the gate could say why. So the styles are
 // in a second file, talusstyles.so, which is opened only after the check.
 
+#include "coupling/calls.h"
 #include "talus_abi.h"
 
 #include "lmptype.h"
@@ -96,13 +97,19 @@ bool check_disabled()
 
 // The path that the host opened may be a link, which is followed: the second file is beside the
 // first itself.
-std::string styles_path()
+std::string own_path()
 {
   Dl_info info{};
   if (!dladdr(reinterpret_cast<const void *>(&OURS), &info) || !info.dli_fname) return {};
   char *resolved = realpath(info.dli_fname, nullptr);
-  const std::string self = resolved ? resolved : info.dli_fname;
+  std::string self = resolved ? resolved : info.dli_fname;
   std::free(resolved);
+  return self;
+}
+
+std::string styles_path()
+{
+  const std::string self = own_path();
   const auto slash = self.rfind('/');
   return (slash == std::string::npos ? std::string() : self.substr(0, slash + 1)) +
          "talusstyles.so";
@@ -146,3 +153,51 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
                     path + " is from another build than talusplugin.so; copy both files again");
   register_styles(lmp, handle, registerfunc);
 }
+
+// ---- calls of the coupling interface: the styles have them ----------------------------------------
+
+namespace {
+
+const Talus::CallTable *calls = nullptr;
+constexpr const char *not_loaded =
+    "no instance of LAMMPS in this program has loaded the plugin that belongs to this library: set "
+    "LAMMPS_PLUGIN_PATH, call talus_load(), or use 'plugin load'";
+
+}    // namespace
+
+extern "C" {
+
+/// By the styles, when they register.
+__attribute__((visibility("default"))) void talus_take_calls(const Talus::CallTable *table)
+{
+  calls = table;
+}
+
+#define TALUS_FORWARD(name, parameters, arguments)                                                 \
+  __attribute__((visibility("default"))) int talus_##name parameters                               \
+  {                                                                                                \
+    return calls ? calls->name arguments : TALUS_NOT_LOADED;                                       \
+  }
+TALUS_CALLS(TALUS_FORWARD)
+#undef TALUS_FORWARD
+
+__attribute__((visibility("default"))) int talus_interface_version()
+{
+  return calls ? calls->version : 0;
+}
+
+__attribute__((visibility("default"))) const char *talus_error(const talus_partner *partner)
+{
+  return calls ? calls->error(partner) : not_loaded;
+}
+
+__attribute__((visibility("default"))) int talus_load(void *lmp)
+{
+  char *(*command)(void *, const char *);
+  look_up(RTLD_DEFAULT, "lammps_command", command);
+  if (!command || !lmp) return TALUS_NOT_LOADED;
+  command(lmp, ("plugin load " + own_path()).c_str());
+  return calls ? TALUS_OK : TALUS_NOT_LOADED;
+}
+
+}    // extern "C"

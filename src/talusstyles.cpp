@@ -13,6 +13,7 @@
 #include "compute/compute_dissipation_gran_atom.h"
 #include "compute/compute_penalty_stats.h"
 #include "compute/compute_timestep_gran.h"
+#include "coupling/calls.h"
 #include "dump/dump_vtk_gran.h"
 #include "fill/fill_region.h"
 #include "fill/fix_pour_rate.h"
@@ -59,6 +60,8 @@
 #include "update.h"
 #include "verlet.h"
 #include "version.h"
+
+#include <dlfcn.h>
 
 #include <cstring>
 
@@ -176,6 +179,10 @@ class Registry {
 extern "C" __attribute__((visibility("default"))) void
 TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 {
+  // programs that share the simulation come by the file that LAMMPS has opened
+  using TakeCalls = void (*)(const Talus::CallTable *);
+  if (auto take = reinterpret_cast<TakeCalls>(dlsym(handle, "talus_take_calls")))
+    take(&Talus::call_table());
   Registry registry(lmp, handle, registerfunc);
   registry.pair<PairGranPenalty>("gran/penalty", TALUS_INFO "pair style gran/penalty");
 #if TALUS_HOST_HAS_GRANULAR

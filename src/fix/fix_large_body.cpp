@@ -37,6 +37,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   Words words = command_words(lmp, "fix large/body", narg, arg, 3);
   for (int iarg = 4; iarg < narg; iarg++)
     if (strcmp(arg[iarg], "two-sided") == 0) two_sided = true;
+  body.set_steered(*this);
   body.set_shape(LargeBodyShapes(lmp, words).parse(two_sided));
   surface = std::make_unique<LargeBodySurface>(lmp, body.shape());
   side.watch(body.shape());
@@ -245,8 +246,17 @@ void FixLargeBody::end_of_step()
 int FixLargeBody::modify_param(int narg, char **arg)
 {
   if (strcmp(arg[0], "state") != 0) return 0;
+  int words, steps;
+  const BodyState state = motion.state_from(narg, arg, words, steps);
+  const std::string problem = guide(state, steps);
+  if (!problem.empty()) error->all(FLERR, "fix_modify {} state: {}", id, problem);
+  return words;
+}
+
+std::string FixLargeBody::guide(const BodyState &state, int steps)
+{
   double reach;
   const double reach_here = body.reach();
   MPI_Allreduce(&reach_here, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
-  return motion.set_state(narg, arg, neighbor->skin, reach);
+  return motion.guide(state, steps, neighbor->skin, reach);
 }

@@ -19,13 +19,14 @@
 #include "laws/contact_words.h"
 #include "system/granular_system.h"
 #include "system/large_body.h"
+#include "system/steered_body.h"
 
 #include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLargeBody : public Fix, public Talus::SystemFix {
+class FixLargeBody : public Fix, public Talus::SystemFix, public Talus::SteeredBody {
  public:
   FixLargeBody(class LAMMPS *, int, char **);
   ~FixLargeBody() override;
@@ -61,6 +62,10 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   {
     body.for_each_contact(requested, visit);
   }
+
+  // SteeredBody
+  const Talus::BodyState &present_state() const override { return motion.frame().state; }
+  std::string guide(const Talus::BodyState &state, int steps) override;
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;

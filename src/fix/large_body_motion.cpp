@@ -358,7 +358,7 @@ double LargeBodyMotion::energy() const
 
 /* ---- states from outside -------------------------------------------------------------------- */
 
-BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
+BodyState LargeBodyMotion::state_from(int narg, char **arg, int &words, int &steps) const
 {
   constexpr int size = BodyState::size;
   if (narg < 1 + size)
@@ -372,42 +372,35 @@ BodyState LargeBodyMotion::state_from(int narg, char **arg, int &steps) const
     if (!std::isfinite(value[k]))
       error->all(FLERR, "fix_modify state: expected a finite number instead of '{}'", arg[1 + k]);
   }
-  double norm = 0.0;
-  for (int k = 3; k < 7; k++) norm += value[k] * value[k];
-  if (std::fabs(norm - 1.0) > 1.0e-6)
-    error->all(FLERR, "fix_modify state: the quaternion {} {} {} {} is not of length 1", value[3],
-               value[4], value[5], value[6]);
+  words = 1 + size;
   steps = 0;
   if (narg > 1 + size && strcmp(arg[1 + size], "after") == 0) {
     if (narg < 3 + size || !utils::is_integer(arg[2 + size]) || std::atoi(arg[2 + size]) < 0)
       error->all(FLERR, "fix_modify state after: expected a number of steps, 0 or more");
     steps = std::atoi(arg[2 + size]);
+    words += 2;
   }
   return BodyState::from_array(value);
 }
 
-int LargeBodyMotion::set_state(int narg, char **arg, double way, double reach)
+std::string LargeBodyMotion::guide(const BodyState &target, int steps, double way, double reach)
 {
-  if (kind != Kind::EXTERNAL)
-    error->all(FLERR,
-               "fix_modify state: the body is not steered from outside: use 'move external'");
-  int steps;
-  const BodyState target = state_from(narg, arg, steps);
+  if (kind != Kind::EXTERNAL) return "the body is not steered from outside: use 'move external'";
+  if (const Eigen::Quaterniond &q = target.orientation; std::fabs(q.squaredNorm() - 1.0) > 1.0e-6)
+    return fmt::format("the quaternion {} {} {} {} is not of length 1", q.w(), q.x(), q.y(), q.z());
   BodyFrame there = now;
   there.set(target);
   const double jump = largest_displacement(now, there, reach) / std::max(steps, 1);
   if (jump > way)
-    error->all(FLERR,
-               "fix_modify state: the body would go {:.4g} in one step, which is more than "
-               "the skin {:.4g}: give states more often, or with 'after N'",
-               jump, way);
+    return fmt::format(
+        "the body would go {:.4g} in one step, which is more than the skin {:.4g}: give "
+        "states more often, or for more steps ahead ('after N')",
+        jump, way);
   BodyState state = now.state;
   external.guide(state, target, steps);
   now.set(state);
   if (steps == 0) stand_still();
-  const bool has_after =
-      narg > 1 + BodyState::size && strcmp(arg[1 + BodyState::size], "after") == 0;
-  return 1 + BodyState::size + (has_after ? 2 : 0);
+  return "";
 }
 
 /* ---- restart -------------------------------------------------------------------------------- */

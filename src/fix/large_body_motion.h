@@ -63,9 +63,13 @@ class LargeBodyMotion : protected Pointers {
   /// Kinetic energy and that in the field of gravity of a free body, otherwise 0.
   double energy() const;
 
-  /// `fix_modify ID state ...`: returns the number of words. `way`: how far at most the body may go
-  /// in a step; `reach`: how far from the reference point its particles are.
-  int set_state(int narg, char **arg, double way, double reach);
+  /// `fix_modify ID state ...`: the state, and in how many steps; ends in an error of LAMMPS where
+  /// these are none. `words`: how many of them were read.
+  Talus::BodyState state_from(int narg, char **arg, int &words, int &steps) const;
+  /// Of an external body: it is to have this state in so many steps, 0: at once. `way`: how far at most
+  /// the body may go in a step; `reach`: how far from the reference point its particles are. Returns
+  /// "", or why not.
+  std::string guide(const Talus::BodyState &target, int steps, double way, double reach);
 
   /// kind, state, clock, guide; lag, rate of a servo and what contacts of second order see
   static constexpr int size_restart = 1 + 3 * Talus::BodyState::size + 3 +
@@ -97,7 +101,6 @@ class LargeBodyMotion : protected Pointers {
   void find_kinematics(const Talus::BodyState &old, double lag);
   void stand_still();
   void show_kinematics();
-  Talus::BodyState state_from(int narg, char **arg, int &steps) const;
 
   Kind kind = Kind::NONE;
   Talus::BodyFrame now;

@@ -40,6 +40,13 @@ std::vector<LargeBody *> LargeBodies::in_order() const
   return found;
 }
 
+LargeBody *LargeBodies::find(const std::string &id) const
+{
+  for (const auto &body : all)
+    if (body->command()->id && id == body->command()->id) return body.get();
+  return nullptr;
+}
+
 bool LargeBodies::account() const
 {
   return std::any_of(all.begin(), all.end(), [](const auto &body) { return body->accounts(); });

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -32,6 +33,8 @@ class LargeBodies : protected LAMMPS_NS::Pointers {
   void remove(const LargeBody &body);
   /// All of them, in the order of the script.
   std::vector<LargeBody *> in_order() const;
+  /// Of the command with this ID; nullptr: there is none.
+  LargeBody *find(const std::string &id) const;
   /// The work of the contacts of one of them is accounted for.
   bool account() const;
 

@@ -40,6 +40,7 @@ class Fix;
 namespace Talus {
 
 class GranularSystem;
+class SteeredBody;
 
 class LargeBody : protected LAMMPS_NS::Pointers {
  public:
@@ -60,6 +61,9 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   LargeBodyShape &shape() { return *body_shape; }
   void set_law(int type, const ContactSpec &spec);
   bool has_law(int type) const { return spec_is_set[type]; }
+  /// Programs may ask where it is, and steer it.
+  void set_steered(SteeredBody &body) { steered = &body; }
+  SteeredBody *as_steered() const { return steered; }
   /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
   void set_frame(const BodyFrame *body_frame, bool moves);
   /// Makes the surface for ParaView; called on all ranks, rank 0 gets all of it.
@@ -149,6 +153,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   GranularSystem &system;
   std::unique_ptr<LargeBodyShape> body_shape;
   const BodyFrame *frame = nullptr;
+  SteeredBody *steered = nullptr;
   bool moves = false;
   std::vector<TouchedPart> *touched = nullptr;
   std::function<VtkPolyData()> make_picture;

@@ -1,0 +1,115 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// The table of calls, and those of life and time; doc/coupling.md.
+
+#include "coupling/calls.h"
+#include "coupling/partner.h"
+
+#include "lammps.h"
+#include "update.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+const CallTable &call_table()
+{
+#define TALUS_ENTRY(name, parameters, arguments) &call_##name,
+  static const CallTable table{TALUS_INTERFACE, TALUS_CALLS(TALUS_ENTRY) & call_error};
+#undef TALUS_ENTRY
+  return table;
+}
+
+namespace {
+
+std::string error_without_partner;
+
+}    // namespace
+
+const char *call_error(const talus_partner *partner)
+{
+  return (partner ? partner->error_text() : error_without_partner).c_str();
+}
+
+/* ---- life ----------------------------------------------------------------------------------- */
+
+int call_open(void *lmp, int root, talus_partner **partner)
+{
+  error_without_partner.clear();
+  try {
+    if (!lmp || !partner)
+      throw Refusal("talus_open: the instance of LAMMPS, or where the partner goes, is NULL");
+    *partner = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root).release();
+    return TALUS_OK;
+  } catch (const std::exception &problem) {
+    error_without_partner = problem.what();
+    return TALUS_REFUSED;
+  }
+}
+
+int call_close(talus_partner *partner)
+{
+  std::unique_ptr<talus_partner> owner(partner);
+  return TALUS_OK;
+}
+
+int call_fail(talus_partner *partner, const char *why)
+{
+  return partner->fail(why);
+}
+
+/* ---- time ----------------------------------------------------------------------------------- */
+
+int call_get_time(const talus_partner *partner, double *time, double *dt, int64_t *step)
+{
+  Update &update = *partner->instance().update;
+  if (time)
+    *time = update.atime + static_cast<double>(update.ntimestep - update.atimestep) * update.dt;
+  if (dt) *dt = update.dt;
+  if (step) *step = update.ntimestep;
+  return TALUS_OK;
+}
+
+namespace {
+
+void advance(talus_partner &partner, std::int64_t steps)
+{
+  if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
+  if (partner.needs_set_up) {
+    partner.command("run 0 post no");
+    partner.needs_set_up = false;
+  }
+  if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
+}
+
+}    // namespace
+
+int call_advance(talus_partner *partner, int64_t steps)
+{
+  return partner->collective("talus_advance",
+                             [&] { advance(*partner, partner->integer_of("steps", steps)); });
+}
+
+int call_advance_by(talus_partner *partner, double duration)
+{
+  return partner->collective("talus_advance_by", [&] {
+    const double asked = partner->number_of("duration", duration),
+                 dt = partner->instance().update->dt;
+    const double steps = asked / dt, whole = std::round(steps);
+    if (std::fabs(steps - whole) > 1e-6)
+      throw Refusal("duration is " + std::to_string(asked) + ", which is " + std::to_string(steps) +
+                    " time steps of " + std::to_string(dt) + ": give a whole number of them");
+    advance(*partner, static_cast<std::int64_t>(whole));
+  });
+}
+
+int call_set_up(talus_partner *partner)
+{
+  return partner->collective("talus_set_up", [&] { partner->needs_set_up = true; });
+}
+
+}    // namespace Talus

@@ -1,0 +1,89 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What all calls of the coupling interface (talus.h) share: who gives arguments and gets results,
+// the agreement of all ranks on what is called, and errors that are the same on all of them.
+
+#ifndef TALUS_COUPLING_PARTNER_H
+#define TALUS_COUPLING_PARTNER_H
+
+#include "talus.h"
+
+#include "system/granular_system.h"
+
+#include "pointers.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace Talus {
+
+/// Why a call is refused, the same on all ranks.
+class Refusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}    // namespace Talus
+
+/// A program that shares the simulation. Collective, but for error(); by one thread.
+struct talus_partner : protected LAMMPS_NS::Pointers {
+ public:
+  /// `root`: rank on which it lives, or TALUS_ALL_RANKS. Throws Refusal.
+  talus_partner(LAMMPS_NS::LAMMPS *lmp, int root);
+
+  LAMMPS_NS::LAMMPS &instance() const { return *lmp; }
+
+  /// Makes a call: all ranks agree that they make this one, then `work` is done. Returns its code.
+  int collective(const char *name, const std::function<void()> &work) noexcept;
+  /// In the place of any call. Returns TALUS_PARTNER_FAILED.
+  int fail(const char *why) noexcept;
+  /// Of the last call.
+  const std::string &error_text() const { return text; }
+
+  // ---- within a call, in the same order on all ranks
+
+  /// Arguments of this rank count, and results are wanted.
+  bool lives_here() const;
+  /// What was given, on all ranks. Throws Refusal unless it is there, the same wherever the partner
+  /// lives, and finite. `what`: its name, for messages.
+  std::string text_of(const char *what, const char *given);
+  std::int64_t integer_of(const char *what, std::int64_t given);
+  double number_of(const char *what, double given);
+  std::vector<double> numbers_of(const char *what, const double *given, std::int64_t count);
+  std::vector<std::int64_t> integers_of(const char *what, const std::int64_t *given,
+                                        std::int64_t count);
+  /// Of pointers that may be NULL: whether it is given.
+  bool has(const char *what, const void *given);
+  /// Throws Refusal on all ranks if some rank has a text; that of the lowest one.
+  void refuse_if(const std::string &problem);
+  /// Writes results where they are wanted and there is room.
+  template <class Number> void give(Number *to, const std::vector<Number> &values) const
+  {
+    if (lives_here() && to) std::copy(values.begin(), values.end(), to);
+  }
+
+  /// A command of LAMMPS.
+  void command(const std::string &line);
+  /// The next advance begins with the set-up of a run.
+  bool needs_set_up = true;
+
+  Talus::GranularSystem &system() { return *granular; }
+  MPI_Comm world() const { return Pointers::world; }
+
+ private:
+  bool agree(const char *name);
+  void all_have_the_same(const char *what, std::uint64_t digest);
+  void set_failed(int rank);
+
+  const int root;
+  int me, num_ranks;
+  std::shared_ptr<Talus::GranularSystem> granular;
+  std::string text;
+  std::string failed;    // "" or why the partner is gone
+};
+
+#endif
