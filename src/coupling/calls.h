@@ -22,7 +22,20 @@
        (talus_partner * partner, const char *body, const double *state, int64_t steps),            \
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
-       (partner, body, state))
+       (partner, body, state))                                                                     \
+  CALL(get_mesh_size,                                                                              \
+       (talus_partner * partner, const char *body, int64_t *vertices, int64_t *triangles),         \
+       (partner, body, vertices, triangles))                                                       \
+  CALL(get_mesh, (talus_partner * partner, const char *body, double *x, int64_t *triangles),       \
+       (partner, body, x, triangles))                                                              \
+  CALL(put_vertices,                                                                               \
+       (talus_partner * partner, const char *body, const double *x, const double *v,               \
+        int64_t steps),                                                                            \
+       (partner, body, x, v, steps))                                                               \
+  CALL(get_vertex_loads,                                                                           \
+       (talus_partner * partner, const char *body, int64_t *touched, int64_t *numbers,             \
+        double *impulses, double *work, double *duration),                                         \
+       (partner, body, touched, numbers, impulses, work, duration))
 
 namespace Talus {
 

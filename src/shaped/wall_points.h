@@ -55,6 +55,7 @@ class WallPoints {
     BodyLoad load;
     ExactLoad exact;
     std::vector<TouchedPart> touched;
+    std::vector<TouchedCorners> corners;
   };
   struct Task {
     const BodySurfaces &surfaces;
@@ -67,6 +68,7 @@ class WallPoints {
   void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;
   void add_forces(const Task &task, Chunk &chunk) const;
   void account(WorkAccount &to) const;
+  static void see_vertices(const Task &task, PointContact &point);
   static Vector3<double> change_seen(const Task &task, int i, const Vector3<double> &place);
 
   const ShapeTable &shapes;
