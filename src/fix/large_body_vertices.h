@@ -18,6 +18,7 @@
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -45,7 +46,7 @@ class LargeBodyVertices : protected Pointers {
 
  private:
   void add(double share);
-  std::vector<double> of_all_ranks() const;
+  std::vector<std::int64_t> packed_of_all_ranks() const;
 
   Talus::MeshShape &mesh;
   std::vector<Talus::TouchedCorners> forces;    // of the last step

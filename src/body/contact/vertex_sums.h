@@ -1,15 +1,16 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Sums of vectors by vertex, and of one number, without rounding: the same bits in any order, over any
-// number of ranks. Only vertices to which something was added take memory.
+// Sums of vectors by vertex, and of one number: the same bits in any order, over any number of ranks. Only
+// vertices to which something was added take memory.
 
 #ifndef TALUS_BODY_CONTACT_VERTEX_SUMS_H
 #define TALUS_BODY_CONTACT_VERTEX_SUMS_H
 
-#include "base/exact_sum.h"
+#include "base/binned_sum.h"
 #include "base/vector3.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace Talus {
@@ -21,7 +22,7 @@ class VertexSums {
   void add(int vertex, const Vector3<double> &v)
   {
     if (v.x == 0.0 && v.y == 0.0 && v.z == 0.0) return;
-    std::array<ExactSum, 3> &sum = sum_of(vertex);
+    std::array<BinnedSum, 3> &sum = sum_of(vertex);
     sum[0].add(v.x);
     sum[1].add(v.y);
     sum[2].add(v.z);
@@ -31,12 +32,17 @@ class VertexSums {
 
   /// Those to which something was added, ascending.
   std::vector<int> vertices() const;
-  Vector3<double> sum(int vertex) const;
+  Vector3<double> sum(int vertex) const
+  {
+    const std::array<BinnedSum, 3> &sum = sums[slot_of[vertex]];
+    return {sum[0].value(), sum[1].value(), sum[2].value()};
+  }
   double sum_of_numbers() const { return of_numbers.value(); }
 
-  /// Exactly, for messages and files: behind what is there. unpack() adds what it finds.
-  void pack(std::vector<double> &to) const;
-  void unpack(const double *begin, const double *end);
+  /// All of it, for messages and files. add_packed() adds what it finds.
+  std::vector<std::int64_t> packed() const;
+  void add_packed(const std::int64_t *begin, const std::int64_t *end);
+
   double memory_usage() const
   {
     return static_cast<double>(sums.capacity() * sizeof sums[0] +
@@ -44,12 +50,20 @@ class VertexSums {
   }
 
  private:
-  std::array<ExactSum, 3> &sum_of(int vertex);
+  std::array<BinnedSum, 3> &sum_of(int vertex)
+  {
+    if (slot_of[vertex] < 0) {
+      slot_of[vertex] = static_cast<int>(used.size());
+      used.push_back(vertex);
+      sums.emplace_back();
+    }
+    return sums[slot_of[vertex]];
+  }
 
-  std::vector<int> slot_of;     // by vertex: -1: none
-  std::vector<int> used;        // vertices by slot
-  std::vector<std::array<ExactSum, 3>> sums;    // by slot, some more
-  ExactSum of_numbers;
+  std::vector<int> slot_of;                      // by vertex: -1: none
+  std::vector<int> used;                         // vertices by slot
+  std::vector<std::array<BinnedSum, 3>> sums;    // by slot
+  BinnedSum of_numbers;
 };
 
 }    // namespace Talus
