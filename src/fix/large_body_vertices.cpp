@@ -32,9 +32,19 @@ void LargeBodyVertices::end_step(double next, bool advance)
 
 void LargeBodyVertices::add(double share)
 {
+  constexpr std::size_t ahead = 8, far_ahead = 16;
   const double impulse = share * update->dt;
   const TriangleMesh &surface = mesh.surface();
-  for (const TouchedCorners &touch : forces) {
+  const auto corners = [&](std::size_t n) { return surface.corners(forces[n].triangle).vertex; };
+  for (std::size_t n = 0; n < forces.size(); n++) {
+    if (n + far_ahead < forces.size())
+      for (int k = 0; k < 3; k++) {
+        sums.prefetch_slot(corners(n + far_ahead)[k]);
+        mesh.moving()->prefetch(corners(n + far_ahead)[k]);
+      }
+    if (n + ahead < forces.size())
+      for (int k = 0; k < 3; k++) sums.prefetch(corners(n + ahead)[k]);
+    const TouchedCorners &touch = forces[n];
     double work = 0.0;
     for (int k = 0; k < 3; k++) {
       const int vertex = surface.corners(touch.triangle).vertex[k];

@@ -248,7 +248,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     Vector3<double> v = view.velocity(i);
     if (frame.moves) v = v - frame.velocity_at(place);
     if (frame.vertices && count)
-      v = v - frame.vertices->motion(frame.vertices->place_on(found->part, x)).velocity;
+      v = v - frame.vertices->motion(frame.vertices->point_on(found->part, x)).velocity;
     of_particle.speed = {length(v) / radius, i, 0};
     if (several) {
       const Passage passage = shape.passage(candidates.listed_at(c), x, near);

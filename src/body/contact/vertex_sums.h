@@ -10,6 +10,7 @@
 #include "base/vector3.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,14 @@ class VertexSums {
     sum[2].add(v.z);
   }
   void add(double number) { of_numbers.add(number); }
+  /// Prefetch what add() reads first, and then.
+  void prefetch_slot(int vertex) const { __builtin_prefetch(&slot_of[vertex]); }
+  void prefetch(int vertex) const
+  {
+    if (slot_of[vertex] < 0) return;
+    const char *const at = reinterpret_cast<const char *>(&sums[slot_of[vertex]]);
+    for (std::size_t byte = 0; byte < sizeof sums[0]; byte += 64) __builtin_prefetch(at + byte, 1);
+  }
   void clear();
 
   /// Those to which something was added, ascending.
