@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A sum of doubles that has the same bits in any order, over any number of ranks and threads, in a tenth
+// Sums of doubles that have the same bits in any order, over any number of ranks and threads, in a tenth
 // of the memory of an ExactSum and less time: for many sums, of which each is rounded once.
 //
-// Numbers are cut at fixed places into digits of 32 bits, and the sum keeps those of the highest number
+// Numbers are cut at fixed places into digits of 32 bits, and sums keep those of the highest number
 // and four below it; digits are summed without carries. Which are kept depends on the highest number alone,
 // so that what is lost, below 2^-95 of it for each addition, does not depend on the order either (Demmel
 // and Nguyen 2013, Fast reproducible floating-point summation, ARITH 21).
@@ -18,14 +18,13 @@
 
 namespace Talus {
 
-class BinnedSum {
+/// So many sums, for which the highest number is that of all of them.
+template <int count> class BinnedSums {
  public:
-  static constexpr int num_digits = 5;
-
-  void clear() { *this = BinnedSum{}; }
+  void clear() { *this = BinnedSums{}; }
 
   /// Up to 2^30 times.
-  void add(double value)
+  void add(int sum, double value)
   {
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
@@ -37,45 +36,49 @@ class BinnedSum {
     const int first = biased == 0x7ff ? not_finite : shift / digit_bits;
     const int within = shift % digit_bits;
     const std::uint64_t low = mantissa << within, high = within ? mantissa >> (64 - within) : 0;
-    const std::int64_t part[3] = {static_cast<std::int64_t>(low & 0xffffffff),
-                                  static_cast<std::int64_t>(low >> digit_bits),
-                                  static_cast<std::int64_t>(high)};
     if (first + 2 > highest) keep_from(first + 2);
     const std::int64_t sign = bits >> 63 ? -1 : 1;
-    for (int k = 0; k < 3; k++)
-      if (const int below = highest - first - k; below < num_digits) digit[below] += sign * part[k];
+    const int place = highest - first;    // of the lowest digit: 2 or more
+    std::int64_t *const to = digit[sum];
+    if (place - 2 < num_digits) to[place - 2] += sign * static_cast<std::int64_t>(high);
+    if (place - 1 < num_digits) to[place - 1] += sign * static_cast<std::int64_t>(low >> digit_bits);
+    if (place < num_digits) to[place] += sign * static_cast<std::int64_t>(low & 0xffffffff);
   }
-  void add(const BinnedSum &other)
+  void add(const BinnedSums &other)
   {
     if (other.highest > highest) keep_from(other.highest);
-    for (int k = 0; k < num_digits; k++)
-      if (const int below = k + highest - other.highest; below < num_digits)
-        digit[below] += other.digit[k];
+    const int down = highest - other.highest;
+    for (int n = 0; n < count; n++)
+      for (int k = 0; k + down < num_digits; k++) digit[n][k + down] += other.digit[n][k];
   }
 
   /// NaN if anything added was not finite.
-  double value() const
+  double value(int sum) const
   {
     if (highest >= not_finite) return std::numeric_limits<double>::quiet_NaN();
-    double sum = 0.0;
+    double total = 0.0;
     for (int k = num_digits - 1; k >= 0; k--)    // small ones first
-      sum += std::ldexp(static_cast<double>(digit[k]), lowest_bit + digit_bits * (highest - k));
-    return sum;
+      total += std::ldexp(static_cast<double>(digit[sum][k]), lowest_bit + digit_bits * (highest - k));
+    return total;
   }
 
+ private:
+  static constexpr int num_digits = 5;
+
+ public:
   /// As whole numbers, for messages and files.
-  static constexpr int size = 1 + num_digits;
+  static constexpr int size = 1 + count * num_digits;
   void to_array(std::int64_t *a) const
   {
     *a++ = highest;
     std::memcpy(a, digit, sizeof digit);
   }
-  static BinnedSum from_array(const std::int64_t *a)
+  static BinnedSums from_array(const std::int64_t *a)
   {
-    BinnedSum sum;
-    sum.highest = static_cast<int>(*a++);
-    std::memcpy(sum.digit, a, sizeof sum.digit);
-    return sum;
+    BinnedSums sums;
+    sums.highest = static_cast<int>(*a++);
+    std::memcpy(sums.digit, a, sizeof sums.digit);
+    return sums;
   }
 
  private:
@@ -84,12 +87,13 @@ class BinnedSum {
   void keep_from(int new_highest)
   {
     const int up = new_highest - highest;
-    for (int k = num_digits - 1; k >= 0; k--) digit[k] = k >= up ? digit[k - up] : 0;
+    for (auto &of_sum : digit)
+      for (int k = num_digits - 1; k >= 0; k--) of_sum[k] = k >= up ? of_sum[k - up] : 0;
     highest = new_highest;
   }
 
   int highest = 0;    // place of the first digit, from that of the lowest bit of all doubles
-  std::int64_t digit[num_digits] = {};
+  std::int64_t digit[count][num_digits] = {};
 };
 
 }    // namespace Talus

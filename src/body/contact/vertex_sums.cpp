@@ -25,17 +25,14 @@ std::vector<int> VertexSums::vertices() const
 
 std::vector<std::int64_t> VertexSums::packed() const
 {
-  constexpr std::size_t size_row = 1 + 3 * BinnedSum::size;
-  std::vector<std::int64_t> all(BinnedSum::size + size_row * used.size());
+  std::vector<std::int64_t> all(BinnedSums<1>::size + (1 + BinnedSums<3>::size) * used.size());
   std::int64_t *to = all.data();
   of_numbers.to_array(to);
-  to += BinnedSum::size;
+  to += BinnedSums<1>::size;
   for (std::size_t n = 0; n < used.size(); n++) {
     *to++ = used[n];
-    for (const BinnedSum &sum : sums[n]) {
-      sum.to_array(to);
-      to += BinnedSum::size;
-    }
+    sums[n].to_array(to);
+    to += BinnedSums<3>::size;
   }
   return all;
 }
@@ -43,13 +40,11 @@ std::vector<std::int64_t> VertexSums::packed() const
 void VertexSums::add_packed(const std::int64_t *begin, const std::int64_t *end)
 {
   if (begin == end) return;
-  of_numbers.add(BinnedSum::from_array(begin));
-  for (const std::int64_t *from = begin + BinnedSum::size; from != end;) {
-    std::array<BinnedSum, 3> &sum = sum_of(static_cast<int>(*from++));
-    for (BinnedSum &component : sum) {
-      component.add(BinnedSum::from_array(from));
-      from += BinnedSum::size;
-    }
+  of_numbers.add(BinnedSums<1>::from_array(begin));
+  for (const std::int64_t *from = begin + BinnedSums<1>::size; from != end;) {
+    BinnedSums<3> &sum = sum_of(static_cast<int>(*from++));
+    sum.add(BinnedSums<3>::from_array(from));
+    from += BinnedSums<3>::size;
   }
 }
 

@@ -6,10 +6,10 @@
 #ifndef TALUS_BODY_CONTACT_VERTEX_SUMS_H
 #define TALUS_BODY_CONTACT_VERTEX_SUMS_H
 
+#include "base/aligned_vector.h"
 #include "base/binned_sum.h"
 #include "base/vector3.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,19 +23,19 @@ class VertexSums {
   void add(int vertex, const Vector3<double> &v)
   {
     if (v.x == 0.0 && v.y == 0.0 && v.z == 0.0) return;
-    std::array<BinnedSum, 3> &sum = sum_of(vertex);
-    sum[0].add(v.x);
-    sum[1].add(v.y);
-    sum[2].add(v.z);
+    Sum &sum = sum_of(vertex);
+    sum.add(0, v.x);
+    sum.add(1, v.y);
+    sum.add(2, v.z);
   }
-  void add(double number) { of_numbers.add(number); }
+  void add(double number) { of_numbers.add(0, number); }
   /// Prefetch what add() reads first, and then.
   void prefetch_slot(int vertex) const { __builtin_prefetch(&slot_of[vertex]); }
   void prefetch(int vertex) const
   {
     if (slot_of[vertex] < 0) return;
     const char *const at = reinterpret_cast<const char *>(&sums[slot_of[vertex]]);
-    for (std::size_t byte = 0; byte < sizeof sums[0]; byte += 64) __builtin_prefetch(at + byte, 1);
+    for (std::size_t byte = 0; byte < sizeof(Sum); byte += 64) __builtin_prefetch(at + byte, 1);
   }
   void clear();
 
@@ -43,10 +43,10 @@ class VertexSums {
   std::vector<int> vertices() const;
   Vector3<double> sum(int vertex) const
   {
-    const std::array<BinnedSum, 3> &sum = sums[slot_of[vertex]];
-    return {sum[0].value(), sum[1].value(), sum[2].value()};
+    const Sum &sum = sums[slot_of[vertex]];
+    return {sum.value(0), sum.value(1), sum.value(2)};
   }
-  double sum_of_numbers() const { return of_numbers.value(); }
+  double sum_of_numbers() const { return of_numbers.value(0); }
 
   /// All of it, for messages and files. add_packed() adds what it finds.
   std::vector<std::int64_t> packed() const;
@@ -59,7 +59,9 @@ class VertexSums {
   }
 
  private:
-  std::array<BinnedSum, 3> &sum_of(int vertex)
+  struct alignas(64) Sum : BinnedSums<3> {};
+
+  Sum &sum_of(int vertex)
   {
     if (slot_of[vertex] < 0) {
       slot_of[vertex] = static_cast<int>(used.size());
@@ -69,10 +71,10 @@ class VertexSums {
     return sums[slot_of[vertex]];
   }
 
-  std::vector<int> slot_of;                      // by vertex: -1: none
-  std::vector<int> used;                         // vertices by slot
-  std::vector<std::array<BinnedSum, 3>> sums;    // by slot
-  BinnedSum of_numbers;
+  std::vector<int> slot_of;    // by vertex: -1: none
+  std::vector<int> used;       // vertices by slot
+  AlignedVector<Sum> sums;     // by slot
+  BinnedSums<1> of_numbers;
 };
 
 }    // namespace Talus

@@ -18,7 +18,9 @@ constexpr double slack = 1.0e-5;
 /// Does a step in the direction `along` from the nearest point come nearer?
 bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
 {
-  return dot(away, along) > tolerance * length(away) * length(along);
+  const double closer = dot(away, along);
+  return closer > 0.0 &&
+         closer * closer > tolerance * tolerance * dot(away, away) * dot(along, along);
 }
 
 }    // namespace
@@ -250,14 +252,14 @@ std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
 
 namespace {
 
-/// `across`: along the normal. to_plane() yields the way from the plane to p.
-template <class ToPlane>
+/// `across`: along the normal. find_foot() yields the way from the plane to p, and the normal.
+template <class Foot>
 NearestPoint nearest_of(const Vector3<double> *corner, const Vector3<double> &across,
-                        const Vector3<double> &p, ToPlane to_plane)
+                        const Vector3<double> &p, Foot find_foot)
 {
   const Vector3<double> from[3] = {p - corner[0], p - corner[1], p - corner[2]};
   const auto result = [](const Vector3<double> &away, NearestPoint::Feature feature, int index) {
-    return NearestPoint{away, dot(away, away), feature, index};
+    return NearestPoint{away, dot(away, away), feature, index, {0.0, 0.0, 0.0}};
   };
 
   double ahead[3], behind[3];    // along edge k from its first corner, and back from its second
@@ -275,27 +277,32 @@ NearestPoint nearest_of(const Vector3<double> *corner, const Vector3<double> &ac
     if (dot(cross(edge, from[k]), across) > 0.0) continue;    // inside of it
     return result(from[k] - ahead[k] / (ahead[k] + behind[k]) * edge, NearestPoint::EDGE, k);
   }
-  return result(to_plane(), NearestPoint::FACE, 0);
+  NearestPoint foot = result({0.0, 0.0, 0.0}, NearestPoint::FACE, 0);
+  foot.away = find_foot(foot.normal);
+  foot.square = dot(foot.away, foot.away);
+  return foot;
 }
 
 }    // namespace
 
 NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
 {
-  const auto to_plane = [&p](const Face &face) {
-    return (dot(p, face.normal) - face.offset) * face.normal;
-  };
   if (!moves) {
     const Face &face = faces[t];
-    return nearest_of(face.corner, face.normal, p, [&] { return to_plane(face); });
+    return nearest_of(face.corner, face.normal, p, [&](Vector3<double> &n) {
+      n = face.normal;
+      return (dot(p, n) - face.offset) * n;
+    });
   }
   const Triangle now = mesh.triangle(t);
   const Vector3<double> across =
       cross(now.corner[1] - now.corner[0], now.corner[2] - now.corner[0]);
-  return nearest_of(now.corner, across, p, [&] {
-    Face face;
-    set_geometry(t, face);
-    return to_plane(face);
+  return nearest_of(now.corner, across, p, [&](Vector3<double> &n) {
+    const int plane = mesh.plane_of(t);
+    n = plane == t ? 1.0 / length(across) * across : mesh.normal(plane);
+    const Vector3<double> &origin =
+        plane == t ? now.corner[0] : mesh.vertex(mesh.corners(plane).vertex[0]);
+    return (dot(p, n) - dot(origin, n)) * n;
   });
 }
 
@@ -321,7 +328,7 @@ bool MeshDetail::is_local_minimum(int t, const NearestPoint &nearest, double &he
 {
   if (nearest.feature == NearestPoint::EDGE) return edge_is_minimum(t, nearest, height);
   if (nearest.feature == NearestPoint::CORNER) return corner_is_minimum(t, nearest, height);
-  height = dot(nearest.away, normal(t));
+  height = dot(nearest.away, nearest.normal);
   return true;
 }
 

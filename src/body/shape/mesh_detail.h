@@ -30,6 +30,7 @@ struct NearestPoint {
   double square;           ///< its length squared
   Feature feature;
   int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
+  Vector3<double> normal;    ///< of the triangle, only of a FACE
 };
 
 class MeshDetail {
