@@ -56,10 +56,11 @@ template <int count> class BinnedSums {
   double value(int sum) const
   {
     if (highest >= not_finite) return std::numeric_limits<double>::quiet_NaN();
+    constexpr double one_digit = 1.0 / 4294967296.0;
     double total = 0.0;
     for (int k = num_digits - 1; k >= 0; k--)    // small ones first
-      total += std::ldexp(static_cast<double>(digit[sum][k]), lowest_bit + digit_bits * (highest - k));
-    return total;
+      total = static_cast<double>(digit[sum][k]) + one_digit * total;
+    return std::ldexp(total, lowest_bit + digit_bits * highest);
   }
 
  private:

@@ -27,6 +27,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace Talus {
 
@@ -102,7 +103,7 @@ class BodyBatch {
   BodyLoad load;
   ExactLoad exact;                       ///< if asked for
   AlignedVector<TouchedPart> touched;    ///< if asked for
-  AlignedVector<TouchedCorners> corners;    ///< the same
+  std::vector<TouchedCorners> corners;      ///< the same
   EnergyByCause work;                    ///< if asked for
 
  private:

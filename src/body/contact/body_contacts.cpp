@@ -147,7 +147,9 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
     if (step.exact) step.exact->add(batch->exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), batch->touched.begin(), batch->touched.end());
-    if (step.corners)
+    if (step.corners && step.corners->empty())
+      step.corners->swap(batch->corners);    // of the first, or the only one
+    else if (step.corners)
       step.corners->insert(step.corners->end(), batch->corners.begin(), batch->corners.end());
   }
   return load;
