@@ -92,7 +92,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   bool agree(const char *name);
   int code_of(const char *name, const std::function<void()> &work);
   int stop_all(const char *name, const std::exception &problem);
-  void all_have_the_same(const char *what, std::uint64_t digest);
+  void check(const char *what, const std::string &problem, std::uint64_t digest);
   void set_failed(int rank);
 
   Talus::OwnRanks ranks;
