@@ -67,8 +67,8 @@ int talus_get_time(const talus_partner *partner, double *time, double *dt, int64
 int talus_advance(talus_partner *partner, int64_t steps);
 /* The same for a time (time units), which must be a whole number of time steps to 1e-6 of one. */
 int talus_advance_by(talus_partner *partner, double duration);
-/* After commands of the script that change more than numbers (fix, pair_coeff, ...): the next advance begins with the
-   set-up of a run. */
+/* After commands of the script that change more than numbers: the next advance begins with the set-up of a run. Fixes,
+   computes, pair styles, laws and particles that come or go are noticed without it. */
 int talus_set_up(talus_partner *partner);
 
 /* ---- rigid bodies: fix large/body, by the ID of the fix ---------------------------------------------- */
