@@ -19,7 +19,8 @@ namespace Talus {
 const CallTable &call_table()
 {
 #define TALUS_ENTRY(name, parameters, arguments) &call_##name,
-  static const CallTable table{TALUS_INTERFACE, TALUS_CALLS(TALUS_ENTRY) & call_error};
+  static const CallTable table{TALUS_INTERFACE, TALUS_CALLS(TALUS_ENTRY) & call_error,
+                               &call_snapshot_size};
 #undef TALUS_ENTRY
   return table;
 }
@@ -79,10 +80,7 @@ namespace {
 void advance(talus_partner &partner, std::int64_t steps)
 {
   if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
-  if (partner.needs_set_up) {
-    partner.command("run 0 post no");
-    partner.needs_set_up = false;
-  }
+  partner.set_up_if_needed();
   if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
 }
 

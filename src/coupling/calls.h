@@ -22,7 +22,10 @@
        (talus_partner * partner, const char *body, const double *state, int64_t steps),            \
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
-       (partner, body, state))
+       (partner, body, state))                                                                     \
+  CALL(save, (talus_partner * partner, talus_snapshot * *snapshot), (partner, snapshot))           \
+  CALL(restore, (talus_partner * partner, const talus_snapshot *snapshot), (partner, snapshot))    \
+  CALL(discard, (talus_snapshot * snapshot), (snapshot))
 
 namespace Talus {
 
@@ -30,6 +33,7 @@ namespace Talus {
 TALUS_CALLS(TALUS_DECLARE)
 #undef TALUS_DECLARE
 const char *call_error(const talus_partner *partner);
+int64_t call_snapshot_size(const talus_snapshot *snapshot);
 
 struct CallTable {
   int version;
@@ -37,6 +41,7 @@ struct CallTable {
   TALUS_CALLS(TALUS_POINTER)
 #undef TALUS_POINTER
   const char *(*error)(const talus_partner *partner);
+  int64_t (*snapshot_size)(const talus_snapshot *snapshot);
 };
 
 /// Of this file of styles.

@@ -217,3 +217,10 @@ void talus_partner::command(const std::string &line)
 {
   lmp->input->one(line);
 }
+
+void talus_partner::set_up_if_needed()
+{
+  if (!needs_set_up) return;
+  command("run 0 post no");
+  needs_set_up = false;
+}

@@ -68,6 +68,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
 
   /// A command of LAMMPS.
   void command(const std::string &line);
+  /// The set-up of a run, if one is due.
+  void set_up_if_needed();
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
 

@@ -52,6 +52,10 @@ void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 /// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
 LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);
 
+/// The step has been set back to this one: a fix that averages goes on when the step in which it reads next
+/// is reached again, and has read those before already.
+void let_average_again(LAMMPS_NS::Fix &fix, LAMMPS_NS::bigint step);
+
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 
