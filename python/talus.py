@@ -45,6 +45,7 @@ def _library(path):
         if os.path.exists(candidate):
             library = ctypes.CDLL(candidate)
             library.talus_error.restype = ctypes.c_char_p
+            library.talus_snapshot_size.restype = ctypes.c_int64
             return library
     raise TalusError(4, f"libtalus.so is not in {', '.join(filter(None, folders))}: give its path, or set LAMMPS_PLUGIN_PATH")
 
@@ -150,6 +151,18 @@ class Partner:
         """After commands that change more than numbers: the next advance begins with the set-up of a run."""
         self._call("set_up")
 
+    # ---- save and restore
+
+    def save(self):
+        """The whole state, kept in memory until the Snapshot is discarded (or deleted)."""
+        handle = ctypes.c_void_p()
+        self._call("save", ctypes.byref(handle))
+        return Snapshot(self, handle)
+
+    def restore(self, snapshot):
+        """Back to the state of the snapshot, which stays."""
+        self._call("restore", snapshot._handle)
+
     # ---- bodies
 
     def body(self, fix_id):
@@ -188,3 +201,104 @@ class Body:
         numbers = (ctypes.c_double * LOAD_SIZE)()
         self._call("get_body_load", numbers)
         return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None
+
+
+class Snapshot:
+    """The state of a simulation in memory, of Partner.save(). In a `with` statement it is discarded at the end."""
+
+    def __init__(self, partner, handle):
+        self._library, self._handle = partner._library, handle
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, trace):
+        self.discard()
+
+    def __del__(self):
+        self.discard()
+
+    def discard(self):
+        if self._handle:
+            self._library.talus_discard(self._handle)
+            self._handle = ctypes.c_void_p()
+
+    @property
+    def size(self):
+        """Memory on this rank (bytes)."""
+        return self._library.talus_snapshot_size(self._handle)
+
+
+class FixedPoint:
+    """Implicit coupling: each time window is repeated until what is exchanged no longer changes, by fixed point iteration with
+    Aitken's relaxation (Kuettler and Wall 2008, Comput. Mech. 43, 61-72, eq. 44).
+
+        fixed_point = FixedPoint(partner, relative=1e-4)
+        forces = [0.0, 0.0, 0.0]
+        while partner.time < end:
+            forces = fixed_point.advance(window, forces)
+
+    where window(forces) moves the other program over the window with these forces, then this one with what follows from it
+    (put_state(), advance(), load()), and returns the forces found: a list of numbers. Both programs are set back before it is
+    called again; the last call counts.
+
+    partner: lives on all ranks. save(), restore(state): of the other program, None: it has no state of its own. relaxation: the
+    initial factor, of the first iteration; relative, absolute: convergence measures, of which one is enough: norm of the residual
+    over that of the result, and itself. scales: of each number, by which it is divided in norms. max_iterations: then a
+    RuntimeWarning tells the numbers, and the last iteration counts."""
+
+    def __init__(self, partner, save=None, restore=None, relaxation=0.5, relative=1.0e-5, absolute=0.0, scales=None,
+                 max_iterations=30):
+        if partner.root != ALL_RANKS and partner.lmp.extract_setting("world_size") > 1:
+            raise ValueError("FixedPoint: on several ranks all have to know whether to go on: open the Partner with ALL_RANKS")
+        self.partner, self._save, self._restore = partner, save, restore
+        self.relaxation, self.relative, self.absolute = relaxation, relative, absolute
+        self.scales, self.max_iterations = scales, max_iterations
+        self.windows = self.iterations = self.not_converged = 0
+        self.last_iterations = 0
+        self.residual = 0.0
+
+    def _norm(self, values):
+        scales = self.scales or [1.0] * len(values)
+        return sum((value / scale)**2 for value, scale in zip(values, scales, strict=True))**0.5
+
+    def _product(self, a, b):
+        scales = self.scales or [1.0] * len(a)
+        return sum(x * y / scale**2 for x, y, scale in zip(a, b, scales, strict=True))
+
+    def advance(self, window, guess):
+        """Makes one window; returns what window() returned last."""
+        state = self._save() if self._save else None
+        with self.partner.save() as snapshot:
+            result, converged = self._iterate(window, list(guess), snapshot, state)
+        self.windows += 1
+        self.iterations += self.last_iterations
+        if not converged:
+            self.not_converged += 1
+            import warnings
+            warnings.warn(f"FixedPoint: not converged in {self.max_iterations} iterations at time {self.partner.time:.6g}: "
+                          f"residual {self.residual:.3g}, result {self._norm(result):.3g}, relative {self.relative:.3g}, absolute "
+                          f"{self.absolute:.3g}: use shorter windows, a smaller initial relaxation or more iterations",
+                          RuntimeWarning, stacklevel=2)
+        return result
+
+    def _iterate(self, window, values, snapshot, state):
+        factor, before = self.relaxation, None
+        for number in range(1, self.max_iterations + 1):
+            if number > 1:
+                self.partner.restore(snapshot)
+                if self._restore:
+                    self._restore(state)
+            result = [float(value) for value in window(list(values))]
+            residual = [new - old for new, old in zip(result, values, strict=True)]
+            self.last_iterations, self.residual = number, self._norm(residual)
+            if self.residual <= max(self.absolute, self.relative * self._norm(result)):
+                return result, True
+            if before is not None:
+                change = [now - then for now, then in zip(residual, before)]
+                square = self._product(change, change)
+                if square > 0.0:
+                    factor *= -self._product(before, change) / square
+            values = [value + factor * part for value, part in zip(values, residual)]
+            before = residual
+        return result, False

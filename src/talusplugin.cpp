@@ -209,6 +209,11 @@ __attribute__((visibility("default"))) const char *talus_error(const talus_partn
   return misuse.empty() ? calls->error(partner) : misuse.c_str();
 }
 
+__attribute__((visibility("default"))) int64_t talus_snapshot_size(const talus_snapshot *snapshot)
+{
+  return calls ? calls->snapshot_size(snapshot) : 0;
+}
+
 __attribute__((visibility("default"))) int talus_load(void *lmp)
 {
   char *(*command)(void *, const char *);

@@ -4,7 +4,6 @@
 
 #include "coupling/calls.h"
 #include "coupling/partner.h"
-#include "system/definitions.h"
 
 #include "fmt/format.h"
 #include "lammps.h"
@@ -22,7 +21,8 @@ namespace Talus {
 const CallTable &call_table()
 {
 #define TALUS_ENTRY(name, parameters, arguments) &call_##name,
-  static const CallTable table{TALUS_INTERFACE, TALUS_CALLS(TALUS_ENTRY) & call_error};
+  static const CallTable table{TALUS_INTERFACE, TALUS_CALLS(TALUS_ENTRY) & call_error,
+                               &call_snapshot_size};
 #undef TALUS_ENTRY
   return table;
 }
@@ -88,15 +88,9 @@ void advance(talus_partner &partner, std::int64_t steps)
   if (steps > MAXSMALLINT)
     throw Refusal("steps is " + std::to_string(steps) + ", expected at most " +
                   std::to_string(MAXSMALLINT));
-  const auto definitions = [&] {
-    return digest_of_definitions(partner.instance(), partner.system());
-  };
-  if (partner.needs_set_up || definitions() != partner.set_up_with) {
-    partner.command("run 0 post no");
-    partner.needs_set_up = false;
-  }
+  partner.set_up_if_needed();
   if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
-  partner.set_up_with = definitions();
+  partner.remember_definitions();
 }
 
 }    // namespace

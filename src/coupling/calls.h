@@ -26,7 +26,10 @@
   CALL(watch_body, (talus_partner * partner, const char *body, const double *point),               \
        (partner, body, point))                                                                     \
   CALL(get_body_load, (talus_partner * partner, const char *body, double *load),                   \
-       (partner, body, load))
+       (partner, body, load))                                                                      \
+  CALL(save, (talus_partner * partner, talus_snapshot * *snapshot), (partner, snapshot))           \
+  CALL(restore, (talus_partner * partner, const talus_snapshot *snapshot), (partner, snapshot))    \
+  CALL(discard, (talus_snapshot * snapshot), (snapshot))
 
 namespace Talus {
 
@@ -34,6 +37,7 @@ namespace Talus {
 TALUS_CALLS(TALUS_DECLARE)
 #undef TALUS_DECLARE
 const char *call_error(const talus_partner *partner);
+int64_t call_snapshot_size(const talus_snapshot *snapshot);
 
 struct CallTable {
   int version;
@@ -41,6 +45,7 @@ struct CallTable {
   TALUS_CALLS(TALUS_POINTER)
 #undef TALUS_POINTER
   const char *(*error)(const talus_partner *partner);
+  int64_t (*snapshot_size)(const talus_snapshot *snapshot);
 };
 
 /// Of this file of styles.

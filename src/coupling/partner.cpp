@@ -3,6 +3,7 @@
 #include "coupling/partner.h"
 
 #include "base/state_digest.h"
+#include "system/definitions.h"
 
 #include "comm.h"
 #include "error.h"
@@ -308,4 +309,17 @@ std::vector<double> talus_partner::numbers_of(const char *what, const double *gi
 void talus_partner::command(const std::string &line)
 {
   lmp->input->one(line);
+}
+
+void talus_partner::set_up_if_needed()
+{
+  if (!needs_set_up && digest_of_definitions(instance(), system()) == set_up_with) return;
+  command("run 0 post no");
+  needs_set_up = false;
+  remember_definitions();
+}
+
+void talus_partner::remember_definitions()
+{
+  set_up_with = digest_of_definitions(instance(), system());
 }

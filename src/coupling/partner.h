@@ -81,10 +81,13 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
 
   /// A command of LAMMPS.
   void command(const std::string &line);
-  /// The next advance begins with the set-up of a run; so it does if there is something else to set up
-  /// than at the end of the last one, see digest_of_definitions().
+  /// The set-up of a run, if one is due: at first, after needs_set_up, or if there is something else to
+  /// set up than at the end of the last one, see digest_of_definitions().
+  void set_up_if_needed();
+  /// A run has ended.
+  void remember_definitions();
+  /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
-  std::uint64_t set_up_with = 0;
   /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
   /// ends.
   void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)
@@ -96,6 +99,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   MPI_Comm world() const { return ranks.comm; }
 
  private:
+  std::uint64_t set_up_with = 0;
   bool agree(const char *name);
   int code_of(const char *name, const std::function<void()> &work);
   int stop_all(const char *name, const std::exception &problem);

@@ -63,6 +63,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }
   void complete_step() override;
+  void exchange_state(Talus::StateExchange &x) override;
 
  protected:
   std::string find_reason() override;

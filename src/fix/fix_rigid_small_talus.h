@@ -71,6 +71,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool places_particles() const override { return true; }
   void complete_step() override;
   void leave_records() override;
+  void exchange_state(Talus::StateExchange &x) override;
+  bool exchanges_all() const override { return true; }
 
  protected:
   std::shared_ptr<Talus::GranularSystem> system;
@@ -173,6 +175,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   void exchange_rows(Message what, int size);
   const double *row_of(const ClumpSphere &sphere) const;
 
+  template <class Exchange> void exchange_rows_of_particles(Exchange &x);
   void make_table();
   void fill_lanes();
   Talus::Vector3<double> shift_of(const ClumpSphere &sphere) const;

@@ -49,7 +49,7 @@ GranularSystem::GranularSystem(LAMMPS *lmp) :
     contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
     energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
     proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers),
-    largest_move(lmp)
+    lists(lmp), largest_move(lmp)
 {
   contact_pipeline.emplace();
 }

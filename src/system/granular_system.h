@@ -27,6 +27,7 @@
 #include "system/integrators.h"
 #include "system/large_bodies.h"
 #include "system/largest_move.h"
+#include "system/made_lists.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_states.h"
 #include "system/proxy_updates.h"
@@ -54,6 +55,7 @@ class Pair;
 
 namespace Talus {
 
+class StateExchange;
 class SystemShapes;
 
 class GranularSystem : protected LAMMPS_NS::Pointers {
@@ -91,6 +93,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
   ExchangeSwitch &exchange() { return exchange_switch; }
   StepsInRecords &steps_in_records() { return record_steps; }
+  MadeLists &made_lists() { return lists; }
 
   /// Particles that are not spheres, nullptr: all are. Their fix registers in its constructor and
   /// unregisters in its destructor. false: there is one already.
@@ -193,6 +196,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// A run has ended, and what belongs to particles has been put aside.
   void end_contacts_of_run();
 
+  /// For snapshots, between two runs: what is neither of particles nor of fixes. When it is restored histories are
+  /// in the store, and particles in the slots that they had.
+  void exchange_state(StateExchange &x);
+
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
@@ -236,6 +243,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   SystemShapes *shaped = nullptr;
   Weights gravity;
   StepsInRecords record_steps;
+  MadeLists lists;
   bool stays_in_records = false;    // after this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;

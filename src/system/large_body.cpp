@@ -7,6 +7,7 @@
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
+#include "base/state_exchange.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -220,6 +221,20 @@ void LargeBody::compute(bool advance, double *virial)
     system.account().add(account.sum);
   }
   if (already_frozen) clear_frozen();
+}
+
+/* Local indices of what was seen may be others. */
+
+void LargeBody::exchange_state(StateExchange &x)
+{
+  finish_reduction();
+  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated);
+  x.array(digits_here, size_digits);
+  x.array(digits_of_all, size_digits);
+  contacts.history.exchange_state(x);
+  if (!x.restores()) return;
+  contacts.history.grow(atom->nmax);
+  seen_between = {};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -42,6 +42,7 @@ class Fix;
 namespace Talus {
 
 class GranularSystem;
+class StateExchange;
 class SteeredBody;
 
 class LargeBody : protected LAMMPS_NS::Pointers {
@@ -128,6 +129,10 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   /// Distance from the reference point within which all particles were when they were last listed.
   double reach() const { return contacts.reach(); }
+
+  /// For snapshots, between two runs: load, energies and histories; list_particles() has to follow when they
+  /// are restored.
+  void exchange_state(StateExchange &x);
 
   // ---- energies and questions
 

@@ -14,6 +14,7 @@
 #include "fix_ave_atom.h"
 #include "fix_ave_chunk.h"
 #include "fix_ave_correlate.h"
+#include "fix_ave_grid.h"
 #include "fix_ave_histo.h"
 #include "fix_ave_time.h"
 #include "fix_aveforce.h"
@@ -136,6 +137,12 @@ TALUS_PRIVATE_MEMBER(NextAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid)
 TALUS_PRIVATE_MEMBER(NextChunk, bigint FixAveChunk::*, &FixAveChunk::nvalid)
 TALUS_PRIVATE_MEMBER(NextHisto, bigint FixAveHisto::*, &FixAveHisto::nvalid)
 TALUS_PRIVATE_MEMBER(NextCorrelate, bigint FixAveCorrelate::*, &FixAveCorrelate::nvalid)
+TALUS_PRIVATE_MEMBER(LastTime, bigint FixAveTime::*, &FixAveTime::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastChunk, bigint FixAveChunk::*, &FixAveChunk::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastGrid, bigint FixAveGrid::*, &FixAveGrid::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastHisto, bigint FixAveHisto::*, &FixAveHisto::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastCorrelate, bigint FixAveCorrelate::*, &FixAveCorrelate::nvalid_last)
 TALUS_PRIVATE_MEMBER(LangevinBias, int FixLangevin::*, &FixLangevin::tbiasflag)
 TALUS_PRIVATE_MEMBER(ReflectingVariables, int FixWallReflect::*, &FixWallReflect::varflag)
 
@@ -262,6 +269,27 @@ bigint next_reading_of(const Fix &fix)
   if (const auto *histo = as<FixAveHisto>(fix)) return histo->*pointer_to(NextHisto{});
   if (const auto *lags = as<FixAveCorrelate>(fix)) return lags->*pointer_to(NextCorrelate{});
   return -1;
+}
+
+namespace {
+
+template <class Style, class Tag> void set_back(Fix &fix, Tag tag, bigint step)
+{
+  if (!as<Style>(fix)) return;
+  bigint &last = dynamic_cast<Style &>(fix).*pointer_to(tag);
+  last = std::min(last, step);
+}
+
+}    // namespace
+
+void let_average_again(Fix &fix, bigint step)
+{
+  set_back<FixAveTime>(fix, LastTime{}, step);
+  set_back<FixAveAtom>(fix, LastAtom{}, step);
+  set_back<FixAveChunk>(fix, LastChunk{}, step);
+  set_back<FixAveGrid>(fix, LastGrid{}, step);
+  set_back<FixAveHisto>(fix, LastHisto{}, step);
+  set_back<FixAveCorrelate>(fix, LastCorrelate{}, step);
 }
 
 FixVariables variables_of(const Fix &fix)

@@ -58,6 +58,10 @@ int number_of_instance(const LAMMPS_NS::Pair &pair);
 /// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
 LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);
 
+/// The step has been set back to this one: a fix that averages goes on when the step in which it reads next
+/// is reached again, and has read those before already.
+void let_average_again(LAMMPS_NS::Fix &fix, LAMMPS_NS::bigint step);
+
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 

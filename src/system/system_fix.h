@@ -18,6 +18,7 @@ class Fix;
 namespace Talus {
 
 class StateDigest;
+class StateExchange;
 
 /// For how long forces act on particles in a step, over the time step: those of the step before until
 /// positions move, and those of the step at its end.
@@ -83,6 +84,16 @@ class SystemFix {
   /// contacts, bodies and weights. Called by GranularSystem::complete_step_of() in a step that LAMMPS
   /// looks at; and when particles come back from a step in the records, those that integrate last.
   virtual void complete_step() {}
+
+  // ---- snapshots (snapshot.h), between two runs
+
+  /// What it knows of the past, besides what travels with particles and what is in restart files; with
+  /// exchanges_all() that as well. When a state is restored particles are in the arrays of LAMMPS before; it may be
+  /// called twice, before ghosts and neighbor lists are there, and after it.
+  virtual void exchange_state(StateExchange & /*x*/) {}
+  virtual bool exchanges_all() const { return false; }
+  /// Everything is restored: particles of which it has lists are to be listed again.
+  virtual void state_is_restored() {}
 
  protected:
   ~SystemFix() = default;    // never deleted through this interface
