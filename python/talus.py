@@ -202,6 +202,45 @@ class Body:
         self._call("get_body_load", numbers)
         return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None
 
+    # ---- meshes, and those whose vertices the partner moves; rows are lists, or arrays of numpy where it is installed, and None
+    # ---- where the partner does not live
+
+    @property
+    def mesh_size(self):
+        """Numbers of vertices and triangles; 0 where the partner does not live."""
+        if not hasattr(self, "_mesh_size"):
+            count = [ctypes.c_int64(), ctypes.c_int64()]
+            self._call("get_mesh_size", ctypes.byref(count[0]), ctypes.byref(count[1]))
+            self._mesh_size = count[0].value, count[1].value
+        return self._mesh_size
+
+    @property
+    def mesh(self):
+        """Places of the vertices now, and the numbers of the three of each triangle."""
+        vertices, triangles = self.mesh_size
+        x, corners = (ctypes.c_double * (3 * vertices))(), (ctypes.c_int64 * (3 * triangles))()
+        self._call("get_mesh", x, corners)
+        return (_rows(x, 3), _rows(corners, 3)) if self.partner.lives_here else (None, None)
+
+    def put_vertices(self, x, v=None, steps=1):
+        """The vertices (mesh ... move vertices) are to be at x (n x 3) after so many steps, with the velocities v (n x 3), or
+        those of the way; 0: at once. Where the partner does not live x is not looked at, and v is None or not as there."""
+        vertices, _ = self.mesh_size
+        count = 3 * vertices if self.partner.lives_here else None
+        self._call("put_vertices", _doubles(x, count), _doubles(v, count), ctypes.c_int64(steps))
+
+    def vertex_loads(self):
+        """Of the grains since the last call of this: numbers of the vertices that were touched, impulses on them (n x 3), work
+        done on all, time."""
+        vertices, _ = self.mesh_size
+        touched, work, time = ctypes.c_int64(), ctypes.c_double(), ctypes.c_double()
+        numbers, impulses = (ctypes.c_int64 * vertices)(), (ctypes.c_double * (3 * vertices))()
+        self._call("get_vertex_loads", ctypes.byref(touched), numbers, impulses, ctypes.byref(work), ctypes.byref(time))
+        if not self.partner.lives_here:
+            return None, None, None, None
+        count = touched.value
+        return _rows(numbers, 1, count), _rows(impulses, 3, count), work.value, time.value
+
 
 class Snapshot:
     """The state of a simulation in memory, of Partner.save(). In a `with` statement it is discarded at the end."""
@@ -302,3 +341,15 @@ class FixedPoint:
             values = [value + factor * part for value, part in zip(values, residual)]
             before = residual
         return result, False
+
+
+def _rows(array, width, count=None):
+    """The first rows of an array of C: numbers (width 1), or lists; as arrays of numpy, if it is installed."""
+    count = len(array) // width if count is None else count
+    try:
+        import numpy
+        rows = numpy.array(array)[:count * width]
+        return rows if width == 1 else rows.reshape(count, width)
+    except ImportError:
+        flat = array[:count * width]
+        return flat if width == 1 else [flat[width * k:width * (k + 1)] for k in range(count)]

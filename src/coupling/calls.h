@@ -29,7 +29,20 @@
        (partner, body, load))                                                                      \
   CALL(save, (talus_partner * partner, talus_snapshot * *snapshot), (partner, snapshot))           \
   CALL(restore, (talus_partner * partner, const talus_snapshot *snapshot), (partner, snapshot))    \
-  CALL(discard, (talus_snapshot * snapshot), (snapshot))
+  CALL(discard, (talus_snapshot * snapshot), (snapshot))                                           \
+  CALL(get_mesh_size,                                                                              \
+       (talus_partner * partner, const char *body, int64_t *vertices, int64_t *triangles),         \
+       (partner, body, vertices, triangles))                                                       \
+  CALL(get_mesh, (talus_partner * partner, const char *body, double *x, int64_t *triangles),       \
+       (partner, body, x, triangles))                                                              \
+  CALL(put_vertices,                                                                               \
+       (talus_partner * partner, const char *body, const double *x, const double *v,               \
+        int64_t steps),                                                                            \
+       (partner, body, x, v, steps))                                                               \
+  CALL(get_vertex_loads,                                                                           \
+       (talus_partner * partner, const char *body, int64_t *touched, int64_t *numbers,             \
+        double *impulses, double *work, double *duration),                                         \
+       (partner, body, touched, numbers, impulses, work, duration))
 
 namespace Talus {
 

@@ -8,6 +8,7 @@
 #include "system/system_shapes.h"
 
 #include "base/state_exchange.h"
+#include "body/shape/mesh_shape.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -112,14 +113,25 @@ void LargeBody::list_particles()
   masses.update();
   const ParticleState particles = view();
   const int *mask = mask_of_spheres();
+  MeshShape *const mesh = moving_mesh();
+  if (mesh) mesh->settle();
   if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*body_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+  if (mesh) mesh->keep_current(system.shapes() ? nullptr : &contacts.listed_parts());
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     contacts.change_order(system.integrators().order(), atom->type,
                           [this](int type) -> const ContactLaw & { return specs[type].law; });
   order_of_history = system.integrators().order();
   keep_records(false);
+}
+
+/* nullptr: it is none, or its vertices do not move. */
+
+MeshShape *LargeBody::moving_mesh()
+{
+  MeshShape *const mesh = body_shape->as_mesh();
+  return mesh && mesh->moving() ? mesh : nullptr;
 }
 
 /* `old_ones`: those of the other order as well, until they have been changed. */
@@ -184,6 +196,7 @@ BodyStep LargeBody::step_of(bool advance)
   step.account = accounts() ? &account : nullptr;
   step.exact = sums_exactly() ? &exact : nullptr;
   step.touched = touched;
+  step.corners = corners;
   return step;
 }
 

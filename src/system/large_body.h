@@ -41,6 +41,7 @@ class Fix;
 
 namespace Talus {
 
+class DeformingBody;
 class GranularSystem;
 class StateExchange;
 class SteeredBody;
@@ -67,6 +68,13 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// Programs may ask where it is, and steer it.
   void set_steered(SteeredBody &body) { steered = &body; }
   SteeredBody *as_steered() const { return steered; }
+  /// The same of a mesh whose vertices move; its contacts then tell their forces on vertices.
+  void set_deforming(DeformingBody &body, std::vector<TouchedCorners> *touched_corners)
+  {
+    deforming = &body;
+    corners = touched_corners;
+  }
+  DeformingBody *as_deforming() const { return deforming; }
   /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly, as that of
   /// a body that is watched is.
   void set_frame(const BodyFrame *body_frame, bool moves);
@@ -163,6 +171,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const int *mask_of_spheres();
   Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
+  MeshShape *moving_mesh();
   void find_frozen();
   void clear_frozen();
   void set_laws();
@@ -176,8 +185,10 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::unique_ptr<LargeBodyShape> body_shape;
   const BodyFrame *frame = nullptr;
   SteeredBody *steered = nullptr;
+  DeformingBody *deforming = nullptr;
   bool moves = false;
   std::vector<TouchedPart> *touched = nullptr;
+  std::vector<TouchedCorners> *corners = nullptr;
   std::function<VtkPolyData()> make_picture;
   std::vector<ContactSpec> specs;    ///< by type
   std::vector<bool> spec_is_set;
