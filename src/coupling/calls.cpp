@@ -80,6 +80,7 @@ void advance(talus_partner &partner, std::int64_t steps)
 {
   if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
   if (partner.needs_set_up) {
+    partner.system().external_loads().make_fix();
     partner.command("run 0 post no");
     partner.needs_set_up = false;
   }

@@ -22,7 +22,30 @@
        (talus_partner * partner, const char *body, const double *state, int64_t steps),            \
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
-       (partner, body, state))
+       (partner, body, state))                                                                     \
+  CALL(put_forces,                                                                                 \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *force,                \
+        const double *torque),                                                                     \
+       (partner, n, id, force, torque))                                                            \
+  CALL(put_drag,                                                                                   \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *coefficient,          \
+        const double *fluid_velocity),                                                             \
+       (partner, n, id, coefficient, fluid_velocity))                                              \
+  CALL(put_heat, (talus_partner * partner, int64_t n, const int64_t *id, const double *flow),      \
+       (partner, n, id, flow))                                                                     \
+  CALL(get_drag_impulses,                                                                          \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *impulse),                   \
+       (partner, n, id, impulse))                                                                  \
+  CALL(get_num_particles, (talus_partner * partner, int64_t * n), (partner, n))                    \
+  CALL(get_ids, (talus_partner * partner, int64_t * id), (partner, id))                            \
+  CALL(get_particles,                                                                              \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *x, double *v,               \
+        double *omega, double *radius, double *mass),                                              \
+       (partner, n, id, x, v, omega, radius, mass))                                                \
+  CALL(get_field,                                                                                  \
+       (talus_partner * partner, const double *lo, const double *hi, const int *cells,             \
+        double width, double *solid, double *momentum, double *exchange),                          \
+       (partner, lo, hi, cells, width, solid, momentum, exchange))
 
 namespace Talus {
 

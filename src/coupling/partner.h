@@ -34,6 +34,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
  public:
   /// `root`: rank on which it lives, or TALUS_ALL_RANKS. Throws Refusal.
   talus_partner(LAMMPS_NS::LAMMPS *lmp, int root);
+  ~talus_partner() override;
 
   LAMMPS_NS::LAMMPS &instance() const { return *lmp; }
 
@@ -66,10 +67,17 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
     if (lives_here() && to) std::copy(values.begin(), values.end(), to);
   }
 
+  /// Numbers of which one rank has a part and the others 0: the sums, where results are wanted.
+  void sum(std::vector<double> &numbers) const;
+  /// What all ranks have, one after another, where results are wanted.
+  std::vector<std::int64_t> gather(const std::vector<std::int64_t> &mine) const;
+
   /// A command of LAMMPS.
   void command(const std::string &line);
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
+  /// On particles; they end with this.
+  bool has_put_loads = false;
 
   Talus::GranularSystem &system() { return *granular; }
   MPI_Comm world() const { return Pointers::world; }

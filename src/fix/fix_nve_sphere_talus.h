@@ -47,6 +47,7 @@ class FixNVESphereTalus : public FixNVESphere, public Talus::SystemFix {
   std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
+  bool kicks_twice() const override { return true; }
   void complete_step() override;
 
  private:

@@ -57,6 +57,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   void restart(char *) override;
 
   // SystemFix
+  bool kicks_twice() const override { return false; }
   double next_kick_in_steps() const override;
   int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }

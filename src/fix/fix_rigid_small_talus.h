@@ -68,6 +68,8 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
+  bool moves_particle(int i) const override { return bodytag[i] != 0; }
+  bool kicks_twice() const override { return true; }
   void complete_step() override;
   void leave_records() override;
 
