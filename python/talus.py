@@ -15,7 +15,13 @@ All methods are collective, and errors are the same on all ranks. If the block o
 the others get a TalusError with its text instead of waiting for ever."""
 
 import ctypes
+import itertools
 import os
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
 
 ALL_RANKS = -1
 INTERFACE = 2
@@ -49,30 +55,26 @@ def _doubles(values, count=None):
     if values is None:
         return None
     if hasattr(values, "__array_interface__"):
-        import numpy
         values = numpy.ascontiguousarray(values, dtype=float).ravel()
         _check(len(values), count)
         array = (ctypes.c_double * len(values)).from_buffer_copy(values) if not values.flags.writeable else \
             (ctypes.c_double * len(values)).from_buffer(values)
         return array
-    values = [float(x) for x in _flat(values)]
+    values = _flat(values)
     _check(len(values), count)
     return (ctypes.c_double * len(values))(*values)
 
 
 def _integers(values):
     if hasattr(values, "__array_interface__"):
-        import numpy
         return numpy.ascontiguousarray(values, dtype=numpy.int64).ctypes.data_as(ctypes.POINTER(ctypes.c_int64)), len(values)
-    values = [int(x) for x in values or []]
+    values = list(map(int, values or []))
     return (ctypes.c_int64 * len(values))(*values), len(values)
 
 
 def _array(numbers, *shape):
     """What C has written: an array of numpy where there is numpy, else nested lists."""
-    try:
-        import numpy
-    except ImportError:
+    if numpy is None:
         numbers = list(numbers)
         for count in reversed(shape[1:]):
             numbers = [numbers[k:k + count] for k in range(0, len(numbers), count)]
@@ -82,11 +84,11 @@ def _array(numbers, *shape):
 
 
 def _flat(values):
-    for x in values:
-        if hasattr(x, "__len__"):
-            yield from _flat(x)
-        else:
-            yield x
+    """Rows of rows of numbers as one list."""
+    values = list(values)
+    while values and hasattr(values[0], "__len__"):
+        values = list(itertools.chain.from_iterable(values))
+    return values
 
 
 def _check(found, count):

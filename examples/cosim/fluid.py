@@ -31,7 +31,7 @@ GRAVITY, DENSITY = 9.81, 2500.0    # of grains
 WATER, VISCOSITY = 1000.0, 1e-3
 SIZES = (0.2e-3, 0.5e-3, 1e-3, 2e-3, 4e-3)    # of single grains
 D = 1e-3                                      # of those in the bed, +- 10 %
-LAYER, WIDTH = 2 * D, 3 * D                   # cells, and the kernel that smears grains over them
+LAYER, WIDTH = 1.5 * D, 2 * D                 # cells, and the kernel that smears grains over them
 
 HEAD = """
 units si
@@ -60,10 +60,10 @@ region full block 0 ${{wide}} 0 ${{wide}} 0.0005 {top} units box
 fill_region full 1 fraction 0.5 diameter uniform {low} {large} density {density} seed 4711
 neighbor 0.0003 bin
 pair_style gran/penalty
-pair_coeff * * hooke 50 2e-3 tangential multistep NULL NULL 0.4
-timestep 2e-5
+pair_coeff * * hooke 200 4e-3 tangential multistep NULL NULL 0.4
+timestep 1e-5
 fix step all nve/sphere/symplectic gravity {g} vector 0 0 -1
-fix floor all large/body plane 0 0 0 0 0 1 contact hooke 50 2e-3 tangential multistep NULL NULL 0.4
+fix floor all large/body plane 0 0 0 0 0 1 contact hooke 200 4e-3 tangential multistep NULL NULL 0.4
 thermo 0
 """
 
@@ -71,7 +71,7 @@ thermo 0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--every", type=int, default=200, help="steps between two exchanges of the bed")
+    parser.add_argument("--every", type=int, default=400, help="steps between two exchanges of the bed")
     parser.add_argument("--quick", action="store_true", help="a small bed and few velocities, for tests")
     options = parser.parse_args()
     options.out = os.path.abspath(options.out)
@@ -180,13 +180,11 @@ class Bed:
         return rows
 
     def exchange(self, superficial):
-        """Porosity from Talus, drag by Ergun to Talus. In each layer the water is as fast as its porosity demands."""
+        """Porosity from Talus, drag by Ergun to Talus; solid fractions of layers. In each layer the water is as fast as
+        its porosity demands."""
         solid = self.means("solid")
-        z, v = [], []
-        for place, velocity in zip(*self.timed(self.partner.particles, self.ids, "x", "v")):
-            z.append(place[2])
-            v.append(velocity)
-        porosity = [1.0 - self.between(solid, at) for at in z]
+        x, v = self.timed(self.partner.particles, self.ids, "x", "v")
+        porosity = [1.0 - self.between(solid, place[2]) for place in x]
         water = [superficial / share for share in porosity]
         slip = [share * math.sqrt(w[0] ** 2 + w[1] ** 2 + (w[2] - u) ** 2) for share, u, w in zip(porosity, water, v)]
         d = self.d
@@ -197,6 +195,7 @@ class Bed:
         velocities = [0.0] * (3 * len(water))
         velocities[2::3] = water
         self.timed(self.partner.put_drag, self.ids, each(coefficient, self.volumes, porosity, slip), velocities)
+        return solid
 
     def between(self, layers, z):
         """Linear between the middles of layers."""
@@ -213,10 +212,10 @@ class Bed:
             if n == rounds // 2:
                 self.means("exchange")
                 begin = partner.time
-            self.exchange(superficial)
+            present = self.exchange(superficial)
             partner.advance(every)
             if n >= rounds // 2:
-                solid = [a + b for a, b in zip(solid, self.means("solid"))]
+                solid = [a + b for a, b in zip(solid, present)]
         impulses = self.means("exchange")
         # force on grains per volume
         return [j / (partner.time - begin) for j in impulses], [s / (rounds - rounds // 2) for s in solid]
@@ -231,19 +230,19 @@ class Bed:
 
 def fluidise(options):
     """Rows (U/Umf, pressure drop over weight, of the bulk: porosity, gradient, that of Ergun), bed, share of the exchange."""
-    wide, deep = (6 * D, 14 * D) if options.quick else (8 * D, 24 * D)
+    wide, deep = (6 * D, 14 * D) if options.quick else (8 * D, 30 * D)
     high = 2.0 * deep
     lmp = instance(options, BED.format(wide=wide, high=high, top=1.2 * deep, low=0.9 * D, large=1.1 * D, density=DENSITY, g=GRAVITY))
     start = time.perf_counter()
     with Partner(lmp) as partner:
-        partner.advance(6000)    # the bed settles, without water
+        partner.advance(10000)    # the bed settles, without water
         bed = Bed(partner, wide, high)
         _, solid = bed.hold(0.0, 0.05, options.every)
         bed.packed, _ = bed.bulk(solid, solid)
         bed.umf = minimum_fluidisation(bed.packed, bed.d)
         rows = []
         for share in (0.4, 0.8, 1.0, 1.4) if options.quick else (0.2, 0.4, 0.6, 0.8, 0.9, 1.0, 1.1, 1.3, 1.6, 2.0):
-            gradient, solid = bed.hold(share * bed.umf, 0.08 if options.quick else 0.2, options.every)
+            gradient, solid = bed.hold(share * bed.umf, 0.08 if options.quick else 0.2 if share < 1.0 else 0.4, options.every)
             porosity, bulk = bed.bulk(solid, gradient)
             rows.append((share, sum(gradient) * LAYER * wide ** 2 / bed.weight, porosity, bulk,
                          ergun(porosity, share * bed.umf, bed.d)))
