@@ -23,6 +23,10 @@
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
        (partner, body, state))                                                                     \
+  CALL(watch_body, (talus_partner * partner, const char *body, const double *point),               \
+       (partner, body, point))                                                                     \
+  CALL(get_body_load, (talus_partner * partner, const char *body, double *load),                   \
+       (partner, body, load))                                                                      \
   CALL(put_forces,                                                                                 \
        (talus_partner * partner, int64_t n, const int64_t *id, const double *force,                \
         const double *torque),                                                                     \

@@ -70,6 +70,7 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   double lag() const override { return start.lag(); }
   double next_kick_in_steps() const override;
   const double *gravity_besides_forces() const override { return gravity.acceleration(); }
+  Talus::Kicks kicks() const override;
   bool keeps_changes() const override { return true; }
 
   void write_restart(FILE *) override;

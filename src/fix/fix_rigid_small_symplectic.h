@@ -57,8 +57,8 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
   void restart(char *) override;
 
   // SystemFix
-  bool kicks_twice() const override { return false; }
   double next_kick_in_steps() const override;
+  Talus::Kicks kicks() const override;
   int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }

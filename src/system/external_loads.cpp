@@ -193,7 +193,7 @@ ExternalLoads::Kick ExternalLoads::kick_of(Fix &integrator, Moment moment) const
   const double dt = update->dt;
   const auto *const talus_fix = SystemFix::of(&integrator);
   Kick kick{integrator.groupbit, talus_fix, nullptr, dt, 0.0, dt, nullptr, false, false};
-  const bool twice = !talus_fix || talus_fix->kicks_twice();
+  const bool twice = !talus_fix || talus_fix->kicks().after > 0.0;
   if (talus_fix) {
     kick.time = kick.at_start = dt * talus_fix->next_kick_in_steps();
     kick.gravity = talus_fix->gravity_besides_forces();
