@@ -82,14 +82,24 @@ void ExternalLoads::drop_fix()
   loads = {};
 }
 
+bool ExternalLoads::any_has(unsigned some) const
+{
+  int mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal && !loads.empty(); i++)
+    if (loads[i].has(some)) mine = 1;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all != 0;
+}
+
+bool ExternalLoads::any() const
+{
+  return any_has(FORCE | TORQUE | DRAG | HEAT);
+}
+
 std::string ExternalLoads::needs_arrays() const
 {
-  if (system.pipeline().keeps_omega()) return "";
-  int mine = 0, any = 0;
-  for (int i = 0; i < atom->nlocal && !loads.empty(); i++)
-    if (loads[i].has(TORQUE)) mine = 1;
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  return any ? "it turns particles and the contacts between them do not" : "";
+  if (system.pipeline().keeps_omega() || !any_has(TORQUE)) return "";
+  return "it turns particles and the contacts between them do not";
 }
 
 /* ---- what is put ---------------------------------------------------------------------------- */

@@ -71,6 +71,8 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   // ---- by the fix
 
   enum class Moment { SET_UP, STEP, BETWEEN_STEPS };
+  /// Some particle has one. Collective.
+  bool any() const;
   /// Adds them to the forces.
   void act(Moment moment);
   /// At the start of a run, collective: "", or why they need the arrays of LAMMPS.
@@ -97,7 +99,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
     double for_particles[3], for_fields[3];      // since these were asked for
 
     unsigned bits() const { return static_cast<unsigned>(what); }
-    bool has(unsigned one) const { return (bits() & one) != 0; }
+    bool has(unsigned some) const { return (bits() & some) != 0; }
     void set(unsigned some) { what = bits() | some; }
     void unset(unsigned some) { what = bits() & ~some; }
     bool is_idle() const;
@@ -116,6 +118,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
     bool has_read;    ///< what begins the next step has been taken from the forces already
   };
 
+  bool any_has(unsigned some) const;
   void make_room();
   void release_if_idle();
   void find_kicks(Moment moment);

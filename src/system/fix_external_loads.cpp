@@ -4,6 +4,7 @@
 
 #include "atom.h"
 #include "error.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 using Moment = Talus::ExternalLoads::Moment;
@@ -28,6 +29,14 @@ FixExternalLoads::~FixExternalLoads()
 int FixExternalLoads::setmask()
 {
   return FixConst::POST_FORCE;
+}
+
+void FixExternalLoads::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
+    error->all(FLERR,
+               "Forces, drag or heat that another program has put on particles do not act with "
+               "run_style respa: use run_style verlet");
 }
 
 void FixExternalLoads::setup(int)

@@ -21,6 +21,7 @@ class FixExternalLoads : public Fix, public Talus::SystemFix {
   FixExternalLoads(class LAMMPS *, int, char **);
   ~FixExternalLoads() override;
   int setmask() override;
+  void init() override;
   void setup(int) override;
   void post_force(int) override;
   void reset_dt() override;

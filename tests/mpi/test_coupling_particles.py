@@ -10,21 +10,15 @@ import os
 import sys
 import unittest
 
-TESTS = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
-from talus_testing import SceneCase, Sphere, run_program, write_sphere_data
-
-SOURCE = os.environ["TALUS_SOURCE_DIR"]
-HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
-if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
-    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from coupled_case import CoupledCase
+from talus_testing import Sphere, write_sphere_data
 
 HEAD = """
 import json, math, sys
-sys.path[:0] = [{module!r}, {source!r} + "/python"]
 from lammps import lammps
 from talus import Partner, TalusError
-words = ["-log", {log!r}, "-screen", "none", "-sf", "talus"]
+words = ["-log", "log.driver", "-screen", "none", "-sf", "talus"]
 
 def scene(text, root=-1):
     global says
@@ -35,7 +29,7 @@ def scene(text, root=-1):
 
 def say(result):
     if says:
-        with open({out!r}, "w") as file:
+        with open("said", "w") as file:
             json.dump(result, file)
 
 def refusal(call, *words):
@@ -79,6 +73,33 @@ INTEGRATORS = {
     "order2": ("fix step all nve/sphere/symplectic order 2 " + GRAVITY, 0.5, 0.0),
     "verlet": ("fix weight all " + GRAVITY + "\nfix step all nve/sphere", 0.5, 0.5),
 }
+
+CLUMPS = """
+units lj
+boundary f f f
+atom_style sphere
+atom_modify map array
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+region box block -10 10 -10 10 -20 20
+create_box 1 box
+create_atoms 1 single 5 0 0.4
+create_atoms 1 single 5 0 -0.4
+create_atoms 1 single -5 0 0.4
+create_atoms 1 single -5 0 -0.4
+set group all diameter 1 mass 0.5
+set atom 1*2 mol 1
+set atom 3*4 mol 2
+pair_style gran/penalty
+pair_coeff * * hooke 1e3 0 tangential multistep NULL NULL 0.5
+neighbor 0.2 bin
+neigh_modify exclude molecule/intra all
+timestep 0.001
+{move}
+thermo {thermo}
+thermo_style custom step
+"""
 
 # a bed that is stirred by forces, torques and drag on some of its grains, put anew every few steps
 BED = """
@@ -127,22 +148,15 @@ def grains():
             for k in range(3) for j in range(6) for i in range(8)]
 
 
-class Particles(SceneCase):
+class Particles(CoupledCase):
 
-    def drive(self, body, np=1, threads=1, name="driver"):
-        """What a Python program says on its first rank."""
-        out, driver = self.path(name + ".json"), self.path(name + ".py")
-        with open(driver, "w") as file:
-            file.write(HEAD.format(module=os.path.join(HOST_SOURCE, "python"), source=SOURCE, out=out,
-                                   log=self.path("log." + name)) + body + "lmp.finalize()\n")
-        libraries = HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")
-        self.output = run_program(sys.executable, np, [driver], cwd=self.dir,
-                                  env={"LD_LIBRARY_PATH": libraries, "OMP_NUM_THREADS": threads}).output
-        with open(out) as file:
-            return json.load(file)
+    def drive(self, body, np=1, threads=1):
+        """What a Python program says."""
+        super().drive(HEAD + body + "lmp.finalize()\n", np=np, env={"OMP_NUM_THREADS": threads})
+        return self.read_json("said")
 
-    def log(self, name="driver"):
-        with open(self.path("log." + name)) as file:
+    def log(self):
+        with open(self.path("log.driver")) as file:
             return file.read()
 
     def free(self, integrator, thermo=0, friction="tangential multistep NULL NULL 0.5", extra=""):
@@ -150,18 +164,18 @@ class Particles(SceneCase):
 
     # ---- analytic answers
 
-    def expected(self, integrator, steps, force=(0.0, 0.0, 0.0), c=0.0, u=(0.0, 0.0, 0.0)):
+    def expected(self, integrator, steps, force=(0.0, 0.0, 0.0), c=0.0, u=(0.0, 0.0, 0.0), mass=MASS):
         """Velocity and drag impulse after so many steps from rest, by the rule as doc/coupling.md tells it."""
         _, first, at_end = INTEGRATORS[integrator]
         v, impulse = [0.0] * 3, [0.0] * 3
 
         def drag(time):
-            return [c * (u[d] - v[d] - time * (force[d] / MASS - (G if d == 2 else 0.0))) / (1.0 + time * c / MASS)
+            return [c * (u[d] - v[d] - time * (force[d] / mass - (G if d == 2 else 0.0))) / (1.0 + time * c / mass)
                     for d in range(3)]
 
         def kick(time, of_drag):
             for d in range(3):
-                v[d] += time * ((force[d] + of_drag[d]) / MASS - (G if d == 2 else 0.0))
+                v[d] += time * ((force[d] + of_drag[d]) / mass - (G if d == 2 else 0.0))
                 impulse[d] += time * of_drag[d]
 
         held = drag(first * DT)
@@ -418,6 +432,104 @@ lmp.close()
             for found, expected in zip(impulse, ([10 * DT * 2.0, 0, 0], [0, 10 * DT * 6.0, 0])):
                 for a, b in zip(found, expected):
                     self.assertAlmostEqual(a, b, delta=1e-15)
+
+    def test_shapes(self):
+        """Convex particles bear loads as spheres do."""
+        text = FREE.format(extra="", friction="tangential multistep NULL NULL 0.5", thermo=0, move="""
+fix shapes all shape/gran type 1 box 0.8 0.7 0.6 density 1 orient random 11
+fix weight all """ + GRAVITY)
+        body = """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1], [[0, 0, 1]], [[0, 0.01, 0]])
+    partner.put_drag([1, 2], [2.0, 500.0], [[1, 0, 0], [0, 0.5, 1]])
+    partner.advance(40)
+    say([as_lists(partner.particles([1, 2], name)) for name in ("v", "mass", "omega")] + [as_lists(partner.drag_impulses([1, 2]))])
+lmp.close()
+"""
+        v, mass, omega, impulse = self.drive(f"SCENE = {text!r}\n" + body)
+        self.assertIn("in the records", self.log())
+        self.assertGreater(abs(omega[0][1]), 0.01)
+        self.assert_close(mass[0], 0.8 * 0.7 * 0.6, 1e-12)
+        cases = {"force": (0, 0, 1), "c": 2.0, "u": (1, 0, 0)}, {"c": 500.0, "u": (0, 0.5, 1)}
+        for k, case in enumerate(cases):
+            expected_v, expected_impulse = self.expected("plain", 40, mass=mass[k], **case)
+            for d in range(3):
+                self.assertAlmostEqual(v[k][d], expected_v[d], delta=1e-13)
+                self.assertAlmostEqual(impulse[k][d], expected_impulse[d], delta=1e-13)
+
+    def clumps(self, move, thermo):
+        return CLUMPS.format(move=move, thermo=thermo)
+
+    def test_clumps(self):
+        """Two clumps of two spheres: one sinks with drag on both, the other one is turned by torques. With velocity Verlet the
+        first half kick is without loads."""
+        body = """
+result = {}
+for name, text in SCENES.items():
+    lmp, partner = scene(text)
+    with partner:
+        refused = refusal(partner.put_drag, [1, 3], [1.0, 0.6 / 0.001], [[0, 0, 0]] * 2)
+        partner.put_drag([1, 2], [3.0, 3.0], [[0, 0, 1.0]] * 2)
+        partner.put_forces([3, 4], None, [[0, 0.01, 0], [0, 0.02, 0]])
+        partner.advance(40)
+        result[name] = [as_lists(partner.particles([1, 2, 3, 4], what)) for what in ("v", "omega")] + [
+            as_lists(partner.drag_impulses([1, 2])), refused]
+    lmp.close()
+say(result)
+"""
+        moves = {"symplectic": "fix move all rigid/small/symplectic molecule " + GRAVITY,
+                 "verlet": f"fix weight all {GRAVITY}\nfix move all rigid/small molecule",
+                 "stock": f"fix weight all {GRAVITY}\nsuffix off\nfix move all rigid/small molecule"}
+        scenes = {f"{name} {thermo}": self.clumps(move, thermo) for name, move in moves.items() for thermo in (0, 1)}
+        result = self.drive(f"SCENES = {scenes!r}\n" + body)
+        mass, c, u, inertia = 0.5, 3.0, 1.0, 2 * (0.4 * 0.5 * 0.25 + 0.5 * 0.16)
+        for name in moves:
+            self.assertEqual(result[name + " 0"], result[name + " 1"], name)
+            v, omega, impulses, refused = result[name + " 0"]
+            self.assertTrue(refused.startswith("talus_put_drag: particle 3 belongs to a clump"), refused)
+            sinks, impulse, drag = 0.0, 0.0, 0.0
+            time = 40 * DT
+            for _ in range(40):
+                if name == "symplectic":
+                    drag = 2 * c * (u - sinks)
+                    sinks += DT * (drag / (2 * mass) - G)
+                    impulse += DT * drag
+                else:
+                    sinks += 0.5 * DT * (drag / (2 * mass) - G)
+                    impulse += 0.5 * DT * drag
+                    drag = 2 * c * (u - sinks)
+                    sinks += 0.5 * DT * (drag / (2 * mass) - G)
+                    impulse += 0.5 * DT * drag
+            if name != "symplectic":
+                time -= 0.5 * DT
+            for k in (0, 1):
+                self.assertAlmostEqual(v[k][2], sinks, delta=1e-13, msg=name)
+                self.assertAlmostEqual(impulses[k][2], 0.5 * impulse, delta=1e-13, msg=name)
+            for k in (2, 3):
+                self.assertAlmostEqual(omega[k][1], time * 0.03 / inertia, delta=1e-12, msg=name)
+
+    def test_fixes_that_come_later(self):
+        """Loads act after them; what is deleted takes its loads along."""
+        body = """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1, 2, 3, 4], [[0, 0, 1]] * 4)
+    partner.put_drag([1, 3], [1.0] * 2, [[1.0, 0, 0]] * 2)
+    partner.advance(5)
+    lmp.command("fix late all setforce 0 0 0")
+    lmp.command("group out id 2 3")
+    lmp.command("delete_atoms group out compress no")
+    partner.set_up()
+    before = as_lists(partner.particles([1, 4], "v"))
+    partner.advance(5)
+    say([before, as_lists(partner.particles([1, 4], "v")), refusal(partner.drag_impulses, [3])])
+lmp.close()
+"""
+        before, after, refused = self.drive(f"SCENE = {self.free('plain').replace(GRAVITY, '')!r}\n" + body, np=2)
+        self.assertAlmostEqual(after[1][2] - before[1][2], 5 * DT / MASS, delta=1e-15)
+        self.assertAlmostEqual(1 - after[0][0], (1 - before[0][0]) / (1 + DT / MASS) ** 5, delta=1e-15)
+        self.assertEqual(refused, "talus_get_drag_impulses: there is no particle 3")
 
     # ---- errors
 
