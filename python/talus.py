@@ -16,8 +16,14 @@ All methods are collective, and errors are the same on all ranks. If the block o
 the others get a TalusError with its text instead of waiting for ever."""
 
 import ctypes
+import itertools
 import os
 from collections import namedtuple
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
 
 ALL_RANKS = -1
 INTERFACE = 2
@@ -55,23 +61,40 @@ def _doubles(values, count=None):
     if values is None:
         return None
     if hasattr(values, "__array_interface__"):
-        import numpy
         values = numpy.ascontiguousarray(values, dtype=float).ravel()
         _check(len(values), count)
         array = (ctypes.c_double * len(values)).from_buffer_copy(values) if not values.flags.writeable else \
             (ctypes.c_double * len(values)).from_buffer(values)
         return array
-    values = [float(x) for x in _flat(values)]
+    values = _flat(values)
     _check(len(values), count)
     return (ctypes.c_double * len(values))(*values)
 
 
+def _integers(values):
+    if hasattr(values, "__array_interface__"):
+        return numpy.ascontiguousarray(values, dtype=numpy.int64).ctypes.data_as(ctypes.POINTER(ctypes.c_int64)), len(values)
+    values = list(map(int, values or []))
+    return (ctypes.c_int64 * len(values))(*values), len(values)
+
+
+def _array(numbers, *shape):
+    """What C has written: an array of numpy where there is numpy, else nested lists."""
+    if numpy is None:
+        numbers = list(numbers)
+        for count in reversed(shape[1:]):
+            numbers = [numbers[k:k + count] for k in range(0, len(numbers), count)]
+        return numbers
+    kind = numpy.int64 if numbers._type_ is ctypes.c_int64 else float
+    return numpy.frombuffer(numbers, dtype=kind).reshape(shape) if len(numbers) else numpy.empty(shape, kind)
+
+
 def _flat(values):
-    for x in values:
-        if hasattr(x, "__len__"):
-            yield from _flat(x)
-        else:
-            yield x
+    """Rows of rows of numbers as one list."""
+    values = list(values)
+    while values and hasattr(values[0], "__len__"):
+        values = list(itertools.chain.from_iterable(values))
+    return values
 
 
 def _check(found, count):
@@ -167,6 +190,76 @@ class Partner:
 
     def body(self, fix_id):
         return Body(self, fix_id)
+
+
+    # ---- particles, by ID: lists, or arrays of numpy
+
+    def put_forces(self, ids=(), force=None, torque=None):
+        """Forces and torques (3 each) on these particles in each step, from now on; on no others."""
+        numbers, n = _integers(ids)
+        self._call("put_forces", ctypes.c_int64(n), numbers, _doubles(force, 3 * n), _doubles(torque, 3 * n))
+
+    def put_drag(self, ids=(), coefficient=(), fluid_velocity=()):
+        """Drag c (u - v): c for each, u 3 each; taken at the new velocity v of each step."""
+        numbers, n = _integers(ids)
+        self._call("put_drag", ctypes.c_int64(n), numbers, _doubles(coefficient, n), _doubles(fluid_velocity, 3 * n))
+
+    def put_heat(self, ids=(), flow=()):
+        """Heat flow into each."""
+        numbers, n = _integers(ids)
+        self._call("put_heat", ctypes.c_int64(n), numbers, _doubles(flow, n))
+
+    def drag_impulses(self, ids):
+        """What the fluid has given these particles by drag since they were asked for last (n x 3)."""
+        numbers, n = _integers(ids)
+        impulses = (ctypes.c_double * (3 * n))()
+        self._call("get_drag_impulses", ctypes.c_int64(n), numbers, impulses)
+        return _array(impulses, n, 3) if self.lives_here else None
+
+    @property
+    def num_particles(self):
+        n = ctypes.c_int64()
+        self._call("get_num_particles", ctypes.byref(n))
+        return n.value if self.lives_here else None
+
+    def ids(self):
+        """Of all particles, ascending."""
+        n = self.num_particles or 0
+        ids = (ctypes.c_int64 * n)()
+        self._call("get_ids", ids)
+        return _array(ids, n) if self.lives_here else None
+
+    def particles(self, ids, *names):
+        """Of these particles what is named, x, v, omega (n x 3), radius, mass (n): one array, or a list of several."""
+        numbers, n = _integers(ids)
+        columns = {"x": 3, "v": 3, "omega": 3, "radius": 1, "mass": 1}
+        for name in names:
+            if name not in columns:
+                raise ValueError(f"'{name}' is none of {', '.join(columns)}")
+        arrays = {name: (ctypes.c_double * (columns[name] * n))() for name in names}
+        self._call("get_particles", ctypes.c_int64(n), numbers, *(arrays.get(name) for name in columns))
+        if not self.lives_here:
+            return None
+        found = [_array(arrays[name], *((n, 3) if columns[name] == 3 else (n,))) for name in names]
+        return found[0] if len(found) == 1 else found
+
+    # ---- fields
+
+    def field(self, lo, hi, cells, *names, width=0.0):
+        """Of the cells of a grid what is named, solid, momentum or exchange (3): one array, or a list of several; indices
+        z, y, x. width: of the kernel, 0: particles are in one cell each."""
+        columns = {"solid": 1, "momentum": 3, "exchange": 3}
+        for name in names:
+            if name not in columns:
+                raise ValueError(f"'{name}' is none of {', '.join(columns)}")
+        nx, ny, nz = (int(count) for count in cells) if self.lives_here else (0, 0, 0)
+        arrays = {name: (ctypes.c_double * (max(nx * ny * nz, 0) * columns[name]))() for name in names}
+        self._call("get_field", _doubles(lo, 3), _doubles(hi, 3), (ctypes.c_int * 3)(nx, ny, nz), ctypes.c_double(width),
+                   *(arrays.get(name) for name in columns))
+        if not self.lives_here:
+            return None
+        found = [_array(arrays[name], *((nz, ny, nx, 3) if columns[name] == 3 else (nz, ny, nx))) for name in names]
+        return found[0] if len(found) == 1 else found
 
 
 class Body:

@@ -117,13 +117,14 @@ int64_t talus_snapshot_size(const talus_snapshot *snapshot);
 /* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all of
    them. n = 0: none from now on. */
 int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force, const double *torque);
-/* A drag force c (u - v): coefficient c (mass/time, > 0) and velocity u of the fluid (3 each), taken at the new velocity v
-   of each step, so that no coefficient is too large. Held and replaced as forces are. */
+/* A drag force c (u - v): coefficient c (force/velocity, > 0) and velocity u of the fluid (3 each), taken at the new velocity
+   v of each step, so that no coefficient is too large; on spheres of clumps at the present one, with c times the time step
+   at most their mass. Held and replaced as forces are. */
 int talus_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const double *coefficient,
                    const double *fluid_velocity);
 /* Heat flow (energy/time) into particles that have a temperature. Held and replaced as forces are. */
 int talus_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const double *flow);
-/* Impulse (3 each) that the fluid has given n particles by drag since the last call of this. */
+/* Impulse (3 each) that the fluid has given n particles by drag, each since it was asked for last. */
 int talus_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id, double *impulse);
 /* Number of particles; then their IDs ascending (n of them, room for all), and of the given ones places, velocities,
    angular velocities (3 each), radii, masses. Any may be NULL. */
@@ -137,7 +138,8 @@ int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, do
 /* Means over cells of a grid, smeared as compute coarse/grid does with this width (distance units; 0: by centers): corners
    of the grid, cells along x, y, z; x runs fastest. solid: volume of particles over that of the cell. momentum: of
    particles per volume (3 each). exchange: impulse of drag per volume (3 each) since the last call of this with exchange.
-   Any may be NULL. What particles have inside the grid is in its cells to rounding. */
+   Any may be NULL. What particles with their center inside the grid have is in its cells to rounding; exchange begins anew
+   for these. */
 int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells, double width,
                     double *solid, double *momentum, double *exchange);
 

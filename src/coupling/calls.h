@@ -42,7 +42,30 @@
   CALL(get_vertex_loads,                                                                           \
        (talus_partner * partner, const char *body, int64_t *touched, int64_t *numbers,             \
         double *impulses, double *work, double *duration),                                         \
-       (partner, body, touched, numbers, impulses, work, duration))
+       (partner, body, touched, numbers, impulses, work, duration))                                \
+  CALL(put_forces,                                                                                 \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *force,                \
+        const double *torque),                                                                     \
+       (partner, n, id, force, torque))                                                            \
+  CALL(put_drag,                                                                                   \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *coefficient,          \
+        const double *fluid_velocity),                                                             \
+       (partner, n, id, coefficient, fluid_velocity))                                              \
+  CALL(put_heat, (talus_partner * partner, int64_t n, const int64_t *id, const double *flow),      \
+       (partner, n, id, flow))                                                                     \
+  CALL(get_drag_impulses,                                                                          \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *impulse),                   \
+       (partner, n, id, impulse))                                                                  \
+  CALL(get_num_particles, (talus_partner * partner, int64_t * n), (partner, n))                    \
+  CALL(get_ids, (talus_partner * partner, int64_t * id), (partner, id))                            \
+  CALL(get_particles,                                                                              \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *x, double *v,               \
+        double *omega, double *radius, double *mass),                                              \
+       (partner, n, id, x, v, omega, radius, mass))                                                \
+  CALL(get_field,                                                                                  \
+       (talus_partner * partner, const double *lo, const double *hi, const int *cells,             \
+        double width, double *solid, double *momentum, double *exchange),                          \
+       (partner, lo, hi, cells, width, solid, momentum, exchange))
 
 namespace Talus {
 

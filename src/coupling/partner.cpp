@@ -306,6 +306,35 @@ std::vector<double> talus_partner::numbers_of(const char *what, const double *gi
   return values;
 }
 
+/* ---- results -------------------------------------------------------------------------------- */
+
+void talus_partner::sum(std::vector<double> &numbers) const
+{
+  const int count = static_cast<int>(numbers.size());
+  if (root == TALUS_ALL_RANKS)
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, world());
+  else if (me == root)
+    MPI_Reduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, root, world());
+  else
+    MPI_Reduce(numbers.data(), nullptr, count, MPI_DOUBLE, MPI_SUM, root, world());
+}
+
+std::vector<std::int64_t> talus_partner::gather(const std::vector<std::int64_t> &mine) const
+{
+  const int here = static_cast<int>(mine.size());
+  std::vector<int> counts(num_ranks), first(num_ranks + 1, 0);
+  MPI_Allgather(&here, 1, MPI_INT, counts.data(), 1, MPI_INT, world());
+  for (int rank = 0; rank < num_ranks; rank++) first[rank + 1] = first[rank] + counts[rank];
+  std::vector<std::int64_t> all(lives_here() ? first[num_ranks] : 0);
+  if (root == TALUS_ALL_RANKS)
+    MPI_Allgatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
+                   MPI_INT64_T, world());
+  else
+    MPI_Gatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
+                MPI_INT64_T, root, world());
+  return all;
+}
+
 void talus_partner::command(const std::string &line)
 {
   lmp->input->one(line);
@@ -314,6 +343,7 @@ void talus_partner::command(const std::string &line)
 void talus_partner::set_up_if_needed()
 {
   if (!needs_set_up && digest_of_definitions(instance(), system()) == set_up_with) return;
+  system().external_loads().make_fix();
   command("run 0 post no");
   needs_set_up = false;
   remember_definitions();

@@ -79,6 +79,11 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
     if (lives_here() && to) std::copy(values.begin(), values.end(), to);
   }
 
+  /// Numbers of which one rank has a part and the others 0: the sums, where results are wanted.
+  void sum(std::vector<double> &numbers) const;
+  /// What all ranks have, one after another, where results are wanted.
+  std::vector<std::int64_t> gather(const std::vector<std::int64_t> &mine) const;
+
   /// A command of LAMMPS.
   void command(const std::string &line);
   /// The set-up of a run, if one is due: at first, after needs_set_up, or if there is something else to

@@ -70,6 +70,9 @@ class SystemFix {
   virtual void leave_records() {}
   /// Of an integrator: its order in the time step, 1 or 2, as its command says.
   virtual int order() const { return 1; }
+  /// Of an integrator: the acceleration that it gives to particles besides that of forces; nullptr:
+  /// none. Not to those of a fix freeze.
+  virtual const double *gravity_besides_forces() const { return nullptr; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
   /// ParticleState::change(). In the records they are kept for all.
   virtual bool keeps_changes() const { return false; }
