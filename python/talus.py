@@ -7,6 +7,7 @@
     lmp.file("in.scene")
     with Partner(lmp) as partner:
         wheel = partner.body("wheel")
+        wheel.watch()
         wheel.put_state(state, steps=10)
         partner.advance(10)
         impulse, angular_impulse, work, time = wheel.load()
@@ -16,10 +17,14 @@ the others get a TalusError with its text instead of waiting for ever."""
 
 import ctypes
 import os
+from collections import namedtuple
 
 ALL_RANKS = -1
 INTERFACE = 2
 STATE_SIZE = 13
+LOAD_SIZE = 8
+
+Load = namedtuple("Load", "impulse angular_impulse work time")
 
 _MEANING = {1: "refused", 2: "error of LAMMPS", 3: "the partner has failed", 4: "not loaded"}
 
@@ -85,10 +90,10 @@ class Partner:
         self.lmp, self.root = lmp, root
         self.lives_here = root in (ALL_RANKS, lmp.extract_setting("world_rank"))
         instance = ctypes.c_void_p(lmp.lmp.value if isinstance(lmp.lmp, ctypes.c_void_p) else lmp.lmp)
-        self._raise(self._library.talus_open(instance, ctypes.c_int(root), ctypes.byref(self._handle)))
         version = self._library.talus_interface_version()
-        if version != INTERFACE:
+        if version not in (0, INTERFACE):    # 0: no plugin, as the next call says
             raise TalusError(4, f"the plugin has version {version} of the interface, and this module {INTERFACE}")
+        self._raise(self._library.talus_open(instance, ctypes.c_int(root), ctypes.byref(self._handle)))
 
     def __enter__(self):
         return self
@@ -99,9 +104,10 @@ class Partner:
         self.close()
 
     def close(self):
+        """Before the instance is closed. The end of a block of `with` does it."""
         if self._handle:
-            self._library.talus_close(self._handle)
-            self._handle = ctypes.c_void_p()
+            handle, self._handle = self._handle, ctypes.c_void_p()
+            self._raise(self._library.talus_close(handle))
 
     def fail(self, why):
         """Instead of any other call: all ranks get a TalusError with this text from now on."""
@@ -170,3 +176,15 @@ class Body:
         numbers = (ctypes.c_double * STATE_SIZE)()
         self._call("get_body_state", numbers)
         return list(numbers) if self.partner.lives_here else None
+
+    def watch(self, point=None):
+        """Loads are summed from the next advance on. point: of the body (its frame, from the reference point), about which
+        angular impulses are; None: the reference point."""
+        self._call("watch_body", _doubles(point, 3))
+
+    def load(self):
+        """What the particles have given the body since the last call of this, or since watch(): Load(impulse (3), angular
+        impulse (3), work, time); None where the partner does not live."""
+        numbers = (ctypes.c_double * LOAD_SIZE)()
+        self._call("get_body_load", numbers)
+        return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None

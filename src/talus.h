@@ -33,7 +33,8 @@ enum {
   TALUS_OK = 0,
   TALUS_REFUSED = 1,          /* an argument is wrong; nothing was changed */
   TALUS_HOST_ERROR = 2,       /* LAMMPS ended a command with an error; the instance may be used as after any error */
-  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank: all calls but talus_close() return this from then on */
+  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank, or ranks made different calls: all calls return this
+                                 from then on */
   TALUS_NOT_LOADED = 4        /* no instance of LAMMPS has loaded the plugin, or another version of it */
 };
 
@@ -48,9 +49,11 @@ int talus_interface_version(void);
 int talus_load(void *lmp);
 /* lmp: the instance (of lammps_open(), or `handle` of an instance in Python). */
 int talus_open(void *lmp, int root, talus_partner **partner);
+/* Before the instance is closed. The partner is gone, whatever the code: TALUS_PARTNER_FAILED if another rank fails at this
+   time instead. */
 int talus_close(talus_partner *partner);
 /* Local. Text of the last call that did not return TALUS_OK, for one line of output; valid until the next call. NULL: of
-   talus_open() and talus_load(). */
+   talus_open(), talus_load() and talus_close(). */
 const char *talus_error(const talus_partner *partner);
 /* Says on one rank, instead of any call that the others make, that the partner cannot go on. The calls of all ranks then
    return TALUS_PARTNER_FAILED with this text; nobody waits for ever. */

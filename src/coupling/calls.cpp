@@ -41,9 +41,10 @@ int call_open(void *lmp, int root, talus_partner **partner)
 {
   error_without_partner.clear();
   try {
-    if (!lmp || !partner)
-      throw Refusal("talus_open: the instance of LAMMPS, or where the partner goes, is NULL");
-    *partner = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root).release();
+    if (partner) *partner = nullptr;
+    auto opened = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root);
+    opened->refuse_if(partner ? "" : "talus_open: where the partner goes is NULL");
+    *partner = opened.release();
     return TALUS_OK;
   } catch (const std::exception &problem) {
     error_without_partner = problem.what();
@@ -53,8 +54,10 @@ int call_open(void *lmp, int root, talus_partner **partner)
 
 int call_close(talus_partner *partner)
 {
-  std::unique_ptr<talus_partner> owner(partner);
-  return TALUS_OK;
+  const std::unique_ptr<talus_partner> owner(partner);
+  const int code = owner->close();
+  error_without_partner = owner->error_text();
+  return code;
 }
 
 int call_fail(talus_partner *partner, const char *why)

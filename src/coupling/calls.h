@@ -22,7 +22,11 @@
        (talus_partner * partner, const char *body, const double *state, int64_t steps),            \
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
-       (partner, body, state))
+       (partner, body, state))                                                                     \
+  CALL(watch_body, (talus_partner * partner, const char *body, const double *point),               \
+       (partner, body, point))                                                                     \
+  CALL(get_body_load, (talus_partner * partner, const char *body, double *load),                   \
+       (partner, body, load))
 
 namespace Talus {
 

@@ -9,22 +9,36 @@
 #include "exceptions.h"
 #include "input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-talus_partner::talus_partner(LAMMPS *lmp, int root_rank) : Pointers(lmp), root(root_rank)
+OwnRanks::~OwnRanks()
+{
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized) MPI_Comm_free(&comm);
+}
+
+talus_partner::talus_partner(LAMMPS *lmp, int root_rank) :
+    Pointers(lmp), ranks(Pointers::world), root(root_rank)
 {
   MPI_Comm_rank(world(), &me);
   MPI_Comm_size(world(), &num_ranks);
+  int here[2] = {root, -root}, lowest[2];
+  MPI_Allreduce(here, lowest, 2, MPI_INT, MPI_MIN, world());
+  if (lowest[0] != -lowest[1])
+    throw Refusal("talus_open: root is not the same on all ranks: " + std::to_string(lowest[0]) +
+                  " to " + std::to_string(-lowest[1]));
   if (root < TALUS_ALL_RANKS || root >= num_ranks)
     throw Refusal("talus_open: root is " + std::to_string(root) + ", expected " +
                   std::to_string(TALUS_ALL_RANKS) + " (all ranks) or a rank below " +
                   std::to_string(num_ranks));
-  granular = GranularSystem::of(lmp);
 }
 
 bool talus_partner::lives_here() const
@@ -52,18 +66,39 @@ double as_number(std::uint64_t digest)
 
 constexpr std::uint64_t of_failure = 0;
 
+/// A message of LAMMPS, without the word ERROR.
+std::string in_one_line(std::string message)
+{
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  const std::size_t last = message.find_last_not_of(' '), colon = message.find(": ");
+  message.resize(last == std::string::npos ? 0 : last + 1);
+  return message.compare(0, 5, "ERROR") == 0 && colon != std::string::npos
+             ? message.substr(colon + 2)
+             : message;
+}
+
+/// Of any length.
+template <class Number>
+void broadcast(Number *values, std::size_t count, MPI_Datatype type, int from, MPI_Comm world)
+{
+  constexpr std::size_t at_once = 1U << 30U;
+  for (std::size_t first = 0; first < count; first += at_once)
+    MPI_Bcast(values + first, static_cast<int>(std::min(at_once, count - first)), type, from,
+              world);
+}
+
 void broadcast(std::string &text, int from, MPI_Comm world)
 {
-  int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, from, world);
+  std::uint64_t size = text.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, from, world);
   text.resize(size);
-  MPI_Bcast(text.data(), size, MPI_CHAR, from, world);
+  broadcast(text.data(), size, MPI_CHAR, from, world);
 }
 
 }    // namespace
 
 /* One reduction: of the name of the call, and of the lowest rank whose partner has failed. `name`: nullptr
-   for that. */
+   for that. Ranks that make different calls have lost each other for good. */
 
 bool talus_partner::agree(const char *name)
 {
@@ -80,11 +115,9 @@ bool talus_partner::agree(const char *name)
     return false;
   }
   if (all[0] == -all[1]) return true;
-  text = std::string(name) +
-         ": not all ranks make this call: every rank makes all calls in the same order";
-  std::string first = text;
-  broadcast(first, 0, world());
-  text = first;
+  text = "not all ranks make the same call, on rank 0 " + std::string(name) +
+         ": every rank makes all calls in the same order";
+  set_failed(0);
   return false;
 }
 
@@ -103,10 +136,31 @@ int talus_partner::fail(const char *why) noexcept
   return TALUS_PARTNER_FAILED;
 }
 
+int talus_partner::close() noexcept
+{
+  if (const auto of_instance = of_last_call.lock())
+    for (const auto &work : last) work(*of_instance);
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized || !failed.empty()) return TALUS_OK;
+  text.clear();
+  return agree("talus_close") ? TALUS_OK : TALUS_PARTNER_FAILED;
+}
+
 int talus_partner::collective(const char *name, const std::function<void()> &work) noexcept
 {
   text.clear();
-  if (!agree(name)) return failed.empty() ? TALUS_REFUSED : TALUS_PARTNER_FAILED;
+  if (!agree(name)) return TALUS_PARTNER_FAILED;
+  of_last_call = granular = GranularSystem::of(lmp);
+  const int code = code_of(name, work);
+  granular.reset();
+  return code;
+}
+
+/* An error of LAMMPS on all ranks leaves it in no state to go on from without a set-up. */
+
+int talus_partner::code_of(const char *name, const std::function<void()> &work)
+{
   try {
     work();
     return TALUS_OK;
@@ -114,15 +168,25 @@ int talus_partner::collective(const char *name, const std::function<void()> &wor
     text = std::string(name) + ": " + problem.what();
     return TALUS_REFUSED;
   } catch (const LAMMPSAbortException &problem) {
-    // the other ranks wait for this one
-    text = problem.what();
-    if (num_ranks == 1) return TALUS_HOST_ERROR;
-    std::fprintf(stderr, "%s: %s\n", name, text.c_str());
-    MPI_Abort(world(), 1);
-  } catch (const std::exception &problem) {
-    text = problem.what();
+    return stop_all(name, problem);
+  } catch (const LAMMPSException &problem) {
+    text = std::string(name) + ": " + in_one_line(problem.what());
+    needs_set_up = true;
     return TALUS_HOST_ERROR;
+  } catch (const std::exception &problem) {
+    return stop_all(name, problem);
   }
+}
+
+/* The other ranks wait for this one. */
+
+int talus_partner::stop_all(const char *name, const std::exception &problem)
+{
+  text = std::string(name) + ": " + in_one_line(problem.what());
+  needs_set_up = true;
+  if (num_ranks == 1) return TALUS_HOST_ERROR;
+  std::fprintf(stderr, "%s\n", text.c_str());
+  MPI_Abort(world(), 1);
   return TALUS_HOST_ERROR;
 }
 
@@ -186,7 +250,7 @@ std::vector<std::int64_t> talus_partner::integers_of(const char *what, const std
     for (const std::int64_t value : values) digest.add(static_cast<std::uint64_t>(value));
     all_have_the_same(what, digest.value());
   } else {
-    MPI_Bcast(values.data(), static_cast<int>(count), MPI_INT64_T, root, world());
+    broadcast(values.data(), values.size(), MPI_INT64_T, root, world());
   }
   return values;
 }
@@ -208,7 +272,7 @@ std::vector<double> talus_partner::numbers_of(const char *what, const double *gi
     digest.add(values.data(), count);
     all_have_the_same(what, digest.value());
   } else {
-    MPI_Bcast(values.data(), static_cast<int>(count), MPI_DOUBLE, root, world());
+    broadcast(values.data(), values.size(), MPI_DOUBLE, root, world());
   }
   return values;
 }

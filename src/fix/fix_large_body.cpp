@@ -171,6 +171,7 @@ void FixLargeBody::follow_region()
 
 void FixLargeBody::post_integrate()
 {
+  body.begin_step();
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{},
                  system->integrators().lag());
 }
@@ -235,7 +236,7 @@ void FixLargeBody::post_force(int vflag)
   body.compute(advance, evflag ? virials.data() : nullptr);
   for (int i = 0; evflag && i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
   surface->add_step(advance ? update->dt : 0.0);
-  if (motion.driven_by_load()) body.begin_reduction();
+  if (motion.driven_by_load() || body.is_watched()) body.begin_reduction();
 }
 
 void FixLargeBody::end_of_step()

@@ -181,7 +181,7 @@ BodyStep LargeBody::step_of(bool advance)
   step.threads = comm->nthreads;
   account = system.account().part_of_step();
   step.account = accounts() ? &account : nullptr;
-  step.exact = moves ? &exact : nullptr;
+  step.exact = sums_exactly() ? &exact : nullptr;
   step.touched = touched;
   return step;
 }
@@ -196,6 +196,8 @@ bool LargeBody::join_step()
 void LargeBody::compute(bool advance, double *virial)
 {
   finish_reduction();
+  if (is_watched() && !advance) settled_impulses();    // these forces are found again
+  exact_is_known = sums_exactly();
   if (joined) {
     mine = contacts.static_load();
     account.sum = contacts.static_work();
@@ -211,6 +213,7 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
+  if (is_watched()) see_load();
   if (accounts()) {
     const double before = std::exchange(last_dissipated, account.sum.total());
     if (advance) dissipated += before;
