@@ -6,7 +6,7 @@
 #ifndef TALUS_COUPLING_CALLS_H
 #define TALUS_COUPLING_CALLS_H
 
-#include "talus.h"
+#include "coupling/talus.h"
 
 // CALL(name, parameters, arguments): all that return a code
 #define TALUS_CALLS(CALL)                                                                          \

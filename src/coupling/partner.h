@@ -6,7 +6,7 @@
 #ifndef TALUS_COUPLING_PARTNER_H
 #define TALUS_COUPLING_PARTNER_H
 
-#include "talus.h"
+#include "coupling/talus.h"
 
 #include "system/granular_system.h"
 

@@ -43,6 +43,6 @@ class CoupledCase(SceneCase):
         """A program in C that is linked with LAMMPS and libtalus.so."""
         words = compiler or [os.environ.get("TALUS_MPICC", "mpicc")]
         self.launch([*words, "-Wall", "-Werror", "-DLAMMPS_LIB_MPI", self.write(name + ".c", text), "-I",
-                     os.path.join(HOST_SOURCE, "src"), "-I", os.path.join(SOURCE, "src"), "-L", HOST, "-llammps", "-L", BUILD,
+                     os.path.join(HOST_SOURCE, "src"), "-I", os.path.join(SOURCE, "src", "coupling"), "-L", HOST, "-llammps", "-L", BUILD,
                      "-ltalus", "-o", name])
         return "./" + name
