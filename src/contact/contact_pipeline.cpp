@@ -85,6 +85,14 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
   make_room();
 }
 
+void ContactPipeline::take_back_histories(HistoryStore &from)
+{
+  leave_records();
+  from.open_unmoved(order);
+  for_chunks([&](int c) { chunks[c].start_pairs(scene, from); });
+  from.close();
+}
+
 void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
 {
   if (!scene.with_history) return;

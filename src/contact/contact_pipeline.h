@@ -71,6 +71,8 @@ class ContactPipeline {
   /// unknown until set_pairs().
   void release_records();
   void release();
+  /// Histories are those of `from` again, which were put aside with particles in these slots, and stay there.
+  void take_back_histories(HistoryStore &from);
   /// Marks the records as not current, and does nothing else: the state must be in the arrays of
   /// LAMMPS, and prepare_to_move() has to be called again.
   void leave_records() { in_records = prepared = move_pending = false; }

@@ -2,6 +2,7 @@
 
 #include "fix_gravity_talus.h"
 
+#include "base/state_exchange.h"
 #include "plain_style.h"
 #include "system/fix_list.h"
 #include "system/time_formula.h"
@@ -95,6 +96,14 @@ const double *FixGravityTalus::acceleration()
   if (varflag != CONSTANT && evaluated_at != update->ntimestep) evaluate();
   evaluated_at = update->ntimestep;
   return disable ? nullptr : gvec;
+}
+
+/* Variables are evaluated again. */
+
+void FixGravityTalus::exchange_state(Talus::StateExchange &x)
+{
+  x(eflag, egrav);
+  if (x.restores()) evaluated_at = -1;
 }
 
 void FixGravityTalus::evaluate()

@@ -42,6 +42,7 @@ class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
   std::string needs_arrays() override { return reason; }
   std::string reason_for_stock() const override { return reason; }
   void complete_step() override;
+  void exchange_state(Talus::StateExchange &x) override;
   const double *acceleration() override;
   int group_bits() const override { return groupbit; }
 

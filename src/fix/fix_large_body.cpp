@@ -175,6 +175,7 @@ void FixLargeBody::follow_region()
 
 void FixLargeBody::post_integrate()
 {
+  body.begin_step();
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{},
                  system->integrators().lag());
   if (vertices) vertices->begin_step();
@@ -242,7 +243,7 @@ void FixLargeBody::post_force(int vflag)
   for (int i = 0; evflag && i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
   surface->add_step(advance ? update->dt : 0.0);
   if (vertices) vertices->end_step(system->integrators().next_kick() / update->dt, advance);
-  if (motion.driven_by_load()) body.begin_reduction();
+  if (motion.driven_by_load() || body.is_watched()) body.begin_reduction();
 }
 
 void FixLargeBody::end_of_step()

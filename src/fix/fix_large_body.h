@@ -68,6 +68,10 @@ class FixLargeBody : public Fix,
     body.for_each_contact(requested, visit);
   }
 
+  void exchange_state(Talus::StateExchange &x) override;
+  bool exchanges_all() const override { return true; }
+  void state_is_restored() override { body.list_particles(); }
+
   // SteeredBody
   const Talus::BodyState &present_state() const override { return motion.frame().state; }
   std::string guide(const Talus::BodyState &state, int steps) override;

@@ -5,6 +5,7 @@
 
 #include "fix/fix_large_body.h"
 
+#include "base/state_exchange.h"
 #include "system/particle_count.h"
 
 #include "atom.h"
@@ -61,6 +62,14 @@ int FixLargeBody::pack_exchange(int i, double *buf)
 int FixLargeBody::unpack_exchange(int i, double *buf)
 {
   return body.history().unpack(i, buf);
+}
+
+void FixLargeBody::exchange_state(StateExchange &x)
+{
+  motion.exchange_state(x);
+  side.exchange_state(x);
+  surface->exchange_state(x);
+  body.exchange_state(x);
 }
 
 /* Version of what follows; number of particles; side of a mesh; motion; size and state of vertices that move;

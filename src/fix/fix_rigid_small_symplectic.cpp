@@ -2,6 +2,7 @@
 
 #include "fix_rigid_small_symplectic.h"
 
+#include "base/state_exchange.h"
 #include "system/command_words.h"
 #include "system/fix_list.h"
 #include "system/private_members.h"
@@ -197,9 +198,22 @@ double FixRigidSmallSymplectic::next_kick_in_steps() const
   return start.coming_kick(update->dt) / update->dt;
 }
 
+Talus::Kicks FixRigidSmallSymplectic::kicks() const
+{
+  return {start.last_kick() / update->dt, 0.0};
+}
+
 void FixRigidSmallSymplectic::write_restart(FILE *fp)
 {
   start.write_restart(fp, way_back);
+}
+
+void FixRigidSmallSymplectic::exchange_state(Talus::StateExchange &x)
+{
+  FixRigidSmallTalus::exchange_state(x);
+  double lag = start.lag();
+  x(lag, way_back);
+  start.set_lag(lag);
 }
 
 /* Velocities of spheres are those of the file until the first step. */

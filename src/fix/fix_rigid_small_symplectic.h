@@ -58,10 +58,12 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
 
   // SystemFix
   double next_kick_in_steps() const override;
+  Talus::Kicks kicks() const override;
   int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }
   void complete_step() override;
+  void exchange_state(Talus::StateExchange &x) override;
 
  protected:
   std::string find_reason() override;

@@ -67,9 +67,13 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
+  Talus::Kicks kicks() const override { return {0.5, 0.5}; }
   bool places_particles() const override { return true; }
+  bool moves_particle(int i) const override { return bodytag[i] != 0; }
   void complete_step() override;
   void leave_records() override;
+  void exchange_state(Talus::StateExchange &x) override;
+  bool exchanges_all() const override { return true; }
 
  protected:
   std::shared_ptr<Talus::GranularSystem> system;
@@ -172,6 +176,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   void exchange_rows(Message what, int size);
   const double *row_of(const ClumpSphere &sphere) const;
 
+  template <class Exchange> void exchange_rows_of_particles(Exchange &x);
   void make_table();
   void fill_lanes();
   Talus::Vector3<double> shift_of(const ClumpSphere &sphere) const;

@@ -88,6 +88,8 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
   bool moves_particle(int i) const override;
+  void exchange_state(Talus::StateExchange &x) override;
+  bool exchanges_all() const override { return true; }
 
   // SystemShapes
   bool is_shaped(int type) const override { return table.of(type) != nullptr; }

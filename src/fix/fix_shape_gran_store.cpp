@@ -4,6 +4,7 @@
 
 #include "fix/fix_shape_gran.h"
 
+#include "base/state_exchange.h"
 #include "system/particle_count.h"
 
 #include "atom.h"
@@ -78,6 +79,29 @@ int FixShapeGran::unpack_exchange(int i, double *buf)
 {
   std::copy(buf, buf + 4, quat[i]);
   return 4 + histories.unpack(i, buf + 4);
+}
+
+/* Points are kept by pair as well: in a periodic box a run goes on with those of both sides as they are. A body that
+   was touched by no particle with a shape then has none. */
+
+void FixShapeGran::exchange_state(StateExchange &x)
+{
+  if (atom->nlocal) x.array(quat[0], 4L * atom->nlocal);
+  x(histories, histories_are_current);
+  pairs.exchange_state(x);
+  for (LargeBody *body : system->bodies().in_order()) {
+    Wall &wall = wall_of(*body);
+    bool has_points = wall.points != nullptr;
+    x(has_points);
+    if (has_points && !wall.points)
+      wall.points = std::make_unique<WallPoints>(table, name_of(*body));
+    if (!has_points) wall.points.reset();
+    if (has_points) wall.points->exchange_state(x);
+  }
+  if (!x.restores()) return;
+  histories.grow(atom->nmax);
+  orientations_were_set = true;
+  set_maxexchange();
 }
 
 /* Restart files hold a version and the number of particles; of each particle the number of doubles,

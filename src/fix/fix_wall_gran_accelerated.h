@@ -128,6 +128,8 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
+  /// Histories have come with the particles.
+  void state_is_restored() override { is_listed = has_forces = false; }
   bool adds_forces() const override { return true; }
   bool is_touched() const override { return true; }
   /// Of a wall that is not accelerated there are none.

@@ -438,6 +438,11 @@ void LargeBodyMotion::to_array(double *a) const
   present.to_array(a + BodyState::size);
 }
 
+void LargeBodyMotion::exchange_state(StateExchange &x)
+{
+  x(now, clock, region_angle, external, response, half_way, present, behind, servo_rate);
+}
+
 bool LargeBodyMotion::from_array(const double *a)
 {
   if (*a++ != static_cast<double>(kind)) return false;

@@ -6,6 +6,7 @@
 #ifndef TALUS_FIX_LARGE_BODY_MOTION_H
 #define TALUS_FIX_LARGE_BODY_MOTION_H
 
+#include "base/state_exchange.h"
 #include "base/words.h"
 #include "body/contact/body_load.h"
 #include "body/motion/body_state.h"
@@ -78,6 +79,7 @@ class LargeBodyMotion : protected Pointers {
   static constexpr int size_restart = 1 + 3 * Talus::BodyState::size + 3 +
                                       Talus::ExternalMotion::size + 2 + Talus::ServoResponse::size;
   void to_array(double *a) const;
+  void exchange_state(Talus::StateExchange &x);
   /// False if the motion was of another kind: the body then begins where its words put it.
   bool from_array(const double *a);
 

@@ -43,3 +43,11 @@ void LargeBodySide::set_code(double code)
 {
   if (is_open()) mesh_shape->set_side(static_cast<MeshSide>(static_cast<int>(code)));
 }
+
+void LargeBodySide::exchange_state(StateExchange &x)
+{
+  if (!mesh_shape) return;
+  MeshSide acting = mesh_shape->side();
+  x(acting);
+  if (acting != mesh_shape->side()) mesh_shape->set_side(acting);
+}

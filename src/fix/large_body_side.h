@@ -7,6 +7,7 @@
 #ifndef TALUS_FIX_LARGE_BODY_SIDE_H
 #define TALUS_FIX_LARGE_BODY_SIDE_H
 
+#include "base/state_exchange.h"
 #include "body/motion/body_state.h"
 #include "body/shape/mesh_shape.h"
 #include "pointers.h"
@@ -29,6 +30,8 @@ class LargeBodySide : protected Pointers {
   /// For restart files; what the command says counts more.
   double code() const { return mesh_shape ? static_cast<double>(mesh_shape->side()) : 0.0; }
   void set_code(double code);
+  /// For snapshots: the side that acts.
+  void exchange_state(Talus::StateExchange &x);
 
  private:
   Talus::MeshShape *mesh_shape = nullptr;

@@ -12,6 +12,7 @@
 #ifndef TALUS_FIX_LARGE_BODY_SURFACE_H
 #define TALUS_FIX_LARGE_BODY_SURFACE_H
 
+#include "base/state_exchange.h"
 #include "base/words.h"
 #include "body/contact/body_batch.h"
 #include "body/motion/body_state.h"
@@ -56,6 +57,12 @@ class LargeBodySurface : protected Pointers {
   /// Shear work of all ranks, for restart files; read_work() begins at values[first].
   void append_work(std::vector<double> &values);
   void read_work(const std::vector<double> &values, int first);
+
+  /// For snapshots: what triangles have borne.
+  void exchange_state(Talus::StateExchange &x)
+  {
+    x(loads, loads_of_all, reduced, starts_new_sums, steps);
+  }
 
   double memory_usage() const;
 

@@ -5,6 +5,7 @@
 #include "base/in_parallel.h"
 
 #include <cstring>
+#include <numeric>
 
 namespace Talus {
 
@@ -98,6 +99,13 @@ void HistoryStore::open(const ParticleOrder &present, int num_threads)
   in_ranges(present.size(), num_threads, [&](int, int begin, int end) {
     for (int s = begin; s < end; s++) slot_then[s] = plain_slot(present.atom_of_slot[s]);
   });
+}
+
+void HistoryStore::open_unmoved(const ParticleOrder &present)
+{
+  order = &present;
+  slot_then.resize(present.size());
+  std::iota(slot_then.begin(), slot_then.end(), 0);
 }
 
 /* Of a particle that slots alone tell everything about; -1 of others. One that touched an image may

@@ -115,6 +115,11 @@ class HistoryStore {
 
   /// `present` must stay until number().
   void open(const ParticleOrder &present, int threads);
+  /// The same where particles have the slots that they had when histories were put aside: all contacts are found
+  /// by slots, those with images of own particles as well, as each side has them. What is here stays; close()
+  /// follows instead of number().
+  void open_unmoved(const ParticleOrder &present);
+  void close() { order = nullptr; }
   /// Of two slots of the present order. May be called by several threads.
   FoundHistory find(int a, int b) const
   {

@@ -72,6 +72,11 @@ void VerletProxy::setup_minimal(int flag)
   if (flag && lists) lists->list_is_new();
 }
 
+void VerletProxy::lists_are_made()
+{
+  if (lists) lists->list_is_new();
+}
+
 /* Within one machine it costs more than messages do. */
 
 void VerletProxy::decide_on_overlap()

@@ -32,6 +32,7 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   void run(int) override;
   void cleanup() override;
   std::string reason_for_stock() const override;
+  void lists_are_made() override;
 
  private:
   enum class Overlap { AUTOMATIC, YES, NO };

@@ -14,6 +14,7 @@
 #ifndef TALUS_SHAPED_SHAPED_PAIRS_H
 #define TALUS_SHAPED_SHAPED_PAIRS_H
 
+#include "base/state_exchange.h"
 #include "history/contact_lists.h"
 #include "shaped/point_batch.h"
 #include "shaped/shape_table.h"
@@ -59,6 +60,9 @@ class ShapedPairs {
   };
   /// Adds forces and torques to those of owned particles.
   void compute(const ShapedView &view, const LawTable &laws, const Step &step);
+
+  /// For snapshots: points of all pairs, which are the same when they are restored.
+  void exchange_state(StateExchange &x) { x(list, results, chunks); }
 
   /// Of the last compute(): visit(i, j, force on i, i is owned, j is owned) for pairs that touch.
   template <class Visit> void for_each_force(Visit visit) const

@@ -10,6 +10,7 @@
 #ifndef TALUS_SHAPED_WALL_POINTS_H
 #define TALUS_SHAPED_WALL_POINTS_H
 
+#include "base/state_exchange.h"
 #include "body/contact/body_batch.h"
 #include "body/contact/body_contacts.h"
 #include "shaped/body_surfaces.h"
@@ -35,6 +36,9 @@ class WallPoints {
   /// From and to the lists of its particles, see point_contact.h.
   void restore(const ContactLists &from);
   void save(ContactLists &to) const;
+
+  /// For snapshots, with the particles.
+  void exchange_state(StateExchange &x) { x(particles, chunks); }
 
   /// Adds forces and torques; returns what the body bears.
   BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,

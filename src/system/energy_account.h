@@ -9,6 +9,7 @@
 #ifndef TALUS_SYSTEM_ENERGY_ACCOUNT_H
 #define TALUS_SYSTEM_ENERGY_ACCOUNT_H
 
+#include "base/state_exchange.h"
 #include "laws/contact_energy.h"
 #include "system/contact_observer.h"
 
@@ -41,6 +42,7 @@ class EnergyAccount : protected LAMMPS_NS::Pointers {
   WorkAccount *begin_step(bool again);
   /// For the contacts of a large body or wall in a step: an empty sum, and the same particles.
   WorkAccount part_of_step() const;
+  void exchange_state(StateExchange &x) { x(settled, of_step.sum); }
   /// The sum of such a part.
   void add(const EnergyByCause &of_part) { of_step.sum += of_part; }
 

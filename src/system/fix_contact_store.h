@@ -19,6 +19,7 @@
 #ifndef LMP_FIX_CONTACT_STORE_H
 #define LMP_FIX_CONTACT_STORE_H
 
+#include "base/state_exchange.h"
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
 #include "history/history_store.h"
@@ -69,6 +70,10 @@ class FixContactStore : public Fix {
   /// bits of the groups of particles that are of no concern, nor are those that shapes know of.
   void store_velocities(int mine);
   void follow_velocities(int mine, const Talus::SystemShapes *shapes);
+
+  /// For snapshots: what owned particles carry along but histories; and these, between two runs.
+  void exchange_particles(Talus::StateExchange &x);
+  void exchange_histories(Talus::StateExchange &x);
 
   /// For RunMonitor: a position, velocity or angular velocity of this rank that is not a number.
   /// The error, collective.
@@ -122,6 +127,7 @@ class FixContactStore : public Fix {
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
   bool in_periodic_box() const;
+  void restore_changes(const std::vector<Talus::ChangeRecord> &saved);
   void refresh_key(int i);
   void store_velocity(int i);
   void take_over_sorting();

@@ -145,6 +145,44 @@ int FixContactStore::unpack_exchange(int i, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
+/* Particles are in the arrays of LAMMPS. Ghosts get theirs from them, before forces that ask for it. */
+
+void FixContactStore::exchange_particles(Talus::StateExchange &x)
+{
+  const auto n = static_cast<std::ptrdiff_t>(atom->nlocal);
+  x.array(keys.data(), n);
+  x(order);
+  std::vector<Talus::ChangeRecord> own_changes;
+  std::vector<Velocities> own_last;
+  if (with_changes) own_changes.assign(changes.begin(), changes.begin() + n);
+  if (with_last) own_last.assign(last.begin(), last.begin() + n);
+  bool had_last = with_last;
+  x(own_changes, had_last, own_last);
+  if (!x.restores()) return;
+  if (with_changes) restore_changes(own_changes);
+  with_last = with_changes && had_last;
+  last.resize(with_last ? keys.size() : 0);
+  if (with_last) std::copy(own_last.begin(), own_last.end(), last.begin());
+  for (int i = 0; guards_positions && i < atom->nlocal; i++)
+    std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
+}
+
+/* They may be kept since. */
+
+void FixContactStore::restore_changes(const std::vector<Talus::ChangeRecord> &saved)
+{
+  std::fill_n(changes.begin(), atom->nlocal, Talus::ChangeRecord{});
+  std::copy(saved.begin(), saved.end(), changes.begin());
+}
+
+void FixContactStore::exchange_histories(Talus::StateExchange &x)
+{
+  x(store);
+  if (!x.restores()) return;
+  store.resize(static_cast<int>(keys.size()));
+  current = false;
+}
+
 /* What a restart file holds of this fix: for all particles the state below, for each of them the
    number of doubles, key, name, tag, the list of contacts, and with an integrator of second
    order the changes of velocities. The version is written as a

@@ -24,9 +24,11 @@
 #include "system/effective_masses.h"
 #include "system/energy_account.h"
 #include "system/exchange_switch.h"
+#include "system/external_loads.h"
 #include "system/integrators.h"
 #include "system/large_bodies.h"
 #include "system/largest_move.h"
+#include "system/made_lists.h"
 #include "system/neighbor_source.h"
 #include "system/proxy_states.h"
 #include "system/proxy_updates.h"
@@ -54,6 +56,7 @@ class Pair;
 
 namespace Talus {
 
+class StateExchange;
 class SystemShapes;
 
 class GranularSystem : protected LAMMPS_NS::Pointers {
@@ -84,6 +87,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LargeBodies &bodies() { return large_bodies; }
   const Integrators &integrators() const { return movers; }
   Weights &weights() { return gravity; }
+  ExternalLoads &external_loads() { return loads_of_others; }
   EnergyAccount &account() { return energies; }
   /// Of the last step, for outputs.
   const RunContacts &contacts() const { return run_contacts; }
@@ -91,6 +95,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
   ExchangeSwitch &exchange() { return exchange_switch; }
   StepsInRecords &steps_in_records() { return record_steps; }
+  MadeLists &made_lists() { return lists; }
 
   /// Particles that are not spheres, nullptr: all are. Their fix registers in its constructor and
   /// unregisters in its destructor. false: there is one already.
@@ -193,6 +198,10 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// A run has ended, and what belongs to particles has been put aside.
   void end_contacts_of_run();
 
+  /// For snapshots, between two runs: what is neither of particles nor of fixes. When it is restored histories are
+  /// in the store, and particles in the slots that they had.
+  void exchange_state(StateExchange &x);
+
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
@@ -235,7 +244,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   SystemShapes *shaped = nullptr;
   Weights gravity;
+  ExternalLoads loads_of_others;
   StepsInRecords record_steps;
+  MadeLists lists;
   bool stays_in_records = false;    // after this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;

@@ -7,6 +7,7 @@
 #include "system/granular_system.h"
 #include "system/system_shapes.h"
 
+#include "base/state_exchange.h"
 #include "body/shape/mesh_shape.h"
 #include "laws/second_order_laws.h"
 
@@ -191,7 +192,7 @@ BodyStep LargeBody::step_of(bool advance)
   step.threads = comm->nthreads;
   account = system.account().part_of_step();
   step.account = accounts() ? &account : nullptr;
-  step.exact = moves ? &exact : nullptr;
+  step.exact = sums_exactly() ? &exact : nullptr;
   step.touched = touched;
   step.corners = corners;
   return step;
@@ -207,6 +208,8 @@ bool LargeBody::join_step()
 void LargeBody::compute(bool advance, double *virial)
 {
   finish_reduction();
+  if (is_watched() && !advance) settled_impulses();    // these forces are found again
+  exact_is_known = sums_exactly();
   if (joined) {
     mine = contacts.static_load();
     account.sum = contacts.static_work();
@@ -222,12 +225,27 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
+  if (is_watched()) see_load();
   if (accounts()) {
     const double before = std::exchange(last_dissipated, account.sum.total());
     if (advance) dissipated += before;
     system.account().add(account.sum);
   }
   if (already_frozen) clear_frozen();
+}
+
+/* Local indices of what was seen may be others. */
+
+void LargeBody::exchange_state(StateExchange &x)
+{
+  finish_reduction();
+  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated);
+  x.array(digits_here, size_digits);
+  x.array(digits_of_all, size_digits);
+  contacts.history.exchange_state(x);
+  if (!x.restores()) return;
+  contacts.history.grow(atom->nmax);
+  seen_between = {};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -19,6 +19,7 @@
 #define TALUS_SYSTEM_LARGE_BODY_H
 
 #include "body/contact/body_contacts.h"
+#include "body/contact/impulse_account.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/given_law.h"
 #include "system/effective_masses.h"
@@ -29,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +43,7 @@ namespace Talus {
 
 class DeformingBody;
 class GranularSystem;
+class StateExchange;
 class SteeredBody;
 
 class LargeBody : protected LAMMPS_NS::Pointers {
@@ -72,7 +75,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
     corners = touched_corners;
   }
   DeformingBody *as_deforming() const { return deforming; }
-  /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
+  /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly, as that of
+  /// a body that is watched is.
   void set_frame(const BodyFrame *body_frame, bool moves);
   /// Makes the surface for ParaView; called on all ranks, rank 0 gets all of it.
   void set_picture(std::function<VtkPolyData()> maker) { make_picture = std::move(maker); }
@@ -114,13 +118,29 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// Lets the sum over ranks go on until exact_load() is called.
   void begin_reduction();
   void finish_reduction();
-  /// Collective. Force and torque without rounding; only of bodies that move.
+  /// Collective. Force and torque without rounding; only of bodies whose load is summed exactly.
   const BodyLoad &exact_load();
   /// Collective.
   const BodyLoad &load();
   double contacts_here() const { return mine.contacts; }
+  // ---- what the particles have given to the body over many steps
+
+  /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all
+  /// that follow.
+  void watch(const Vector3<double> &point);
+  bool is_watched() const { return impulses.has_value(); }
+  void unwatch() { impulses.reset(); }
+  /// When a step begins and the body has not moved yet.
+  void begin_step();
+  /// Between two steps, up to the velocities that particles have; to be read, begun anew or saved.
+  ImpulseAccount &settled_impulses();
+
   /// Distance from the reference point within which all particles were when they were last listed.
   double reach() const { return contacts.reach(); }
+
+  /// For snapshots, between two runs: load, energies and histories; list_particles() has to follow when they
+  /// are restored.
+  void exchange_state(StateExchange &x);
 
   // ---- energies and questions
 
@@ -157,6 +177,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void set_laws();
   void keep_records(bool old_ones);
   void collect_digits();
+  bool sums_exactly() const { return moves || is_watched(); }
+  void see_load();
 
   const LAMMPS_NS::Fix *fix;
   GranularSystem &system;
@@ -189,6 +211,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   bool reduced = false;           ///< forces and torques of `total` are those of the last step
   bool total_is_known = false;    ///< all of it is
   ExactLoad exact;
+  bool exact_is_known = false;    ///< it is of the last step
+  std::optional<ImpulseAccount> impulses;
   static constexpr int size_digits = 6 * ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;

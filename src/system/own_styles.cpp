@@ -22,9 +22,9 @@ const SystemPair *SystemPair::of(const LAMMPS_NS::Pair *pair)
   return dynamic_cast<const SystemPair *>(pair);
 }
 
-const SystemRunStyle *SystemRunStyle::of(const LAMMPS_NS::Integrate *style)
+SystemRunStyle *SystemRunStyle::of(LAMMPS_NS::Integrate *style)
 {
-  return dynamic_cast<const SystemRunStyle *>(style);
+  return dynamic_cast<SystemRunStyle *>(style);
 }
 
 }    // namespace Talus

@@ -9,10 +9,12 @@
 
 #include "comm.h"
 #include "comm_brick.h"
+#include "compute.h"
 #include "fix_addforce.h"
 #include "fix_ave_atom.h"
 #include "fix_ave_chunk.h"
 #include "fix_ave_correlate.h"
+#include "fix_ave_grid.h"
 #include "fix_ave_histo.h"
 #include "fix_ave_time.h"
 #include "fix_aveforce.h"
@@ -68,6 +70,9 @@ template <class Style> using NumberOf = double Style::*;
 TALUS_PRIVATE_MEMBER(BorderGroup, int Comm::*, &Comm::bordergroup)
 TALUS_PRIVATE_MEMBER(ReducesMulti, int Comm::*, &Comm::multi_reduce)
 TALUS_PRIVATE_MEMBER(LocalSendList, int *CommBrick::*, &CommBrick::localsendlist)
+TALUS_PRIVATE_MEMBER(InstanceOfFix, int Fix::*, &Fix::instance_me)
+TALUS_PRIVATE_MEMBER(InstanceOfCompute, int Compute::*, &Compute::instance_me)
+TALUS_PRIVATE_MEMBER(InstanceOfPair, int Pair::*, &Pair::instance_me)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
 TALUS_PRIVATE_MEMBER(HybridCount, int PairHybrid::*, &PairHybrid::nstyles)
 TALUS_PRIVATE_MEMBER(HybridStyles, Pair **PairHybrid::*, &PairHybrid::styles)
@@ -132,6 +137,12 @@ TALUS_PRIVATE_MEMBER(NextAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid)
 TALUS_PRIVATE_MEMBER(NextChunk, bigint FixAveChunk::*, &FixAveChunk::nvalid)
 TALUS_PRIVATE_MEMBER(NextHisto, bigint FixAveHisto::*, &FixAveHisto::nvalid)
 TALUS_PRIVATE_MEMBER(NextCorrelate, bigint FixAveCorrelate::*, &FixAveCorrelate::nvalid)
+TALUS_PRIVATE_MEMBER(LastTime, bigint FixAveTime::*, &FixAveTime::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastChunk, bigint FixAveChunk::*, &FixAveChunk::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastGrid, bigint FixAveGrid::*, &FixAveGrid::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastHisto, bigint FixAveHisto::*, &FixAveHisto::nvalid_last)
+TALUS_PRIVATE_MEMBER(LastCorrelate, bigint FixAveCorrelate::*, &FixAveCorrelate::nvalid_last)
 TALUS_PRIVATE_MEMBER(LangevinBias, int FixLangevin::*, &FixLangevin::tbiasflag)
 TALUS_PRIVATE_MEMBER(ReflectingVariables, int FixWallReflect::*, &FixWallReflect::varflag)
 
@@ -228,6 +239,21 @@ std::array<const char *, 4> variables_of(const Region &region)
           region.*pointer_to(Angle{})};
 }
 
+int number_of_instance(const Fix &fix)
+{
+  return fix.*pointer_to(InstanceOfFix{});
+}
+
+int number_of_instance(const Compute &compute)
+{
+  return compute.*pointer_to(InstanceOfCompute{});
+}
+
+int number_of_instance(const Pair &pair)
+{
+  return pair.*pointer_to(InstanceOfPair{});
+}
+
 /* The fix as the class of its style, or nullptr. */
 
 template <class Style> static const Style *as(const Fix &fix)
@@ -243,6 +269,27 @@ bigint next_reading_of(const Fix &fix)
   if (const auto *histo = as<FixAveHisto>(fix)) return histo->*pointer_to(NextHisto{});
   if (const auto *lags = as<FixAveCorrelate>(fix)) return lags->*pointer_to(NextCorrelate{});
   return -1;
+}
+
+namespace {
+
+template <class Style, class Tag> void set_back(Fix &fix, Tag tag, bigint step)
+{
+  if (!as<Style>(fix)) return;
+  bigint &last = dynamic_cast<Style &>(fix).*pointer_to(tag);
+  last = std::min(last, step);
+}
+
+}    // namespace
+
+void let_average_again(Fix &fix, bigint step)
+{
+  set_back<FixAveTime>(fix, LastTime{}, step);
+  set_back<FixAveAtom>(fix, LastAtom{}, step);
+  set_back<FixAveChunk>(fix, LastChunk{}, step);
+  set_back<FixAveGrid>(fix, LastGrid{}, step);
+  set_back<FixAveHisto>(fix, LastHisto{}, step);
+  set_back<FixAveCorrelate>(fix, LastCorrelate{}, step);
 }
 
 FixVariables variables_of(const Fix &fix)

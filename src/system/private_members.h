@@ -15,6 +15,7 @@
 namespace LAMMPS_NS {
 class Comm;
 class CommBrick;
+class Compute;
 class Fix;
 class FixGravity;
 class Force;
@@ -49,8 +50,17 @@ bool leaves_out_small(const LAMMPS_NS::Comm &comm);
 /// in the end: to be called before it is deleted, unless fix bond/react has asked for the list.
 void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 
+/// The how manyth of all that have been made in this process.
+int number_of_instance(const LAMMPS_NS::Fix &fix);
+int number_of_instance(const LAMMPS_NS::Compute &compute);
+int number_of_instance(const LAMMPS_NS::Pair &pair);
+
 /// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
 LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);
+
+/// The step has been set back to this one: a fix that averages goes on when the step in which it reads next
+/// is reached again, and has read those before already.
+void let_average_again(LAMMPS_NS::Fix &fix, LAMMPS_NS::bigint step);
 
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);

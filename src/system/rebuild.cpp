@@ -8,6 +8,7 @@
 
 #include "system/granular_system.h"
 
+#include "base/state_exchange.h"
 #include "system/fix_contact_store.h"
 #include "system/system_shapes.h"
 
@@ -72,12 +73,25 @@ void GranularSystem::renumber_pairs()
                "rank: use more machines",
                style.name, atom->nlocal, atom->nghost);
   }
+  lists.are_new();
   gravity.find_weightless(*contact_pipeline);
   contact_store->pairs_are_numbered(contact_pipeline->particle_order());
   timer->stamp(Timer::NEIGH);
   contact_pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
   effective_masses.update();
   if (effective_masses.needed()) comm->forward_comm(pair);
+}
+
+/* What is made of all pairs, such as masses, depends on particles and lists alone. */
+
+void GranularSystem::exchange_state(StateExchange &x)
+{
+  energies.exchange_state(x);
+  run_contacts.exchange_state(x);
+  if (!x.restores()) return;
+  monitors.forget_step();
+  if (contact_store && contact_pipeline->has_pairs())
+    contact_pipeline->take_back_histories(contact_store->histories());
 }
 
 /* Where a run goes on with the other order. */

@@ -31,14 +31,12 @@ constexpr const char *kept_are_old = "Pair style {}: contacts of the last run ca
 
 void RunContacts::for_each(ContactData requested, const VisitContact &visit) const
 {
-  if (system.has_pair_style() && update->whichflag == 0) {
-    if (kept) {
-      if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, system.style_name());
-      for (const KeptContact &one : *kept) visit(at_present(one));
-      return;
-    }
-    require_those_of_last_run();
+  if (kept) {
+    if (atom->natoms != kept->particles) error->all(FLERR, kept_are_old, system.style_name());
+    for (const KeptContact &one : kept->contacts) visit(at_present(one));
+    return;
   }
+  if (system.has_pair_style() && update->whichflag == 0) require_those_of_last_run();
   visit_all(requested, visit);
 }
 
@@ -146,12 +144,32 @@ void RunContacts::keep()
 {
   if (update->whichflag != 0 || kept || !digest_after_run) return;
   if (*digest_after_run != digest_of_state()) return;    // those who ask will be told
-  std::vector<KeptContact> all;
+  kept = all_of_last_run();
+}
+
+RunContacts::Kept RunContacts::all_of_last_run() const
+{
+  Kept all;
   visit_all(ContactData::ALL, [&](const ContactReport &one) {
-    all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
+    all.contacts.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
   });
-  kept = std::move(all);
-  kept_of = atom->natoms;
+  all.particles = atom->natoms;
+  all.count = count();
+  all.deepest = deepest();
+  return all;
+}
+
+/* Those of the last step are found in the states that this has left, which a snapshot does not have. */
+
+void RunContacts::exchange_state(StateExchange &x)
+{
+  std::optional<Kept> last = kept;
+  if (!x.restores() && !last && digest_after_run && *digest_after_run == digest_of_state())
+    last = all_of_last_run();
+  x(last);
+  if (!x.restores()) return;
+  digest_after_run.reset();
+  kept = std::move(last);
 }
 
 void RunContacts::forget()
@@ -162,6 +180,7 @@ void RunContacts::forget()
 
 double RunContacts::count() const
 {
+  if (kept) return kept->count;
   const SystemShapes *shapes = system.shapes();
   return system.pipeline().count_contacts() + (shapes ? shapes->count_contacts() : 0.0);
 }
@@ -174,6 +193,7 @@ double RunContacts::count_candidates() const
 
 DeepestContact RunContacts::deepest() const
 {
+  if (kept) return kept->deepest;
   const SystemShapes *shapes = system.shapes();
   const DeepestContact spheres = system.pipeline().deepest_contact();
   return shapes ? std::max(spheres, shapes->deepest_contact()) : spheres;

@@ -54,6 +54,9 @@ class RunMonitor : protected Pointers {
   /// A run begins: everything may be said again.
   void start();
 
+  /// Steps are repeated: what has been said stays said.
+  void forget_step() { last_step = -1; }
+
   enum class Moment { SETUP, REBUILD, END };
   /// Collective: one reduction. Does nothing if it has been called for this moment before:
   /// everybody who owns a check may call it.

@@ -18,6 +18,13 @@ class Fix;
 namespace Talus {
 
 class StateDigest;
+class StateExchange;
+
+/// For how long forces act on particles in a step, over the time step: those of the step before until
+/// positions move, and those of the step at its end.
+struct Kicks {
+  double before, after;
+};
 
 /// A fix that does its work on particles in the records as well as in the arrays of LAMMPS.
 class SystemFix {
@@ -63,6 +70,9 @@ class SystemFix {
   virtual void leave_records() {}
   /// Of an integrator: its order in the time step, 1 or 2, as its command says.
   virtual int order() const { return 1; }
+  /// Of an integrator: the acceleration that it gives to particles besides that of forces; nullptr:
+  /// none. Not to those of a fix freeze.
+  virtual const double *gravity_besides_forces() const { return nullptr; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
   /// ParticleState::change(). In the records they are kept for all.
   virtual bool keeps_changes() const { return false; }
@@ -70,11 +80,23 @@ class SystemFix {
   virtual double lag() const { return 0.0; }
   /// Time of the kick that the next forces give, over the time step; between two steps.
   virtual double next_kick_in_steps() const { return 1.0; }
+  /// In a step after initial_integrate(): its kicks.
+  virtual Kicks kicks() const { return {1.0, 0.0}; }
 
   /// Its part of a step that others can see only in the arrays of LAMMPS, with the forces of
   /// contacts, bodies and weights. Called by GranularSystem::complete_step_of() in a step that LAMMPS
   /// looks at; and when particles come back from a step in the records, those that integrate last.
   virtual void complete_step() {}
+
+  // ---- snapshots (snapshot.h), between two runs
+
+  /// What it knows of the past, besides what travels with particles and what is in restart files; with
+  /// exchanges_all() that as well. When a state is restored particles are in the arrays of LAMMPS before; it may be
+  /// called twice, before ghosts and neighbor lists are there, and after it.
+  virtual void exchange_state(StateExchange & /*x*/) {}
+  virtual bool exchanges_all() const { return false; }
+  /// Everything is restored: particles of which it has lists are to be listed again.
+  virtual void state_is_restored() {}
 
  protected:
   ~SystemFix() = default;    // never deleted through this interface

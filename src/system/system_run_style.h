@@ -18,11 +18,17 @@ namespace Talus {
 class SystemRunStyle {
  public:
   /// nullptr of run styles of LAMMPS.
-  static const SystemRunStyle *of(const LAMMPS_NS::Integrate *style);
+  static SystemRunStyle *of(LAMMPS_NS::Integrate *style);
+  static const SystemRunStyle *of(const LAMMPS_NS::Integrate *style)
+  {
+    return of(const_cast<LAMMPS_NS::Integrate *>(style));
+  }
 
   /// "" if it makes the steps of this run itself, else why it calls those of LAMMPS. Valid in
   /// setup() and run().
   virtual std::string reason_for_stock() const = 0;
+  /// Neighbor lists have been made between two runs, not by it.
+  virtual void lists_are_made() = 0;
 
  protected:
   ~SystemRunStyle() = default;    // never deleted through this interface

@@ -97,6 +97,13 @@ int BodyHistory::unpack(int particle, const double *buf)
   return lists.unpack(particle, buf);
 }
 
+void BodyHistory::exchange_state(StateExchange &x)
+{
+  if (!x.restores()) put_aside();
+  x(lists);
+  are_listed = true;
+}
+
 int BodyHistory::size_packed(int particle)
 {
   put_aside();

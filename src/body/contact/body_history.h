@@ -18,6 +18,7 @@
 #define TALUS_BODY_CONTACT_BODY_HISTORY_H
 
 #include "base/aligned_vector.h"
+#include "base/state_exchange.h"
 #include "body/shape/large_body_shape.h"
 #include "history/contact_lists.h"
 #include "history/history_rows.h"
@@ -86,6 +87,9 @@ class BodyHistory {
   void put_aside();
   /// This particle has contacts there.
   bool is_aside(int particle) const { return count_aside(particle) > 0; }
+
+  /// For snapshots: what is in lists, by local index; not of walls. Candidates are to be found anew then.
+  void exchange_state(StateExchange &x);
 
   /// Before the histories of candidates change.
   void begin_step() { are_listed = false; }

@@ -1,0 +1,52 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Calls that save the state of the simulation in memory and go back to it.
+
+#include "coupling/calls.h"
+#include "coupling/partner.h"
+
+#include "system/snapshot.h"
+
+#include <memory>
+
+struct talus_snapshot {
+  Talus::Snapshot state;
+};
+
+namespace Talus {
+
+/* A set-up that is due changes what comes next: it is made before. */
+
+int call_save(talus_partner *partner, talus_snapshot **snapshot)
+{
+  return partner->collective("talus_save", [&] {
+    partner->refuse_if(snapshot ? "" : "snapshot is NULL");
+    partner->set_up_if_needed();
+    LAMMPS_NS::LAMMPS *const lmp = &partner->instance();
+    partner->refuse_if(Snapshot::reason_against(lmp, partner->system()));
+    *snapshot = new talus_snapshot{Snapshot(lmp, partner->system())};
+  });
+}
+
+int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
+{
+  return partner->collective("talus_restore", [&] {
+    partner->refuse_if(snapshot ? snapshot->state.reason_against_restoring(partner->system())
+                                : "snapshot is NULL");
+    snapshot->state.restore();
+    partner->remember_definitions();    // the number of particles is another one
+  });
+}
+
+int call_discard(talus_snapshot *snapshot)
+{
+  std::unique_ptr<talus_snapshot> owner(snapshot);
+  return TALUS_OK;
+}
+
+int64_t call_snapshot_size(const talus_snapshot *snapshot)
+{
+  return snapshot ? static_cast<int64_t>(snapshot->state.memory_usage()) : 0;
+}
+
+}    // namespace Talus
