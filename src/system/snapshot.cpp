@@ -93,9 +93,10 @@ void Snapshot::restore_lists() const
     store->histories().clear();
   }
   if (!lists.make_again())
-    throw std::runtime_error(
-        "the neighbor lists of the snapshot cannot be made again, for sizes or types of particles had "
-        "changed between the last rebuild and the snapshot: begin the steps before it with a set-up");
+    throw std::runtime_error("the neighbor lists of the snapshot cannot be made again, for sizes "
+                             "or types of particles had "
+                             "changed between the last rebuild and the snapshot: begin the steps "
+                             "before it with a set-up");
 }
 
 double Snapshot::memory_usage() const
