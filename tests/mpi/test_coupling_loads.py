@@ -11,7 +11,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import Sphere, write_sphere_data
+from talus_testing import Sphere, read_dump, write_sphere_data
 from tossed_clumps import write_clumps
 
 SCENE = """
@@ -248,6 +248,22 @@ json.dump([worst, flow], open(sys.argv[2], "w"))
 lmp.finalize()
 """
 
+# state of all particles after some steps, with a body that is watched or not
+WATCHED = """
+import sys
+from lammps import lammps
+from talus import Partner
+lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+lmp.commands_string(open(sys.argv[1]).read())
+with Partner(lmp) as partner:
+    if sys.argv[2] == "yes":
+        partner.body("body").watch()
+    for n in range(5):
+        partner.advance(40)
+lmp.command(f"write_dump all custom {sys.argv[2]} id x y z vx vy vz omegax omegay omegaz modify format float %a")
+lmp.finalize()
+"""
+
 
 def grains(n=3, spin=0.0, seed=3):
     draw = random.Random(seed)
@@ -305,6 +321,14 @@ class Loads(CoupledCase):
     def test_set_ups_change_no_bit(self):
         name = self.scene("plain", "external")
         self.assertEqual(self.ledger(name, set_ups=0)[0], self.ledger(name, set_ups=3)[0])
+
+    def test_a_look_changes_no_bit(self):
+        for move in ("none", "external"):
+            name = self.scene("verlet", move)
+            for watched in ("yes", "no"):
+                self.drive(WATCHED, name, watched)
+            (one, ), (other, ) = (read_dump(self.path(watched)) for watched in ("yes", "no"))
+            self.assert_same_bits(one, other)
 
     def test_same_bits_on_any_ranks(self):
         for integrator, move in (("plain", "external"), ("verlet", "external"), ("order 2", "free"), ("half", "none")):
