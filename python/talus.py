@@ -7,6 +7,7 @@
     lmp.file("in.scene")
     with Partner(lmp) as partner:
         wheel = partner.body("wheel")
+        wheel.watch()
         wheel.put_state(state, steps=10)
         partner.advance(10)
         impulse, angular_impulse, work, time = wheel.load()
@@ -15,11 +16,21 @@ All methods are collective, and errors are the same on all ranks. If the block o
 the others get a TalusError with its text instead of waiting for ever."""
 
 import ctypes
+import itertools
 import os
+from collections import namedtuple
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
 
 ALL_RANKS = -1
 INTERFACE = 2
 STATE_SIZE = 13
+LOAD_SIZE = 8
+
+Load = namedtuple("Load", "impulse angular_impulse work time")
 
 _MEANING = {1: "refused", 2: "error of LAMMPS", 3: "the partner has failed", 4: "not loaded"}
 
@@ -50,23 +61,40 @@ def _doubles(values, count=None):
     if values is None:
         return None
     if hasattr(values, "__array_interface__"):
-        import numpy
         values = numpy.ascontiguousarray(values, dtype=float).ravel()
         _check(len(values), count)
         array = (ctypes.c_double * len(values)).from_buffer_copy(values) if not values.flags.writeable else \
             (ctypes.c_double * len(values)).from_buffer(values)
         return array
-    values = [float(x) for x in _flat(values)]
+    values = _flat(values)
     _check(len(values), count)
     return (ctypes.c_double * len(values))(*values)
 
 
+def _integers(values):
+    if hasattr(values, "__array_interface__"):
+        return numpy.ascontiguousarray(values, dtype=numpy.int64).ctypes.data_as(ctypes.POINTER(ctypes.c_int64)), len(values)
+    values = list(map(int, values or []))
+    return (ctypes.c_int64 * len(values))(*values), len(values)
+
+
+def _array(numbers, *shape):
+    """What C has written: an array of numpy where there is numpy, else nested lists."""
+    if numpy is None:
+        numbers = list(numbers)
+        for count in reversed(shape[1:]):
+            numbers = [numbers[k:k + count] for k in range(0, len(numbers), count)]
+        return numbers
+    kind = numpy.int64 if numbers._type_ is ctypes.c_int64 else float
+    return numpy.frombuffer(numbers, dtype=kind).reshape(shape) if len(numbers) else numpy.empty(shape, kind)
+
+
 def _flat(values):
-    for x in values:
-        if hasattr(x, "__len__"):
-            yield from _flat(x)
-        else:
-            yield x
+    """Rows of rows of numbers as one list."""
+    values = list(values)
+    while values and hasattr(values[0], "__len__"):
+        values = list(itertools.chain.from_iterable(values))
+    return values
 
 
 def _check(found, count):
@@ -86,10 +114,10 @@ class Partner:
         self.lmp, self.root = lmp, root
         self.lives_here = root in (ALL_RANKS, lmp.extract_setting("world_rank"))
         instance = ctypes.c_void_p(lmp.lmp.value if isinstance(lmp.lmp, ctypes.c_void_p) else lmp.lmp)
-        self._raise(self._library.talus_open(instance, ctypes.c_int(root), ctypes.byref(self._handle)))
         version = self._library.talus_interface_version()
-        if version != INTERFACE:
+        if version not in (0, INTERFACE):    # 0: no plugin, as the next call says
             raise TalusError(4, f"the plugin has version {version} of the interface, and this module {INTERFACE}")
+        self._raise(self._library.talus_open(instance, ctypes.c_int(root), ctypes.byref(self._handle)))
 
     def __enter__(self):
         return self
@@ -100,9 +128,10 @@ class Partner:
         self.close()
 
     def close(self):
+        """Before the instance is closed. The end of a block of `with` does it."""
         if self._handle:
-            self._library.talus_close(self._handle)
-            self._handle = ctypes.c_void_p()
+            handle, self._handle = self._handle, ctypes.c_void_p()
+            self._raise(self._library.talus_close(handle))
 
     def fail(self, why):
         """Instead of any other call: all ranks get a TalusError with this text from now on."""
@@ -163,6 +192,76 @@ class Partner:
         return Body(self, fix_id)
 
 
+    # ---- particles, by ID: lists, or arrays of numpy
+
+    def put_forces(self, ids=(), force=None, torque=None):
+        """Forces and torques (3 each) on these particles in each step, from now on; on no others."""
+        numbers, n = _integers(ids)
+        self._call("put_forces", ctypes.c_int64(n), numbers, _doubles(force, 3 * n), _doubles(torque, 3 * n))
+
+    def put_drag(self, ids=(), coefficient=(), fluid_velocity=()):
+        """Drag c (u - v): c for each, u 3 each; taken at the new velocity v of each step."""
+        numbers, n = _integers(ids)
+        self._call("put_drag", ctypes.c_int64(n), numbers, _doubles(coefficient, n), _doubles(fluid_velocity, 3 * n))
+
+    def put_heat(self, ids=(), flow=()):
+        """Heat flow into each."""
+        numbers, n = _integers(ids)
+        self._call("put_heat", ctypes.c_int64(n), numbers, _doubles(flow, n))
+
+    def drag_impulses(self, ids):
+        """What the fluid has given these particles by drag since they were asked for last (n x 3)."""
+        numbers, n = _integers(ids)
+        impulses = (ctypes.c_double * (3 * n))()
+        self._call("get_drag_impulses", ctypes.c_int64(n), numbers, impulses)
+        return _array(impulses, n, 3) if self.lives_here else None
+
+    @property
+    def num_particles(self):
+        n = ctypes.c_int64()
+        self._call("get_num_particles", ctypes.byref(n))
+        return n.value if self.lives_here else None
+
+    def ids(self):
+        """Of all particles, ascending."""
+        n = self.num_particles or 0
+        ids = (ctypes.c_int64 * n)()
+        self._call("get_ids", ids)
+        return _array(ids, n) if self.lives_here else None
+
+    def particles(self, ids, *names):
+        """Of these particles what is named, x, v, omega (n x 3), radius, mass (n): one array, or a list of several."""
+        numbers, n = _integers(ids)
+        columns = {"x": 3, "v": 3, "omega": 3, "radius": 1, "mass": 1}
+        for name in names:
+            if name not in columns:
+                raise ValueError(f"'{name}' is none of {', '.join(columns)}")
+        arrays = {name: (ctypes.c_double * (columns[name] * n))() for name in names}
+        self._call("get_particles", ctypes.c_int64(n), numbers, *(arrays.get(name) for name in columns))
+        if not self.lives_here:
+            return None
+        found = [_array(arrays[name], *((n, 3) if columns[name] == 3 else (n,))) for name in names]
+        return found[0] if len(found) == 1 else found
+
+    # ---- fields
+
+    def field(self, lo, hi, cells, *names, width=0.0):
+        """Of the cells of a grid what is named, solid, momentum or exchange (3): one array, or a list of several; indices
+        z, y, x. width: of the kernel, 0: particles are in one cell each."""
+        columns = {"solid": 1, "momentum": 3, "exchange": 3}
+        for name in names:
+            if name not in columns:
+                raise ValueError(f"'{name}' is none of {', '.join(columns)}")
+        nx, ny, nz = (int(count) for count in cells) if self.lives_here else (0, 0, 0)
+        arrays = {name: (ctypes.c_double * (max(nx * ny * nz, 0) * columns[name]))() for name in names}
+        self._call("get_field", _doubles(lo, 3), _doubles(hi, 3), (ctypes.c_int * 3)(nx, ny, nz), ctypes.c_double(width),
+                   *(arrays.get(name) for name in columns))
+        if not self.lives_here:
+            return None
+        found = [_array(arrays[name], *((nz, ny, nx, 3) if columns[name] == 3 else (nz, ny, nx))) for name in names]
+        return found[0] if len(found) == 1 else found
+
+
 class Body:
     """A large body (fix large/body) of a Partner."""
 
@@ -183,6 +282,57 @@ class Body:
         numbers = (ctypes.c_double * STATE_SIZE)()
         self._call("get_body_state", numbers)
         return list(numbers) if self.partner.lives_here else None
+
+    def watch(self, point=None):
+        """Loads are summed from the next advance on. point: of the body (its frame, from the reference point), about which
+        angular impulses are; None: the reference point."""
+        self._call("watch_body", _doubles(point, 3))
+
+    def load(self):
+        """What the particles have given the body since the last call of this, or since watch(): Load(impulse (3), angular
+        impulse (3), work, time); None where the partner does not live."""
+        numbers = (ctypes.c_double * LOAD_SIZE)()
+        self._call("get_body_load", numbers)
+        return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None
+
+    # ---- meshes, and those whose vertices the partner moves; rows are lists, or arrays of numpy where it is installed, and None
+    # ---- where the partner does not live
+
+    @property
+    def mesh_size(self):
+        """Numbers of vertices and triangles; 0 where the partner does not live."""
+        if not hasattr(self, "_mesh_size"):
+            count = [ctypes.c_int64(), ctypes.c_int64()]
+            self._call("get_mesh_size", ctypes.byref(count[0]), ctypes.byref(count[1]))
+            self._mesh_size = count[0].value, count[1].value
+        return self._mesh_size
+
+    @property
+    def mesh(self):
+        """Places of the vertices now, and the numbers of the three of each triangle."""
+        vertices, triangles = self.mesh_size
+        x, corners = (ctypes.c_double * (3 * vertices))(), (ctypes.c_int64 * (3 * triangles))()
+        self._call("get_mesh", x, corners)
+        return (_rows(x, 3), _rows(corners, 3)) if self.partner.lives_here else (None, None)
+
+    def put_vertices(self, x, v=None, steps=1):
+        """The vertices (mesh ... move vertices) are to be at x (n x 3) after so many steps, with the velocities v (n x 3), or
+        those of the way; 0: at once. Where the partner does not live x is not looked at, and v is None or not as there."""
+        vertices, _ = self.mesh_size
+        count = 3 * vertices if self.partner.lives_here else None
+        self._call("put_vertices", _doubles(x, count), _doubles(v, count), ctypes.c_int64(steps))
+
+    def vertex_loads(self):
+        """Of the grains since the last call of this: numbers of the vertices that were touched, impulses on them (n x 3), work
+        done on all, time."""
+        vertices, _ = self.mesh_size
+        touched, work, time = ctypes.c_int64(), ctypes.c_double(), ctypes.c_double()
+        numbers, impulses = (ctypes.c_int64 * vertices)(), (ctypes.c_double * (3 * vertices))()
+        self._call("get_vertex_loads", ctypes.byref(touched), numbers, impulses, ctypes.byref(work), ctypes.byref(time))
+        if not self.partner.lives_here:
+            return None, None, None, None
+        count = touched.value
+        return _rows(numbers, 1, count), _rows(impulses, 3, count), work.value, time.value
 
 
 class Snapshot:
@@ -284,3 +434,15 @@ class FixedPoint:
             values = [value + factor * part for value, part in zip(values, residual)]
             before = residual
         return result, False
+
+
+def _rows(array, width, count=None):
+    """The first rows of an array of C: numbers (width 1), or lists; as arrays of numpy, if it is installed."""
+    count = len(array) // width if count is None else count
+    try:
+        import numpy
+        rows = numpy.array(array)[:count * width]
+        return rows if width == 1 else rows.reshape(count, width)
+    except ImportError:
+        flat = array[:count * width]
+        return flat if width == 1 else [flat[width * k:width * (k + 1)] for k in range(count)]

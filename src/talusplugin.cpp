@@ -159,9 +159,24 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 namespace {
 
 const Talus::CallTable *calls = nullptr;
+std::string misuse;    // of the last call, if it did not get further than here
 constexpr const char *not_loaded =
     "no instance of LAMMPS in this program has loaded the plugin that belongs to this library: set "
     "LAMMPS_PLUGIN_PATH, call talus_load(), or use 'plugin load'";
+
+/// The object that a call is about is its first argument.
+template <class First, class... Others> bool is_about_null(First first, Others...)
+{
+  return !first;
+}
+
+int refuse_null(const char *name)
+{
+  misuse = std::string(name) +
+           ": the first argument is NULL: what the call is about was not made, see "
+           "the code of the call that should have made it";
+  return TALUS_REFUSED;
+}
 
 }    // namespace
 
@@ -176,7 +191,9 @@ __attribute__((visibility("default"))) void talus_take_calls(const Talus::CallTa
 #define TALUS_FORWARD(name, parameters, arguments)                                                 \
   __attribute__((visibility("default"))) int talus_##name parameters                               \
   {                                                                                                \
-    return calls ? calls->name arguments : TALUS_NOT_LOADED;                                       \
+    misuse.clear();                                                                                \
+    if (!calls) return TALUS_NOT_LOADED;                                                           \
+    return is_about_null arguments ? refuse_null("talus_" #name) : calls->name arguments;          \
   }
 TALUS_CALLS(TALUS_FORWARD)
 #undef TALUS_FORWARD
@@ -188,7 +205,8 @@ __attribute__((visibility("default"))) int talus_interface_version()
 
 __attribute__((visibility("default"))) const char *talus_error(const talus_partner *partner)
 {
-  return calls ? calls->error(partner) : not_loaded;
+  if (!calls) return not_loaded;
+  return misuse.empty() ? calls->error(partner) : misuse.c_str();
 }
 
 __attribute__((visibility("default"))) int64_t talus_snapshot_size(const talus_snapshot *snapshot)

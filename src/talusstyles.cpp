@@ -31,6 +31,7 @@
 #include "system/compute_contact_list.h"
 #include "system/exchange_switch.h"
 #include "system/fix_contact_store.h"
+#include "system/fix_external_loads.h"
 #include "system/fix_pair_history.h"
 #include "system/lammps_compat.h"
 #include "system/system_run_style.h"
@@ -230,6 +231,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.compute<ComputeContactList>("TALUS_CONTACT_LIST", TALUS_INFO "contacts (internal)");
   registry.dump<DumpVtkGran>("vtk/gran");
   registry.fix<FixContactStore>("CONTACT_STORE", TALUS_INFO "contact history (internal)");
+  registry.fix<FixExternalLoads>("EXTERNAL_LOADS", TALUS_INFO "loads of other programs (internal)");
   registry.fix<FixPairHistory>("TALUS_PAIR_HISTORY", TALUS_INFO "contact history (internal)");
 
   Talus::ExchangeSwitch::set_maker(make_comm_proxy);

@@ -54,27 +54,12 @@ def lifter(angle, low, high, width, half):
     return [outward(t) for t in found]
 
 
-# axis y, radius 1, length 0.6, four lifters; closed
-drum = turned([(0.0, -0.3), (1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")
-view = turned([(1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")    # for pictures: one end plate left out
-for k in range(4):
-    bar = lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
-    drum += bar
-    view += bar
-write_stl("drum.stl", drum)
-write_stl("drum_view.stl", view)
-
-# axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
-height = 0.7 * math.tan(math.radians(60))
-profile = [(0.3, 0.0), (1.0, height), (1.0, height + 1.5)]
-write_stl("hopper.stl", turned(profile, 64))
-write_stl("hopper_view.stl", turned(profile, 64, first=0, last=32))    # for pictures: the half with y > 0
-
-# axis y, radius 0.9, width 0.8, sixteen grousers up to radius 1; closed
-wheel = turned([(0.0, -0.4), (0.9, -0.4), (0.9, 0.4), (0.0, 0.4)], 64, "y", inward=False)
-for k in range(16):
-    wheel += lifter(2 * math.pi * k / 16, 0.85, 1.0, 0.02, 0.4)
-write_stl("wheel.stl", wheel)
+def wheel(half_width):
+    """Axis y, radius 0.9, sixteen grousers up to radius 1; closed."""
+    found = turned([(0.0, -half_width), (0.9, -half_width), (0.9, half_width), (0.0, half_width)], 64, "y", inward=False)
+    for k in range(16):
+        found += lifter(2 * math.pi * k / 16, 0.85, 1.0, 0.02, half_width)
+    return found
 
 
 # stones of the scene gravel: corners on ellipsoids, each of which is one of the hull; sizes about 1 across
@@ -90,11 +75,37 @@ def stone(seed, corners, half):
     return [[h * c for h, c in zip(half, p)] for p in found]
 
 
-with open("../include.stones", "w") as file:
-    file.write("# Made by meshes/make_meshes.py: convex stones about 1 across, for fix shape/gran.\n\n")
-    for k, (corners, half) in enumerate(((8, (0.5, 0.45, 0.4)), (10, (0.5, 0.4, 0.3)), (12, (0.45, 0.45, 0.45)),
-                                         (14, (0.55, 0.4, 0.35))), start=1):
-        file.write(f"variable        stone{k} string \"vertices {corners}")
-        for p in stone(k, corners, half):
-            file.write(" &\n                " + " ".join(f"{c:.4f}" for c in p))
-        file.write("\"\n")
+def make_bodies():
+    # axis y, radius 1, length 0.6, four lifters; closed
+    drum = turned([(0.0, -0.3), (1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")
+    view = turned([(1.0, -0.3), (1.0, 0.3), (0.0, 0.3)], 64, "y")    # for pictures: one end plate left out
+    for k in range(4):
+        bar = lifter(0.5 * math.pi * k, 0.9, 1.05, 0.03, 0.3)
+        drum += bar
+        view += bar
+    write_stl("drum.stl", drum)
+    write_stl("drum_view.stl", view)
+
+    # axis z: outlet of radius 0.3 at height 0, cone of 60 degrees up to radius 1, then straight; open
+    height = 0.7 * math.tan(math.radians(60))
+    profile = [(0.3, 0.0), (1.0, height), (1.0, height + 1.5)]
+    write_stl("hopper.stl", turned(profile, 64))
+    write_stl("hopper_view.stl", turned(profile, 64, first=0, last=32))    # for pictures: the half with y > 0
+
+    write_stl("wheel.stl", wheel(0.4))
+
+
+def make_stones():
+    with open("../include.stones", "w") as file:
+        file.write("# Made by meshes/make_meshes.py: convex stones about 1 across, for fix shape/gran.\n\n")
+        for k, (corners, half) in enumerate(((8, (0.5, 0.45, 0.4)), (10, (0.5, 0.4, 0.3)), (12, (0.45, 0.45, 0.45)),
+                                             (14, (0.55, 0.4, 0.35))), start=1):
+            file.write(f"variable        stone{k} string \"vertices {corners}")
+            for p in stone(k, corners, half):
+                file.write(" &\n                " + " ".join(f"{c:.4f}" for c in p))
+            file.write("\"\n")
+
+
+if __name__ == "__main__":
+    make_bodies()
+    make_stones()

@@ -4,7 +4,7 @@
 
 #include "base/words.h"
 #include "system/command_words.h"
-#include "system/system_shapes.h"
+#include "system/particle_volume.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -221,13 +221,10 @@ double *ComputeCoarseGrid::moments_of(const CoarseKernel::Share &share)
 
 void ComputeCoarseGrid::add_particles()
 {
-  constexpr double sphere = 4.18879020478639098462;
   const SystemShapes *shapes = system->shapes();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double m = atom->rmass[i], r = atom->radius[i], *v = atom->v[i];
-    const bool shaped = shapes && shapes->is_shaped(atom->type[i]);
-    const double volume = shaped ? shapes->volume_of(atom->type[i]) : sphere * r * r * r;
+    const double m = atom->rmass[i], volume = particle_volume(*atom, shapes, i), *v = atom->v[i];
     for (const CoarseKernel::Share &share : kernel->of_point(row(atom->x[i]))) {
       double *to = moments_of(share);
       if (!to) continue;

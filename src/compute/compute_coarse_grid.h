@@ -7,8 +7,8 @@
 #ifndef LMP_COMPUTE_COARSE_GRID_H
 #define LMP_COMPUTE_COARSE_GRID_H
 
-#include "compute/coarse_kernel.h"
 #include "compute/grid_sum.h"
+#include "system/coarse_kernel.h"
 #include "system/contact_list.h"
 #include "system/contact_observer.h"
 #include "system/granular_system.h"

@@ -7,6 +7,7 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
+#include "system/granular_system.h"
 #include "system/large_body.h"
 #include "system/steered_body.h"
 
@@ -14,12 +15,18 @@
 
 namespace Talus {
 
+static_assert(BodyState::size == TALUS_STATE_SIZE && ImpulseAccount::size == TALUS_LOAD_SIZE);
+
 LargeBody &body_of(talus_partner &partner, const char *given)
 {
   const std::string id = partner.text_of("body", given);
   LargeBody *const body = partner.system().bodies().find(id);
-  if (!body || !body->as_steered()) throw Refusal("there is no fix large/body '" + id + "'");
-  return *body;
+  if (body && body->as_steered()) return *body;
+  std::string known;
+  for (LargeBody *one : partner.system().bodies().in_order())
+    if (one->as_steered())
+      known += std::string(known.empty() ? ", only " : ", ") + one->command()->id;
+  throw Refusal("there is no fix large/body '" + id + "'" + known);
 }
 
 int steps_ahead(talus_partner &partner, std::int64_t given)
@@ -48,6 +55,39 @@ int call_get_body_state(talus_partner *partner, const char *body, double *state)
     std::vector<double> numbers(BodyState::size);
     body_of(*partner, body).as_steered()->present_state().to_array(numbers.data());
     partner->give(state, numbers);
+  });
+}
+
+int call_watch_body(talus_partner *partner, const char *body, const double *point)
+{
+  return partner->collective("talus_watch_body", [&] {
+    LargeBody &watched = body_of(*partner, body);
+    Vector3<double> about{0.0, 0.0, 0.0};
+    if (partner->has("point", point)) {
+      const std::vector<double> numbers = partner->numbers_of("point", point, 3);
+      about = {numbers[0], numbers[1], numbers[2]};
+    }
+    watched.watch(about);
+    const std::string id = watched.command()->id;
+    partner->at_close("watch " + id, [id](GranularSystem &system) {
+      if (LargeBody *one = system.bodies().find(id)) one->unwatch();
+    });
+    partner->needs_set_up = true;    // its load is summed from then on
+  });
+}
+
+int call_get_body_load(talus_partner *partner, const char *body, double *load)
+{
+  return partner->collective("talus_get_body_load", [&] {
+    LargeBody &watched = body_of(*partner, body);
+    if (!watched.is_watched())
+      throw Refusal(watched.name() +
+                    " is not watched: call talus_watch_body() before, and again if "
+                    "the fix has been defined again");
+    partner->refuse_if(partner->lives_here() && !load ? "load is NULL" : "");
+    std::vector<double> numbers(ImpulseAccount::size);
+    watched.settled_impulses().take(numbers.data());
+    partner->give(load, numbers);
   });
 }
 

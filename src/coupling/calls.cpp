@@ -5,7 +5,9 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
+#include "fmt/format.h"
 #include "lammps.h"
+#include "lmptype.h"
 #include "update.h"
 
 #include <cmath>
@@ -42,9 +44,10 @@ int call_open(void *lmp, int root, talus_partner **partner)
 {
   error_without_partner.clear();
   try {
-    if (!lmp || !partner)
-      throw Refusal("talus_open: the instance of LAMMPS, or where the partner goes, is NULL");
-    *partner = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root).release();
+    if (partner) *partner = nullptr;
+    auto opened = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root);
+    opened->refuse_if(partner ? "" : "talus_open: where the partner goes is NULL");
+    *partner = opened.release();
     return TALUS_OK;
   } catch (const std::exception &problem) {
     error_without_partner = problem.what();
@@ -54,8 +57,10 @@ int call_open(void *lmp, int root, talus_partner **partner)
 
 int call_close(talus_partner *partner)
 {
-  std::unique_ptr<talus_partner> owner(partner);
-  return TALUS_OK;
+  const std::unique_ptr<talus_partner> owner(partner);
+  const int code = owner->close();
+  error_without_partner = owner->error_text();
+  return code;
 }
 
 int call_fail(talus_partner *partner, const char *why)
@@ -80,8 +85,12 @@ namespace {
 void advance(talus_partner &partner, std::int64_t steps)
 {
   if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
+  if (steps > MAXSMALLINT)
+    throw Refusal("steps is " + std::to_string(steps) + ", expected at most " +
+                  std::to_string(MAXSMALLINT));
   partner.set_up_if_needed();
   if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
+  partner.remember_definitions();
 }
 
 }    // namespace
@@ -96,11 +105,12 @@ int call_advance_by(talus_partner *partner, double duration)
 {
   return partner->collective("talus_advance_by", [&] {
     const double asked = partner->number_of("duration", duration),
-                 dt = partner->instance().update->dt;
-    const double steps = asked / dt, whole = std::round(steps);
+                 dt = partner->instance().update->dt, steps = asked / dt, whole = std::round(steps);
+    if (asked < 0.0) throw Refusal(fmt::format("duration is {:.8g}, expected 0 or more", asked));
     if (std::fabs(steps - whole) > 1e-6)
-      throw Refusal("duration is " + std::to_string(asked) + ", which is " + std::to_string(steps) +
-                    " time steps of " + std::to_string(dt) + ": give a whole number of them");
+      throw Refusal(fmt::format(
+          "duration is {:.8g}, which is {:.8g} time steps of {:.8g}: give a whole number of them",
+          asked, steps, dt));
     advance(*partner, static_cast<std::int64_t>(whole));
   });
 }

@@ -6,7 +6,7 @@
 #ifndef TALUS_COUPLING_CALLS_H
 #define TALUS_COUPLING_CALLS_H
 
-#include "talus.h"
+#include "coupling/talus.h"
 
 // CALL(name, parameters, arguments): all that return a code
 #define TALUS_CALLS(CALL)                                                                          \
@@ -23,9 +23,49 @@
        (partner, body, state, steps))                                                              \
   CALL(get_body_state, (talus_partner * partner, const char *body, double *state),                 \
        (partner, body, state))                                                                     \
+  CALL(watch_body, (talus_partner * partner, const char *body, const double *point),               \
+       (partner, body, point))                                                                     \
+  CALL(get_body_load, (talus_partner * partner, const char *body, double *load),                   \
+       (partner, body, load))                                                                      \
   CALL(save, (talus_partner * partner, talus_snapshot * *snapshot), (partner, snapshot))           \
   CALL(restore, (talus_partner * partner, const talus_snapshot *snapshot), (partner, snapshot))    \
-  CALL(discard, (talus_snapshot * snapshot), (snapshot))
+  CALL(discard, (talus_snapshot * snapshot), (snapshot))                                           \
+  CALL(get_mesh_size,                                                                              \
+       (talus_partner * partner, const char *body, int64_t *vertices, int64_t *triangles),         \
+       (partner, body, vertices, triangles))                                                       \
+  CALL(get_mesh, (talus_partner * partner, const char *body, double *x, int64_t *triangles),       \
+       (partner, body, x, triangles))                                                              \
+  CALL(put_vertices,                                                                               \
+       (talus_partner * partner, const char *body, const double *x, const double *v,               \
+        int64_t steps),                                                                            \
+       (partner, body, x, v, steps))                                                               \
+  CALL(get_vertex_loads,                                                                           \
+       (talus_partner * partner, const char *body, int64_t *touched, int64_t *numbers,             \
+        double *impulses, double *work, double *duration),                                         \
+       (partner, body, touched, numbers, impulses, work, duration))                                \
+  CALL(put_forces,                                                                                 \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *force,                \
+        const double *torque),                                                                     \
+       (partner, n, id, force, torque))                                                            \
+  CALL(put_drag,                                                                                   \
+       (talus_partner * partner, int64_t n, const int64_t *id, const double *coefficient,          \
+        const double *fluid_velocity),                                                             \
+       (partner, n, id, coefficient, fluid_velocity))                                              \
+  CALL(put_heat, (talus_partner * partner, int64_t n, const int64_t *id, const double *flow),      \
+       (partner, n, id, flow))                                                                     \
+  CALL(get_drag_impulses,                                                                          \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *impulse),                   \
+       (partner, n, id, impulse))                                                                  \
+  CALL(get_num_particles, (talus_partner * partner, int64_t * n), (partner, n))                    \
+  CALL(get_ids, (talus_partner * partner, int64_t * id), (partner, id))                            \
+  CALL(get_particles,                                                                              \
+       (talus_partner * partner, int64_t n, const int64_t *id, double *x, double *v,               \
+        double *omega, double *radius, double *mass),                                              \
+       (partner, n, id, x, v, omega, radius, mass))                                                \
+  CALL(get_field,                                                                                  \
+       (talus_partner * partner, const double *lo, const double *hi, const int *cells,             \
+        double width, double *solid, double *momentum, double *exchange),                          \
+       (partner, lo, hi, cells, width, solid, momentum, exchange))
 
 namespace Talus {
 

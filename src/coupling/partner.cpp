@@ -3,29 +3,69 @@
 #include "coupling/partner.h"
 
 #include "base/state_digest.h"
+#include "system/definitions.h"
 
 #include "comm.h"
 #include "error.h"
 #include "exceptions.h"
 #include "input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
+#include <locale.h>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-talus_partner::talus_partner(LAMMPS *lmp, int root_rank) : Pointers(lmp), root(root_rank)
+OwnRanks::~OwnRanks()
+{
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized) MPI_Comm_free(&comm);
+}
+
+talus_partner::talus_partner(LAMMPS *lmp, int root_rank) :
+    Pointers(lmp), ranks(Pointers::world), root(root_rank)
 {
   MPI_Comm_rank(world(), &me);
   MPI_Comm_size(world(), &num_ranks);
+  int here[2] = {root, -root}, lowest[2];
+  MPI_Allreduce(here, lowest, 2, MPI_INT, MPI_MIN, world());
+  if (lowest[0] != -lowest[1])
+    throw Refusal("talus_open: root is not the same on all ranks: " + std::to_string(lowest[0]) +
+                  " to " + std::to_string(-lowest[1]));
   if (root < TALUS_ALL_RANKS || root >= num_ranks)
     throw Refusal("talus_open: root is " + std::to_string(root) + ", expected " +
                   std::to_string(TALUS_ALL_RANKS) + " (all ranks) or a rank below " +
                   std::to_string(num_ranks));
-  granular = GranularSystem::of(lmp);
 }
+
+namespace {
+
+/// Numbers of scripts have a point, whatever the program writes. For this thread.
+class PointInNumbers {
+ public:
+  PointInNumbers() : before(uselocale(static_cast<locale_t>(nullptr)))
+  {
+    with_point = newlocale(LC_NUMERIC_MASK, "C", duplocale(before));
+    uselocale(with_point);
+  }
+  ~PointInNumbers()
+  {
+    uselocale(before);
+    freelocale(with_point);
+  }
+  PointInNumbers(const PointInNumbers &) = delete;
+  PointInNumbers &operator=(const PointInNumbers &) = delete;
+
+ private:
+  locale_t before, with_point;
+};
+
+}    // namespace
 
 bool talus_partner::lives_here() const
 {
@@ -52,18 +92,39 @@ double as_number(std::uint64_t digest)
 
 constexpr std::uint64_t of_failure = 0;
 
+/// A message of LAMMPS, without the word ERROR.
+std::string in_one_line(std::string message)
+{
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  const std::size_t last = message.find_last_not_of(' '), colon = message.find(": ");
+  message.resize(last == std::string::npos ? 0 : last + 1);
+  return message.compare(0, 5, "ERROR") == 0 && colon != std::string::npos
+             ? message.substr(colon + 2)
+             : message;
+}
+
+/// Of any length.
+template <class Number>
+void broadcast(Number *values, std::size_t count, MPI_Datatype type, int from, MPI_Comm world)
+{
+  constexpr std::size_t at_once = 1U << 30U;
+  for (std::size_t first = 0; first < count; first += at_once)
+    MPI_Bcast(values + first, static_cast<int>(std::min(at_once, count - first)), type, from,
+              world);
+}
+
 void broadcast(std::string &text, int from, MPI_Comm world)
 {
-  int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, from, world);
+  std::uint64_t size = text.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, from, world);
   text.resize(size);
-  MPI_Bcast(text.data(), size, MPI_CHAR, from, world);
+  broadcast(text.data(), size, MPI_CHAR, from, world);
 }
 
 }    // namespace
 
 /* One reduction: of the name of the call, and of the lowest rank whose partner has failed. `name`: nullptr
-   for that. */
+   for that. Ranks that make different calls have lost each other for good. */
 
 bool talus_partner::agree(const char *name)
 {
@@ -80,11 +141,9 @@ bool talus_partner::agree(const char *name)
     return false;
   }
   if (all[0] == -all[1]) return true;
-  text = std::string(name) +
-         ": not all ranks make this call: every rank makes all calls in the same order";
-  std::string first = text;
-  broadcast(first, 0, world());
-  text = first;
+  text = "not all ranks make the same call, on rank 0 " + std::string(name) +
+         ": every rank makes all calls in the same order";
+  set_failed(0);
   return false;
 }
 
@@ -103,10 +162,32 @@ int talus_partner::fail(const char *why) noexcept
   return TALUS_PARTNER_FAILED;
 }
 
+int talus_partner::close() noexcept
+{
+  if (const auto of_instance = of_last_call.lock())
+    for (const auto &[name, work] : last) work(*of_instance);
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized || !failed.empty()) return TALUS_OK;
+  text.clear();
+  return agree("talus_close") ? TALUS_OK : TALUS_PARTNER_FAILED;
+}
+
 int talus_partner::collective(const char *name, const std::function<void()> &work) noexcept
 {
   text.clear();
-  if (!agree(name)) return failed.empty() ? TALUS_REFUSED : TALUS_PARTNER_FAILED;
+  if (!agree(name)) return TALUS_PARTNER_FAILED;
+  const PointInNumbers numbers;
+  of_last_call = granular = GranularSystem::of(lmp);
+  const int code = code_of(name, work);
+  granular.reset();
+  return code;
+}
+
+/* An error of LAMMPS on all ranks leaves it in no state to go on from without a set-up. */
+
+int talus_partner::code_of(const char *name, const std::function<void()> &work)
+{
   try {
     work();
     return TALUS_OK;
@@ -114,49 +195,64 @@ int talus_partner::collective(const char *name, const std::function<void()> &wor
     text = std::string(name) + ": " + problem.what();
     return TALUS_REFUSED;
   } catch (const LAMMPSAbortException &problem) {
-    // the other ranks wait for this one
-    text = problem.what();
-    if (num_ranks == 1) return TALUS_HOST_ERROR;
-    std::fprintf(stderr, "%s: %s\n", name, text.c_str());
-    MPI_Abort(world(), 1);
-  } catch (const std::exception &problem) {
-    text = problem.what();
+    return stop_all(name, problem);
+  } catch (const LAMMPSException &problem) {
+    text = std::string(name) + ": " + in_one_line(problem.what());
+    needs_set_up = true;
     return TALUS_HOST_ERROR;
+  } catch (const std::exception &problem) {
+    return stop_all(name, problem);
   }
+}
+
+/* The other ranks wait for this one. */
+
+int talus_partner::stop_all(const char *name, const std::exception &problem)
+{
+  text = std::string(name) + ": " + in_one_line(problem.what());
+  needs_set_up = true;
+  if (num_ranks == 1) return TALUS_HOST_ERROR;
+  std::fprintf(stderr, "%s\n", text.c_str());
+  MPI_Abort(world(), 1);
   return TALUS_HOST_ERROR;
 }
 
 /* ---- arguments ------------------------------------------------------------------------------ */
 
-void talus_partner::refuse_if(const std::string &problem)
-{
-  int first = problem.empty() ? num_ranks : me, first_of_all;
-  MPI_Allreduce(&first, &first_of_all, 1, MPI_INT, MPI_MIN, world());
-  if (first_of_all == num_ranks) return;
-  std::string said = problem;
-  broadcast(said, first_of_all, world());
-  throw Refusal(said);
-}
+/* One reduction: of the lowest rank with a problem, and of what is to be the same wherever the partner
+   lives. */
 
-void talus_partner::all_have_the_same(const char *what, std::uint64_t digest)
+void talus_partner::check(const char *what, const std::string &problem, std::uint64_t digest)
 {
-  const double here[2] = {as_number(digest), -as_number(digest)};
-  double all[2];
-  MPI_Allreduce(here, all, 2, MPI_DOUBLE, MPI_MIN, world());
-  if (all[0] != -all[1])
+  const double none = std::numeric_limits<double>::max();
+  double here[3] = {problem.empty() ? none : me, none, none}, all[3];
+  if (lives_here()) {
+    here[1] = as_number(digest);
+    here[2] = -here[1];
+  }
+  MPI_Allreduce(here, all, 3, MPI_DOUBLE, MPI_MIN, world());
+  if (all[0] != none) {
+    std::string said = problem;
+    broadcast(said, static_cast<int>(all[0]), world());
+    throw Refusal(said);
+  }
+  if (all[1] != -all[2])
     throw Refusal(
         std::string(what) +
         " is not the same on all ranks: let the partner live on one, or give all the same");
 }
 
+void talus_partner::refuse_if(const std::string &problem)
+{
+  check("", problem, 0);
+}
+
 std::string talus_partner::text_of(const char *what, const char *given)
 {
-  refuse_if(lives_here() && !given ? std::string(what) + " is NULL" : "");
-  std::string value = lives_here() ? given : "";
-  if (root == TALUS_ALL_RANKS)
-    all_have_the_same(what, digest_of(value.data(), value.size()));
-  else
-    broadcast(value, root, world());
+  std::string value = lives_here() && given ? given : "";
+  check(what, lives_here() && !given ? std::string(what) + " is NULL" : "",
+        digest_of(value.data(), value.size()));
+  if (root != TALUS_ALL_RANKS) broadcast(value, root, world());
   return value;
 }
 
@@ -179,38 +275,64 @@ std::vector<std::int64_t> talus_partner::integers_of(const char *what, const std
                                                      std::int64_t count)
 {
   std::vector<std::int64_t> values(count);
-  refuse_if(lives_here() && count > 0 && !given ? std::string(what) + " is NULL" : "");
-  if (lives_here()) std::copy(given, given + count, values.begin());
-  if (root == TALUS_ALL_RANKS) {
-    StateDigest digest;
-    for (const std::int64_t value : values) digest.add(static_cast<std::uint64_t>(value));
-    all_have_the_same(what, digest.value());
-  } else {
-    MPI_Bcast(values.data(), static_cast<int>(count), MPI_INT64_T, root, world());
-  }
+  const bool missing = lives_here() && count > 0 && !given;
+  if (lives_here() && !missing) std::copy(given, given + count, values.begin());
+  StateDigest digest;
+  for (const std::int64_t value : values) digest.add(static_cast<std::uint64_t>(value));
+  check(what, missing ? std::string(what) + " is NULL" : "", digest.value());
+  if (root != TALUS_ALL_RANKS) broadcast(values.data(), values.size(), MPI_INT64_T, root, world());
   return values;
 }
 
 std::vector<double> talus_partner::numbers_of(const char *what, const double *given,
                                               std::int64_t count)
 {
-  std::string problem;
-  if (lives_here() && count > 0 && !given) problem = std::string(what) + " is NULL";
-  for (std::int64_t k = 0; problem.empty() && lives_here() && k < count; k++)
-    if (!std::isfinite(given[k]))
-      problem = std::string(what) + (count > 1 ? "[" + std::to_string(k) + "]" : "") +
-                " is no finite number";
-  refuse_if(problem);
   std::vector<double> values(count);
-  if (lives_here()) std::copy(given, given + count, values.begin());
-  if (root == TALUS_ALL_RANKS) {
-    StateDigest digest;
-    digest.add(values.data(), count);
-    all_have_the_same(what, digest.value());
-  } else {
-    MPI_Bcast(values.data(), static_cast<int>(count), MPI_DOUBLE, root, world());
-  }
+  std::string problem;
+  if (lives_here() && count > 0 && !given)
+    problem = std::string(what) + " is NULL";
+  else if (lives_here())
+    std::copy(given, given + count, values.begin());
+  const auto wrong =
+      std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (wrong != values.end())
+    problem = std::string(what) +
+              (count > 1 ? "[" + std::to_string(wrong - values.begin()) + "]" : "") +
+              " is no finite number";
+  StateDigest digest;
+  digest.add(values.data(), count);
+  check(what, problem, digest.value());
+  if (root != TALUS_ALL_RANKS) broadcast(values.data(), values.size(), MPI_DOUBLE, root, world());
   return values;
+}
+
+/* ---- results -------------------------------------------------------------------------------- */
+
+void talus_partner::sum(std::vector<double> &numbers) const
+{
+  const int count = static_cast<int>(numbers.size());
+  if (root == TALUS_ALL_RANKS)
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, world());
+  else if (me == root)
+    MPI_Reduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, root, world());
+  else
+    MPI_Reduce(numbers.data(), nullptr, count, MPI_DOUBLE, MPI_SUM, root, world());
+}
+
+std::vector<std::int64_t> talus_partner::gather(const std::vector<std::int64_t> &mine) const
+{
+  const int here = static_cast<int>(mine.size());
+  std::vector<int> counts(num_ranks), first(num_ranks + 1, 0);
+  MPI_Allgather(&here, 1, MPI_INT, counts.data(), 1, MPI_INT, world());
+  for (int rank = 0; rank < num_ranks; rank++) first[rank + 1] = first[rank] + counts[rank];
+  std::vector<std::int64_t> all(lives_here() ? first[num_ranks] : 0);
+  if (root == TALUS_ALL_RANKS)
+    MPI_Allgatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
+                   MPI_INT64_T, world());
+  else
+    MPI_Gatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
+                MPI_INT64_T, root, world());
+  return all;
 }
 
 void talus_partner::command(const std::string &line)
@@ -220,7 +342,14 @@ void talus_partner::command(const std::string &line)
 
 void talus_partner::set_up_if_needed()
 {
-  if (!needs_set_up) return;
+  if (!needs_set_up && digest_of_definitions(instance(), system()) == set_up_with) return;
+  system().external_loads().make_fix();
   command("run 0 post no");
   needs_set_up = false;
+  remember_definitions();
+}
+
+void talus_partner::remember_definitions()
+{
+  set_up_with = digest_of_definitions(instance(), system());
 }

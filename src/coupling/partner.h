@@ -6,7 +6,7 @@
 #ifndef TALUS_COUPLING_PARTNER_H
 #define TALUS_COUPLING_PARTNER_H
 
-#include "talus.h"
+#include "coupling/talus.h"
 
 #include "system/granular_system.h"
 
@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -27,9 +28,19 @@ class Refusal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The ranks of a LAMMPS instance, with messages of their own: not those of LAMMPS.
+class OwnRanks {
+ public:
+  explicit OwnRanks(MPI_Comm of_instance) { MPI_Comm_dup(of_instance, &comm); }
+  ~OwnRanks();
+  OwnRanks(const OwnRanks &) = delete;
+  OwnRanks &operator=(const OwnRanks &) = delete;
+  MPI_Comm comm = MPI_COMM_NULL;
+};
+
 }    // namespace Talus
 
-/// A program that shares the simulation. Collective, but for error(); by one thread.
+/// A program that shares the simulation. Collective, but for error_text(); by one thread.
 struct talus_partner : protected LAMMPS_NS::Pointers {
  public:
   /// `root`: rank on which it lives, or TALUS_ALL_RANKS. Throws Refusal.
@@ -41,6 +52,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   int collective(const char *name, const std::function<void()> &work) noexcept;
   /// In the place of any call. Returns TALUS_PARTNER_FAILED.
   int fail(const char *why) noexcept;
+  /// The last call. Does what was left for it, unless the instance or its system is gone.
+  int close() noexcept;
   /// Of the last call.
   const std::string &error_text() const { return text; }
 
@@ -66,24 +79,44 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
     if (lives_here() && to) std::copy(values.begin(), values.end(), to);
   }
 
+  /// Numbers of which one rank has a part and the others 0: the sums, where results are wanted.
+  void sum(std::vector<double> &numbers) const;
+  /// What all ranks have, one after another, where results are wanted.
+  std::vector<std::int64_t> gather(const std::vector<std::int64_t> &mine) const;
+
   /// A command of LAMMPS.
   void command(const std::string &line);
-  /// The set-up of a run, if one is due.
+  /// The set-up of a run, if one is due: at first, after needs_set_up, or if there is something else to
+  /// set up than at the end of the last one, see digest_of_definitions().
   void set_up_if_needed();
+  /// A run has ended.
+  void remember_definitions();
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
-
+  /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
+  /// ends.
+  void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)
+  {
+    last[name] = work;
+  }
+  /// See GranularSystem: that of the instance while the call lasts, for `clear` makes another one.
   Talus::GranularSystem &system() { return *granular; }
-  MPI_Comm world() const { return Pointers::world; }
+  MPI_Comm world() const { return ranks.comm; }
 
  private:
+  std::uint64_t set_up_with = 0;
   bool agree(const char *name);
-  void all_have_the_same(const char *what, std::uint64_t digest);
+  int code_of(const char *name, const std::function<void()> &work);
+  int stop_all(const char *name, const std::exception &problem);
+  void check(const char *what, const std::string &problem, std::uint64_t digest);
   void set_failed(int rank);
 
+  Talus::OwnRanks ranks;
   const int root;
   int me, num_ranks;
   std::shared_ptr<Talus::GranularSystem> granular;
+  std::weak_ptr<Talus::GranularSystem> of_last_call;
+  std::map<std::string, std::function<void(Talus::GranularSystem &)>> last;
   std::string text;
   std::string failed;    // "" or why the partner is gone
 };

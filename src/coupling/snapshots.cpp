@@ -34,6 +34,7 @@ int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
     partner->refuse_if(snapshot ? snapshot->state.reason_against_restoring(partner->system())
                                 : "snapshot is NULL");
     snapshot->state.restore();
+    partner->remember_definitions();    // the number of particles is another one
   });
 }
 

@@ -42,7 +42,11 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   surface = std::make_unique<LargeBodySurface>(lmp, body.shape());
   side.watch(body.shape());
   parse_keywords(words);
-  motion.finish(body.shape().reference_point());
+  motion.finish(body.shape());
+  if (motion.deforms()) {
+    vertices = std::make_unique<LargeBodyVertices>(lmp, *body.shape().as_mesh());
+    body.set_deforming(*this, vertices->touched());
+  }
   body.set_frame(&motion.frame(), motion.moves());
   follow_region();
   if (surface->records()) body.set_touched(surface->touched());
@@ -171,8 +175,10 @@ void FixLargeBody::follow_region()
 
 void FixLargeBody::post_integrate()
 {
+  body.begin_step();
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{},
                  system->integrators().lag());
+  if (vertices) vertices->begin_step();
 }
 
 void FixLargeBody::setup_post_neighbor()
@@ -213,6 +219,7 @@ void FixLargeBody::setup(int vflag)
 
 void FixLargeBody::min_setup(int vflag)
 {
+  if (MeshShape *mesh = vertices ? body.shape().as_mesh() : nullptr) mesh->moving()->stand_still();
   post_force(vflag);
 }
 
@@ -235,7 +242,8 @@ void FixLargeBody::post_force(int vflag)
   body.compute(advance, evflag ? virials.data() : nullptr);
   for (int i = 0; evflag && i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
   surface->add_step(advance ? update->dt : 0.0);
-  if (motion.driven_by_load()) body.begin_reduction();
+  if (vertices) vertices->end_step(system->integrators().next_kick() / update->dt, advance);
+  if (motion.driven_by_load() || body.is_watched()) body.begin_reduction();
 }
 
 void FixLargeBody::end_of_step()
@@ -259,4 +267,9 @@ std::string FixLargeBody::guide(const BodyState &state, int steps)
   const double reach_here = body.reach();
   MPI_Allreduce(&reach_here, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
   return motion.guide(state, steps, neighbor->skin, reach);
+}
+
+std::string FixLargeBody::guide_vertices(const Places &places, const Places *velocities, int steps)
+{
+  return body.shape().as_mesh()->guide(places, velocities, steps, update->dt, neighbor->skin);
 }

@@ -16,7 +16,9 @@
 #include "fix/large_body_motion.h"
 #include "fix/large_body_side.h"
 #include "fix/large_body_surface.h"
+#include "fix/large_body_vertices.h"
 #include "laws/contact_words.h"
+#include "system/deforming_body.h"
 #include "system/granular_system.h"
 #include "system/large_body.h"
 #include "system/steered_body.h"
@@ -26,7 +28,10 @@
 
 namespace LAMMPS_NS {
 
-class FixLargeBody : public Fix, public Talus::SystemFix, public Talus::SteeredBody {
+class FixLargeBody : public Fix,
+                     public Talus::SystemFix,
+                     public Talus::SteeredBody,
+                     public Talus::DeformingBody {
  public:
   FixLargeBody(class LAMMPS *, int, char **);
   ~FixLargeBody() override;
@@ -71,6 +76,10 @@ class FixLargeBody : public Fix, public Talus::SystemFix, public Talus::SteeredB
   const Talus::BodyState &present_state() const override { return motion.frame().state; }
   std::string guide(const Talus::BodyState &state, int steps) override;
 
+  // DeformingBody
+  std::string guide_vertices(const Places &places, const Places *velocities, int steps) override;
+  Talus::VertexImpulses take_impulses() override { return vertices->take(); }
+
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
@@ -95,6 +104,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix, public Talus::SteeredB
   Talus::LargeBody &body;    // owned by the system
   bool two_sided = false;
   LargeBodyMotion motion;
+  std::unique_ptr<LargeBodyVertices> vertices;    // of a mesh whose vertices move
   std::unique_ptr<LargeBodySurface> surface;
   LargeBodySide side;
   LargeBodyMonitor monitor;

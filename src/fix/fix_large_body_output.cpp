@@ -34,6 +34,12 @@ void FixLargeBody::add_to(StateDigest &digest) const
   double state[BodyState::size];
   motion.frame().state.to_array(state);
   digest.add(state, BodyState::size);
+  if (const MovingVertices *moving = motion.frame().vertices)
+    for (int v = 0; v < moving->num_own(); v++) {
+      const Vector3<double> &x = moving->place(v);
+      const double place[3] = {x.x, x.y, x.z};
+      digest.add(place, 3);
+    }
 }
 
 double FixLargeBody::compute_scalar()
@@ -53,5 +59,5 @@ int FixLargeBody::image(int *&kinds, double **&values)
 
 double FixLargeBody::memory_usage()
 {
-  return body.memory_usage() + surface->memory_usage();
+  return body.memory_usage() + surface->memory_usage() + (vertices ? vertices->memory_usage() : 0.0);
 }

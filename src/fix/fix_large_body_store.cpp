@@ -21,7 +21,7 @@ using namespace Talus;
 namespace {
 
 // Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -6.0;
+constexpr double restart_version = -7.0;
 constexpr int size_head = 3;
 constexpr int restart_header = 2;    // of a particle: number of doubles, ID
 
@@ -72,7 +72,8 @@ void FixLargeBody::exchange_state(StateExchange &x)
   body.exchange_state(x);
 }
 
-/* Version of what follows; number of particles; side of a mesh; motion; what triangles have borne.
+/* Version of what follows; number of particles; side of a mesh; motion; size and state of vertices that move;
+   what triangles have borne.
    LAMMPS does not move what it has read for us when particles are deleted before this fix is
    defined: the number tells. */
 
@@ -84,6 +85,10 @@ void FixLargeBody::write_restart(FILE *fp)
   values[1] = static_cast<double>(particles);
   values[2] = side.code();
   motion.to_array(&values[size_head]);
+  values.push_back(0.0);
+  const std::size_t before = values.size();
+  if (vertices) vertices->to_array(values);
+  values[before - 1] = static_cast<double>(values.size() - before);
   surface->append_work(values);    // sums over ranks
   if (comm->me) return;
   const int size = static_cast<int>(values.size() * sizeof(double));
@@ -112,12 +117,21 @@ void FixLargeBody::restart(char *buf)
                "read_restart",
                id);
   side.set_code(values[2]);
-  if (!motion.from_array(&values[size_head]) && comm->me == 0)
+  const double *const of_vertices = &values[size_head + LargeBodyMotion::size_restart];
+  const int size_vertices = static_cast<int>(*of_vertices);
+  const bool same_motion = motion.from_array(&values[size_head]);
+  if (!same_motion && comm->me == 0)
     error->warning(FLERR,
                    "Fix large/body {}: the restart file has another kind of motion: the body "
                    "begins where this command puts it",
                    id);
-  surface->read_work(values, size_head + LargeBodyMotion::size_restart);
+  if (same_motion && vertices &&
+      !vertices->from_array(of_vertices + 1, of_vertices + 1 + size_vertices))
+    error->all(FLERR,
+               "Fix large/body {}: the mesh of the restart file had another number of vertices: use "
+               "the same file and words",
+               id);
+  surface->read_work(values, size_head + LargeBodyMotion::size_restart + 1 + size_vertices);
 }
 
 int FixLargeBody::pack_restart(int i, double *buf)

@@ -208,6 +208,11 @@ double FixNVESphereSymplectic::next_kick_in_steps() const
   return start.coming_kick(update->dt) / update->dt;
 }
 
+Talus::Kicks FixNVESphereSymplectic::kicks() const
+{
+  return {start.last_kick() / update->dt, 0.0};
+}
+
 /* ---------------------------------------------------------------------- */
 
 int FixNVESphereSymplectic::nmoving() const

@@ -69,6 +69,8 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   double next_kick_in_steps() const override;
+  const double *gravity_besides_forces() const override { return gravity.acceleration(); }
+  Talus::Kicks kicks() const override;
   bool keeps_changes() const override { return true; }
 
   void write_restart(FILE *) override;

@@ -47,6 +47,7 @@ class FixNVESphereTalus : public FixNVESphere, public Talus::SystemFix {
   std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
+  Talus::Kicks kicks() const override { return {0.5, 0.5}; }
   void complete_step() override;
 
  private:

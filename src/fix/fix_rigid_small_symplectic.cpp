@@ -198,6 +198,11 @@ double FixRigidSmallSymplectic::next_kick_in_steps() const
   return start.coming_kick(update->dt) / update->dt;
 }
 
+Talus::Kicks FixRigidSmallSymplectic::kicks() const
+{
+  return {start.last_kick() / update->dt, 0.0};
+}
+
 void FixRigidSmallSymplectic::write_restart(FILE *fp)
 {
   start.write_restart(fp, way_back);

@@ -58,6 +58,7 @@ class FixRigidSmallSymplectic : public FixRigidSmallTalus {
 
   // SystemFix
   double next_kick_in_steps() const override;
+  Talus::Kicks kicks() const override;
   int order() const override { return integration_order; }
   double lag() const override { return start.lag(); }
   bool keeps_changes() const override { return true; }

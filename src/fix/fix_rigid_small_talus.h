@@ -67,7 +67,9 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   std::string needs_arrays() override;
   std::string reason_for_stock() const override { return reason; }
   bool integrates() const override { return true; }
+  Talus::Kicks kicks() const override { return {0.5, 0.5}; }
   bool places_particles() const override { return true; }
+  bool moves_particle(int i) const override { return bodytag[i] != 0; }
   void complete_step() override;
   void leave_records() override;
   void exchange_state(Talus::StateExchange &x) override;

@@ -242,6 +242,7 @@ BodyLoad FixShapeGran::touch_body(LargeBody &body, const BodyStep &step)
     list_particles(body, *wall.points);
   }
   if (step.advance) histories_are_current = false;
+  wall.surfaces->follow();
   return wall.points->compute(*wall.surfaces, body.present_frame(), view(), body.law_table(), step);
 }
 

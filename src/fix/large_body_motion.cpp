@@ -70,7 +70,7 @@ bool LargeBodyMotion::parse(Words &words)
 void LargeBodyMotion::parse_move(Words &words)
 {
   static const std::vector<std::string> styles = {"none",     "linear",   "wiggle", "rotate",
-                                                  "variable", "external", "free"};
+                                                  "variable", "external", "free",   "vertices"};
   const std::string style = styles[words.choice("style of motion", styles)];
   words.about("move " + style);
   kind = Kind::PRESCRIBED;
@@ -97,6 +97,8 @@ void LargeBodyMotion::parse_move(Words &words)
     parse_variable(words);
   } else if (style == "external") {
     kind = Kind::EXTERNAL;
+  } else if (style == "vertices") {
+    kind = Kind::VERTICES;
   } else {
     kind = Kind::FREE;
     parse_free(words);
@@ -169,15 +171,24 @@ LargeBodyMotion::Quantity LargeBodyMotion::quantity(Words &words, const char *na
   return q;
 }
 
-void LargeBodyMotion::finish(const Vector3<double> &reference)
+void LargeBodyMotion::finish(LargeBodyShape &shape)
 {
+  if (kind == Kind::VERTICES) {
+    mesh = shape.as_mesh();
+    if (!mesh) error->all(FLERR, "fix large/body: move vertices is for mesh");
+    if (now.runs)
+      error->all(FLERR, "fix large/body: surface_velocity does not go with move vertices: give the "
+                        "velocities of the vertices with their places");
+    mesh->let_vertices_move();
+    now.vertices = mesh->moving();
+  }
   if (gravity.given() && kind != Kind::FREE)
     error->all(FLERR, "fix large/body: gravity acts on bodies with 'move free' only");
   if (has_load && kind != Kind::FREE)
     error->all(FLERR, "fix large/body: load acts on bodies with 'move free' only");
   if (domain->dimension == 2) rigid.locked[2] = rigid.locked[3] = rigid.locked[4] = true;
-  now.moves = moves();
-  now.origin = center_of_mass ? *center_of_mass : reference;
+  now.moves = moves() && !deforms();
+  now.origin = center_of_mass ? *center_of_mass : shape.reference_point();
   now.inverse_mass = kind == Kind::FREE && rigid.translates() ? 1.0 / rigid.mass : 0.0;
   initial.position = now.origin;
   now.set(initial);
@@ -281,6 +292,10 @@ void LargeBodyMotion::place()
 void LargeBodyMotion::advance(const BodyLoad &load, double lag)
 {
   if (kind == Kind::NONE) return;
+  if (mesh) {
+    mesh->advance();
+    return;
+  }
   const BodyState old = now.state;
   move(load, lag);
   if (kind == Kind::FREE || kind == Kind::SERVO || kind == Kind::REGION) {

@@ -14,6 +14,7 @@
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
 #include "body/motion/servo_response.h"
+#include "body/shape/mesh_shape.h"
 #include "fix/constant_gravity.h"
 #include "lmptype.h"
 
@@ -32,8 +33,8 @@ class LargeBodyMotion : protected Pointers {
   /// One of move, servo, gravity, load, surface_velocity with its arguments, if that is the next
   /// word.
   bool parse(Talus::Words &words);
-  /// After all words: checks that they go together. `reference`: of the shape.
-  void finish(const Talus::Vector3<double> &reference);
+  /// After all words: checks that they go together, and with the shape.
+  void finish(Talus::LargeBodyShape &shape);
 
   /// Of a body whose shape is a region: it goes where the region goes, or stays if that stays. At
   /// the beginning of each run, after init(), because regions may be defined again. `reference`: of
@@ -45,6 +46,8 @@ class LargeBodyMotion : protected Pointers {
   /// The body as contacts see it; changes with place() and advance().
   const Talus::BodyFrame &frame() const { return now; }
   bool moves() const { return kind != Kind::NONE; }
+  /// Its vertices move: see LargeBodyVertices.
+  bool deforms() const { return kind == Kind::VERTICES; }
   /// A function of time, so that steps must be counted without a gap.
   bool depends_on_time() const { return kind == Kind::PRESCRIBED || kind == Kind::VARIABLE; }
   /// Variables are evaluated in every step that may read particles.
@@ -81,7 +84,7 @@ class LargeBodyMotion : protected Pointers {
   bool from_array(const double *a);
 
  private:
-  enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO, REGION };
+  enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO, REGION, VERTICES };
   /// A number or an equal-style variable.
   struct Quantity {
     double value = 0.0;
@@ -105,6 +108,7 @@ class LargeBodyMotion : protected Pointers {
   void show_kinematics();
 
   Kind kind = Kind::NONE;
+  Talus::MeshShape *mesh = nullptr;    // if its vertices move
   Talus::BodyFrame now;
   Talus::MotionClock clock;
   std::unique_ptr<Talus::PrescribedMotion> prescribed;

@@ -79,7 +79,7 @@ void LargeBodySurface::add_step(double dt)
   starts_new_sums = false;
   steps++;
   for (const TouchedPart &p : parts) {
-    double *load = &loads[fields * p.part];
+    double *load = &loads[fields * mesh->surface().own(p.part)];
     load[NORMAL] += p.normal_force;
     load[SHEAR] += p.shear.x;
     load[SHEAR + 1] += p.shear.y;

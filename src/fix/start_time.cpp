@@ -11,10 +11,9 @@ using namespace LAMMPS_NS;
 
 double StartTime::next_kick(double dt)
 {
-  if (!half) return dt;
-  const double kick = coming_kick(dt);
-  time_behind = 0.5 * dt;
-  return kick;
+  time_of_kick = coming_kick(dt);
+  if (half) time_behind = 0.5 * dt;
+  return time_of_kick;
 }
 
 void StartTime::write_restart(FILE *fp, double half_way) const

@@ -33,6 +33,8 @@ class StartTime : protected Pointers {
 
   // once in a step: the length of its kick (time)
   double next_kick(double dt);
+  // which that was
+  double last_kick() const { return time_of_kick; }
   // which that will be
   double coming_kick(double dt) const { return half ? time_behind + 0.5 * dt : dt; }
 
@@ -44,7 +46,7 @@ class StartTime : protected Pointers {
  private:
   const char *command;
   bool half = false;
-  double time_behind = 0.0;
+  double time_behind = 0.0, time_of_kick = 0.0;
 };
 
 }    // namespace LAMMPS_NS

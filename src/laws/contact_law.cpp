@@ -83,6 +83,20 @@ HistoryLayout ContactLaw::history() const
   return layout;
 }
 
+HistoryVectors ContactLaw::vectors_in_history() const
+{
+  const HistoryLayout layout = history();
+  HistoryVectors vectors;
+  const auto add = [&](Stage stage, int values) {
+    const HistoryIndices &at = layout.of_stage[static_cast<int>(stage)];
+    for (int first = 0; first + 3 <= values; first += 3)
+      vectors.index[vectors.count++] = {at[first], at[first + 1], at[first + 2]};
+  };
+  add(Stage::TANGENTIAL, tangential().odd_history);
+  add(Stage::ROLLING, rolling().even_history);
+  return vectors;
+}
+
 int ContactLaw::first_coefficient(Stage stage) const
 {
   int first = 0;

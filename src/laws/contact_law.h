@@ -22,6 +22,12 @@ struct HistoryLayout {
   int size = 0;    ///< indices in use
 };
 
+/// Vectors among the history values, by the indices of their components.
+struct HistoryVectors {
+  int count = 0;
+  std::array<std::array<int, 3>, ContactBatch::history_size / 3> index{};
+};
+
 /// Which laws a pair uses; pairs with equal laws share a kernel.
 class ContactLaw {
  public:
@@ -63,6 +69,9 @@ class ContactLaw {
   /// The effective radius is needed.
   bool needs_radius() const;
   HistoryLayout history() const;
+  /// The three values of a tangential law that change their sign, and of rolling as many as there are
+  /// threes: they turn with the surface that the contact is on.
+  HistoryVectors vectors_in_history() const;
 
   /// Place of a stage's first coefficient in a row, and behind the last one of the last stage.
   int first_coefficient(Stage stage) const;

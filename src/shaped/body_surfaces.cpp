@@ -59,9 +59,12 @@ class BodySurfaces::Listing final : public SurfaceVisitor {
   {
     MeshSurface surface;
     surface.features = std::make_shared<const MeshFeatures>(mesh->surface());
+    if (mesh->moving()) moving = mesh;
     surface.shape = std::move(mesh);
     add(surface);
   }
+
+  std::shared_ptr<const MeshShape> moving;
 
  private:
   template <class Kind> void add(const Kind &surface)
@@ -77,11 +80,25 @@ BodySurfaces::BodySurfaces(const LargeBodyShape &body, const ShapeTable &shape_t
 {
   Listing listing(surfaces);
   body.visit_surfaces(listing);
+  moving = listing.moving;
+  if (moving) changes = moving->num_changes();
   for (Surface &surface : surfaces) {
     surface.collision.resize(shapes.last_type() + 1);
     for (int type = 1; type <= shapes.last_type(); type++)
       if (shapes.of(type)) surface.collision[type] = shapes.collision(type, *surface.geometry);
   }
+}
+
+/* A mesh is the only surface of its body. */
+
+void BodySurfaces::follow()
+{
+  if (!moving || moving->num_changes() == changes) return;
+  changes = moving->num_changes();
+  MeshSurface surface;
+  surface.features = std::make_shared<const MeshFeatures>(moving->surface());
+  surface.shape = moving;
+  surfaces.front().geometry = std::make_shared<const MeshSurface>(surface);
 }
 
 bool BodySurfaces::touches_all(int type) const

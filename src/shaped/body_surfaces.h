@@ -6,11 +6,14 @@
 #include "body/shape/large_body_shape.h"
 #include "shaped/shape_table.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Talus {
+
+class MeshShape;
 
 /// A large body as particles with a shape touch it, in its frame: one surface or several, such as the
 /// faces of a box from inside.
@@ -21,6 +24,9 @@ class BodySurfaces {
 
   /// "", or for people: why some particles cannot touch this body, and the cure. Else all can.
   std::string refusal() const;
+
+  /// Before touch(), in each step: follows a surface whose vertices move.
+  void follow();
 
   int size() const { return static_cast<int>(surfaces.size()); }
   /// Contacts tell which part they touch, as those of spheres do.
@@ -52,6 +58,8 @@ class BodySurfaces {
   const ShapeTable &shapes;
   bool parts;
   std::vector<Surface> surfaces;
+  std::shared_ptr<const MeshShape> moving;    // nullptr: no vertices move
+  std::int64_t changes = 0;                   // of its surface that have been followed
 };
 
 }    // namespace Talus

@@ -3,6 +3,7 @@
 #include "shaped/wall_points.h"
 
 #include "base/in_parallel.h"
+#include "body/shape/moving_vertices.h"
 
 #include <algorithm>
 
@@ -70,6 +71,8 @@ BodyLoad WallPoints::compute(const BodySurfaces &surfaces, const BodyFrame &fram
     if (step.exact) step.exact->add(chunk.exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), chunk.touched.begin(), chunk.touched.end());
+    if (step.corners)
+      step.corners->insert(step.corners->end(), chunk.corners.begin(), chunk.corners.end());
   }
   return load;
 }
@@ -118,9 +121,32 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       point.history = {};
       for (std::size_t k = known; k < old; k++)
         if (chunk.before[k].name == point.name) point.history = chunk.before[k].history;
+      if (frame.vertices) see_vertices(task, point);
       chunk.points.push_back(point);
       chunk.of_point.push_back(n);
     }
+  }
+}
+
+/* The surface moves at the point as a rigid body, and has turned the history with it: as for spheres, see
+   body/contact/body_batch_vertices.cpp. */
+
+void WallPoints::see_vertices(const Task &task, PointContact &point)
+{
+  const MovingVertices &vertices = *task.frame.vertices;
+  point.velocity = point.velocity -
+                   vertices.motion(vertices.place_on(point.part, point.place)).velocity_at(point.place);
+  if (!task.step.advance) return;
+  const HistoryVectors vectors = task.laws.law(point.row).vectors_in_history();
+  const TriangleTurn turned = vertices.turn(point.part);
+  for (int n = 0; n < vectors.count; n++) {
+    const std::array<int, 3> &at = vectors.index[n];
+    if (at[2] >= point_history_size) continue;
+    PointHistory &h = point.history;
+    const Vector3<double> now = turned({h[at[0]], h[at[1]], h[at[2]]});
+    h[at[0]] = now.x;
+    h[at[1]] = now.y;
+    h[at[2]] = now.z;
   }
 }
 
@@ -149,6 +175,7 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
   chunk.load = BodyLoad{};
   chunk.exact.clear();
   chunk.touched.clear();
+  chunk.corners.clear();
   const Vector3<double> about = frame.moves ? frame.state.position : frame.origin;
   for (std::size_t k = 0; k < chunk.points.size(); k++) {
     const PointContact &point = chunk.points[k];
@@ -165,6 +192,14 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
       const double pressed = dot(point.force, n);
       const Vector3<double> shear = -(point.force - pressed * n), slip = v - dot(v, n) * n;
       chunk.touched.push_back({point.part, pressed, -point.force, shear, dot(shear, slip)});
+    }
+    if (task.step.corners) {
+      const MovingVertices &vertices = *frame.vertices;
+      const PlaceOnTriangle at = vertices.place_on(point.part, point.place);
+      const Vector3<double> surface = vertices.motion(at).point;
+      TouchedCorners touch{vertices.own_triangle(point.part), {}};
+      vertices.share_out(at, -force, -cross(place - surface, force), touch.force);
+      chunk.corners.push_back(touch);
     }
     if (!task.step.virial) continue;
     double *const virial = task.step.virial + 6L * i;
@@ -185,7 +220,7 @@ void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view
     for (std::size_t k = 0; k < chunk.points.size(); k++) {
       const PointContact &point = chunk.points[k];
       ContactReport found = PointBatch::report(point, laws, dt, requested);
-      found.part = point.part;
+      found.part = frame.vertices ? frame.vertices->own_triangle(point.part) : point.part;
       found.i = particles[chunk.of_point[k]];
       found.normal = frame.to_space(found.normal);
       found.force = frame.to_space(found.force);

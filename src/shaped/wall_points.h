@@ -59,6 +59,7 @@ class WallPoints {
     BodyLoad load;
     ExactLoad exact;
     std::vector<TouchedPart> touched;
+    std::vector<TouchedCorners> corners;
   };
   struct Task {
     const BodySurfaces &surfaces;
@@ -71,6 +72,7 @@ class WallPoints {
   void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;
   void add_forces(const Task &task, Chunk &chunk) const;
   void account(WorkAccount &to) const;
+  static void see_vertices(const Task &task, PointContact &point);
   static Vector3<double> change_seen(const Task &task, int i, const Vector3<double> &place);
 
   const ShapeTable &shapes;

@@ -7,7 +7,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -56,7 +55,7 @@ double EnergyAccount::time_at_setup() const
 
 double EnergyAccount::counted_of_last_step() const
 {
-  return modify->n_final_integrate > 0 ? 0.5 : 0.0;
+  return integrators.kicks().after;
 }
 
 }    // namespace Talus

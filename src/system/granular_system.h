@@ -24,6 +24,7 @@
 #include "system/effective_masses.h"
 #include "system/energy_account.h"
 #include "system/exchange_switch.h"
+#include "system/external_loads.h"
 #include "system/integrators.h"
 #include "system/large_bodies.h"
 #include "system/largest_move.h"
@@ -86,6 +87,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LargeBodies &bodies() { return large_bodies; }
   const Integrators &integrators() const { return movers; }
   Weights &weights() { return gravity; }
+  ExternalLoads &external_loads() { return loads_of_others; }
   EnergyAccount &account() { return energies; }
   /// Of the last step, for outputs.
   const RunContacts &contacts() const { return run_contacts; }
@@ -242,6 +244,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   SystemShapes *shaped = nullptr;
   Weights gravity;
+  ExternalLoads loads_of_others;
   StepsInRecords record_steps;
   MadeLists lists;
   bool stays_in_records = false;    // after this step

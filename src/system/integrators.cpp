@@ -52,6 +52,19 @@ double Integrators::next_kick() const
   return share * update->dt;
 }
 
+/* Those of LAMMPS are of velocity Verlet. */
+
+Kicks Integrators::kicks() const
+{
+  bool two = false;
+  for (const auto &fix : fix_list(*modify)) {
+    const auto *talus_fix = SystemFix::of(fix);
+    if (talus_fix && talus_fix->integrates()) return talus_fix->kicks();
+    if (fix->time_integrate && (modify->get_fix_mask(fix) & FixConst::FINAL_INTEGRATE)) two = true;
+  }
+  return two ? Kicks{0.5, 0.5} : Kicks{1.0, 0.0};
+}
+
 int Integrators::groups_with_changes() const
 {
   int bits = 0;

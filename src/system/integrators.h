@@ -33,6 +33,9 @@ class Integrators : protected LAMMPS_NS::Pointers {
   double lag() const;
   /// The shortest kick that the next forces give (time), see SystemFix::next_kick_in_steps().
   double next_kick() const;
+  /// In a step after initial_integrate(): the kicks of the first fix that integrates, one of Talus if
+  /// there is any.
+  Kicks kicks() const;
   /// Bits of the groups whose integrators keep changes of velocities in the arrays of LAMMPS.
   int groups_with_changes() const;
 

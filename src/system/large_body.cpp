@@ -8,6 +8,7 @@
 #include "system/system_shapes.h"
 
 #include "base/state_exchange.h"
+#include "body/shape/mesh_shape.h"
 #include "laws/second_order_laws.h"
 
 #include "atom.h"
@@ -112,14 +113,25 @@ void LargeBody::list_particles()
   masses.update();
   const ParticleState particles = view();
   const int *mask = mask_of_spheres();
+  MeshShape *const mesh = moving_mesh();
+  if (mesh) mesh->settle();
   if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*body_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
+  if (mesh) mesh->keep_current(system.shapes() ? nullptr : &contacts.listed_parts());
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     contacts.change_order(system.integrators().order(), atom->type,
                           [this](int type) -> const ContactLaw & { return specs[type].law; });
   order_of_history = system.integrators().order();
   keep_records(false);
+}
+
+/* nullptr: it is none, or its vertices do not move. */
+
+MeshShape *LargeBody::moving_mesh()
+{
+  MeshShape *const mesh = body_shape->as_mesh();
+  return mesh && mesh->moving() ? mesh : nullptr;
 }
 
 /* `old_ones`: those of the other order as well, until they have been changed. */
@@ -182,8 +194,9 @@ BodyStep LargeBody::step_of(bool advance)
   step.threads = comm->nthreads;
   account = system.account().part_of_step();
   step.account = accounts() ? &account : nullptr;
-  step.exact = moves ? &exact : nullptr;
+  step.exact = sums_exactly() ? &exact : nullptr;
   step.touched = touched;
+  step.corners = corners;
   return step;
 }
 
@@ -197,6 +210,8 @@ bool LargeBody::join_step()
 void LargeBody::compute(bool advance, double *virial)
 {
   finish_reduction();
+  if (is_watched() && !advance) settled_impulses();    // these forces are found again
+  exact_is_known = sums_exactly();
   if (joined) {
     mine = contacts.static_load();
     account.sum = contacts.static_work();
@@ -212,6 +227,7 @@ void LargeBody::compute(bool advance, double *virial)
   }
   joined = reduced = total_is_known = false;
   has_forces = true;
+  if (is_watched()) see_load();
   if (accounts()) {
     const double before = std::exchange(last_dissipated, account.sum.total());
     if (advance) dissipated += before;

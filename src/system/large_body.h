@@ -19,6 +19,7 @@
 #define TALUS_SYSTEM_LARGE_BODY_H
 
 #include "body/contact/body_contacts.h"
+#include "body/contact/impulse_account.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/given_law.h"
 #include "system/effective_masses.h"
@@ -29,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +41,7 @@ class Fix;
 
 namespace Talus {
 
+class DeformingBody;
 class GranularSystem;
 class StateExchange;
 class SteeredBody;
@@ -65,7 +68,15 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// Programs may ask where it is, and steer it.
   void set_steered(SteeredBody &body) { steered = &body; }
   SteeredBody *as_steered() const { return steered; }
-  /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly.
+  /// The same of a mesh whose vertices move; its contacts then tell their forces on vertices.
+  void set_deforming(DeformingBody &body, std::vector<TouchedCorners> *touched_corners)
+  {
+    deforming = &body;
+    corners = touched_corners;
+  }
+  DeformingBody *as_deforming() const { return deforming; }
+  /// Where the body is; changes as it moves. `moves`: ever; then its load is summed exactly, as that of
+  /// a body that is watched is.
   void set_frame(const BodyFrame *body_frame, bool moves);
   /// Makes the surface for ParaView; called on all ranks, rank 0 gets all of it.
   void set_picture(std::function<VtkPolyData()> maker) { make_picture = std::move(maker); }
@@ -107,11 +118,23 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// Lets the sum over ranks go on until exact_load() is called.
   void begin_reduction();
   void finish_reduction();
-  /// Collective. Force and torque without rounding; only of bodies that move.
+  /// Collective. Force and torque without rounding; only of bodies whose load is summed exactly.
   const BodyLoad &exact_load();
   /// Collective.
   const BodyLoad &load();
   double contacts_here() const { return mine.contacts; }
+  // ---- what the particles have given to the body over many steps
+
+  /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all
+  /// that follow.
+  void watch(const Vector3<double> &point);
+  bool is_watched() const { return impulses.has_value(); }
+  void unwatch() { impulses.reset(); }
+  /// When a step begins and the body has not moved yet.
+  void begin_step();
+  /// Between two steps, up to the velocities that particles have; to be read, begun anew or saved.
+  ImpulseAccount &settled_impulses();
+
   /// Distance from the reference point within which all particles were when they were last listed.
   double reach() const { return contacts.reach(); }
 
@@ -148,19 +171,24 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const int *mask_of_spheres();
   Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
+  MeshShape *moving_mesh();
   void find_frozen();
   void clear_frozen();
   void set_laws();
   void keep_records(bool old_ones);
   void collect_digits();
+  bool sums_exactly() const { return moves || is_watched(); }
+  void see_load();
 
   const LAMMPS_NS::Fix *fix;
   GranularSystem &system;
   std::unique_ptr<LargeBodyShape> body_shape;
   const BodyFrame *frame = nullptr;
   SteeredBody *steered = nullptr;
+  DeformingBody *deforming = nullptr;
   bool moves = false;
   std::vector<TouchedPart> *touched = nullptr;
+  std::vector<TouchedCorners> *corners = nullptr;
   std::function<VtkPolyData()> make_picture;
   std::vector<ContactSpec> specs;    ///< by type
   std::vector<bool> spec_is_set;
@@ -183,6 +211,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   bool reduced = false;           ///< forces and torques of `total` are those of the last step
   bool total_is_known = false;    ///< all of it is
   ExactLoad exact;
+  bool exact_is_known = false;    ///< it is of the last step
+  std::optional<ImpulseAccount> impulses;
   static constexpr int size_digits = 6 * ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;

@@ -4,7 +4,10 @@
 
 #include "system/large_body.h"
 
+#include "system/granular_system.h"
+
 #include "comm.h"
+#include "update.h"
 
 #include <algorithm>
 
@@ -62,17 +65,54 @@ const BodyLoad &LargeBody::exact_load()
 const BodyLoad &LargeBody::load()
 {
   if (total_is_known) return total;
-  if (moves) exact_load();
+  if (exact_is_known) exact_load();
   const double here[7] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
                           mine.torque.y, mine.torque.z, mine.contacts};
   double all[7];
   MPI_Allreduce(here, all, 7, MPI_DOUBLE, MPI_SUM, world);
   total.contacts = all[6];
   total_is_known = true;
-  if (moves) return total;
+  if (exact_is_known) return total;
   total.force = {all[0], all[1], all[2]};
   total.torque = {all[3], all[4], all[5]};
   return total;
+}
+
+/* ---- over many steps ------------------------------------------------------------------------ */
+
+/* The load that is there may not have been summed exactly: the next one is the first that counts. */
+
+void LargeBody::watch(const Vector3<double> &point)
+{
+  impulses.emplace(point);
+}
+
+/* With the velocities that contacts of second order see, or that the work of others counts with. */
+
+void LargeBody::see_load()
+{
+  if (!frame->moves)
+    impulses->see(*frame, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  else if (system.integrators().lag() > 0.0)
+    impulses->see(*frame, frame->present.velocity, frame->present.omega);
+  else
+    impulses->see(*frame, frame->state.velocity + frame->velocity_change,
+                  frame->state.omega + frame->omega_change);
+}
+
+void LargeBody::begin_step()
+{
+  if (!is_watched()) return;
+  const Kicks kicks = system.integrators().kicks();
+  const double dt = update->dt;
+  impulses->begin_step(impulses->has_load() ? exact_load() : BodyLoad{}, kicks.before * dt,
+                       kicks.after * dt, dt);
+}
+
+ImpulseAccount &LargeBody::settled_impulses()
+{
+  if (impulses->has_load()) impulses->settle(exact_load());
+  return *impulses;
 }
 
 }    // namespace Talus

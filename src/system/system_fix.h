@@ -20,6 +20,12 @@ namespace Talus {
 class StateDigest;
 class StateExchange;
 
+/// For how long forces act on particles in a step, over the time step: those of the step before until
+/// positions move, and those of the step at its end.
+struct Kicks {
+  double before, after;
+};
+
 /// A fix that does its work on particles in the records as well as in the arrays of LAMMPS.
 class SystemFix {
  public:
@@ -64,6 +70,9 @@ class SystemFix {
   virtual void leave_records() {}
   /// Of an integrator: its order in the time step, 1 or 2, as its command says.
   virtual int order() const { return 1; }
+  /// Of an integrator: the acceleration that it gives to particles besides that of forces; nullptr:
+  /// none. Not to those of a fix freeze.
+  virtual const double *gravity_besides_forces() const { return nullptr; }
   /// It keeps the changes of velocities of particles that it moves in the arrays of LAMMPS, see
   /// ParticleState::change(). In the records they are kept for all.
   virtual bool keeps_changes() const { return false; }
@@ -71,6 +80,8 @@ class SystemFix {
   virtual double lag() const { return 0.0; }
   /// Time of the kick that the next forces give, over the time step; between two steps.
   virtual double next_kick_in_steps() const { return 1.0; }
+  /// In a step after initial_integrate(): its kicks.
+  virtual Kicks kicks() const { return {1.0, 0.0}; }
 
   /// Its part of a step that others can see only in the arrays of LAMMPS, with the forces of
   /// contacts, bodies and weights. Called by GranularSystem::complete_step_of() in a step that LAMMPS

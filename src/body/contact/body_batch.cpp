@@ -39,6 +39,7 @@ void BodyBatch::start(bool with_exact)
   load = BodyLoad{};
   if (with_exact) exact.clear();
   touched.clear();
+  corners.clear();
   work = EnergyByCause{};
   last.clear();
 }
@@ -53,6 +54,7 @@ void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t
   if (task->wall) set_all_points();
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
+    if (task->frame.vertices) vectors = law.vectors_in_history();
     for (std::size_t c = begin; c < end_of_range && by_parts; c++) look_at_parts(c, end_of_range);
     for (std::size_t c = begin / width * width; c < end_of_range && !by_parts; c += width) {
       const int low = static_cast<int>(begin > c ? begin - c : 0),
@@ -203,7 +205,7 @@ class EndsOfContacts : public BodyHistory::Ends {
   {
     constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
     bool may_touch;
-    const NearParts near = task.candidates.parts_near(c, x, (1.0 + further) * r, may_touch);
+    const NearParts near = task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
     const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
     for (int k = 0; k < count; k++) found[k].overlap -= further * r;
     return count;
@@ -229,7 +231,7 @@ void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
   const double reach = law.normal().lasts_beyond_contact ? task->pulloff_distance_of(c, r) : 0.0;
   SurfaceContact found[LargeBodyShape::max_contacts];
   bool may_touch;
-  const NearParts near = task->candidates.parts_near(c, x, r + reach, may_touch);
+  const NearParts near = task->candidates.parts_near(task->frame, c, x, r + reach, may_touch);
   int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;
   for (int k = 0; k < count; k++) found[k].overlap -= reach;
   std::size_t slot = 0;
@@ -271,7 +273,12 @@ void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x
   candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
   slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
   part_of_lane[filled] = contact.part;
-  if (needs_normal_changes()) set_normal_change(filled, contact.normal, normal_before);
+  if (needs_normal_changes()) {
+    const MovingVertices *const vertices = task->frame.vertices;
+    const bool turns = vertices && task->advance;
+    set_normal_change(filled, contact.normal,
+                      turns ? vertices->turn(contact.part)(normal_before) : normal_before);
+  }
   if (++filled == ContactBatch::width) flush();
 }
 
@@ -296,6 +303,7 @@ void BodyBatch::flush()
   if (task->with_history && task->advance) keep_histories();
   if (task->account) account();
   if (task->record_parts) record_parts();
+  if (task->record_corners) record_corners();
   if (task->frame.turned) rotate_to_space();
   add_to_particles();
   if (task->wall)
@@ -323,6 +331,7 @@ ContactReport BodyBatch::geometry_of(int lane) const
   ContactReport found;
   found.i = task->candidates.atom(candidate_of_lane[lane]);
   if (task->wall || task->shape.most_contacts() > 1) found.part = part_of_lane[lane];
+  if (task->frame.vertices) found.part = task->frame.vertices->own_triangle(found.part);
   found.normal = lane_of(batch.normal, lane);
   found.overlap = batch.overlap[lane];
   return found;

@@ -4,7 +4,8 @@
 // a time. Everything is computed in the frame of the body, in which the body is at rest and
 // histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
 // laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results,
-// body_batch_walls.cpp does what only walls of LAMMPS need.
+// body_batch_walls.cpp does what only walls of LAMMPS need, body_batch_vertices.cpp what only meshes
+// whose vertices move do.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
@@ -18,6 +19,7 @@
 #include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
+#include "body/shape/moving_vertices.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
@@ -37,6 +39,12 @@ struct TouchedPart {
   double shear_power;       ///< that force times the velocity of the surfaces past each other
 };
 
+/// Force of one contact on the corners of a triangle in one step, see MovingVertices.
+struct TouchedCorners {
+  int triangle;
+  Vector3<double> force[3];
+};
+
 /// One evaluation of all contacts of a body.
 struct BodyTask {
   const LargeBodyShape &shape;
@@ -51,7 +59,7 @@ struct BodyTask {
   double lag;      ///< see ContactStep
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
-  bool record_parts;
+  bool record_parts, record_corners;
   const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
   double *virial;                ///< see BodyStep
   /// If not nullptr: called with each contact, by one thread, instead of adding forces.
@@ -94,6 +102,7 @@ class BodyBatch {
   BodyLoad load;
   ExactLoad exact;                       ///< if asked for
   AlignedVector<TouchedPart> touched;    ///< if asked for
+  AlignedVector<TouchedCorners> corners;    ///< the same
   EnergyByCause work;                    ///< if asked for
 
  private:
@@ -129,6 +138,13 @@ class BodyBatch {
   void see_from_wall(Motion &m, int k) const;
   void gather_temperatures();
   void pass_on();
+
+  // meshes whose vertices move
+  void find_places(int k);
+  void see_from_vertices(Motion &m, int k);
+  void see_from_vertices_order_2(Motion &m, int k);
+  void turn_histories(int k);
+  void record_corners();
 
   // lanes
   void gather();
@@ -171,6 +187,9 @@ class BodyBatch {
   int part_of_lane[ContactBatch::width] = {};              // the same, and of walls
   alignas(64) Lanes place = {};                            // of particles, in space
   alignas(64) double radius[ContactBatch::width];
+  // only of meshes whose vertices move
+  PlaceOnTriangle place_of_lane[ContactBatch::width];
+  HistoryVectors vectors;    // of the law
   // only of walls
   alignas(64) Lanes wall_velocity = {};
   alignas(64) double curvature[ContactBatch::width] = {};

@@ -65,6 +65,7 @@ void BodyBatch::gather()
     }
     if (frame.runs) run_past(m, k);
     if (task->wall) see_from_wall(m, k);
+    if (frame.vertices) see_from_vertices(m, k);
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
     store(&batch.inverse_radius[k], m.inverse_radius + load8(&curvature[k]));
@@ -75,6 +76,7 @@ void BodyBatch::gather()
     }
     if (needs_normal_changes() && !task->history.several()) gather_normal_changes(k);
     if (task->with_history) gather_histories(k);
+    if (task->with_history && task->advance && frame.vertices) turn_histories(k);
   }
   if (law.resists()) gather_resistance();
   if (task->wall && task->wall->temperature) gather_temperatures();
@@ -139,7 +141,7 @@ Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &veloci
   bool may_touch = true;
   const bool several = task->shape.most_contacts() > 1;
   const std::size_t c = candidate_of_lane[lane];
-  const NearParts near = several ? task->candidates.parts_near(c, x, radius[lane], may_touch)
+  const NearParts near = several ? task->candidates.parts_near(task->frame, c, x, radius[lane], may_touch)
                                  : NearParts{nullptr, nullptr};
   const int count = may_touch ? task->shape.find_contacts(x, radius[lane], near, found) : 0;
   Vector3<double> nearest = now;

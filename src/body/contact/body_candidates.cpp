@@ -3,6 +3,7 @@
 #include "body/contact/body_candidates.h"
 
 #include "base/in_parallel.h"
+#include "body/shape/moving_vertices.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,6 +16,12 @@ namespace {
 constexpr double free_way = 0.5;
 
 constexpr double near = 1.01;    // of the radius: parts within it are probably touched
+
+/// It may go somewhere until particles are listed again.
+bool goes(const BodyFrame &frame)
+{
+  return frame.moves || frame.vertices;
+}
 
 }    // namespace
 
@@ -52,7 +59,7 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
   clear();
   listed_frame = frame;
   listed_reach = 0.0;
-  const double margin = beyond + (frame.moves ? (1.0 + free_way) * skin : skin);
+  const double margin = beyond + (goes(frame) ? (1.0 + free_way) * skin : skin);
   const Search search{shape, frame, view, mask, group, margin};
   if (shape.most_contacts() == 1)
     list_near(search, shape.thread_safe() ? threads : 1);
@@ -138,14 +145,17 @@ bool BodyCandidates::sort_by_slot(const int *slot_of_atom)
 
 bool BodyCandidates::are_stale(const BodyFrame &frame, double skin) const
 {
+  if (frame.vertices) return frame.vertices->way() > free_way * skin;
   return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
 }
 
-NearParts BodyCandidates::parts_near(std::size_t c, const Vector3<double> &x, double radius,
+NearParts BodyCandidates::parts_near(const BodyFrame &frame, std::size_t c,
+                                     const Vector3<double> &x, double radius,
                                      bool &may_touch) const
 {
-  // a little more than the way that it went: rounding must not hide a part
-  const double reach = radius + (1.0 + 1.0e-9) * length(x - listed[c].at) + 1.0e-9 * radius;
+  const double way = length(x - listed[c].at) + (frame.vertices ? frame.vertices->way() : 0.0);
+  // a little more than the way that both went: rounding must not hide a part
+  const double reach = radius + (1.0 + 1.0e-9) * way + 1.0e-9 * radius;
   may_touch = listed[c].nearest < reach;
   const NearPart *const begin = parts.data() + parts_begin[c];
   const NearPart *const last = parts.data() + parts_begin[c + 1];
@@ -181,7 +191,7 @@ Eigen::AlignedBox3d BodyCandidates::bounds_of_search(const BodyFrame &frame,
   }
   if (box.isEmpty()) return box;
   // listed with the margin of list(); they go half a skin, the body what it may until it is stale
-  const double reach = largest + beyond + (frame.moves ? 3.0 : 2.0) * skin;
+  const double reach = largest + beyond + (goes(frame) ? 3.0 : 2.0) * skin;
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
   return {box.min() - around, box.max() + around};
 }

@@ -61,8 +61,10 @@ class BodyCandidates {
 
   /// The parts that candidate c can have reached since it was listed, if it is at `x` (frame of the
   /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.
-  NearParts parts_near(std::size_t c, const Vector3<double> &x, double radius,
-                       bool &may_touch) const;
+  NearParts parts_near(const BodyFrame &frame, std::size_t c, const Vector3<double> &x,
+                       double radius, bool &may_touch) const;
+  /// Of all candidates, as they were listed.
+  const std::vector<NearPart> &all_parts() const { return parts; }
 
   /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
   void prefetch_list(std::size_t c, double radius) const;

@@ -3,6 +3,7 @@
 #include "body/contact/body_contacts.h"
 
 #include "base/in_parallel.h"
+#include "body/shape/moving_vertices.h"
 #include "laws/change_of_order.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.advance,
           step.exact != nullptr,
           step.touched != nullptr,
+          step.corners != nullptr,
           step.account,
           step.virial,
           nullptr,
@@ -139,11 +141,14 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   if (step.account) step.account->sum += static_work();
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
+  if (step.corners) step.corners->clear();
   for (const auto &batch : batches) {
     load.add(batch->load);
     if (step.exact) step.exact->add(batch->exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), batch->touched.begin(), batch->touched.end());
+    if (step.corners)
+      step.corners->insert(step.corners->end(), batch->corners.begin(), batch->corners.end());
   }
   return load;
 }
@@ -151,7 +156,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
 bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &frame,
                                 const ParticleState &view, const BodyStep &step)
 {
-  const bool is_plain = !step.exact && !step.touched && !step.virial;
+  const bool is_plain = !step.exact && !step.touched && !step.corners && !step.virial;
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
   index_candidates(view);
   history.begin_step();
@@ -232,7 +237,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     const double radius = view.radius(i);
     bool may_touch = true;
     const NearParts near =
-        several ? candidates.parts_near(c, x, radius, may_touch) : NearParts{nullptr, nullptr};
+        several ? candidates.parts_near(frame, c, x, radius, may_touch) : NearParts{nullptr, nullptr};
     const int count = !several    ? static_cast<int>(shape.touches(x, radius, *found))
                       : may_touch ? shape.find_contacts(x, radius, near, found)
                                   : 0;
@@ -240,8 +245,11 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     for (int k = 0; k < count; k++)
       if (const double overlap = found[k].overlap / radius; overlap > of_particle.overlap.value)
         of_particle.overlap = {overlap, i, found[k].part};
-    const Vector3<double> v = view.velocity(i);
-    of_particle.speed = {length(frame.moves ? v - frame.velocity_at(place) : v) / radius, i, 0};
+    Vector3<double> v = view.velocity(i);
+    if (frame.moves) v = v - frame.velocity_at(place);
+    if (frame.vertices && count)
+      v = v - frame.vertices->motion(frame.vertices->place_on(found->part, x)).velocity;
+    of_particle.speed = {length(v) / radius, i, 0};
     if (several) {
       const Passage passage = shape.passage(candidates.listed_at(c), x, near);
       if (passage.part >= 0)

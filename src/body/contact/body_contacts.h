@@ -28,6 +28,7 @@ struct BodyStep {
   WorkAccount *account = nullptr;                 ///< receives the work, if it advances
   ExactLoad *exact = nullptr;                     ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
+  std::vector<TouchedCorners> *corners = nullptr;    ///< the same, of a mesh whose vertices move
   double *virial = nullptr;          ///< added to, six for each owned particle: xx yy zz xy xz yz
   const WallStep *wall = nullptr;    ///< only of walls of LAMMPS, whose shape is WallStep::surface
 };
@@ -70,6 +71,7 @@ class BodyContacts {
   void find_candidates(const WallSurface &wall, const ParticleState &view, const int *mask,
                        int group, double way, int threads);
   std::size_t num_candidates() const { return candidates.size(); }
+  const std::vector<NearPart> &listed_parts() const { return candidates.all_parts(); }
 
   /// How far contacts of these particles last beyond zero overlap at most (length).
   double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;

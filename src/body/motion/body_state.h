@@ -10,6 +10,8 @@
 
 namespace Talus {
 
+class MovingVertices;    // body/shape/moving_vertices.h
+
 /// Rotation by an angular velocity during dt.
 Eigen::Quaterniond rotation_by(const Vector3<double> &omega, double dt);
 
@@ -71,6 +73,8 @@ struct BodyFrame {
   /// body; at each contact only its tangential part counts. `runs`: there is one.
   bool runs = false;
   Vector3<double> surface_velocity{0.0, 0.0, 0.0};
+  /// Of a mesh whose vertices move, in space: `moves` is false then. nullptr: the surface is rigid.
+  const MovingVertices *vertices = nullptr;
 
   void set(const BodyState &state);
   template <class Real> Vector3<Real> to_space(const Vector3<Real> &v) const

@@ -27,6 +27,39 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d> &boxes) : things(boxes.s
   nodes.emplace_back();
   split(0, boxes, 0, static_cast<int>(boxes.size()));
   nodes.shrink_to_fit();
+  sizes_when_made = sum_of_sizes();
+}
+
+double BoxTree::sum_of_sizes() const
+{
+  double sum = 0.0;
+  for (const Node &node : nodes) sum += size_of(node);
+  return sum;
+}
+
+/* Children have higher numbers than their parents. */
+
+bool BoxTree::refit(const std::vector<Eigen::AlignedBox3d> &boxes)
+{
+  constexpr double much = 2.0;
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    Node &node = nodes[n];
+    if (!node.count) {
+      const Node &a = nodes[node.first], &b = nodes[node.first + 1];
+      for (int d = 0; d < 3; d++) {
+        node.low[d] = std::min(a.low[d], b.low[d]);
+        node.high[d] = std::max(a.high[d], b.high[d]);
+      }
+      continue;
+    }
+    Eigen::AlignedBox3d all;
+    for (int k = 0; k < node.count; k++) all.extend(boxes[things[node.first + k]]);
+    for (int d = 0; d < 3; d++) {
+      node.low[d] = below(all.min()[d]);
+      node.high[d] = above(all.max()[d]);
+    }
+  }
+  return sum_of_sizes() > much * sizes_when_made;
 }
 
 void BoxTree::split(int node, const std::vector<Eigen::AlignedBox3d> &boxes, int begin, int end)

@@ -37,6 +37,26 @@ MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh, const Eigen::AlignedBo
   grow_tree();
 }
 
+/* Limits of cosines, which save time, and normals of vertices are those of a mesh at rest: here the limits
+   stay at 0, and normals are found when they are asked for. */
+
+MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh) : mesh(triangle_mesh), moves(true)
+{
+  std::vector<int> numbers(mesh.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  near = numbers;
+  make_faces(numbers);
+  corners = mesh.all_corners();
+  vertex_numbers.resize(mesh.num_vertices());
+  std::iota(vertex_numbers.begin(), vertex_numbers.end(), 0);
+  const MeshEdges edges(corners);
+  find_neighbors(edges);
+  find_rings(edges);
+  find_around();
+  look_at_corners();
+  grow_tree();
+}
+
 /* Numbers in the mesh of the triangles within the cover, and of those that share a vertex with
    them. */
 
@@ -63,15 +83,20 @@ void MeshDetail::make_faces(const std::vector<int> &numbers)
 {
   faces.reserve(numbers.size());
   for (const int t : numbers) {
-    const Triangle triangle = mesh.triangle(t);
-    const Vector3<double> n = mesh.normal(mesh.plane_of(t));
-    Face face{};
-    std::copy(triangle.corner, triangle.corner + 3, face.corner);
-    face.normal = n;
-    face.offset = dot(mesh.vertex(mesh.corners(mesh.plane_of(t)).vertex[0]), n);
-    face.number = t;
-    faces.push_back(face);
+    faces.emplace_back();
+    faces.back().number = t;
+    set_plane(static_cast<int>(faces.size()) - 1);
   }
+}
+
+void MeshDetail::set_plane(int t)
+{
+  Face &face = faces[t];
+  const Triangle triangle = mesh.triangle(face.number);
+  std::copy(triangle.corner, triangle.corner + 3, face.corner);
+  const int plane = mesh.plane_of(face.number);
+  face.normal = mesh.normal(plane);
+  face.offset = dot(mesh.vertex(mesh.corners(plane).vertex[0]), face.normal);
 }
 
 /* Numbers of vertices in the order in which triangles meet them. */
@@ -112,7 +137,7 @@ void MeshDetail::find_neighbors(const MeshEdges &edges)
       if (edge.num_users == 2) {
         adjacent.over[k] = is_first ? user[1] : user[0];
         const double cosine = dot(face.normal, faces[adjacent.over[k]].normal);
-        if (cosine > 0.0)
+        if (cosine > 0.0 && !moves)
           face.least_square_cosine[k] = static_cast<float>(std::max(cosine * cosine - slack, 0.0));
       }
       if (edge.num_users > 2 && is_first) {    // only this one asks
@@ -142,22 +167,31 @@ void MeshDetail::find_rings(const MeshEdges &edges)
 void MeshDetail::look_at_corners()
 {
   std::vector<bool> reported(vertex_numbers.size());
-  vertex_normals.assign(vertex_numbers.size(), {0.0, 0.0, 0.0});
+  if (!moves) vertex_normals.assign(vertex_numbers.size(), {0.0, 0.0, 0.0});
   for (std::size_t t = 0; t < faces.size(); t++) {
     Face &face = faces[t];
     double least = 1.0;
     for (int k = 0; k < 3; k++) {
       const int v = corners[t].vertex[k];
-      const Vector3<double> a = face.corner[(k + 1) % 3] - face.corner[k],
-                            b = face.corner[(k + 2) % 3] - face.corner[k];
-      const double angle = std::atan2(length(cross(a, b)), dot(a, b));
-      vertex_normals[v] = vertex_normals[v] + angle * face.normal;
       if (!reported[v]) face.reports_corner |= static_cast<unsigned char>(1U << k);
+      if (moves) {
+        least = 0.0;
+        reported[v] = true;
+        continue;
+      }
+      vertex_normals[v] = vertex_normals[v] + face.weighted_normal(k);
       if (!reported[v]) least = std::min<double>(least, corner_limit(v, face.normal));
       reported[v] = true;
     }
     face.least_at_corners = static_cast<float>(least);
   }
+}
+
+/// Of a corner, by its angle.
+Vector3<double> MeshDetail::Face::weighted_normal(int k) const
+{
+  const Vector3<double> a = corner[(k + 1) % 3] - corner[k], b = corner[(k + 2) % 3] - corner[k];
+  return std::atan2(length(cross(a, b)), dot(a, b)) * normal;
 }
 
 /* Let u be the direction from a corner to a point nearest to it, at the angle a from the normal
@@ -192,11 +226,16 @@ float MeshDetail::corner_limit(int v, const Vector3<double> &n) const
 
 void MeshDetail::grow_tree()
 {
+  tree = std::make_unique<BoxTree>(boxes_of_near());
+}
+
+std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
+{
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(near.size());
   for (const int t : near)
     boxes.push_back(bounds_of({{faces[t].corner[0], faces[t].corner[1], faces[t].corner[2]}}));
-  tree = std::make_unique<BoxTree>(boxes);
+  return boxes;
 }
 
 /* Corners first, then edges, then the face: regions of the plane around a triangle in which the
@@ -300,15 +339,66 @@ bool MeshDetail::corner_is_minimum(int t, const NearestPoint &nearest, double &h
     if (comes_nearer(nearest.away,
                      mesh.vertex(vertex_numbers[ring[k]]) - face.corner[nearest.index]))
       return false;
-  height = dot(nearest.away, vertex_normals[v]);
+  height = dot(nearest.away, moves ? normal_of_vertex(v) : vertex_normals[v]);
   return true;
+}
+
+Vector3<double> MeshDetail::normal_of_vertex(int v) const
+{
+  Vector3<double> sum{0.0, 0.0, 0.0};
+  for (int n = around_begin[v]; n < around_begin[v + 1]; n++) {
+    int k = 0;
+    while (corners[around[n]].vertex[k] != v) k++;
+    sum = sum + faces[around[n]].weighted_normal(k);
+  }
+  return sum;
+}
+
+/* ---- vertices that move -------------------------------------------------------------------------- */
+
+void MeshDetail::find_around()
+{
+  around_begin.assign(vertex_numbers.size() + 1, 0);
+  for (const Corners &triangle : corners)
+    for (const int v : triangle.vertex) around_begin[v + 1]++;
+  std::partial_sum(around_begin.begin(), around_begin.end(), around_begin.begin());
+  around.resize(around_begin.back());
+  std::vector<int> next(around_begin.begin(), around_begin.end() - 1);
+  for (std::size_t t = 0; t < corners.size(); t++)
+    for (const int v : corners[t].vertex) around[next[v]++] = static_cast<int>(t);
+}
+
+void MeshDetail::follow_all()
+{
+  follow(near);
+  std::vector<Eigen::AlignedBox3d> boxes = boxes_of_near();
+  if (tree->refit(boxes)) tree = std::make_unique<BoxTree>(boxes);
+}
+
+void MeshDetail::follow(const std::vector<int> &triangles)
+{
+  for (const int t : triangles) set_plane(t);
+}
+
+std::vector<int> MeshDetail::near_to(const std::vector<int> &triangles) const
+{
+  std::vector<bool> touched(vertex_numbers.size());
+  for (const int t : triangles)
+    for (const int v : corners[t].vertex) touched[v] = true;
+  std::vector<int> found;
+  for (std::size_t t = 0; t < corners.size(); t++) {
+    const int *const v = corners[t].vertex;
+    if (touched[v[0]] || touched[v[1]] || touched[v[2]]) found.push_back(static_cast<int>(t));
+  }
+  return found;
 }
 
 double MeshDetail::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
   double sum = bytes(faces) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
-               bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals);
+               bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals) +
+               bytes(around_begin) + bytes(around);
   for (const auto &users : nonmanifold) sum += bytes(users);
   return sum + (tree ? tree->memory_usage() : 0.0);
 }

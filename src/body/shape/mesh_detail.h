@@ -7,6 +7,9 @@
 // Triangles have numbers of their own here, ascending with those of the mesh. Whether a point of
 // the surface is nearest to a particle, and which triangle says so, does not depend on the part:
 // all neighbors of its triangles are known too.
+//
+// Of a mesh whose vertices move it is made once, of all triangles, with the same numbers. Those that
+// contacts name are to be followed in every step; the tree stays as it was when particles were listed.
 
 #ifndef TALUS_BODY_SHAPE_MESH_DETAIL_H
 #define TALUS_BODY_SHAPE_MESH_DETAIL_H
@@ -32,6 +35,8 @@ class MeshDetail {
  public:
   /// Of all triangles whose boxes touch `cover`.
   MeshDetail(const TriangleMesh &mesh, const Eigen::AlignedBox3d &cover);
+  /// Of a mesh whose vertices move.
+  explicit MeshDetail(const TriangleMesh &mesh);
 
   /// Calls visit(t) for every triangle whose box is nearer to the point than `reach`, perhaps for
   /// some others.
@@ -64,6 +69,15 @@ class MeshDetail {
     for (std::size_t byte = 0; byte < sizeof(Face); byte += 64) __builtin_prefetch(at + byte);
   }
 
+  // ---- of a mesh whose vertices move
+
+  /// All of it is that of now, the tree included.
+  void follow_all();
+  /// These triangles alone; with those that share a vertex, see near_to().
+  void follow(const std::vector<int> &triangles);
+  /// Ascending: the triangles that touch one of these.
+  std::vector<int> near_to(const std::vector<int> &triangles) const;
+
   double memory_usage() const;
 
  private:
@@ -77,6 +91,7 @@ class MeshDetail {
     float least_at_corners;    // the same for all three corners
     int number;
     unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
+    Vector3<double> weighted_normal(int k) const;
   };
   struct Neighbors {
     int over[3];    // over each edge: a triangle, `none`, or crowded[-2 - this]
@@ -91,11 +106,16 @@ class MeshDetail {
   float corner_limit(int vertex, const Vector3<double> &normal) const;
   void look_at_corners();
   void grow_tree();
+  std::vector<Eigen::AlignedBox3d> boxes_of_near() const;
+  void set_plane(int t);
+  void find_around();
+  Vector3<double> normal_of_vertex(int vertex) const;
   bool edge_is_minimum(int t, const NearestPoint &nearest, double &height) const;
   bool corner_is_minimum(int t, const NearestPoint &nearest, double &height) const;
   bool edge_user(int user, int t, const NearestPoint &nearest, Vector3<double> &outward) const;
 
   const TriangleMesh &mesh;
+  const bool moves = false;    // its vertices do
   std::vector<Face> faces;
   std::vector<int> near;    // faces within the cover; the others are their neighbors
   std::unique_ptr<BoxTree> tree;
@@ -106,6 +126,7 @@ class MeshDetail {
   std::vector<Corners> corners;
   std::vector<int> vertex_numbers, ring_begin, ring;
   std::vector<Vector3<double>> vertex_normals;
+  std::vector<int> around_begin, around;    // triangles of each vertex, only if they move
 };
 
 }    // namespace Talus

@@ -44,6 +44,7 @@ MeshImages images_behind_faces(MeshVertices &vertices, const std::vector<Corners
   std::set<std::array<int, 3>> seen;
   for (const Corners &corners : triangles) seen.insert(sorted(corners));
   MeshImages images;
+  const std::size_t num_own = vertices.all().size();
   for (int k = 0; k < 27; k++) {
     const int step[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
     bool is_image = k != 13;    // 13: no step
@@ -59,7 +60,12 @@ MeshImages images_behind_faces(MeshVertices &vertices, const std::vector<Corners
         around.extend(to_eigen(place[c]));
       }
       if (!kept.intersects(around)) continue;
-      const Corners image{{vertices.at(place[0]), vertices.at(place[1]), vertices.at(place[2])}};
+      Corners image;
+      for (int c = 0; c < 3; c++) {
+        image.vertex[c] = vertices.at(place[c]);
+        if (vertices.all().size() > num_own + images.vertices.size())
+          images.vertices.push_back({triangles[t].vertex[c], shift});
+      }
       if (!seen.insert(sorted(image)).second) continue;
       images.triangles.push_back(image);
       images.own.push_back(static_cast<int>(t));

@@ -30,6 +30,12 @@ struct PeriodicEdges {
 struct MeshImages {
   std::vector<Corners> triangles;
   std::vector<int> own;    ///< of which triangle each of them is an image
+  /// Of the vertices that are new, in their order: of which vertex, and how far away from it.
+  struct Vertex {
+    int own;
+    Vector3<double> shift;
+  };
+  std::vector<Vertex> vertices;
 };
 
 /// Images, one period away along each of these edges, of all triangles that are then not further

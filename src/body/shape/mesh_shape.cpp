@@ -65,7 +65,8 @@ bool MeshShape::focus(const Eigen::AlignedBox3d &bounds)
 
 double MeshShape::memory_usage() const
 {
-  return mesh.memory_usage() + (detail ? detail->memory_usage() : 0.0);
+  return mesh.memory_usage() + (detail ? detail->memory_usage() : 0.0) +
+         (vertices ? vertices->memory_usage() + check->memory_usage() : 0.0);
 }
 
 /* A center in the surface is on any side. */
@@ -90,7 +91,7 @@ bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius
   const bool on_face = nearest.feature == NearestPoint::FACE;
   face_height = on_face ? std::fabs(height) : 0.0;
   contact.overlap = radius - distance;
-  contact.part = mesh.own(detail->number(t));
+  contact.part = part_of(detail->number(t));
   if (on_face || distance == 0.0)
     contact.normal = height < 0.0 || (height == 0.0 && acting == MeshSide::BACKS)
                          ? -detail->normal(t)
@@ -119,7 +120,7 @@ bool MeshShape::is_hidden(const SurfaceContact &contact, const Vector3<double> &
   const double distance = just_before * (radius - contact.overlap);
   const Vector3<double> to = center - distance * contact.normal;
   return std::any_of(parts.begin, parts.end, [&](const NearPart &p) {
-    return mesh.own(detail->number(p.part)) != contact.part &&
+    return part_of(detail->number(p.part)) != contact.part &&
            detail->is_between(p.part, center, to);
   });
 }
@@ -187,10 +188,13 @@ int MeshShape::find_many(const Vector3<double> &center, double radius, NearParts
 Passage MeshShape::passage(const Vector3<double> &from, const Vector3<double> &to,
                            NearParts parts) const
 {
-  const double way = length(to - from);
-  for (const NearPart *p = parts.begin; p != parts.end && p->distance <= way; p++)
-    if (detail->is_between(p->part, from, to))
-      return {mesh.own(detail->number(p->part)), acts_at(dot(from - to, detail->normal(p->part)))};
+  const double way = farther(length(to - from));
+  for (const NearPart *p = parts.begin; p != parts.end && p->distance <= way; p++) {
+    Vector3<double> start = from;    // as the triangle sees it
+    if (vertices) start = from + vertices->gone(mesh.corners(detail->number(p->part)).vertex[0]);
+    if (detail->is_between(p->part, start, to))
+      return {mesh.own(detail->number(p->part)), acts_at(dot(start - to, detail->normal(p->part)))};
+  }
   return {};
 }
 
@@ -213,10 +217,10 @@ bool MeshShape::is_near(const Vector3<double> &center, double reach,
 {
   const std::size_t before = parts.size();
   if (!detail) return false;
-  detail->visit_near(center, reach, [&](int t) {
+  detail->visit_near(center, farther(reach), [&](int t) {
     const double square = detail->nearest(t, center).square;
-    if (square < reach * reach)
-      parts.push_back({t, mesh.plane_of(detail->number(t)), std::sqrt(square)});
+    const int number = detail->number(t), group = vertices ? number : mesh.plane_of(number);
+    if (square < reach * reach) parts.push_back({t, group, std::sqrt(square)});
   });
   const auto first = parts.begin() + static_cast<std::ptrdiff_t>(before);
   std::sort(first, parts.end(), [](const NearPart &a, const NearPart &b) {
@@ -242,7 +246,7 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
   double reach = 0.01 * mesh.bounds().diagonal().norm();
   double least = std::numeric_limits<double>::infinity();
   while (std::isinf(least)) {
-    detail->visit_near(center, reach,
+    detail->visit_near(center, farther(reach),
                        [&](int t) { least = std::min(least, detail->nearest(t, center).square); });
     if (least >= reach * reach) least = std::numeric_limits<double>::infinity();
     reach *= 2.0;

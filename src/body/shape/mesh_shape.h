@@ -4,11 +4,15 @@
 #define TALUS_BODY_SHAPE_MESH_SHAPE_H
 
 #include "body/shape/large_body_shape.h"
+#include "body/shape/mesh_check.h"
 #include "body/shape/mesh_detail.h"
+#include "body/shape/moving_vertices.h"
 #include "body/shape/triangle_mesh.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Talus {
 
@@ -57,6 +61,32 @@ class MeshShape : public LargeBodyShape {
   /// For messages: the file.
   const std::string &name() const { return file; }
   void set_name(const std::string &name) { file = name; }
+
+  // ---- vertices that move
+
+  /// They may from now on. Before anything is asked of the mesh; it is not focused then.
+  void let_vertices_move();
+  /// nullptr: they do not.
+  const MovingVertices *moving() const { return vertices.get(); }
+  MovingVertices *moving() { return vertices.get(); }
+  /// Moves them as MovingVertices::guide() says, in a step of at most `way` (length). Returns "", or for
+  /// people, why not.
+  std::string guide(const MovingVertices::Places &places, const MovingVertices::Places *velocities,
+                    int steps, double dt, double way);
+  /// As from restart files; see MovingVertices.
+  void resume(const double *array);
+  /// Of one step.
+  void advance();
+  /// Before parts are listed: is_near() finds what is near now.
+  void settle();
+  /// After that: these parts alone are looked at until then. nullptr: all may be.
+  void keep_current(const std::vector<NearPart> *parts);
+  /// Counts changes of the surface.
+  std::int64_t num_changes() const { return changes; }
+
+  /// What is called the part of a contact with a triangle: of a mesh at rest an image is its own one.
+  int part_of(int triangle) const { return vertices ? triangle : mesh.own(triangle); }
+
   /// What parts are, after focus().
   const MeshDetail &near_detail() const { return *detail; }
   /// Triangles that may be found here.
@@ -99,7 +129,15 @@ class MeshShape : public LargeBodyShape {
                  NearParts parts) const;
   bool acts_at(double height) const;
 
+  double farther(double reach) const { return vertices ? reach + vertices->way() : reach; }
+  void follow();
+
   TriangleMesh mesh;
+  std::unique_ptr<MovingVertices> vertices;    // if they move
+  std::unique_ptr<MeshCheck> check;            // the same
+  std::vector<int> current;                    // triangles that are followed in each step
+  bool with_planes = false;                    // and planes of more than one triangle
+  std::int64_t changes = 0;
   std::unique_ptr<MeshDetail> detail;
   Eigen::AlignedBox3d cover;
   bool covers_all = false;

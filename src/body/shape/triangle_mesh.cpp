@@ -88,6 +88,7 @@ void TriangleMesh::continue_behind(const PeriodicEdges &edges)
   vertices = joined.all();
   triangles.insert(triangles.end(), behind.triangles.begin(), behind.triangles.end());
   images = behind.own;
+  vertex_images = behind.vertices;
   for (const Vector3<double> &p : vertices) extent.extend(to_eigen(p));
   find_smooth_parts();
 }
@@ -288,6 +289,11 @@ void TriangleMesh::find_planes(const MeshEdges &edges)
     if (planes[first] < 0) spread_plane(first, edges, to_do);
 }
 
+void TriangleMesh::separate_planes()
+{
+  std::iota(planes.begin(), planes.end(), 0);
+}
+
 void TriangleMesh::spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do)
 {
   const double allowed = plane_tolerance * length(from_eigen(extent.sizes()));
@@ -339,7 +345,7 @@ double TriangleMesh::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
   return bytes(vertices) + bytes(triangles) + bytes(patches) + bytes(planes) + bytes(file_numbers) +
-         bytes(images);
+         bytes(images) + bytes(vertex_images);
 }
 
 }    // namespace Talus

@@ -62,6 +62,18 @@ class TriangleMesh {
   /// The triangle that an image is one of; itself if it is none.
   int own(int t) const { return t < num_own() ? t : images[t - num_own()]; }
   int num_vertices() const { return static_cast<int>(vertices.size()); }
+  /// Without those of images alone, which follow.
+  int num_own_vertices() const { return num_vertices() - static_cast<int>(vertex_images.size()); }
+  /// The vertex that one of an image stands for, itself if it is none; and how far away it is.
+  int own_vertex(int v) const
+  {
+    return v < num_own_vertices() ? v : vertex_images[v - num_own_vertices()].own;
+  }
+  Vector3<double> shift_of_vertex(int v) const
+  {
+    return v < num_own_vertices() ? Vector3<double>{0.0, 0.0, 0.0}
+                                  : vertex_images[v - num_own_vertices()].shift;
+  }
   const MeshReport &report() const { return findings; }
   const Corners &corners(int t) const { return triangles[t]; }
   const Vector3<double> &vertex(int v) const { return vertices[v]; }
@@ -90,6 +102,18 @@ class TriangleMesh {
   const Vector3<double> &center() const { return middle; }
   const Eigen::AlignedBox3d &bounds() const { return extent; }
 
+  // ---- of a mesh whose vertices move, see MovingVertices
+
+  /// Before anything is asked of its planes: each triangle has a plane of its own.
+  void separate_planes();
+  /// Planes as they are now, all over again.
+  void find_planes(const MeshEdges &edges);
+  void place(int vertex, const Vector3<double> &x) { vertices[vertex] = x; }
+  /// All places that it will have until the next call are in this box.
+  void set_bounds(const Eigen::AlignedBox3d &box) { extent = box; }
+  void set_patches(std::vector<int> of_triangles) { patches = std::move(of_triangles); }
+  const std::vector<Corners> &all_corners() const { return triangles; }
+
   double memory_usage() const;
 
  private:
@@ -102,7 +126,6 @@ class TriangleMesh {
   void look_at_edges(const MeshEdges &edges);
   void find_smooth_parts();
   void find_patches(const MeshEdges &edges);
-  void find_planes(const MeshEdges &edges);
   void spread_plane(int first, const MeshEdges &edges, std::vector<int> &to_do);
   void find_hollows(const MeshEdges &edges);
   void find_volume();
@@ -112,6 +135,7 @@ class TriangleMesh {
   std::vector<int> patches, planes;
   std::vector<int> file_numbers;    // empty: those of the file
   std::vector<int> images;          // of which triangle each image is one
+  std::vector<MeshImages::Vertex> vertex_images;
   double joins_within = 0.0;        // the tolerance for corners
   MeshReport findings;
   Eigen::AlignedBox3d extent;

@@ -120,7 +120,7 @@ void MeshContacts::add_corner(const MeshCorner &corner, int t)
   contact.weight = 1.0;
   contact.name = contact_name(ContactParts::VERTEX_OF_B, 0, 0);
   contact.surface = static_cast<std::uint32_t>(corner.vertex);
-  contact.part = surface.surface().own(t);
+  contact.part = surface.part_of(t);
   with.of_corner.emplace_back(corner.vertex, static_cast<int>(points.size()));
   points.push_back(contact);
 }

@@ -164,7 +164,7 @@ void MeshContacts::add_edges(const Ridge &ridge, int t)
     contact.position = 0.5 * (of_edge + of_ridge - radius * normal);
     contact.name = contact_name(ContactParts::EDGES, edge.number, 0);
     contact.surface = ridge.name;
-    contact.part = surface.surface().own(t);
+    contact.part = surface.part_of(t);
     points.push_back(contact);
     with.energy.take_from(points);
   }

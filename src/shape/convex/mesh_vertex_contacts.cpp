@@ -120,7 +120,7 @@ void MeshContacts::add_vertex_contact(int v, const Vector &x, const Vector &norm
   contact.position = x - (radius - 0.5 * overlap) * normal;
   contact.weight = 1.0;
   contact.surface = static_cast<std::uint32_t>(mesh.patch(t));
-  contact.part = mesh.own(t);
+  contact.part = surface.part_of(t);
   int others = 0;
   for (ShapeContact &one : points) {
     if (one.name >> 15 != contact_name(ContactParts::VERTEX_OF_A, v, 0) >> 15) continue;

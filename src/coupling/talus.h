@@ -33,7 +33,8 @@ enum {
   TALUS_OK = 0,
   TALUS_REFUSED = 1,          /* an argument is wrong; nothing was changed */
   TALUS_HOST_ERROR = 2,       /* LAMMPS ended a command with an error; the instance may be used as after any error */
-  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank: all calls but talus_close() return this from then on */
+  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank, or ranks made different calls: all calls return this
+                                 from then on */
   TALUS_NOT_LOADED = 4        /* no instance of LAMMPS has loaded the plugin, or another version of it */
 };
 
@@ -48,9 +49,11 @@ int talus_interface_version(void);
 int talus_load(void *lmp);
 /* lmp: the instance (of lammps_open(), or `handle` of an instance in Python). */
 int talus_open(void *lmp, int root, talus_partner **partner);
+/* Before the instance is closed. The partner is gone, whatever the code: TALUS_PARTNER_FAILED if another rank fails at this
+   time instead. */
 int talus_close(talus_partner *partner);
 /* Local. Text of the last call that did not return TALUS_OK, for one line of output; valid until the next call. NULL: of
-   talus_open() and talus_load(). */
+   talus_open(), talus_load() and talus_close(). */
 const char *talus_error(const talus_partner *partner);
 /* Says on one rank, instead of any call that the others make, that the partner cannot go on. The calls of all ranks then
    return TALUS_PARTNER_FAILED with this text; nobody waits for ever. */
@@ -64,8 +67,8 @@ int talus_get_time(const talus_partner *partner, double *time, double *dt, int64
 int talus_advance(talus_partner *partner, int64_t steps);
 /* The same for a time (time units), which must be a whole number of time steps to 1e-6 of one. */
 int talus_advance_by(talus_partner *partner, double duration);
-/* After commands of the script that change more than numbers (fix, pair_coeff, ...): the next advance begins with the
-   set-up of a run. */
+/* After commands of the script that change more than numbers: the next advance begins with the set-up of a run. Fixes,
+   computes, pair styles, laws and particles that come or go are noticed without it. */
 int talus_set_up(talus_partner *partner);
 
 /* ---- rigid bodies: fix large/body, by the ID of the fix ---------------------------------------------- */
@@ -114,13 +117,14 @@ int64_t talus_snapshot_size(const talus_snapshot *snapshot);
 /* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all of
    them. n = 0: none from now on. */
 int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force, const double *torque);
-/* A drag force c (u - v): coefficient c (mass/time, > 0) and velocity u of the fluid (3 each), taken at the new velocity v
-   of each step, so that no coefficient is too large. Held and replaced as forces are. */
+/* A drag force c (u - v): coefficient c (force/velocity, > 0) and velocity u of the fluid (3 each), taken at the new velocity
+   v of each step, so that no coefficient is too large; on spheres of clumps at the present one, with c times the time step
+   at most their mass. Held and replaced as forces are. */
 int talus_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const double *coefficient,
                    const double *fluid_velocity);
 /* Heat flow (energy/time) into particles that have a temperature. Held and replaced as forces are. */
 int talus_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const double *flow);
-/* Impulse (3 each) that the fluid has given n particles by drag since the last call of this. */
+/* Impulse (3 each) that the fluid has given n particles by drag, each since it was asked for last. */
 int talus_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id, double *impulse);
 /* Number of particles; then their IDs ascending (n of them, room for all), and of the given ones places, velocities,
    angular velocities (3 each), radii, masses. Any may be NULL. */
@@ -134,7 +138,8 @@ int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, do
 /* Means over cells of a grid, smeared as compute coarse/grid does with this width (distance units; 0: by centers): corners
    of the grid, cells along x, y, z; x runs fastest. solid: volume of particles over that of the cell. momentum: of
    particles per volume (3 each). exchange: impulse of drag per volume (3 each) since the last call of this with exchange.
-   Any may be NULL. What particles have inside the grid is in its cells to rounding. */
+   Any may be NULL. What particles with their center inside the grid have is in its cells to rounding; exchange begins anew
+   for these. */
 int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells, double width,
                     double *solid, double *momentum, double *exchange);
 

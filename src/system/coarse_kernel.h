@@ -10,15 +10,17 @@
 //
 // The factor is such that the values at all points of the grid, also those outside the box, times
 // the volume of a cell add up to 1: for each particle and each line by itself. So sums over the
-// grid are exact. For W much larger than a cell it is the 105/(32 pi W^3) of the continuum.
+// grid are exact. For W much larger than a cell it is the 105/(32 pi W^3) of the continuum. Where cells
+// end at some border, those inside get all.
 
-#ifndef TALUS_COMPUTE_COARSE_KERNEL_H
-#define TALUS_COMPUTE_COARSE_KERNEL_H
+#ifndef TALUS_SYSTEM_COARSE_KERNEL_H
+#define TALUS_SYSTEM_COARSE_KERNEL_H
 
 #include "base/vector3.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace Talus {
@@ -30,15 +32,23 @@ class CoarseKernel {
     double weight;    ///< 1/volume
   };
 
+  /// Indices of the first cell and the last one of each direction, where there is an end.
+  struct Ends {
+    int first[3], last[3];
+  };
+  static constexpr int endless = std::numeric_limits<int>::max();
+
   /// Centers of cells are at origin + (index + 1/2) edge. At least as wide as each edge.
-  CoarseKernel(const Vector3<double> &origin, const Vector3<double> &edge, double width) :
-      origin{origin.x, origin.y, origin.z}, edge{edge.x, edge.y, edge.z}, width(width)
+  CoarseKernel(const Vector3<double> &origin, const Vector3<double> &edge, double width,
+               const Ends &given = {{-endless, -endless, -endless}, {endless, endless, endless}}) :
+      origin{origin.x, origin.y, origin.z},
+      edge{edge.x, edge.y, edge.z}, width(width), ends(given)
   {
   }
 
   const std::vector<Share> &of_point(const Vector3<double> &x) { return of_line(x, x); }
 
-  /// The mean of phi along the line from a to b. Valid until the next call.
+  /// The mean of phi along the line from a to b, which is between the ends. Valid until the next call.
   const std::vector<Share> &of_line(const Vector3<double> &a, const Vector3<double> &b)
   {
     const double from[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z};
@@ -47,6 +57,8 @@ class CoarseKernel {
       const auto index = [&](double place) { return (place - origin[d]) / edge[d] - 0.5; };
       lo[d] = static_cast<int>(std::ceil(index(std::min(from[d], to[d]) - width)));
       hi[d] = static_cast<int>(std::floor(index(std::max(from[d], to[d]) + width)));
+      lo[d] = std::max(lo[d], ends.first[d]);
+      hi[d] = std::min(hi[d], ends.last[d]);
     }
     shares.clear();
     double sum = 0.0;
@@ -95,6 +107,7 @@ class CoarseKernel {
   }
 
   double origin[3], edge[3], width;
+  Ends ends;
   std::vector<Share> shares;
 };
 

@@ -1,0 +1,68 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Whether a mesh may have its vertices at other places, and what follows from these for its contacts. The
+// triangles at the old places are assumed to be right. Refused are
+//
+//   triangles without area
+//   triangles that have turned over against a neighbor: the angle between the two is over 90 degrees and
+//     has changed by more than this
+//   triangles that cut each other: all pairs of which one has moved. Of those that share one vertex only
+//     where not all triangles around it face one half of space, else they cannot.
+//
+// Numbers of triangles are those of the mesh, from 0. Images are not looked at: their own ones are.
+
+#ifndef TALUS_BODY_SHAPE_MESH_CHECK_H
+#define TALUS_BODY_SHAPE_MESH_CHECK_H
+
+#include "body/shape/box_tree.h"
+#include "body/shape/mesh_edges.h"
+#include "body/shape/triangle_mesh.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Talus {
+
+class MeshCheck {
+ public:
+  using Places = std::vector<Vector3<double>>;
+
+  /// Must live as long as this; it is asked for its topology alone.
+  explicit MeshCheck(const TriangleMesh &mesh);
+
+  /// "", or for people: what is wrong. Both of all vertices.
+  std::string problem(const Places &now, const Places &then);
+
+  /// The same without a check.
+  void look_at(const Places &places) { find_normals(places); }
+  /// Of all triangles, images included, at the places of the last call of either: see
+  /// TriangleMesh::patch().
+  std::vector<int> patches() const;
+
+  const MeshEdges &edges() const { return all_edges; }
+  double memory_usage() const;
+
+ private:
+  Triangle triangle(const Places &places, int t) const;
+  std::string find_normals(const Places &places);
+  std::string turned_over(const Places &now) const;
+  double fold(const MeshEdges::Edge &edge, int a, int b, const Places &places) const;
+  void look_at_vertices();
+  std::string crossing();
+  bool cut(int a, int b) const;
+  std::string name_of(int t, const Places &places) const;
+
+  const TriangleMesh &mesh;
+  const MeshEdges all_edges;
+  std::unique_ptr<BoxTree> tree;    // of the own triangles
+  // of the last places
+  const Places *to = nullptr;
+  std::vector<Vector3<double>> normals;
+  std::vector<bool> moved;              // triangles
+  std::vector<unsigned char> is_fan;    // vertices: not all around it face one half of space
+};
+
+}    // namespace Talus
+
+#endif

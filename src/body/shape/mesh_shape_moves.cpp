@@ -1,0 +1,99 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// A mesh whose vertices move.
+
+#include "body/shape/mesh_shape.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace Talus {
+
+void MeshShape::let_vertices_move()
+{
+  vertices = std::make_unique<MovingVertices>(mesh);
+  check = std::make_unique<MeshCheck>(mesh);
+  mesh.separate_planes();
+  detail = std::make_unique<MeshDetail>(mesh);
+  covers_all = true;
+}
+
+/* What is wrong with places is the same on all ranks, which know the same of the mesh. */
+
+std::string MeshShape::guide(const MovingVertices::Places &places,
+                             const MovingVertices::Places *velocities, int steps, double dt,
+                             double way)
+{
+  MovingVertices::Places now;
+  double largest = 0.0;
+  int farthest = 0;
+  for (int v = 0; v < mesh.num_vertices(); v++) now.push_back(mesh.vertex(v));
+  for (int v = 0; v < mesh.num_own_vertices(); v++) {
+    const double gone = length(places[v] - now[v]) / std::max(steps, 1);
+    if (gone <= largest) continue;
+    largest = gone;
+    farthest = v;
+  }
+  if (largest > way) {
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "vertex %d would go %.4g in one step, which is more than the skin %.4g: give "
+                  "places more often, or for more steps ahead",
+                  farthest, largest, way);
+    return text;
+  }
+  const std::string problem = check->problem(now, vertices->with_images(places));
+  if (!problem.empty()) return problem;
+  vertices->guide(places, velocities, steps, dt);
+  mesh.set_patches(check->patches());
+  if (steps == 0) follow();
+  return "";
+}
+
+void MeshShape::resume(const double *array)
+{
+  vertices->from_array(array);
+  check->look_at(vertices->target());
+  mesh.set_patches(check->patches());
+  settle();
+}
+
+void MeshShape::advance()
+{
+  if (vertices->advance()) follow();
+}
+
+void MeshShape::follow()
+{
+  changes++;
+  if (with_planes) mesh.find_planes(check->edges());
+  detail->follow(current);
+}
+
+void MeshShape::settle()
+{
+  if (with_planes) mesh.find_planes(check->edges());
+  detail->follow_all();
+  vertices->settle();
+}
+
+void MeshShape::keep_current(const std::vector<NearPart> *parts)
+{
+  current.clear();
+  if (with_planes != (parts == nullptr)) {
+    with_planes = parts == nullptr;
+    if (!with_planes) mesh.separate_planes();
+    settle();
+  }
+  if (with_planes) {
+    for (int t = 0; t < mesh.size(); t++) current.push_back(t);
+    return;
+  }
+  std::vector<bool> named(mesh.size());
+  for (const NearPart &part : *parts) named[part.part] = true;
+  for (int t = 0; t < mesh.size(); t++)
+    if (named[t]) current.push_back(t);
+  current = detail->near_to(current);
+}
+
+}    // namespace Talus

@@ -1,0 +1,59 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// A mesh whose vertices another program moves (`move vertices` of fix large/body): the impulses that
+// particles give them. A force acts in the step that follows it, or where the integrator gives half of its
+// kick at the end of a step, in both: so do its impulse and its work, which is the force times the way of
+// the vertex. So particles have got what vertices have given, to rounding.
+//
+//   begin_step()   when vertices and particles have moved
+//   end_step()     when forces are known
+
+#ifndef TALUS_FIX_LARGE_BODY_VERTICES_H
+#define TALUS_FIX_LARGE_BODY_VERTICES_H
+
+#include "body/contact/body_batch.h"
+#include "body/contact/vertex_sums.h"
+#include "body/shape/mesh_shape.h"
+#include "system/deforming_body.h"
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LargeBodyVertices : protected Pointers {
+ public:
+  LargeBodyVertices(LAMMPS *lmp, Talus::MeshShape &shape);
+
+  /// Filled by the contacts of a step.
+  std::vector<Talus::TouchedCorners> *touched() { return &forces; }
+  void begin_step();
+  /// `next`: the share of a time step in which these forces will act; the rest of it they have acted in the
+  /// step that ends. `advance`: there was one.
+  void end_step(double next, bool advance);
+
+  /// Collective.
+  Talus::VertexImpulses take();
+
+  /// Collective: for restart files, state of the vertices and sums of all ranks; rank 0 goes on with these.
+  /// `begin`, `end`: false if it is that of another mesh.
+  void to_array(std::vector<double> &to);
+  bool from_array(const double *begin, const double *end);
+
+  double memory_usage() const;
+
+ private:
+  void add(double share);
+  std::vector<double> of_all_ranks() const;
+
+  Talus::MeshShape &mesh;
+  std::vector<Talus::TouchedCorners> forces;    // of the last step
+  double share_of_next = 1.0;
+  Talus::VertexSums sums;
+  double time = 0.0;    // of the sums
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,57 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/fix_external_loads.h"
+
+#include "atom.h"
+#include "error.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using Moment = Talus::ExternalLoads::Moment;
+
+FixExternalLoads::FixExternalLoads(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp))
+{
+  if (narg != 3 || !utils::strmatch(id, "^TALUS_LOADS$"))
+    error->all(FLERR, "Fix EXTERNAL_LOADS is internal to Talus");
+  create_attribute = 1;
+  maxexchange = Talus::ExternalLoads::size_packed;
+  atom->add_callback(Atom::GROW);
+  loads().take_fix(this);
+}
+
+FixExternalLoads::~FixExternalLoads()
+{
+  atom->delete_callback(id, Atom::GROW);
+  loads().drop_fix();
+}
+
+int FixExternalLoads::setmask()
+{
+  return FixConst::POST_FORCE;
+}
+
+void FixExternalLoads::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
+    error->all(FLERR,
+               "Forces, drag or heat that another program has put on particles do not act with "
+               "run_style respa: use run_style verlet");
+}
+
+void FixExternalLoads::setup(int)
+{
+  loads().act(Moment::SET_UP);
+}
+
+void FixExternalLoads::post_force(int)
+{
+  loads().act(Moment::STEP);
+}
+
+/* Between two steps, or at the end of one that is in the arrays. */
+
+void FixExternalLoads::reset_dt()
+{
+  loads().act(Moment::BETWEEN_STEPS);
+}

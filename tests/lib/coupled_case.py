@@ -1,0 +1,48 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Test cases with a program that hosts LAMMPS, and is a partner of it: in Python (python/talus.py) or in C (libtalus.so)."""
+
+import json
+import os
+import sys
+
+from talus_testing import SceneCase, run_program
+
+SOURCE, BUILD = os.environ["TALUS_SOURCE_DIR"], os.environ["TALUS_BINARY_DIR"]
+HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
+if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
+    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+
+
+def host_environment(**more):
+    """What programs need to find LAMMPS, its Python module and that of Talus."""
+    return {"PYTHONPATH": ":".join([os.path.join(HOST_SOURCE, "python"), os.path.join(SOURCE, "python"),
+                                    os.path.join(SOURCE, "tests", "lib")]),
+            "LD_LIBRARY_PATH": ":".join([HOST, BUILD, os.environ.get("LD_LIBRARY_PATH", "")]), **more}
+
+
+class CoupledCase(SceneCase):
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return name
+
+    def read_json(self, name):
+        with open(self.path(name)) as file:
+            return json.load(file)
+
+    def launch(self, command, np=1, env=None, **options):
+        """What it prints."""
+        return run_program(command[0], np, command[1:], cwd=self.dir, env=host_environment(**(env or {})), **options).output
+
+    def drive(self, program, *words, np=1, **options):
+        """The same of a Python program given as text."""
+        return self.launch([sys.executable, self.write("driver.py", program), *map(str, words)], np, **options)
+
+    def compile(self, name, text, compiler=None):
+        """A program in C that is linked with LAMMPS and libtalus.so."""
+        words = compiler or [os.environ.get("TALUS_MPICC", "mpicc")]
+        self.launch([*words, "-Wall", "-Werror", "-DLAMMPS_LIB_MPI", self.write(name + ".c", text), "-I",
+                     os.path.join(HOST_SOURCE, "src"), "-I", os.path.join(SOURCE, "src", "coupling"), "-L", HOST, "-llammps", "-L", BUILD,
+                     "-ltalus", "-o", name])
+        return "./" + name
