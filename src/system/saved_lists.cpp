@@ -43,8 +43,7 @@ SavedLists::Decomposition SavedLists::present_decomposition() const
     std::copy_n(comm->mysplit[0], 6, now.own_split.begin());
   }
   const double *const splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
-  for (int d = 0; d < 3; d++)
-    now.splits[d].assign(splits[d], splits[d] + comm->procgrid[d] + 1);
+  for (int d = 0; d < 3; d++) now.splits[d].assign(splits[d], splits[d] + comm->procgrid[d] + 1);
   return now;
 }
 
@@ -67,8 +66,7 @@ bool SavedLists::on_all_ranks(bool here) const
 
 bool SavedLists::are_present() const
 {
-  return on_all_ranks(number != 0 && made.number() == number &&
-                      digest_of_particles() == particles);
+  return on_all_ranks(number != 0 && made.number() == number && digest_of_particles() == particles);
 }
 
 /* As fix balance does. */
@@ -116,7 +114,8 @@ void SavedLists::run_hooks_and_build() const
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   neighbor->build(1);
   neighbor->lastcall = step;
-  if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate)) run_style->lists_are_made();
+  if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate))
+    run_style->lists_are_made();
   if (modify->n_post_neighbor) modify->post_neighbor();
 }
 
