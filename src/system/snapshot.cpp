@@ -61,9 +61,10 @@ std::string Snapshot::reason_against_restoring(const GranularSystem &into) const
 void Snapshot::restore() const
 {
   clock.restore_time();
-  const bool same_lists = lists.are_present();
-  if (!same_lists) restore_lists();
-  particles.restore(true);
+  if (lists.are_present())
+    particles.restore(true);
+  else
+    restore_lists();
   fixes.restore_particles();
   comm->forward_comm();
   if (FixContactStore *store = system.store()) {
@@ -77,7 +78,7 @@ void Snapshot::restore() const
   clock.restore_plans();
 }
 
-/* Pairs that are made here have no histories. */
+/* With the particles. Pairs that are made here have no histories. */
 
 void Snapshot::restore_lists() const
 {
@@ -94,6 +95,7 @@ void Snapshot::restore_lists() const
                       "sizes or types of particles "
                       "had changed between the last rebuild and the snapshot: call talus_set_up() "
                       "before talus_save()");
+  particles.restore_positions();
 }
 
 double Snapshot::memory_usage() const
