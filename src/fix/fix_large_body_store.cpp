@@ -67,6 +67,7 @@ int FixLargeBody::unpack_exchange(int i, double *buf)
 void FixLargeBody::exchange_state(StateExchange &x)
 {
   motion.exchange_state(x);
+  if (vertices) vertices->exchange_state(x);
   side.exchange_state(x);
   surface->exchange_state(x);
   body.exchange_state(x);
@@ -127,10 +128,11 @@ void FixLargeBody::restart(char *buf)
                    id);
   if (same_motion && vertices &&
       !vertices->from_array(of_vertices + 1, of_vertices + 1 + size_vertices))
-    error->all(FLERR,
-               "Fix large/body {}: the mesh of the restart file had another number of vertices: use "
-               "the same file and words",
-               id);
+    error->all(
+        FLERR,
+        "Fix large/body {}: the mesh of the restart file had another number of vertices: use "
+        "the same file and words",
+        id);
   surface->read_work(values, size_head + LargeBodyMotion::size_restart + 1 + size_vertices);
 }
 

@@ -11,6 +11,7 @@
 #ifndef TALUS_FIX_LARGE_BODY_VERTICES_H
 #define TALUS_FIX_LARGE_BODY_VERTICES_H
 
+#include "base/state_exchange.h"
 #include "body/contact/body_batch.h"
 #include "body/contact/vertex_sums.h"
 #include "body/shape/mesh_shape.h"
@@ -40,6 +41,9 @@ class LargeBodyVertices : protected Pointers {
   /// `begin`, `end`: false if it is that of another mesh.
   void to_array(std::vector<double> &to);
   bool from_array(const double *begin, const double *end);
+
+  /// For snapshots: the vertices, and the sums of this rank.
+  void exchange_state(Talus::StateExchange &x);
 
   double memory_usage() const;
 

@@ -8,8 +8,8 @@
 #ifndef TALUS_SYSTEM_RUN_CONTACTS_H
 #define TALUS_SYSTEM_RUN_CONTACTS_H
 
-#include "contact/contact_pipeline.h"
 #include "base/state_exchange.h"
+#include "contact/contact_pipeline.h"
 #include "laws/contact_energy.h"
 
 #include "pointers.h"

@@ -3,11 +3,14 @@
 #include "system/saved_lists.h"
 
 #include "base/state_digest.h"
+#include "system/fix_list.h"
+#include "system/system_fix.h"
 #include "system/system_run_style.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -43,8 +46,7 @@ SavedLists::Decomposition SavedLists::present_decomposition() const
     std::copy_n(comm->mysplit[0], 6, now.own_split.begin());
   }
   const double *const splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
-  for (int d = 0; d < 3; d++)
-    now.splits[d].assign(splits[d], splits[d] + comm->procgrid[d] + 1);
+  for (int d = 0; d < 3; d++) now.splits[d].assign(splits[d], splits[d] + comm->procgrid[d] + 1);
   return now;
 }
 
@@ -67,8 +69,7 @@ bool SavedLists::on_all_ranks(bool here) const
 
 bool SavedLists::are_present() const
 {
-  return on_all_ranks(number != 0 && made.number() == number &&
-                      digest_of_particles() == particles);
+  return on_all_ranks(number != 0 && made.number() == number && digest_of_particles() == particles);
 }
 
 /* As fix balance does. */
@@ -116,8 +117,12 @@ void SavedLists::run_hooks_and_build() const
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   neighbor->build(1);
   neighbor->lastcall = step;
-  if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate)) run_style->lists_are_made();
-  if (modify->n_post_neighbor) modify->post_neighbor();
+  if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate))
+    run_style->lists_are_made();
+  // those of Talus list particles when all is restored
+  for (Fix *fix : fix_list(*modify))
+    if ((modify->get_fix_mask(fix) & FixConst::POST_NEIGHBOR) && !SystemFix::of(fix))
+      fix->post_neighbor();
 }
 
 double SavedLists::memory_usage() const

@@ -60,8 +60,8 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   Decomposition decomposition;
   DomainBox box;
   DomainBox box_of_lists;
-  std::uint64_t particles = 0;       // digest of owned ones and ghosts
-  std::vector<double> positions;     // at which lists were made; empty: not known
+  std::uint64_t particles = 0;      // digest of owned ones and ghosts
+  std::vector<double> positions;    // at which lists were made; empty: not known
 };
 
 }    // namespace Talus
