@@ -19,6 +19,7 @@
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -49,7 +50,7 @@ class LargeBodyVertices : protected Pointers {
 
  private:
   void add(double share);
-  std::vector<double> of_all_ranks() const;
+  std::vector<std::int64_t> packed_of_all_ranks() const;
 
   Talus::MeshShape &mesh;
   std::vector<Talus::TouchedCorners> forces;    // of the last step

@@ -63,8 +63,6 @@ class BodyCandidates {
   /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.
   NearParts parts_near(const BodyFrame &frame, std::size_t c, const Vector3<double> &x,
                        double radius, bool &may_touch) const;
-  /// Of all candidates, as they were listed.
-  const std::vector<NearPart> &all_parts() const { return parts; }
 
   /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
   void prefetch_list(std::size_t c, double radius) const;

@@ -75,12 +75,11 @@ class MeshShape : public LargeBodyShape {
                     int steps, double dt, double way);
   /// As from restart files; see MovingVertices.
   void resume(const double *array);
-  /// Of one step.
-  void advance();
-  /// Before parts are listed: is_near() finds what is near now.
-  void settle();
-  /// After that: these parts alone are looked at until then. nullptr: all may be.
-  void keep_current(const std::vector<NearPart> *parts);
+  /// Of one step; see MovingVertices.
+  void advance(bool order_2);
+  /// Before parts are listed, so that is_near() finds fast what is near now. `with_planes`: from now on triangles
+  /// that lie in one plane are known to, as particles with a shape need it.
+  void settle(bool with_planes);
   /// Counts changes of the surface.
   std::int64_t num_changes() const { return changes; }
 
@@ -130,13 +129,12 @@ class MeshShape : public LargeBodyShape {
   bool acts_at(double height) const;
 
   double farther(double reach) const { return vertices ? reach + vertices->way() : reach; }
-  void follow();
+  void find_planes();
 
   TriangleMesh mesh;
   std::unique_ptr<MovingVertices> vertices;    // if they move
   std::unique_ptr<MeshCheck> check;            // the same
-  std::vector<int> current;                    // triangles that are followed in each step
-  bool with_planes = false;                    // and planes of more than one triangle
+  bool keeps_planes = false;                   // of more than one triangle, in each step
   std::int64_t changes = 0;
   std::unique_ptr<MeshDetail> detail;
   Eigen::AlignedBox3d cover;
