@@ -85,6 +85,17 @@ class Run(unittest.TestCase):
             self.assertIn("log.lammps", result.stderr)
 
 
+    def test_a_program_that_hosts_lammps(self):
+        result = self.run_script("fluid", "-np", "2", "--", "--quick")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("Result: terminal velocities of", result.stdout)
+        self.assertEqual(result.stdout.count("Result: bed of"), 1)
+        self.assertIn("  fluid.svg  ", result.stderr)
+        result = self.run_script("fluid", "--", "--slow")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("unrecognized arguments: --slow", result.stderr)
+
+
 class Stream(io.StringIO):
     def __init__(self, terminal):
         super().__init__()
