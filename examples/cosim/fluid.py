@@ -71,7 +71,7 @@ thermo 0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--every", type=int, default=400, help="steps between two exchanges of the bed")
+    parser.add_argument("--every", type=int, default=600, help="steps between two exchanges of the bed")
     parser.add_argument("--quick", action="store_true", help="a small bed and few velocities, for tests")
     options = parser.parse_args()
     options.out = os.path.abspath(options.out)
