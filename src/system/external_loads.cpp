@@ -126,21 +126,18 @@ void ExternalLoads::release_if_idle()
   resize(0);
 }
 
-/* put(k, i) for those that are to have some from now on. What is in the sums of forces comes first. */
+/* put(k, i) for those that are to have some from now on. */
 
 template <class Put>
 void ExternalLoads::replace(unsigned kinds, const ParticlesById &particles, Put put)
 {
   if (particles.size()) make_room();
   if (what.empty()) return;
-  find_kicks(Moment::BETWEEN_STEPS);
-  const ParticleState state = system.particles();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (has(i, ADDED)) take_back(i, state);
-    unset(i, kinds);
-  }
+  const bool in_sums = (kinds & (FORCE | TORQUE | DRAG)) != 0;
+  if (in_sums) take_back();    // by what was put before
+  for (int i = 0; i < atom->nlocal; i++) unset(i, kinds);
   particles.for_each(put);
-  act(Moment::BETWEEN_STEPS);
+  if (in_sums) act(Moment::BETWEEN_STEPS);
   release_if_idle();
 }
 
@@ -186,10 +183,11 @@ std::string ExternalLoads::problem_of_drag(const ParticlesById &particles,
     if (!problem.empty() || !kick || !kick->rigid) return;
     const double ratio = coefficient[k] * kick->time * force->ftm2v / atom->rmass[i];
     if (ratio <= 1.0) return;
-    problem = "particle " + std::to_string(atom->tag[i]) +
-              " belongs to a clump, whose drag is taken at the present velocity, and coefficient " +
-              "times time step is " + std::to_string(ratio) +
-              " of its mass, expected 1 or less: use a smaller time step";
+    problem = fmt::format(
+        "particle {} belongs to a clump, whose drag is taken at the present velocity, "
+        "and coefficient times time step is {:.6g} of its mass, expected 1 or less: use "
+        "a smaller time step",
+        atom->tag[i], ratio);
   });
   return problem;
 }

@@ -76,6 +76,8 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   enum class Moment { SET_UP, STEP, BETWEEN_STEPS };
   /// Some particle has one. Collective.
   bool any() const;
+  /// A set-up begins: it makes other sums of forces than those that are there.
+  void sums_begin_anew();
   /// Adds them to the forces.
   void act(Moment moment);
   /// At the start of a run, collective: "", or why they need the arrays of LAMMPS.
@@ -132,7 +134,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void find_kicks(Moment moment);
   Kick kick_of(LAMMPS_NS::Fix &integrator, Moment moment) const;
   const Kick *kick_of(int i) const;
-  void take_back(int i, const ParticleState &particles);
+  void take_back();
   void act_on(int i, const ParticleState &particles, Moment moment);
   void add(int i, const ParticleState &particles, const Kick *kick, Moment moment);
   void find_drag(int i, const double *v, const double *force, const Kick *kick);

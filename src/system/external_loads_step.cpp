@@ -88,6 +88,8 @@ const ExternalLoads::Kick *ExternalLoads::kick_of(int i) const
 void ExternalLoads::act(Moment moment)
 {
   if (what.empty()) return;
+  if (moment == Moment::BETWEEN_STEPS && !update->first_update) return;    // there are no sums yet
+  if (moment != Moment::STEP) take_back();
   constexpr int ahead = 12;
   find_kicks(moment);
   const ParticleState particles = system.particles();
@@ -115,16 +117,28 @@ void ExternalLoads::act_on(int i, const ParticleState &particles, Moment moment)
   if (has(i, FORCE | TORQUE | DRAG) && !has_read) add(i, particles, kick, moment);
 }
 
+/* There may be an act between steps before they are there. */
+
+void ExternalLoads::sums_begin_anew()
+{
+  for (int i = 0; i < static_cast<int>(what.size()); i++) unset(i, ADDED | DUE);
+}
+
 /* Between steps, what was added to these sums. */
 
-void ExternalLoads::take_back(int i, const ParticleState &particles)
+void ExternalLoads::take_back()
 {
-  const Kick *const kick = kick_of(i);
-  if (kick && kick->has_read) return;
-  if (has(i, DRAG)) add_to_row(-1.0, loads[i].drag, particles.f(i));
-  if (has(i, FORCE)) add_to_row(-1.0, loads[i].force, particles.f(i));
-  if (has(i, TORQUE)) add_to_row(-1.0, rest[i].torque, particles.torque(i));
-  unset(i, ADDED);
+  find_kicks(Moment::BETWEEN_STEPS);
+  const ParticleState particles = system.particles();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!has(i, ADDED)) continue;
+    const Kick *const kick = kick_of(i);
+    if (kick && kick->has_read) continue;
+    if (has(i, DRAG)) add_to_row(-1.0, loads[i].drag, particles.f(i));
+    if (has(i, FORCE)) add_to_row(-1.0, loads[i].force, particles.f(i));
+    if (has(i, TORQUE)) add_to_row(-1.0, rest[i].torque, particles.torque(i));
+    unset(i, ADDED);
+  }
 }
 
 /* Particles that nothing moves bear drag, but their forces stay as they are. */
@@ -137,8 +151,8 @@ void ExternalLoads::add(int i, const ParticleState &particles, const Kick *kick,
   if (has(i, FORCE)) add_to_row(1.0, load.force, sum);
   if (has(i, DRAG)) {
     find_drag(i, particles.v(i), sum, kick);
-    const double at_end = kick ? kick->at_end : moment == Moment::STEP ? update->dt : 0.0;
-    add_to_row(at_end, load.drag, load.impulse);
+    if (moment == Moment::STEP)
+      add_to_row(kick ? kick->at_end : update->dt, load.drag, load.impulse);
     add_to_row(1.0, load.drag, sum);
   }
   if (!kick) return;
