@@ -349,6 +349,44 @@ lmp.close()
             for key, result in results.items():
                 self.assertEqual(result, first, f"verlet {verlet}: ranks, threads, root, thermo {key}")
 
+    def test_saved_loads(self):
+        """Restored runs have the loads of the snapshot, with all bits, whatever was put in between; so have impulses."""
+        write_sphere_data(self.path("grains"), ((-4, 4), (-4, 4), (-1, 9)), grains())
+        body = """
+def put(partner, ids, n):
+    some = [i for i in ids if (i + n) % 3]
+    partner.put_forces(some, [[0.2 * math.sin(0.3 * n + i), 0.1, 0.3] for i in some], [[0.05, 0.02, 0]] * len(some))
+    some = [i for i in ids if (i + n) % 4]
+    partner.put_drag(some, [10.0 ** (-1 + i % 5) for i in some], [[0.5 * math.sin(i), 0.3, 1.0] for i in some])
+lmp, partner = scene(SCENE)
+with partner:
+    ids, found = list(partner.ids()), []
+    first = partner.save()
+    for n in (0, 1):
+        put(partner, ids, n)
+        partner.advance(30)
+    saved = partner.save()
+    for change in (False, True, False):
+        if change:
+            put(partner, ids, 9)
+            partner.advance(13)
+        partner.restore(saved)
+        partner.advance(11)
+        put(partner, ids, 2)
+        partner.advance(40)
+        found.append([as_lists(rows) for rows in partner.particles(ids, "x", "v", "omega")] + [
+            as_lists(partner.drag_impulses(ids)), as_lists(partner.field((-4, -4, -1), (4, 4, 9), (1, 1, 1), "exchange")[0][0])])
+    partner.restore(first)
+    say([found, as_lists(partner.drag_impulses(ids))])
+lmp.close()
+"""
+        for verlet in (False, True):
+            results = [self.drive(f"SCENE = {self.bed(verlet=verlet)!r}\n" + body, np) for np in (1, 2)]
+            (one, *others), impulses = results[0]
+            self.assertEqual(others, [one, one])
+            self.assertEqual(results[1], results[0])
+            self.assertEqual(impulses, [[0.0] * 3] * len(impulses))
+
     # ---- what is lost
 
     def test_momentum(self):
