@@ -280,6 +280,27 @@ say([run(False), run(True), run(False, 12)])
         for tag in (1, 2, 3, 4):    # without a partner there are no loads
             self.assertAlmostEqual(third[tag - 1][2], second[tag - 1][2] - fall, delta=1e-14)
 
+    def test_torques_without_friction(self):
+        """Steps in the records know no rotation then: such runs go through the arrays while a torque acts."""
+        body = """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1], [[1, 0, 0]])
+    partner.advance(10)
+    partner.put_forces([1], [[1, 0, 0]], [[0, 0.5, 0]])
+    partner.advance(10)
+    partner.put_forces()
+    partner.advance(10)
+    say([as_lists(partner.particles([1], name)[0]) for name in ("v", "omega")])
+lmp.close()
+"""
+        v, omega = self.drive(f"SCENE = {self.free('plain', friction='').replace(GRAVITY, '')!r}\n" + body)
+        self.assertAlmostEqual(v[0], 20 * DT / MASS, delta=1e-14)
+        self.assertAlmostEqual(omega[1], 10 * DT * 0.5 / (0.1 * MASS), delta=1e-14)
+        lines = [line for line in self.log().splitlines() if "steps without output" in line]
+        self.assertEqual(["in the records" in line for line in lines], [True, False, True])
+        self.assertIn("fix TALUS_LOADS (EXTERNAL_LOADS): it turns particles and the contacts between them do not", lines[1])
+
     def test_another_time_step(self):
         """A new time step between runs, or by fix dt/reset: drag goes with it, and impulses are those that particles got."""
         body = """
@@ -629,6 +650,16 @@ with partner:
     partner.advance(2)
 lmp.close()
 """
+        respa = self.free("verlet").replace("fix step", "suffix off\nfix step").replace(
+            "gran/penalty", "gran/hooke 1e3 NULL 0 NULL 0 0").replace("hooke 1e3 0 tangential multistep NULL NULL 0.5", "") + "run_style respa 2 2\n"
+        said = self.drive(f"SCENE = {respa!r}\n" + """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1], [[0, 0, 1]])
+    say(refusal(partner.advance, 1))
+lmp.close()
+""")
+        self.assertIn("do not act with run_style respa: use run_style verlet", said)
         expected = ["talus_put_forces: there is no particle 99", "talus_put_drag: particle 3 is given twice",
                     "talus_put_drag: coefficient[0] of particle 3 is 0, expected more than 0",
                     "talus_put_drag: fluid_velocity[1] is no finite number",
