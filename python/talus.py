@@ -295,8 +295,7 @@ class Body:
         self._call("get_body_load", numbers)
         return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None
 
-    # ---- meshes, and those whose vertices the partner moves; rows are lists, or arrays of numpy where it is installed, and None
-    # ---- where the partner does not live
+    # ---- meshes, and those whose vertices the partner moves; None where the partner does not live
 
     @property
     def mesh_size(self):
@@ -313,7 +312,7 @@ class Body:
         vertices, triangles = self.mesh_size
         x, corners = (ctypes.c_double * (3 * vertices))(), (ctypes.c_int64 * (3 * triangles))()
         self._call("get_mesh", x, corners)
-        return (_rows(x, 3), _rows(corners, 3)) if self.partner.lives_here else (None, None)
+        return (_array(x, vertices, 3), _array(corners, triangles, 3)) if self.partner.lives_here else (None, None)
 
     def put_vertices(self, x, v=None, steps=1):
         """The vertices (mesh ... move vertices) are to be at x (n x 3) after so many steps, with the velocities v (n x 3), or
@@ -332,7 +331,7 @@ class Body:
         if not self.partner.lives_here:
             return None, None, None, None
         count = touched.value
-        return _rows(numbers, 1, count), _rows(impulses, 3, count), work.value, time.value
+        return _array(numbers, vertices)[:count], _array(impulses, vertices, 3)[:count], work.value, time.value
 
 
 class Snapshot:
@@ -435,14 +434,3 @@ class FixedPoint:
             before = residual
         return result, False
 
-
-def _rows(array, width, count=None):
-    """The first rows of an array of C: numbers (width 1), or lists; as arrays of numpy, if it is installed."""
-    count = len(array) // width if count is None else count
-    try:
-        import numpy
-        rows = numpy.array(array)[:count * width]
-        return rows if width == 1 else rows.reshape(count, width)
-    except ImportError:
-        flat = array[:count * width]
-        return flat if width == 1 else [flat[width * k:width * (k + 1)] for k in range(count)]

@@ -18,16 +18,16 @@ LargeBodyVertices::LargeBodyVertices(LAMMPS *lmp, MeshShape &shape) :
 {
 }
 
-void LargeBodyVertices::begin_step()
+void LargeBodyVertices::begin_step(const Kicks &kicks_of_step)
 {
+  kicks = kicks_of_step;
   time += update->dt;
-  add(share_of_next);
+  add(kicks.before);
 }
 
-void LargeBodyVertices::end_step(double next, bool advance)
+void LargeBodyVertices::end_step(bool advance)
 {
-  if (advance && next < 1.0) add(1.0 - next);
-  share_of_next = next;
+  if (advance && kicks.after > 0.0) add(kicks.after);
 }
 
 void LargeBodyVertices::add(double share)

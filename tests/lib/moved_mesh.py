@@ -86,7 +86,8 @@ class Running:
 WAYS = {"rigid": Rigid, "wave": Wave, "stretch": Stretch, "running": Running}
 
 
-def run(lmp, partner, way, words, every, steps, rigid=False, with_velocities=True, restart=None, state=None):
+def run(lmp, partner, way, words, every, steps, rigid=False, with_velocities=True, restart=None, state=None,
+        at_once=False):
     """Moves the body `body` of a scene that has been read along a way: rows of what it bears, at the end of each exchange."""
     body = partner.body("body")
     here = partner.lives_here
@@ -97,6 +98,9 @@ def run(lmp, partner, way, words, every, steps, rigid=False, with_velocities=Tru
         with open(state) as file:
             x0 = json.load(file)
     rows = []
+    if at_once:
+        begin = [motion.vertex(x, 0.0) for x in x0] if here else None
+        body.put_vertices([x for x, _ in begin] if here else None, [v for _, v in begin] if here else [0], 0)
     partner.advance(0)
     if partner.step % every:    # the rest of the way that a restart file has
         partner.advance(every - partner.step % every)

@@ -14,13 +14,10 @@ import unittest
 TESTS = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
 import body_meshes
+import deforming_reference
 import moved_mesh
-from talus_testing import SceneCase, Sphere, read_dump, run_program, write_sphere_data
-
-SOURCE = os.environ["TALUS_SOURCE_DIR"]
-HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
-if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
-    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+from coupled_case import CoupledCase
+from talus_testing import Sphere, read_dump, write_sphere_data
 
 STICKY = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 ROLLING = "hertz/material 1e6 0.7 0.3 tangential mindlin NULL 1.0 0.5 rolling sds 100 1 0.2 twisting sds 50 1 0.1"
@@ -42,6 +39,7 @@ pair_coeff * * {law}
 timestep {dt}
 fix step all {integrator} {gravity}
 fix body all large/body mesh {mesh} contact {law} move {move} {more}
+thermo_style custom step
 thermo 0
 """
 
@@ -67,7 +65,7 @@ def dot(a, b):
     return sum(p * q for p, q in zip(a, b))
 
 
-class MovedMesh(SceneCase):
+class MovedMesh(CoupledCase):
 
     def setUp(self):
         self.grains(grains())
@@ -85,19 +83,11 @@ class MovedMesh(SceneCase):
                 text = text.replace(line + "\n", "", 1)
         return text
 
-    def drive(self, name, np=1, **spec):
+    def move(self, name, np=1, **spec):
         """Rows of the exchanges."""
-        with open(self.path(name + ".spec"), "w") as file:
-            json.dump(spec, file)
-        self.python([os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np)
-        with open(self.path(name)) as file:
-            return moved_mesh.in_numbers(json.load(file))
-
-    def python(self, words, np=1):
-        paths = [os.path.join(HOST_SOURCE, "python"), os.path.join(SOURCE, "python"), os.path.join(TESTS, "..", "lib")]
-        libraries = HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")
-        return run_program(sys.executable, np, words, cwd=self.dir,
-                           env={"LD_LIBRARY_PATH": libraries, "PYTHONPATH": ":".join(paths)}).output
+        self.write(name + ".spec", json.dumps(spec))
+        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np)
+        return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):
         frame, = read_dump(self.path(name + ".end"))
@@ -114,7 +104,7 @@ class RigidWays(MovedMesh):
     def both(self, triangles, words, law=STICKY, steps=120, every=1, integrator="nve/sphere/symplectic"):
         """Rows of the rigid body and of the mesh of vertices, and the ends."""
         shared = {"way": "rigid", "words": words, "every": every, "steps": steps}
-        rows = [self.drive(name, scene=self.scene(triangles, move, law, integrator=integrator), rigid=name == "rigid", **shared)
+        rows = [self.move(name, scene=self.scene(triangles, move, law, integrator=integrator), rigid=name == "rigid", **shared)
                 for name, move in (("rigid", "external"), ("vertices", "vertices"))]
         return rows, [self.end(name) for name in ("rigid", "vertices")]
 
@@ -168,7 +158,7 @@ class RigidWays(MovedMesh):
         """Those of a straight way are those of a rigid body on it."""
         words = {"drift": [0.3, 0.2, 0.1]}
         (rigid, _), _ = self.both(hills(), words, every=10, steps=200)
-        found = self.drive("again", scene=self.scene(hills()), way="rigid", words=words, every=10, steps=200, with_velocities=False)
+        found = self.move("again", scene=self.scene(hills()), way="rigid", words=words, every=10, steps=200, with_velocities=False)
         self.assertEqual(rigid[0]["load"][6], 0, "before they are the same")
         self.assertGreater(max(abs(row["load"][2]) for row in found), 10.0)
         for mine, theirs in zip(rigid, found):
@@ -178,13 +168,13 @@ class RigidWays(MovedMesh):
 class Ledgers(MovedMesh):
 
     def moved(self, name, every, np=1, steps=200, root=-1, law=ROLLING, **options):
-        return self.drive(name, np, scene=self.scene(hills(), law=law, **options), way="wave",
+        return self.move(name, np, scene=self.scene(hills(), law=law, **options), way="wave",
                           words={"height": 0.1, "number": 1.1, "rate": 6.0, "growth": 0.1}, every=every, steps=steps, root=root)
 
     def test_forces_on_vertices_are_the_load(self):
         """Of each step: sums over vertices are force and torque to rounding, and the work is that of the ways."""
         places, worst = None, 0.0
-        rows = self.moved("rows", 1)
+        rows = self.moved("rows", 1, read="read_data grains\nvelocity all set 0 0 -2.0", steps=300)
         reference = center_of(self.path("mesh.stl"))
         for row in rows:
             force, torque = row["before"][:3], row["before"][3:6]
@@ -198,23 +188,23 @@ class Ledgers(MovedMesh):
                                  for n, p in zip(row["numbers"], row["impulses"])) / DT
                 self.assertLessEqual(abs(work - row["work"]), 1e-12 * size)
             places = row["x"]
-        self.assertGreater(max(row["load"][6] for row in rows), 8)
+        self.assertGreater(sum(row["load"][6] > 2 for row in rows), 50)
         print(f"force and torque of vertices are those of the body to {worst:.1e}")
         self.assertLess(worst, 1e-12)
 
     def test_momentum(self):
-        """What grains lose, vertices get, with each integrator; what vertices get is a few numbers of those touched."""
-        for integrator in ("nve/sphere/symplectic", "nve/sphere/talus", "nve/sphere/symplectic order 2"):
-            law = SECOND if "order" in integrator else ROLLING
-            rows = self.moved(integrator.replace("/", "-").replace(" ", "-"), 20, law=law, integrator=integrator, gravity="",
-                              read="read_data grains\nvelocity all set 0 0 -2.0", steps=400)
+        """What grains lose, vertices get, with each integrator, while they are in contact."""
+        for name, integrator in (("euler", "nve/sphere/symplectic"), ("verlet", "nve/sphere/talus"),
+                                 ("order2", "nve/sphere/symplectic order 2")):
+            law = SECOND if name == "order2" else ROLLING
+            rows = self.moved(name, 20, law=law, integrator=integrator, gravity="", read="read_data grains\nvelocity all set 0 0 -2.0",
+                              steps=260)
             got = [math.fsum(p[k] for row in rows for p in row["impulses"]) for k in range(3)]
-            end = self.end(integrator.replace("/", "-").replace(" ", "-"))
             masses = {n + 1: math.pi / 6 * s.diameter ** 3 * s.density for n, s in enumerate(grains())}
-            momentum = [math.fsum(masses[tag] * v for tag, v in end.column("v" + axis).items()) for axis in "xyz"]
+            momentum = [math.fsum(masses[tag] * v for tag, v in self.end(name).column("v" + axis).items()) for axis in "xyz"]
             lost = [-momentum[0], -momentum[1], -2.0 * math.fsum(masses.values()) - momentum[2]]
             self.assertGreater(abs(lost[2]), 10.0)
-            print(integrator, "momentum", got, lost)
+            self.assertGreater(rows[-1]["load"][6], 0.0, "contacts at the end")
             self.assert_near(got, lost, 1e-12, integrator)
 
     def test_same_bits(self):
@@ -225,13 +215,13 @@ class Ledgers(MovedMesh):
 
     def test_restart(self):
         """Within a way, and on another number of ranks."""
-        def drive(name, np=1, **options):
-            return self.drive(name, np, way="wave", every=20, words={"height": 0.1, "number": 1.1, "rate": 6.0, "growth": 0.1},
+        def move(name, np=1, **options):
+            return self.move(name, np, way="wave", every=20, words={"height": 0.1, "number": 1.1, "rate": 6.0, "growth": 0.1},
                               **options)
-        rows = drive("whole", scene=self.scene(hills(), law=ROLLING), steps=400,
+        rows = move("whole", scene=self.scene(hills(), law=ROLLING), steps=400,
                      restart={"step": 253, "file": "half"})
         for np in (1, 2):
-            again = drive(f"again{np}", np, scene=self.scene(hills(), law=ROLLING, read="read_restart half"), steps=400,
+            again = move(f"again{np}", np, scene=self.scene(hills(), law=ROLLING, read="read_restart half"), steps=400,
                           state="half.json")
             for row in rows:
                 row.pop("before", None)
@@ -240,6 +230,212 @@ class Ledgers(MovedMesh):
             self.assertEqual(again, rows[-len(again):], f"{np} ranks")
             self.assertEqual(len(again), 8)
             self.assert_same_bits(self.end(f"again{np}"), self.end("whole"))
+
+
+class Surfaces(MovedMesh):
+
+    def test_a_sheet_that_stretches_takes_grains_along(self):
+        """Spheres at rest come to roll with 2/7 of the velocity of the surface below them: their distance from the center grows
+        with the power 2/7 of the stretch."""
+        sites = [(-2.5, 0.3), (-1.0, -1.7), (0.8, 1.1), (2.2, -0.6)]
+        self.grains([Sphere((x, y, 0.4997), diameter=1.0) for x, y in sites])
+        rate, steps = 0.4, 1500
+        rows = self.move("sheet", scene=self.scene(floor(), gravity="gravity 10.0 vector 0 0 -1"), way="stretch",
+                         words={"rates": [rate, rate, 0.0]}, every=10, steps=steps)
+        end, grown = self.end("sheet"), 1.0 + rate * steps * DT
+        for tag, site in enumerate(sites, 1):
+            for axis, start in zip("xy", site):
+                place, speed = end.column(axis)[tag], end.column("v" + axis)[tag]
+                self.assert_close(speed, 2.0 / 7.0 * rate * place / grown, 0.01)
+                self.assert_close(place, start * grown ** (2.0 / 7.0), 0.01)
+        self.assertEqual(rows[-1]["load"][6], 4)
+
+    def test_a_surface_that_runs_is_a_belt(self):
+        """Vertices that stay and have a velocity are `surface_velocity`."""
+        self.grains([Sphere((x, 0.1 * x, 0.4995), diameter=1.0) for x in (-2.3, -1.1, 0.2, 1.7)])
+        self.run_lammps(self.scene(floor(), move="none", more="surface_velocity 0.5 -0.2 0") + """
+run 400
+write_dump all custom belt.end id x y z vx vy vz omegax omegay omegaz modify format float %a
+""")
+        self.move("running", scene=self.scene(floor()), way="running", words={"velocity": [0.5, -0.2, 0.0]}, every=400, steps=400)
+        belt, running = self.end("belt"), self.end("running")
+        # velocities go to those that were given on the way of the first exchange, so that the belt is ahead
+        self.assertGreater(belt.column("vx")[1], running.column("vx")[1])
+        again = self.move("again", scene=self.scene(floor()), way="running", words={"velocity": [0.5, -0.2, 0.0]}, every=400,
+                          steps=400, at_once=True)
+        self.assert_same_bits(self.end("again"), belt, ["x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"])
+        self.assertGreater(math.fsum(p[0] for p in again[-1]["impulses"]), -1.0)
+
+    def test_a_wave_against_a_slow_twin(self):
+        draw = random.Random(9)
+        spheres = [Sphere((-2.5 + 1.7 * i + draw.uniform(-0.2, 0.2), -2.0 + 1.3 * j, 0.75), v=(0.0, 0.1 * i, 0.0),
+                          omega=(0.3, 0.0, -0.2 * j), diameter=draw.uniform(0.7, 1.0)) for i in range(4) for j in range(4)]
+        self.grains(spheres)
+        law, words = "hooke 5e3 20 tangential dashpot 15 0.4", {"height": 0.15, "number": 1.5, "rate": 8.0, "growth": 0.1}
+        triangles, steps = floor(12), 400
+        self.move("wave", scene=self.scene(triangles, law=law), way="wave", words=words, every=1, steps=steps)
+        end = self.end("wave")
+        wave = moved_mesh.Wave(None, **words)
+        given = [(s.x, s.v, s.omega, 0.5 * s.diameter, math.pi / 6 * s.diameter ** 3 * s.density) for s in spheres]
+        twin = deforming_reference.run(given, triangles, wave.vertex, steps, DT, 5e3, 20.0, 15.0, 0.4, 5.0)
+        worst = 0.0
+        for tag, state in enumerate(twin, 1):
+            for names, vector in zip((("x", "y", "z"), ("vx", "vy", "vz"), ("omegax", "omegay", "omegaz")), state):
+                worst = max(worst, *(abs(end.column(name)[tag] - value) for name, value in zip(names, vector)))
+        moved = max(abs(state[1][0]) for state in twin)
+        print(f"carried at up to {moved:.2f}; twin differs by {worst:.1e}")
+        self.assertGreater(moved, 0.05)
+        self.assertLess(worst, 1e-6)
+
+    def test_a_closed_mesh_that_breathes(self):
+        """A ball that shrinks around grains: they stay inside, and the box around it is deformed in all pictures."""
+        self.grains([Sphere((x, y, z), diameter=0.8) for x in (-0.9, 0.0, 0.9) for y in (-0.9, 0.0, 0.9) for z in (-0.9, 0.0, 0.9)])
+        ball = body_meshes.sphere((0.0, 0.0, 0.0), 2.4, 10)
+        rows = self.move("ball", np=2, scene=self.scene(ball, gravity="", more="vtk 300 ball.*.vtp"), way="stretch",
+                         words={"rates": [-0.3, -0.3, -0.3]}, every=10, steps=900)
+        end = self.end("ball")
+        far = max(math.sqrt(sum(end.column(axis)[tag] ** 2 for axis in "xyz")) for tag in end.atoms)
+        self.assertEqual(len(end.atoms), 27)
+        self.assertLess(far, 0.73 * 2.4)
+        self.assertGreater(rows[-1]["load"][6], 5)
+        with open(self.path("log.driver")) as file:
+            self.assertIn("particles are inside", file.read())
+        largest = max(abs(c) for x in rows[-1]["x"] for c in x)
+        self.assert_close(largest, 0.73 * 2.4, 1e-9)
+        self.assertTrue(os.path.exists(self.path("ball.900.vtp")))
+
+
+class Others(MovedMesh):
+
+    def test_clumps_and_shapes(self):
+        """Moved as rigid bodies, they give the same loads."""
+        words = {"swing": [0.1, 0.05, 0.06], "rate": 9.0, "omega": 0.6}
+        pairs = "fix mol all property/atom mol ghost yes\nread_data grains fix mol NULL Molecules"
+        for name, read, mover in (("clumps", pairs, "rigid/small/symplectic molecule"),
+                                  ("shapes", "read_data grains", "shape/gran type 1 box 0.6 0.55 0.5 density 1 orient random 5")):
+            spheres = grains(low=1.05, side=4)
+            self.grains(spheres)
+            if name == "clumps":
+                with open(self.path("grains"), "a") as file:
+                    file.write("\nMolecules\n\n" + "".join(f"{k + 1} {k // 2 + 1}\n" for k in range(len(spheres))))
+            weight = "\nfix weight all gravity/talus 5.0 vector 0 0 -1" if name == "shapes" else "gravity 5.0 vector 0 0 -1"
+            loads = [self.move(name + move, scene=self.scene(hills(), move, read=read, integrator=mover, gravity=weight), way="rigid",
+                               words=words, every=1, steps=300, rigid=move == "external") for move in ("external", "vertices")]
+            size = max(abs(f) for row in loads[0] for f in row["load"][:3])
+            worst = max(abs(a - b) for mine, theirs in zip(*loads) for a, b in zip(mine["load"][:3], theirs["load"][:3])) / size
+            print(f"{name}: loads up to {size:.0f} differ by {worst:.1e}")
+            self.assertGreater(size, 10.0)
+            self.assertLess(worst, 1e-9)
+            for row in loads[1]:
+                sums = [math.fsum(p[k] for p in row["impulses"]) / DT for k in range(3)]
+                self.assert_near(sums, row["before"][:3], 1e-11)
+
+    def test_snapshot(self):
+        """Within a way."""
+        out = self.drive(SNAPSHOT.replace("SCENE", repr(self.scene(hills(), law=ROLLING))))
+        self.assertIn("same", out)
+
+    def test_refusals(self):
+        for np, root in ((1, -1), (2, 1)):
+            roof = [((-1, -1, 2), (1, -1, 2), (1, 1, 2)), ((-1, -1, 2), (1, 1, 2), (-1, 1, 2))]
+            out = self.drive(REFUSALS.replace("SCENE", repr(self.scene(floor() + roof)))
+                             .replace("ROOT", str(root)), np=np)
+            for text in REFUSED:
+                self.assertGreaterEqual(out.count(text), np, f"{text} in\n{out}")
+            self.assertNotIn("no error", out)
+
+    def test_words(self):
+        text = self.scene(floor())
+        for change, message in ((("mesh mesh.stl", "plane 0 0 0 0 0 1"), "move vertices is for mesh"),
+                                (("move vertices", "move vertices surface_velocity 1 0 0"),
+                                 "surface_velocity does not go with move vertices")):
+            self.assertIn(message, self.run_lammps(text.replace(*change), expect_error=True).log)
+
+
+SNAPSHOT = """
+import math
+from lammps import lammps
+from talus import Partner
+import moved_mesh
+lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+lmp.commands_string(SCENE)
+with Partner(lmp) as partner:
+    body = partner.body("body")
+    x0 = body.mesh[0]
+    wave = moved_mesh.Wave(None, 0.1, 1.1, 6.0, 0.1)
+    def go(until):
+        rows = []
+        while partner.step < until:
+            ahead = 20 - partner.step % 20
+            if ahead == 20:
+                moved = [wave.vertex(x, (partner.step + 20) * partner.dt) for x in x0]
+                body.put_vertices([x for x, _ in moved], [v for _, v in moved], 20)
+            partner.advance(ahead)
+            numbers, impulses, work, time = body.vertex_loads()
+            rows.append([list(map(int, numbers)), [list(map(float, p)) for p in impulses], work, time, moved_mesh.load(lmp)])
+        return rows
+    go(240)
+    partner.advance(0)
+    moved = [wave.vertex(x, 0.26) for x in x0]
+    body.put_vertices([x for x, _ in moved], [v for _, v in moved], 20)
+    partner.advance(7)
+    with partner.save() as snapshot:
+        once = go(400)
+        partner.restore(snapshot)
+        again = go(400)
+print("same" if once == again and max(row[4][6] for row in once) > 2 else ("differs", once, again))
+"""
+
+REFUSALS = """
+from lammps import lammps
+from talus import Partner, TalusError
+lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+lmp.commands_string(SCENE)
+lmp.command("fix rigid all large/body sphere 0 0 30 1 outside contact hooke 1 1")
+lmp.command("fix still all large/body mesh mesh.stl translate 0 0 -20 contact hooke 1 1 move external")
+def tried(call, *words, **more):
+    try:
+        call(*words, **more)
+        print("no error")
+    except TalusError as problem:
+        print(problem)
+with Partner(lmp, ROOT) as partner:
+    here = partner.lives_here
+    body = partner.body("body")
+    x, triangles = body.mesh
+    partner.advance(0)
+    def moved(changes):
+        if not here:
+            return None
+        places = [list(map(float, p)) for p in x]
+        for vertex, by in changes.items():
+            places[vertex] = [a + b for a, b in zip(places[vertex], by)]
+        return places
+    if here:
+        inner = [v for v in range(len(x)) if max(abs(x[v][0]), abs(x[v][1])) < 0.5][0]
+        a, b, c = (int(v) for v in triangles[40])
+    else:
+        inner = a = b = c = 0
+    tried(body.put_vertices, moved({inner: (0.0, 0.0, float("nan"))}), steps=1)
+    tried(body.put_vertices, moved({inner: (0.0, 0.0, 0.3)}), steps=1)
+    tried(body.put_vertices, moved({inner: (1.3, 0.1, 0.0)}), steps=100)
+    middle = [0.5 * (x[b][k] + x[c][k]) - x[a][k] for k in range(3)] if here else None
+    tried(body.put_vertices, moved({a: middle}), steps=100)
+    roof = [v for v in range(len(x)) if x[v][2] > 1.0] if here else []
+    tried(body.put_vertices, moved({v: (0.0, 0.0, -2.0 + 0.3 * x[v][0] + 0.01) for v in roof}), steps=100)
+    tried(body.put_vertices, moved({}), steps=-1)
+    tried(partner.body("rigid").put_vertices, None, steps=1)
+    tried(partner.body("still").put_vertices, moved({}), steps=1)
+    tried(partner.body("still").vertex_loads)
+    tried(lambda: partner.body("none").mesh_size)
+    tried(partner.body("body").put_state, [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0] if here else None)
+    partner.advance(10)
+    body.put_vertices(moved({inner: (0.0, 0.0, 0.05)}), steps=10)
+    partner.advance(10)
+lmp.finalize()
+"""
+REFUSED = ["x[", "is no finite number", "more than the skin 0.2", "has turned over against its neighbor", "has no area",
+           "cut each other", "expected 0 or more", "is no mesh", "use 'mesh ... move vertices'", "use 'move external'"]
 
 
 def center_of(path):

@@ -13,6 +13,7 @@ namespace Talus {
 namespace {
 
 constexpr double no_overlap = 1.0e-10;    // of triangles that touch, over the size of one
+constexpr double parallel = 1.0e-16;      // the square of the sine
 
 struct Range {
   double low, high;
@@ -32,8 +33,8 @@ bool are_apart(const Vector3<double> &axis, const Triangle &a, const Triangle &b
   return gap >= 0.0 || gap >= -allowed * length(axis);
 }
 
-/* Separating axes of two triangles: the normals, and across the edges of both in space, or where both are
-   nearly in one plane, across those of one in its plane. */
+/* Separating axes of two triangles: the normals, and across the edges of both in space, or where these are
+   nearly parallel or both triangles nearly in one plane, across those of one in its plane. */
 
 bool overlap(const Triangle &a, const Triangle &b, const Vector3<double> &normal_a,
              const Vector3<double> &normal_b, double allowed)
@@ -49,8 +50,11 @@ bool overlap(const Triangle &a, const Triangle &b, const Vector3<double> &normal
         are_apart(cross(normal_b, edges[1][k]), a, b, allowed))
       return false;
   for (const Vector3<double> &of_a : edges[0])
-    for (const Vector3<double> &of_b : edges[1])
-      if (are_apart(cross(of_a, of_b), a, b, allowed)) return false;
+    for (const Vector3<double> &of_b : edges[1]) {
+      const Vector3<double> axis = cross(of_a, of_b);
+      const bool is_direction = dot(axis, axis) > parallel * dot(of_a, of_a) * dot(of_b, of_b);
+      if (is_direction && are_apart(axis, a, b, allowed)) return false;
+    }
   return true;
 }
 
@@ -88,7 +92,8 @@ std::string MeshCheck::name_of(int t, const Places &places) const
 {
   const Vector3<double> &x = places[mesh.corners(t).vertex[0]];
   char text[128];
-  std::snprintf(text, sizeof text, "triangle %d (first corner at %.6g %.6g %.6g)", t, x.x, x.y, x.z);
+  std::snprintf(text, sizeof text, "triangle %d (first corner at %.6g %.6g %.6g)", t, x.x, x.y,
+                x.z);
   return text;
 }
 
@@ -137,8 +142,7 @@ double MeshCheck::fold(const MeshEdges::Edge &edge, int a, int b, const Places &
   const bool opposed = mesh.corners(b).runs_along(from, to_vertex);
   const auto normal = [&](int t) {
     const Triangle at = triangle(places, t);
-    const Vector3<double> twice =
-        cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
+    const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
     return 1.0 / length(twice) * twice;
   };
   const Vector3<double> n = normal(a), m = opposed ? -normal(b) : normal(b);
@@ -160,8 +164,7 @@ std::string MeshCheck::turned_over(const Places &now) const
     if (std::fabs(fold(edge, a, b, *to) - fold(edge, a, b, now)) <= quarter) continue;
     const auto kept = [&](int t) {    // of its own direction
       const Triangle at = triangle(now, t);
-      const Vector3<double> twice =
-          cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
+      const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
       return dot(normals[t], twice) / length(twice);
     };
     const int turned = kept(a) < kept(b) ? a : b, other = turned == a ? b : a;

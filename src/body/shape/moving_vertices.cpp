@@ -51,7 +51,8 @@ MovingVertices::Places MovingVertices::for_all(const Places &own, Value of_image
 
 MovingVertices::Places MovingVertices::with_images(const Places &own) const
 {
-  return for_all(own, [this](int v, const Vector3<double> &x) { return x + mesh.shift_of_vertex(v); });
+  return for_all(own,
+                 [this](int v, const Vector3<double> &x) { return x + mesh.shift_of_vertex(v); });
 }
 
 void MovingVertices::guide(const Places &places, const Places *velocities, int number, double dt)
@@ -139,9 +140,9 @@ bool MovingVertices::advance(bool order_2)
     if (follows_way)
       state.velocity = goes ? velocity_at_end[v] : Vector3<double>{0.0, 0.0, 0.0};
     else
-      state.velocity = arrived ? velocity_at_end[v]
-                               : velocity_at_start[v] +
-                                     way * (velocity_at_end[v] - velocity_at_start[v]);
+      state.velocity =
+          arrived ? velocity_at_end[v]
+                  : velocity_at_start[v] + way * (velocity_at_end[v] - velocity_at_start[v]);
   }
   if (goes) largest_way += (1.0 + 1.0e-9) * largest_step;    // rounding must not hide a triangle
   return true;
@@ -302,8 +303,7 @@ void MovingVertices::to_array(double *a) const
   write([this](int v) { return states[v].place; });
   write([this](int v) { return states[v].velocity; });
   write([this](int v) { return states[v].before; });
-  for (const Places *kept :
-       {&start, &end, &velocity_at_start, &velocity_at_end, &velocity_before})
+  for (const Places *kept : {&start, &end, &velocity_at_start, &velocity_at_end, &velocity_before})
     write([kept](int v) { return (*kept)[v]; });
 }
 
@@ -324,18 +324,27 @@ void MovingVertices::from_array(const double *a)
     return for_all(read(), [](int, const Vector3<double> &v) { return v; });
   };
   const Places places = with_images(read()), speeds = velocities(), past = with_images(read());
-  for (int v = 0; v < num_all(); v++) {
-    states[v] = {places[v], speeds[v], past[v]};
-    mesh.place(v, places[v]);
-  }
+  for (int v = 0; v < num_all(); v++) states[v] = {places[v], speeds[v], past[v]};
   start = with_images(read());
   end = with_images(read());
   velocity_at_start = velocities();
   velocity_at_end = velocities();
   velocity_before = velocities();
-  settled = places;
-  set_bounds();
   find_moving();
+  follow_states();
+}
+
+void MovingVertices::exchange_state(StateExchange &x)
+{
+  x(steps, left, follows_way, has_jumped, states, start, end, velocity_at_start, velocity_at_end,
+    velocity_before, moving, rests);
+  if (x.restores()) follow_states();
+}
+
+void MovingVertices::follow_states()
+{
+  for (int v = 0; v < num_all(); v++) mesh.place(v, states[v].place);
+  set_bounds();
   find_way();
 }
 

@@ -22,6 +22,7 @@
 #ifndef TALUS_BODY_SHAPE_MOVING_VERTICES_H
 #define TALUS_BODY_SHAPE_MOVING_VERTICES_H
 
+#include "base/state_exchange.h"
 #include "base/vector3.h"
 #include "body/shape/triangle_mesh.h"
 
@@ -93,7 +94,10 @@ class MovingVertices {
   /// How far a vertex has gone since then.
   Vector3<double> gone(int vertex) const { return place(vertex) - settled[vertex]; }
   /// And in the last step.
-  Vector3<double> gone_in_step(int vertex) const { return states[vertex].place - states[vertex].before; }
+  Vector3<double> gone_in_step(int vertex) const
+  {
+    return states[vertex].place - states[vertex].before;
+  }
   void prefetch(int vertex) const { __builtin_prefetch(&states[vertex]); }
 
   // ---- the surface, in the last step; triangles may be images
@@ -119,6 +123,8 @@ class MovingVertices {
   }
   void to_array(double *a) const;
   void from_array(const double *a);
+  /// For snapshots.
+  void exchange_state(StateExchange &x);
 
   double memory_usage() const;
 
@@ -129,6 +135,7 @@ class MovingVertices {
   };
   Places now() const;
   void put(int vertex, const Vector3<double> &x);
+  void follow_states();
   void find_moving();
   void find_way();
   void set_bounds();
