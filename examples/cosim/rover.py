@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# Debian packages: libmujoco-dev
+# packages: libmujoco-dev
 """A rover in MuJoCo drives over a bed of gravel and up a slope: MuJoCo has the vehicle (rover/rover.xml), Talus the grains
 (rover/in.rover) and what they do to the six wheels.
 
 At each exchange the wheels get the mean load that the grains gave since the last one, MuJoCo makes a step with it, and the
 wheels of Talus are told where to be at its end.  Means over 10 ms of loads, slip and sinkage of the wheels go to
 rover.csv, with a plot in rover.svg, and a picture of the end to rover.png.
+
+  scripts/run rover [-np 2] [-- --quick]
+
+or, with a build of one's own:
 
   export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
   [mpirun -np 2] python3 examples/cosim/rover.py [--out DIR] [--quick]
@@ -34,8 +38,8 @@ EMPTY = -1e19    # the largest z of a column without particles is below this
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--speed", type=float, default=0.6, help="of the rims of the wheels (m/s)")
-    parser.add_argument("--every", type=int, default=5, help="steps between two exchanges")
+    parser.add_argument("--speed", type=float, default=0.7, help="of the rims of the wheels (m/s)")
+    parser.add_argument("--every", type=int, default=20, help="steps between two exchanges")
     parser.add_argument("--quick", action="store_true", help="coarse grains, for tests")
     return parser.parse_args()
 
@@ -98,7 +102,7 @@ def scene(options):
     """The LAMMPS instance with the settled bed, without wheels."""
     words = ["-log", os.path.join(options.out, "log.rover"), "-screen", "none"]
     if options.quick:
-        words += "-var d 0.015".split()
+        words += "-var d 0.018".split()
     lmp = lammps(cmdargs=words)
     lmp.file(os.path.join(HERE, "rover", "in.rover"))
     return lmp
@@ -169,7 +173,7 @@ class Drive:
     slip and sinkage of each wheel."""
 
     LANDING, START = 0.12, 0.10    # times (s)
-    WINDOW = 50    # exchanges
+    WINDOW = 0.01    # mean values (s)
     LONGEST = 6.0    # a rover that digs itself in does not get there
 
     def __init__(self, lmp, partner, options, rover, surface, place):
@@ -184,10 +188,16 @@ class Drive:
     def run(self):
         while self.time < self.LONGEST and self.front() < number(self.lmp, "length") - 1.5 * self.rover.radius:
             window = Window(len(self.bodies))
-            for _ in range(self.WINDOW):
+            for _ in range(max(1, round(self.WINDOW / self.step))):
                 self.exchange(window)
             if self.vehicle:
                 self.rows.append(self.row(window))
+                self.say(self.rows[-1], window)
+
+    def say(self, row, window, every=0.1):
+        """Now and then, for those who wait."""
+        if math.floor(row[1] / every) > math.floor((row[1] - window.time) / every):
+            print(f"time {row[1]:.2f} s, {row[0]}: place {row[2]:.3f} m, slip {row[3]:.2f}", flush=True)
 
     def omega(self):
         return self.options.speed / self.rover.radius * max(0.0, min(1.0, (self.time - self.LANDING) / self.START))
