@@ -67,8 +67,8 @@ int talus_get_time(const talus_partner *partner, double *time, double *dt, int64
 int talus_advance(talus_partner *partner, int64_t steps);
 /* The same for a time (time units), which must be a whole number of time steps to 1e-6 of one. */
 int talus_advance_by(talus_partner *partner, double duration);
-/* After commands of the script that change more than numbers (fix, pair_coeff, ...): the next advance begins with the
-   set-up of a run. */
+/* After commands of the script that change more than numbers: the next advance begins with the set-up of a run. Fixes,
+   computes, pair styles, laws and particles that come or go are noticed without it. */
 int talus_set_up(talus_partner *partner);
 
 /* ---- rigid bodies: fix large/body, by the ID of the fix ---------------------------------------------- */
@@ -78,13 +78,13 @@ int talus_set_up(talus_partner *partner);
 int talus_put_body_state(talus_partner *partner, const char *body, const double *state, int64_t steps);
 /* Any body. */
 int talus_get_body_state(talus_partner *partner, const char *body, double *state);
-/* What the grains have given the body since the last talus_get_body_load() of it, or since talus_watch_body(): impulse,
-   angular impulse about its reference point or, if point is not NULL, about this point of the body (body frame, from the
-   reference point), work, and the time since then. Begins anew. */
-int talus_get_body_load(talus_partner *partner, const char *body, double *load);
-/* Loads of the body are summed from here on. point: NULL, or the point of the body (body frame, from the reference point)
-   about which angular impulses are, such as its center of mass. */
+/* Loads of any body are summed from the next advance on. point: NULL, or the point of the body (body frame, from the reference
+   point) about which angular impulses are, such as its center of mass; NULL: the reference point. */
 int talus_watch_body(talus_partner *partner, const char *body, const double *point);
+/* What the particles have given the body since the last call of this, or since it is watched: impulse (force time),
+   angular impulse (force distance time), work (force distance), and the time. Begins anew. What bodies get, particles have
+   lost, to rounding. Refused unless the body is watched. */
+int talus_get_body_load(talus_partner *partner, const char *body, double *load);
 
 /* ---- deforming meshes: fix large/body mesh ... move vertices ---------------------------------------- */
 

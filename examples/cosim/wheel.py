@@ -3,21 +3,23 @@
 """A wheel is driven over a bed of grains (input/in.wheel): this program moves the wheel, Talus the grains.
 
 The wheel is put down, goes forward at a given speed, turns with a given slip, and is free to sink under its load: its
-vertical motion is integrated here from the force of the grains.  With several slips it drives with one after the other,
+vertical motion is integrated here from the impulses of the grains.  With several slips it drives with one after the other,
 for the same time each.  Sinkage, drawbar pull (the force of the grains on the wheel in direction of travel: positive if
 it could pull something) and driving torque go to wheel.csv, and to the plot wheel.svg.
 
-  export PYTHONPATH=LAMMPS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  scripts/run wheel [-np 2] [-- --quick]
+
+or, with a build of one's own:
+
+  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
   [mpirun -np 2] python3 examples/cosim/wheel.py [--out DIR] [--quick]"""
 
 import argparse
 import math
 import os
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from lammps import LMP_SIZE_VECTOR, LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, lammps
-from talus_cosim import Body, run
+from talus import Partner
 
 GRAVITY = 9.81
 EMPTY = -1e19    # the largest z of a column without particles is below this
@@ -58,7 +60,7 @@ def scene(options):
 
 
 def surface(lmp):
-    """Mean height of the bed: of the tops of columns two diameters wide. Ends with the set-up that the drive goes on from.
+    """Mean height of the bed: of the tops of columns two diameters wide.
 
     A compute finds the tops, with the same result on every rank: gather_atoms() of the library refuses hosts with 64-bit
     IDs."""
@@ -72,7 +74,6 @@ def surface(lmp):
     tops = [crests[k] + radius for k in range(count) if crests[k] > EMPTY]
     lmp.command("uncompute crest")
     lmp.command("uncompute column")
-    lmp.command("run 0")
     return math.fsum(tops) / len(tops)
 
 
@@ -83,22 +84,28 @@ class Wheel:
         self.body, self.options, self.radius, self.top = body, options, radius, top
         (self.x, _, self.z), self.angle, self.vz = body.state[:3], 0.0, 0.0
         self.mass = options.load / GRAVITY
-        self.x0 = self.x
+        self.x0, self.given = self.x, 0.0
+        body.watch()
 
     def advance(self, slip, dt, steps):
-        """One exchange: force of the grains in, state at the end of the next steps out. slip None: it stands."""
-        force = self.body.load
+        """One exchange: what the grains have given goes in, the state at the end of the next steps out. slip None: it stands."""
         speed = 0.0 if slip is None else self.options.speed
         omega = 0.0 if slip is None else speed / (self.radius * (1.0 - slip))
         # a dashpot stands for the suspension; strong at first, so that the wheel is put down and does not fall
         damping = 10.0 if speed else 100.0
-        self.vz += dt * (force[2] / self.mass - GRAVITY - damping * self.vz)
+        self.vz += self.given / self.mass - dt * (GRAVITY + damping * self.vz)
         self.x += dt * speed
         self.z += dt * self.vz
         self.angle += dt * omega
         half = 0.5 * self.angle
-        self.body.set_state([self.x, 0.0, self.z, math.cos(half), 0.0, math.sin(half), 0.0,
-                             speed, 0.0, self.vz, 0.0, omega, 0.0], after=steps)
+        self.body.put_state([self.x, 0.0, self.z, math.cos(half), 0.0, math.sin(half), 0.0,
+                             speed, 0.0, self.vz, 0.0, omega, 0.0], steps)
+
+    def feel(self):
+        """Mean drawbar pull, vertical force and driving torque since the last exchange."""
+        load = self.body.load()
+        self.given = load.impulse[2]
+        return load.impulse[0] / load.time, load.impulse[2] / load.time, -load.angular_impulse[1] / load.time
 
     @property
     def sinkage(self):
@@ -109,17 +116,20 @@ def drive(lmp, options):
     """Rows (time, slip, way, sinkage, drawbar pull, vertical force, torque), means over 40 exchanges. The torque is
     that which drives the wheel; slip -1 stands for a wheel at rest."""
     dt = options.every * lmp.extract_global("dt")
-    radius = float(lmp.extract_variable("R"))
-    wheel = Wheel(Body(lmp, "wheel"), options, radius, surface(lmp))
+    radius, top = float(lmp.extract_variable("R")), surface(lmp)
+    with Partner(lmp) as partner:
+        return drive_with(partner, Wheel(partner.body("wheel"), options, radius, top), options, dt)
+
+
+def drive_with(partner, wheel, options, dt):
     landing, each = 0.1, (0.16 if options.quick else options.time) / len(options.slip)
     rows, window, average = [], [], 40
     for n in range(int((landing + each * len(options.slip)) / dt)):
         k = math.floor((n * dt - landing) / each)
         slip = options.slip[min(k, len(options.slip) - 1)] if k >= 0 else None
         wheel.advance(slip, dt, options.every)
-        run(lmp, options.every)
-        load = wheel.body.load
-        window.append((load[0], load[2], -load[4]))
+        partner.advance(options.every)
+        window.append(wheel.feel())
         if len(window) == average:
             rows.append((n * dt, -1.0 if slip is None else slip, wheel.x - wheel.x0, wheel.sinkage,
                          *(sum(c) / average for c in zip(*window))))

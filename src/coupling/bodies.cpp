@@ -68,7 +68,8 @@ int call_watch_body(talus_partner *partner, const char *body, const double *poin
       about = {numbers[0], numbers[1], numbers[2]};
     }
     watched.watch(about);
-    partner->at_close([id = std::string(watched.command()->id)](GranularSystem &system) {
+    const std::string id = watched.command()->id;
+    partner->at_close("watch " + id, [id](GranularSystem &system) {
       if (LargeBody *one = system.bodies().find(id)) one->unwatch();
     });
     partner->needs_set_up = true;    // its load is summed from then on

@@ -4,8 +4,11 @@
 
 #include "coupling/calls.h"
 #include "coupling/partner.h"
+#include "system/definitions.h"
 
+#include "fmt/format.h"
 #include "lammps.h"
+#include "lmptype.h"
 #include "update.h"
 
 #include <cmath>
@@ -82,11 +85,18 @@ namespace {
 void advance(talus_partner &partner, std::int64_t steps)
 {
   if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
-  if (partner.needs_set_up) {
+  if (steps > MAXSMALLINT)
+    throw Refusal("steps is " + std::to_string(steps) + ", expected at most " +
+                  std::to_string(MAXSMALLINT));
+  const auto definitions = [&] {
+    return digest_of_definitions(partner.instance(), partner.system());
+  };
+  if (partner.needs_set_up || definitions() != partner.set_up_with) {
     partner.command("run 0 post no");
     partner.needs_set_up = false;
   }
   if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
+  partner.set_up_with = definitions();
 }
 
 }    // namespace
@@ -101,11 +111,12 @@ int call_advance_by(talus_partner *partner, double duration)
 {
   return partner->collective("talus_advance_by", [&] {
     const double asked = partner->number_of("duration", duration),
-                 dt = partner->instance().update->dt;
-    const double steps = asked / dt, whole = std::round(steps);
+                 dt = partner->instance().update->dt, steps = asked / dt, whole = std::round(steps);
+    if (asked < 0.0) throw Refusal(fmt::format("duration is {:.8g}, expected 0 or more", asked));
     if (std::fabs(steps - whole) > 1e-6)
-      throw Refusal("duration is " + std::to_string(asked) + ", which is " + std::to_string(steps) +
-                    " time steps of " + std::to_string(dt) + ": give a whole number of them");
+      throw Refusal(fmt::format(
+          "duration is {:.8g}, which is {:.8g} time steps of {:.8g}: give a whole number of them",
+          asked, steps, dt));
     advance(*partner, static_cast<std::int64_t>(whole));
   });
 }

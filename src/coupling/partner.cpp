@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <locale.h>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -40,6 +41,30 @@ talus_partner::talus_partner(LAMMPS *lmp, int root_rank) :
                   std::to_string(TALUS_ALL_RANKS) + " (all ranks) or a rank below " +
                   std::to_string(num_ranks));
 }
+
+namespace {
+
+/// Numbers of scripts have a point, whatever the program writes. For this thread.
+class PointInNumbers {
+ public:
+  PointInNumbers() : before(uselocale(static_cast<locale_t>(nullptr)))
+  {
+    with_point = newlocale(LC_NUMERIC_MASK, "C", duplocale(before));
+    uselocale(with_point);
+  }
+  ~PointInNumbers()
+  {
+    uselocale(before);
+    freelocale(with_point);
+  }
+  PointInNumbers(const PointInNumbers &) = delete;
+  PointInNumbers &operator=(const PointInNumbers &) = delete;
+
+ private:
+  locale_t before, with_point;
+};
+
+}    // namespace
 
 bool talus_partner::lives_here() const
 {
@@ -139,7 +164,7 @@ int talus_partner::fail(const char *why) noexcept
 int talus_partner::close() noexcept
 {
   if (const auto of_instance = of_last_call.lock())
-    for (const auto &work : last) work(*of_instance);
+    for (const auto &[name, work] : last) work(*of_instance);
   int finalized = 0;
   MPI_Finalized(&finalized);
   if (finalized || !failed.empty()) return TALUS_OK;
@@ -151,6 +176,7 @@ int talus_partner::collective(const char *name, const std::function<void()> &wor
 {
   text.clear();
   if (!agree(name)) return TALUS_PARTNER_FAILED;
+  const PointInNumbers numbers;
   of_last_call = granular = GranularSystem::of(lmp);
   const int code = code_of(name, work);
   granular.reset();
@@ -192,35 +218,40 @@ int talus_partner::stop_all(const char *name, const std::exception &problem)
 
 /* ---- arguments ------------------------------------------------------------------------------ */
 
-void talus_partner::refuse_if(const std::string &problem)
-{
-  int first = problem.empty() ? num_ranks : me, first_of_all;
-  MPI_Allreduce(&first, &first_of_all, 1, MPI_INT, MPI_MIN, world());
-  if (first_of_all == num_ranks) return;
-  std::string said = problem;
-  broadcast(said, first_of_all, world());
-  throw Refusal(said);
-}
+/* One reduction: of the lowest rank with a problem, and of what is to be the same wherever the partner
+   lives. */
 
-void talus_partner::all_have_the_same(const char *what, std::uint64_t digest)
+void talus_partner::check(const char *what, const std::string &problem, std::uint64_t digest)
 {
-  const double here[2] = {as_number(digest), -as_number(digest)};
-  double all[2];
-  MPI_Allreduce(here, all, 2, MPI_DOUBLE, MPI_MIN, world());
-  if (all[0] != -all[1])
+  const double none = std::numeric_limits<double>::max();
+  double here[3] = {problem.empty() ? none : me, none, none}, all[3];
+  if (lives_here()) {
+    here[1] = as_number(digest);
+    here[2] = -here[1];
+  }
+  MPI_Allreduce(here, all, 3, MPI_DOUBLE, MPI_MIN, world());
+  if (all[0] != none) {
+    std::string said = problem;
+    broadcast(said, static_cast<int>(all[0]), world());
+    throw Refusal(said);
+  }
+  if (all[1] != -all[2])
     throw Refusal(
         std::string(what) +
         " is not the same on all ranks: let the partner live on one, or give all the same");
 }
 
+void talus_partner::refuse_if(const std::string &problem)
+{
+  check("", problem, 0);
+}
+
 std::string talus_partner::text_of(const char *what, const char *given)
 {
-  refuse_if(lives_here() && !given ? std::string(what) + " is NULL" : "");
-  std::string value = lives_here() ? given : "";
-  if (root == TALUS_ALL_RANKS)
-    all_have_the_same(what, digest_of(value.data(), value.size()));
-  else
-    broadcast(value, root, world());
+  std::string value = lives_here() && given ? given : "";
+  check(what, lives_here() && !given ? std::string(what) + " is NULL" : "",
+        digest_of(value.data(), value.size()));
+  if (root != TALUS_ALL_RANKS) broadcast(value, root, world());
   return value;
 }
 
@@ -243,37 +274,34 @@ std::vector<std::int64_t> talus_partner::integers_of(const char *what, const std
                                                      std::int64_t count)
 {
   std::vector<std::int64_t> values(count);
-  refuse_if(lives_here() && count > 0 && !given ? std::string(what) + " is NULL" : "");
-  if (lives_here()) std::copy(given, given + count, values.begin());
-  if (root == TALUS_ALL_RANKS) {
-    StateDigest digest;
-    for (const std::int64_t value : values) digest.add(static_cast<std::uint64_t>(value));
-    all_have_the_same(what, digest.value());
-  } else {
-    broadcast(values.data(), values.size(), MPI_INT64_T, root, world());
-  }
+  const bool missing = lives_here() && count > 0 && !given;
+  if (lives_here() && !missing) std::copy(given, given + count, values.begin());
+  StateDigest digest;
+  for (const std::int64_t value : values) digest.add(static_cast<std::uint64_t>(value));
+  check(what, missing ? std::string(what) + " is NULL" : "", digest.value());
+  if (root != TALUS_ALL_RANKS) broadcast(values.data(), values.size(), MPI_INT64_T, root, world());
   return values;
 }
 
 std::vector<double> talus_partner::numbers_of(const char *what, const double *given,
                                               std::int64_t count)
 {
-  std::string problem;
-  if (lives_here() && count > 0 && !given) problem = std::string(what) + " is NULL";
-  for (std::int64_t k = 0; problem.empty() && lives_here() && k < count; k++)
-    if (!std::isfinite(given[k]))
-      problem = std::string(what) + (count > 1 ? "[" + std::to_string(k) + "]" : "") +
-                " is no finite number";
-  refuse_if(problem);
   std::vector<double> values(count);
-  if (lives_here()) std::copy(given, given + count, values.begin());
-  if (root == TALUS_ALL_RANKS) {
-    StateDigest digest;
-    digest.add(values.data(), count);
-    all_have_the_same(what, digest.value());
-  } else {
-    broadcast(values.data(), values.size(), MPI_DOUBLE, root, world());
-  }
+  std::string problem;
+  if (lives_here() && count > 0 && !given)
+    problem = std::string(what) + " is NULL";
+  else if (lives_here())
+    std::copy(given, given + count, values.begin());
+  const auto wrong =
+      std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (wrong != values.end())
+    problem = std::string(what) +
+              (count > 1 ? "[" + std::to_string(wrong - values.begin()) + "]" : "") +
+              " is no finite number";
+  StateDigest digest;
+  digest.add(values.data(), count);
+  check(what, problem, digest.value());
+  if (root != TALUS_ALL_RANKS) broadcast(values.data(), values.size(), MPI_DOUBLE, root, world());
   return values;
 }
 

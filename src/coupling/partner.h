@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -80,10 +81,16 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
 
   /// A command of LAMMPS.
   void command(const std::string &line);
-  /// The next advance begins with the set-up of a run.
+  /// The next advance begins with the set-up of a run; so it does if there is something else to set up
+  /// than at the end of the last one, see digest_of_definitions().
   bool needs_set_up = true;
-  /// To be done when the partner is closed: what it has asked the system to do for it ends.
-  void at_close(const std::function<void(Talus::GranularSystem &)> &work) { last.push_back(work); }
+  std::uint64_t set_up_with = 0;
+  /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
+  /// ends.
+  void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)
+  {
+    last[name] = work;
+  }
   /// See GranularSystem: that of the instance while the call lasts, for `clear` makes another one.
   Talus::GranularSystem &system() { return *granular; }
   MPI_Comm world() const { return ranks.comm; }
@@ -92,7 +99,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   bool agree(const char *name);
   int code_of(const char *name, const std::function<void()> &work);
   int stop_all(const char *name, const std::exception &problem);
-  void all_have_the_same(const char *what, std::uint64_t digest);
+  void check(const char *what, const std::string &problem, std::uint64_t digest);
   void set_failed(int rank);
 
   Talus::OwnRanks ranks;
@@ -100,7 +107,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   int me, num_ranks;
   std::shared_ptr<Talus::GranularSystem> granular;
   std::weak_ptr<Talus::GranularSystem> of_last_call;
-  std::vector<std::function<void(Talus::GranularSystem &)>> last;
+  std::map<std::string, std::function<void(Talus::GranularSystem &)>> last;
   std::string text;
   std::string failed;    // "" or why the partner is gone
 };

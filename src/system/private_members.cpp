@@ -9,6 +9,7 @@
 
 #include "comm.h"
 #include "comm_brick.h"
+#include "compute.h"
 #include "fix_addforce.h"
 #include "fix_ave_atom.h"
 #include "fix_ave_chunk.h"
@@ -68,6 +69,9 @@ template <class Style> using NumberOf = double Style::*;
 TALUS_PRIVATE_MEMBER(BorderGroup, int Comm::*, &Comm::bordergroup)
 TALUS_PRIVATE_MEMBER(ReducesMulti, int Comm::*, &Comm::multi_reduce)
 TALUS_PRIVATE_MEMBER(LocalSendList, int *CommBrick::*, &CommBrick::localsendlist)
+TALUS_PRIVATE_MEMBER(InstanceOfFix, int Fix::*, &Fix::instance_me)
+TALUS_PRIVATE_MEMBER(InstanceOfCompute, int Compute::*, &Compute::instance_me)
+TALUS_PRIVATE_MEMBER(InstanceOfPair, int Pair::*, &Pair::instance_me)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
 TALUS_PRIVATE_MEMBER(HybridCount, int PairHybrid::*, &PairHybrid::nstyles)
 TALUS_PRIVATE_MEMBER(HybridStyles, Pair **PairHybrid::*, &PairHybrid::styles)
@@ -226,6 +230,21 @@ std::array<const char *, 4> variables_of(const Region &region)
 {
   return {region.*pointer_to(MoveX{}), region.*pointer_to(MoveY{}), region.*pointer_to(MoveZ{}),
           region.*pointer_to(Angle{})};
+}
+
+int number_of_instance(const Fix &fix)
+{
+  return fix.*pointer_to(InstanceOfFix{});
+}
+
+int number_of_instance(const Compute &compute)
+{
+  return compute.*pointer_to(InstanceOfCompute{});
+}
+
+int number_of_instance(const Pair &pair)
+{
+  return pair.*pointer_to(InstanceOfPair{});
 }
 
 /* The fix as the class of its style, or nullptr. */

@@ -15,6 +15,7 @@
 namespace LAMMPS_NS {
 class Comm;
 class CommBrick;
+class Compute;
 class Fix;
 class FixGravity;
 class Force;
@@ -48,6 +49,11 @@ bool leaves_out_small(const LAMMPS_NS::Comm &comm);
 /// A brick that was made from another object (comm_style brick) does not set this pointer, and frees it
 /// in the end: to be called before it is deleted, unless fix bond/react has asked for the list.
 void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
+
+/// The how manyth of all that have been made in this process.
+int number_of_instance(const LAMMPS_NS::Fix &fix);
+int number_of_instance(const LAMMPS_NS::Compute &compute);
+int number_of_instance(const LAMMPS_NS::Pair &pair);
 
 /// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
 LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);

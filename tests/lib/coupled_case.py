@@ -42,7 +42,7 @@ class CoupledCase(SceneCase):
     def compile(self, name, text, compiler=None):
         """A program in C that is linked with LAMMPS and libtalus.so."""
         words = compiler or [os.environ.get("TALUS_MPICC", "mpicc")]
-        self.launch([*words, "-Wall", "-Wextra", "-Werror", "-DLAMMPS_LIB_MPI", self.write(name + ".c", text), "-I",
+        self.launch([*words, "-Wall", "-Werror", "-DLAMMPS_LIB_MPI", self.write(name + ".c", text), "-I",
                      os.path.join(HOST_SOURCE, "src"), "-I", os.path.join(SOURCE, "src"), "-L", HOST, "-llammps", "-L", BUILD,
                      "-ltalus", "-o", name])
         return "./" + name

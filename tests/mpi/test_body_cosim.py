@@ -3,7 +3,6 @@
 """Large bodies steered from outside: from Python on 1 and 2 ranks the same bits as the same motion given by variables,
 also over a restart; from C; refusal of bad states; the energy error of explicit coupling."""
 
-import json
 import os
 import struct
 import sys
@@ -11,12 +10,8 @@ import unittest
 
 TESTS = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, run_program, write_sphere_data
-
-SOURCE = os.environ["TALUS_SOURCE_DIR"]
-HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
-if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
-    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+from coupled_case import CoupledCase
+from talus_testing import Sphere, read_dump, write_sphere_data
 
 SCENE = """
 units lj
@@ -47,25 +42,26 @@ BY_VARIABLE = "variable v_dx NULL v_dz v_vx NULL v_vz angle v_phi v_omega 0 0 1"
 
 DRIVER = """
 import json, math, sys
-sys.path[:0] = [{module!r}, {source!r} + "/examples/cosim"]
 from lammps import lammps
-from talus_cosim import Body, run
+from talus import Partner
 lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
 lmp.commands_string(open(sys.argv[1]).read())
 first, last, out = int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
-lmp.command("run 0")
-body, curve = Body(lmp, "body"), []
-for step in range(first + 1, last + 1):
-    t = 0.001
-    x, v = 0.3*math.sin(2.0*step*0.001), 0.6*math.cos(2.0*step*0.001)
-    phi = 0.7*step*0.001
-    body.set_state([0.0 + x, 0.0, 3.8 + -2.0*step*0.001, math.cos(0.5*phi), 0.0, 0.0, math.sin(0.5*phi),
-                    v, 0.0, -2.0, 0.0, 0.0, 0.7], after=1)
-    run(lmp, 1)
-    if step % 20 == 0:
-        curve.append([step] + [f.hex() for f in body.load + body.state])
-    if step == 300:
-        lmp.command("write_restart half")
+curve = []
+with Partner(lmp) as partner:
+    body = partner.body("body")
+    partner.advance(0)
+    for step in range(first + 1, last + 1):
+        x, v = 0.3*math.sin(2.0*step*0.001), 0.6*math.cos(2.0*step*0.001)
+        phi = 0.7*step*0.001
+        body.put_state([0.0 + x, 0.0, 3.8 + -2.0*step*0.001, math.cos(0.5*phi), 0.0, 0.0, math.sin(0.5*phi),
+                        v, 0.0, -2.0, 0.0, 0.0, 0.7], 1)
+        partner.advance(1)
+        if step % 20 == 0:
+            load = [lmp.extract_fix("body", 0, 1, k, 0) for k in range(6)]
+            curve.append([step] + [f.hex() for f in load + body.state])
+        if step == 300:
+            lmp.command("write_restart half")
 lmp.command("write_dump all custom " + out + ".state id x y z vx vy vz omegax omegay omegaz modify format float %a")
 if lmp.extract_setting("world_rank") == 0:
     with open(out, "w") as file:
@@ -73,12 +69,11 @@ if lmp.extract_setting("world_rank") == 0:
 lmp.finalize()
 """
 
-# a plate on a spring, integrated here, hit by a ball; H: steps between exchanges
+# a plate on a spring, integrated here with the force of the last step, hit by a ball; H: time between exchanges
 OSCILLATOR = """
 import json, math, sys
-sys.path[:0] = [{module!r}, {source!r} + "/examples/cosim"]
 from lammps import lammps
-from talus_cosim import Body, run
+from talus import Partner
 SCENE = '''
 units lj
 boundary f f f
@@ -101,28 +96,29 @@ variable energy equal pe+ke
 compute spin all erotate/sphere
 thermo_modify norm no
 thermo_style custom step pe ke
-run 0
 '''
 errors = []
 for every in (1, 4, 16):
     lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
     lmp.commands_string(SCENE)
-    body, H, M, K = Body(lmp, "body"), every * 0.0005, 3.0, 200.0
-    z = v = 0.0
+    H, M, K = every * 0.0005, 3.0, 200.0
+    z = v = force = 0.0
     total, worst, hits = None, 0.0, 0
-    for n in range(int(4.0 / H)):
-        force = body.load[2]
-        hits += force != 0.0
-        v += H * (force - K * z) / M
-        z += H * v
-        body.set_state([0, 0, z, 1, 0, 0, 0, 0, 0, v, 0, 0, 0], after=every)
-        run(lmp, every)
-        if n % max(1, 16 // every) == 0 and body.load[2] == 0.0:
-            x, u = lmp.extract_atom("x")[0][2], lmp.extract_atom("v")[0][2]
-            m = math.pi / 6
-            now = 0.5*m*u*u + m*5*x + 0.5*M*v*v + 0.5*K*z*z
-            total = total or now
-            worst = max(worst, abs(now / total - 1))
+    with Partner(lmp) as partner:
+        body = partner.body("body")
+        for n in range(int(4.0 / H)):
+            hits += force != 0.0
+            v += H * (force - K * z) / M
+            z += H * v
+            body.put_state([0, 0, z, 1, 0, 0, 0, 0, 0, v, 0, 0, 0], every)
+            partner.advance(every)
+            force = lmp.extract_fix("body", 0, 1, 2, 0)
+            if n % max(1, 16 // every) == 0 and force == 0.0:
+                x, u = lmp.extract_atom("x")[0][2], lmp.extract_atom("v")[0][2]
+                m = math.pi / 6
+                now = 0.5*m*u*u + m*5*x + 0.5*M*v*v + 0.5*K*z*z
+                total = total or now
+                worst = max(worst, abs(now / total - 1))
     errors.append([every, worst, hits])
     lmp.close()
 with open(sys.argv[1], "w") as file:
@@ -132,32 +128,36 @@ with open(sys.argv[1], "w") as file:
 C_PROGRAM = """
 #include <locale.h>
 #include <mpi.h>
+#include <stdio.h>
 #include "library.h"
 #include "talus.h"
 int main(int argc, char **argv)
 {
   char *words[] = {(char *) "lmp", (char *) "-log", (char *) "none", (char *) "-screen", (char *) "none"};
   double state[TALUS_STATE_SIZE], load[TALUS_LOAD_SIZE];
-  int k;
+  talus_partner *partner;
+  int k, code = 0;
   MPI_Init(&argc, &argv);
   void *lmp = lammps_open(5, words, MPI_COMM_WORLD, NULL);
   lammps_file(lmp, argv[1]);
-  lammps_command(lmp, "run 0");
+  code |= talus_open(lmp, TALUS_ALL_RANKS, &partner);
   if (argc > 2 && !setlocale(LC_NUMERIC, argv[2])) return 1;    /* as programs with a graphical interface do */
   if (argc > 2 && localeconv()->decimal_point[0] != ',') return 2;
-  talus_get_state(lmp, "body", state);
+  code |= talus_watch_body(partner, "body", NULL);
+  code |= talus_get_body_state(partner, "body", state);
   state[9] = -2.0;
   state[2] -= 0.002 * 250;
-  talus_set_state(lmp, "body", state, 250);
-  talus_run(lmp, 500);
-  talus_get_state(lmp, "body", state);
-  talus_get_load(lmp, "body", load);
+  code |= talus_put_body_state(partner, "body", state, 250);
+  code |= talus_advance(partner, 500);
+  code |= talus_get_body_state(partner, "body", state);
+  code |= talus_get_body_load(partner, "body", load);
+  code |= talus_close(partner);
   setlocale(LC_NUMERIC, "C");
   for (k = 0; k < TALUS_STATE_SIZE; k++) printf("%.10g ", state[k]);
   for (k = 0; k < TALUS_LOAD_SIZE; k++) printf("%.10g ", load[k]);
   lammps_close(lmp);
   MPI_Finalize();
-  return 0;
+  return code;
 }
 """
 
@@ -177,7 +177,7 @@ def grains():
             for k in range(3) for j in range(6) for i in range(6)]
 
 
-class Cosim(SceneCase):
+class Cosim(CoupledCase):
 
     def setUp(self):
         write_sphere_data(self.path("grains"), ((-4, 4), (-4, 4), (-1, 9)), grains())
@@ -190,22 +190,6 @@ class Cosim(SceneCase):
         with open(self.path(name), "w") as file:
             file.write(text)
         return text
-
-    def launch(self, command, np=1, env=None):
-        """What it prints."""
-        libraries = HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")
-        return run_program(command[0], np, command[1:], cwd=self.dir,
-                           env={"LD_LIBRARY_PATH": libraries, **(env or {})}).output
-
-    def drive(self, driver, *words, np=1):
-        with open(self.path("driver.py"), "w") as file:
-            file.write(driver.replace("{module!r}", repr(os.path.join(HOST_SOURCE, "python")))
-                       .replace("{source!r}", repr(SOURCE)))
-        self.launch([sys.executable, "driver.py", *map(str, words)], np)
-
-    def read_json(self, name):
-        with open(self.path(name)) as file:
-            return json.load(file)
 
     def state(self, name):
         frame, = read_dump(self.path(name))
@@ -260,14 +244,9 @@ write_dump all custom variable.state id x y z vx vy vz omegax omegay omegaz modi
 
     def test_from_c(self):
         self.scene("in.external", "external")
-        with open(self.path("drive.c"), "w") as file:
-            file.write(C_PROGRAM)
-        headers = os.path.join(HOST_SOURCE, "src")
-        compiler = os.environ.get("TALUS_MPICC", "mpicc")
-        for words in ([compiler], ["mpicxx", "-x", "c++"]):
-            self.launch([*words, "-Wall", "-Werror", "-DLAMMPS_LIB_MPI", "drive.c", "-I", headers, "-I",
-                         os.path.join(SOURCE, "src"), "-L", HOST, "-llammps", "-o", "drive"])
-            out = list(map(float, self.launch(["./drive", "in.external"]).split()))
+        for compiler in (None, ["mpicxx", "-x", "c++"]):
+            program = self.compile("drive", C_PROGRAM, compiler)
+            out = list(map(float, self.launch([program, "in.external"]).split()))
             self.assertEqual(out[:3], [0.0, 0.0, 2.8])    # 250 steps to the given state, 250 more at its speed
             self.assertEqual(out[9], -2.0)
             self.assertGreater(out[15], 1.0)

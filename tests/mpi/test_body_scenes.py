@@ -11,12 +11,8 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from coupled_case import SOURCE, host_environment
 from talus_testing import SceneCase, run_program
-
-SOURCE = os.environ["TALUS_SOURCE_DIR"]
-HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
-if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
-    HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
 
 
 class Scenes(SceneCase):
@@ -89,12 +85,10 @@ class Scenes(SceneCase):
         self.assertEqual(mass[0], 0.0)
 
     def test_wheel(self):
-        env = {"PYTHONPATH": os.path.join(HOST_SOURCE, "python"),
-               "LD_LIBRARY_PATH": HOST + ":" + os.environ.get("LD_LIBRARY_PATH", "")}
         rows = []
         for np in (1, 2):
             done = run_program(sys.executable, np, [os.path.join(SOURCE, "examples/cosim/wheel.py"), "--quick", "--out", self.dir],
-                               env=env, timeout=240)
+                               env=host_environment(), timeout=240)
             with open(self.path("wheel.csv")) as file:
                 rows.append(file.read())
         print(done.output.strip())
