@@ -354,7 +354,7 @@ class Loads(CoupledCase):
 
     def test_angular_momentum_goes_to_the_body(self):
         write_sphere_data(self.path("grains"), ((-4, 4), (-4, 4), (-4, 4)), grains(spin=5.0))
-        for integrator in INTEGRATORS:
+        for integrator in sorted(set(INTEGRATORS) - {"shapes"}):    # whose inertia is not that of spheres
             # between grains, friction acts at the ends of both radii, which overlap: there it does not balance
             self.drive(TURNING, self.scene(integrator, "none"), "sums")
             rows, flow = self.read_json("sums")
