@@ -15,6 +15,7 @@
 All methods are collective, and errors are the same on all ranks. If the block of `with` ends in an exception on one rank,
 the others get a TalusError with its text instead of waiting for ever."""
 
+import array
 import ctypes
 import itertools
 import os
@@ -63,27 +64,26 @@ def _doubles(values, count=None):
     if hasattr(values, "__array_interface__"):
         values = numpy.ascontiguousarray(values, dtype=float).ravel()
         _check(len(values), count)
-        array = (ctypes.c_double * len(values)).from_buffer_copy(values) if not values.flags.writeable else \
-            (ctypes.c_double * len(values)).from_buffer(values)
-        return array
-    values = _flat(values)
+        kind = ctypes.c_double * len(values)
+        return kind.from_buffer(values) if values.flags.writeable else kind.from_buffer_copy(values)
+    values = array.array("d", _flat(values))
     _check(len(values), count)
-    return (ctypes.c_double * len(values))(*values)
+    return (ctypes.c_double * len(values)).from_buffer(values)
 
 
 def _integers(values):
     if hasattr(values, "__array_interface__"):
         return numpy.ascontiguousarray(values, dtype=numpy.int64).ctypes.data_as(ctypes.POINTER(ctypes.c_int64)), len(values)
-    values = list(map(int, values or []))
-    return (ctypes.c_int64 * len(values))(*values), len(values)
+    values = array.array("q", values or [])
+    return (ctypes.c_int64 * len(values)).from_buffer(values), len(values)
 
 
 def _array(numbers, *shape):
-    """What C has written: an array of numpy where there is numpy, else nested lists."""
+    """What C has written: an array of numpy where there is numpy, else a list of numbers or of rows."""
     if numpy is None:
-        numbers = list(numbers)
+        numbers = numbers[:]
         for count in reversed(shape[1:]):
-            numbers = [numbers[k:k + count] for k in range(0, len(numbers), count)]
+            numbers = list(zip(*[iter(numbers)] * count))
         return numbers
     kind = numpy.int64 if numbers._type_ is ctypes.c_int64 else float
     return numpy.frombuffer(numbers, dtype=kind).reshape(shape) if len(numbers) else numpy.empty(shape, kind)

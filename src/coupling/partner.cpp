@@ -340,9 +340,14 @@ void talus_partner::command(const std::string &line)
   lmp->input->one(line);
 }
 
+bool talus_partner::is_set_up_due()
+{
+  return needs_set_up || digest_of_definitions(instance(), system()) != set_up_with;
+}
+
 void talus_partner::set_up_if_needed()
 {
-  if (!needs_set_up && digest_of_definitions(instance(), system()) == set_up_with) return;
+  if (!is_set_up_due()) return;
   system().external_loads().make_fix();
   command("run 0 post no");
   needs_set_up = false;

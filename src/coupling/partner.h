@@ -93,6 +93,7 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   void remember_definitions();
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
+  bool is_set_up_due();
   /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
   /// ends.
   void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)

@@ -8,6 +8,7 @@
 #include "system/snapshot.h"
 
 #include <memory>
+#include <new>
 
 struct talus_snapshot {
   Talus::Snapshot state;
@@ -24,7 +25,12 @@ int call_save(talus_partner *partner, talus_snapshot **snapshot)
     partner->set_up_if_needed();
     LAMMPS_NS::LAMMPS *const lmp = &partner->instance();
     partner->refuse_if(Snapshot::reason_against(lmp, partner->system()));
-    *snapshot = new talus_snapshot{Snapshot(lmp, partner->system())};
+    try {
+      *snapshot = new talus_snapshot{Snapshot(lmp, partner->system())};
+    } catch (const std::bad_alloc &) {
+      throw Refusal("some rank has not enough memory for another snapshot: discard others, or use "
+                    "more machines");
+    }
   });
 }
 
@@ -33,8 +39,10 @@ int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
   return partner->collective("talus_restore", [&] {
     partner->refuse_if(snapshot ? snapshot->state.reason_against_restoring(partner->system())
                                 : "snapshot is NULL");
+    const bool due = partner->is_set_up_due();
     snapshot->state.restore();
     partner->remember_definitions();    // the number of particles is another one
+    partner->needs_set_up = due;
   });
 }
 

@@ -82,13 +82,13 @@ int talus_put_body_state(talus_partner *partner, const char *body, const double 
                          int64_t steps);
 /* Any body. */
 int talus_get_body_state(talus_partner *partner, const char *body, double *state);
-/* What the grains have given the body since the last talus_get_body_load() of it, or since talus_watch_body(): impulse,
-   angular impulse about its reference point or, if point is not NULL, about this point of the body (body frame, from the
-   reference point), work, and the time since then. Begins anew. */
-int talus_get_body_load(talus_partner *partner, const char *body, double *load);
-/* Loads of the body are summed from here on. point: NULL, or the point of the body (body frame, from the reference point)
-   about which angular impulses are, such as its center of mass. */
+/* Loads of any body are summed from the next advance on. point: NULL, or the point of the body (body frame, from the reference
+   point) about which angular impulses are, such as its center of mass; NULL: the reference point. */
 int talus_watch_body(talus_partner *partner, const char *body, const double *point);
+/* What the particles have given the body since the last call of this, or since it is watched: impulse (force time),
+   angular impulse (force distance time), work (force distance), and the time. Begins anew. What bodies get, particles have
+   lost, to rounding. Refused unless the body is watched. */
+int talus_get_body_load(talus_partner *partner, const char *body, double *load);
 
 /* ---- deforming meshes: fix large/body mesh ... move vertices ---------------------------------------- */
 

@@ -11,6 +11,7 @@
 #ifndef TALUS_FIX_LARGE_BODY_VERTICES_H
 #define TALUS_FIX_LARGE_BODY_VERTICES_H
 
+#include "base/state_exchange.h"
 #include "body/contact/body_batch.h"
 #include "body/contact/vertex_sums.h"
 #include "body/shape/mesh_shape.h"
@@ -47,6 +48,9 @@ class LargeBodyVertices : protected Pointers {
     mesh.exchange_state(x);
     x(forces, sums, time);
   }
+
+  /// For snapshots: the vertices, and the sums of this rank.
+  void exchange_state(Talus::StateExchange &x);
 
   double memory_usage() const;
 

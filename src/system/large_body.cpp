@@ -239,7 +239,7 @@ void LargeBody::compute(bool advance, double *virial)
 void LargeBody::exchange_state(StateExchange &x)
 {
   finish_reduction();
-  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated);
+  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated, impulses);
   x.array(digits_here, size_digits);
   x.array(digits_of_all, size_digits);
   contacts.history.exchange_state(x);

@@ -68,9 +68,11 @@ void SavedClock::restore_plans() const
 
 void SavedClock::forget_computes() const
 {
-  for (Compute *compute : modify->get_compute_list())
+  for (Compute *compute : modify->get_compute_list()) {
+    compute->invoked_flag = Compute::INVOKED_NONE;
     compute->invoked_scalar = compute->invoked_vector = compute->invoked_array =
         compute->invoked_peratom = compute->invoked_local = -1;
+  }
 }
 
 }    // namespace Talus

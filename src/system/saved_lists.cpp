@@ -3,11 +3,14 @@
 #include "system/saved_lists.h"
 
 #include "base/state_digest.h"
+#include "system/fix_list.h"
+#include "system/system_fix.h"
 #include "system/system_run_style.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -116,7 +119,10 @@ void SavedLists::run_hooks_and_build() const
   neighbor->lastcall = step;
   if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate))
     run_style->lists_are_made();
-  if (modify->n_post_neighbor) modify->post_neighbor();
+  // those of Talus list particles when all is restored
+  for (Fix *fix : fix_list(*modify))
+    if ((modify->get_fix_mask(fix) & FixConst::POST_NEIGHBOR) && !SystemFix::of(fix))
+      fix->post_neighbor();
 }
 
 double SavedLists::memory_usage() const

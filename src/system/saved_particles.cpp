@@ -51,16 +51,25 @@ void SavedParticles::restore(bool ghosts_stay) const
   atom->nfirst = first_group;
   atom->natoms = number;
   if (!ghosts_stay) atom->nghost = 0;
-  for (const Rows &rows : arrays) {
-    const Array to = array(rows.place);
-    if (to.bytes == rows.bytes) {
-      std::memcpy(to.first, rows.data.data(), rows.data.size());
-      continue;
-    }
-    for (int i = 0; i < owned; i++)
-      std::memcpy(to.first + i * to.bytes, &rows.data[i * rows.bytes],
-                  std::min(rows.bytes, to.bytes));
+  for (const Rows &rows : arrays) restore(rows);
+}
+
+void SavedParticles::restore_positions() const
+{
+  for (const Rows &rows : arrays)
+    if (atom->peratom[rows.place].name == "x") restore(rows);
+}
+
+void SavedParticles::restore(const Rows &rows) const
+{
+  const Array to = array(rows.place);
+  if (to.bytes == rows.bytes) {
+    std::memcpy(to.first, rows.data.data(), rows.data.size());
+    return;
   }
+  for (int i = 0; i < owned; i++)
+    std::memcpy(to.first + i * to.bytes, &rows.data[i * rows.bytes],
+                std::min(rows.bytes, to.bytes));
 }
 
 double SavedParticles::memory_usage() const

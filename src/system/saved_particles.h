@@ -21,6 +21,8 @@ class SavedParticles : protected LAMMPS_NS::Pointers {
   /// All arrays of the particles with these indices; particles behind them are gone, and ghosts too unless
   /// they `stay`. Room for all that there were.
   void restore(bool ghosts_stay) const;
+  /// After it, where only positions may have changed since.
+  void restore_positions() const;
   int count() const { return owned; }
   double memory_usage() const;
 
@@ -36,6 +38,7 @@ class SavedParticles : protected LAMMPS_NS::Pointers {
     std::size_t bytes;
   };
   Array array(std::size_t place) const;
+  void restore(const Rows &rows) const;
 
   int owned = 0, first_group = 0, total = 0;
   LAMMPS_NS::bigint number = 0;    // of particles on all ranks

@@ -8,9 +8,9 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "error.h"
 
 #include <new>
-#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
@@ -36,10 +36,7 @@ Snapshot::Snapshot(LAMMPS *lmp, GranularSystem &of) :
     mine = 1;
   }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any)
-    throw std::runtime_error("not enough memory on some rank for a snapshot of " +
-                             std::to_string(atom->natoms) +
-                             " particles: discard others, or use more machines");
+  if (any) throw std::bad_alloc();
 }
 
 void Snapshot::save()
@@ -64,9 +61,10 @@ std::string Snapshot::reason_against_restoring(const GranularSystem &into) const
 void Snapshot::restore() const
 {
   clock.restore_time();
-  const bool same_lists = lists.are_present();
-  if (!same_lists) restore_lists();
-  particles.restore(true);
+  if (lists.are_present())
+    particles.restore(true);
+  else
+    restore_lists();
   fixes.restore_particles();
   comm->forward_comm();
   if (FixContactStore *store = system.store()) {
@@ -80,7 +78,7 @@ void Snapshot::restore() const
   clock.restore_plans();
 }
 
-/* Pairs that are made here have no histories. */
+/* With the particles. Pairs that are made here have no histories. */
 
 void Snapshot::restore_lists() const
 {
@@ -93,10 +91,11 @@ void Snapshot::restore_lists() const
     store->histories().clear();
   }
   if (!lists.make_again())
-    throw std::runtime_error("the neighbor lists of the snapshot cannot be made again, for sizes "
-                             "or types of particles had "
-                             "changed between the last rebuild and the snapshot: begin the steps "
-                             "before it with a set-up");
+    error->all(FLERR, "talus_restore: neighbor lists of the snapshot cannot be made again, for "
+                      "sizes or types of particles "
+                      "had changed between the last rebuild and the snapshot: call talus_set_up() "
+                      "before talus_save()");
+  particles.restore_positions();
 }
 
 double Snapshot::memory_usage() const

@@ -7,8 +7,6 @@
 // none is sent, and none is put into its period, which would round its position. Neighbor lists stay where they
 // are still those of then, else they are made again as they were (saved_lists.h). What is not state: what a script
 // defines (fixes, laws, groups, regions, variables), files, and what outputs have gathered.
-//
-// Errors: std::runtime_error with a text for messages, the same on all ranks.
 
 #ifndef TALUS_SYSTEM_SNAPSHOT_H
 #define TALUS_SYSTEM_SNAPSHOT_H
@@ -32,12 +30,13 @@ class Snapshot : protected LAMMPS_NS::Pointers {
  public:
   /// Between runs: "", or why the scene cannot be saved and the cure.
   static std::string reason_against(LAMMPS_NS::LAMMPS *lmp, GranularSystem &system);
-  /// Collective, between two runs, after a first one.
+  /// Collective, between two runs, after a first one. Throws std::bad_alloc on all ranks, if one has not enough
+  /// memory.
   Snapshot(LAMMPS_NS::LAMMPS *lmp, GranularSystem &of);
 
   /// "", or why it cannot be restored: it is of another instance, or the scene has changed since.
   std::string reason_against_restoring(const GranularSystem &into) const;
-  /// Collective, between two runs.
+  /// Collective, between two runs. Ends in an error of LAMMPS where neighbor lists cannot be made again.
   void restore() const;
   /// Bytes on this rank.
   double memory_usage() const;

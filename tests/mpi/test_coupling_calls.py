@@ -146,6 +146,17 @@ with Partner(lmp, root) as partner:
 end()
 """
 
+# an error that one rank finds alone
+ON_ONE_RANK = PRELUDE + """
+with Partner(lmp, root) as partner:
+    partner.advance(1)
+    if lmp.extract_global("nlocal") and lmp.extract_atom("id")[0] == 1:
+        lmp.extract_atom("x")[0][2] = float("nan")
+    attempt(partner.set_up)
+    attempt(partner.advance, 5)
+end()
+"""
+
 COMING_AND_GOING = PRELUDE + """
 with Partner(lmp, root) as partner:
     plate = partner.body("plate")
@@ -334,6 +345,13 @@ class Calls(CoupledCase):
         for np, root in ((1, -1), (2, 0)):
             said = self.said(HOST_ERRORS, np, root)
             self.check(said, [(2, "talus_advance: Fix halt condition for fix-id stop met"), (0, ""), (0, ""), (0, "")])
+
+    def test_errors_of_one_rank(self):
+        self.check(self.said(ON_ONE_RANK, 1, -1), [(0, ""), (2, "talus_advance: Non-numeric atom coords")])
+        with self.assertRaises(AssertionError) as ended:    # the others cannot be told: all end
+            self.drive(ON_ONE_RANK, -1, np=2)
+        self.assertIn("talus_advance: Non-numeric atom coords", str(ended.exception))
+        self.assertIn("MPI_ABORT", str(ended.exception))
 
     def test_coming_and_going(self):
         for np, root in ((1, -1), (2, 1)):

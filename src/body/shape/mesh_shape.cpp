@@ -256,6 +256,12 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
   return std::sqrt(least);
 }
 
+double MeshShape::extent_from(const Vector3<double> &point) const
+{
+  const Eigen::Vector3d p = to_eigen(point);
+  return (p - mesh.bounds().min()).cwiseAbs().cwiseMax((p - mesh.bounds().max()).cwiseAbs()).norm();
+}
+
 void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                            std::vector<Triangle> &triangles) const
 {

@@ -97,6 +97,7 @@ class MeshShape : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return mesh.center(); }
+  double extent_from(const Vector3<double> &point) const override;
   bool is_flat() const override { return true; }
   MeshShape *as_mesh() override { return this; }
   int most_contacts() const override { return max_contacts; }
