@@ -125,7 +125,7 @@ void LargeBodyVertices::exchange_state(StateExchange &x)
 {
   std::vector<double> state(mesh.moving()->size_of_array());
   if (!x.restores()) mesh.moving()->to_array(state.data());
-  x(state, forces, share_of_next, sums, time);
+  x(state, forces, kicks, sums, time);
   if (x.restores()) mesh.resume(state.data());
 }
 
