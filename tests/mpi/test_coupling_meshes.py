@@ -83,10 +83,10 @@ class MovedMesh(CoupledCase):
                 text = text.replace(line + "\n", "", 1)
         return text
 
-    def move(self, name, np=1, **spec):
+    def move(self, name, np=1, env=None, **spec):
         """Rows of the exchanges."""
         self.write(name + ".spec", json.dumps(spec))
-        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np)
+        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np, env)
         return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):
@@ -191,8 +191,8 @@ class RigidWays(MovedMesh):
 
 class Ledgers(MovedMesh):
 
-    def moved(self, name, every, np=1, steps=200, root=-1, law=ROLLING, **options):
-        return self.move(name, np, scene=self.scene(hills(), law=law, **options), way="wave",
+    def moved(self, name, every, np=1, steps=200, root=-1, law=ROLLING, env=None, **options):
+        return self.move(name, np, env, scene=self.scene(hills(), law=law, **options), way="wave",
                           words={"height": 0.1, "number": 1.1, "rate": 6.0, "growth": 0.1}, every=every, steps=steps, root=root)
 
     def test_forces_on_vertices_are_the_load(self):
@@ -236,6 +236,8 @@ class Ledgers(MovedMesh):
         for np, root in ((2, -1), (4, 0), (2, 1)):
             self.assertEqual(self.moved(f"r{np}{root}", 7, np=np, root=root, steps=203), rows, f"{np} ranks, partner on {root}")
             self.assert_same_bits(self.end(f"r{np}{root}"), self.end("one"))
+        self.assertEqual(self.moved("threads", 7, steps=203, env={"OMP_NUM_THREADS": "3"}), rows, "threads")
+        self.assert_same_bits(self.end("threads"), self.end("one"))
 
     def test_restart(self):
         """Within a way, and on another number of ranks."""

@@ -52,10 +52,11 @@ class MeshShape : public LargeBodyShape {
   {
     return inside == mesh.faces_outward() ? MeshSide::BACKS : MeshSide::NORMALS;
   }
-  /// Spheres may go from facet to facet of a hollow, see TriangleMesh::hollow_in_front().
+  /// Spheres may go from facet to facet of a hollow, see TriangleMesh::hollow_in_front(); or may once vertices
+  /// have moved.
   bool has_jumps() const
   {
-    return (acting != MeshSide::BACKS && mesh.hollow_in_front()) ||
+    return vertices || (acting != MeshSide::BACKS && mesh.hollow_in_front()) ||
            (acting != MeshSide::NORMALS && mesh.hollow_behind());
   }
   /// For messages: the file.
