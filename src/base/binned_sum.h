@@ -41,7 +41,8 @@ template <int count> class BinnedSums {
     const int place = highest - first;    // of the lowest digit: 2 or more
     std::int64_t *const to = digit[sum];
     if (place - 2 < num_digits) to[place - 2] += sign * static_cast<std::int64_t>(high);
-    if (place - 1 < num_digits) to[place - 1] += sign * static_cast<std::int64_t>(low >> digit_bits);
+    if (place - 1 < num_digits)
+      to[place - 1] += sign * static_cast<std::int64_t>(low >> digit_bits);
     if (place < num_digits) to[place] += sign * static_cast<std::int64_t>(low & 0xffffffff);
   }
   void add(const BinnedSums &other)
@@ -52,15 +53,18 @@ template <int count> class BinnedSums {
       for (int k = 0; k + down < num_digits; k++) digit[n][k + down] += other.digit[n][k];
   }
 
-  /// NaN if anything added was not finite.
-  double value(int sum) const
+  /// All sums; NaN if anything added was not finite.
+  void values(double *to) const
   {
-    if (highest >= not_finite) return std::numeric_limits<double>::quiet_NaN();
     constexpr double one_digit = 1.0 / 4294967296.0;
-    double total = 0.0;
-    for (int k = num_digits - 1; k >= 0; k--)    // small ones first
-      total = static_cast<double>(digit[sum][k]) + one_digit * total;
-    return std::ldexp(total, lowest_bit + digit_bits * highest);
+    const double unit = highest < not_finite ? std::ldexp(1.0, lowest_bit + digit_bits * highest)
+                                             : std::numeric_limits<double>::quiet_NaN();
+    for (int n = 0; n < count; n++) {
+      double total = 0.0;
+      for (int k = num_digits - 1; k >= 0; k--)    // small ones first
+        total = static_cast<double>(digit[n][k]) + one_digit * total;
+      to[n] = unit * total;
+    }
   }
 
  private:

@@ -82,7 +82,10 @@ VertexImpulses LargeBodyVertices::take()
     sums.add_packed(all.data(), all.data() + all.size());
   }
   VertexImpulses found;
-  for (const int vertex : sums.vertices()) {
+  const std::vector<int> touched_vertices = sums.vertices();
+  found.vertices.reserve(touched_vertices.size());
+  found.impulses.reserve(touched_vertices.size());
+  for (const int vertex : touched_vertices) {
     found.vertices.push_back(vertex);
     found.impulses.push_back(sums.sum(vertex));
   }

@@ -43,10 +43,16 @@ class VertexSums {
   std::vector<int> vertices() const;
   Vector3<double> sum(int vertex) const
   {
-    const Sum &sum = sums[slot_of[vertex]];
-    return {sum.value(0), sum.value(1), sum.value(2)};
+    double value[3];
+    sums[slot_of[vertex]].values(value);
+    return {value[0], value[1], value[2]};
   }
-  double sum_of_numbers() const { return of_numbers.value(0); }
+  double sum_of_numbers() const
+  {
+    double value;
+    of_numbers.values(&value);
+    return value;
+  }
 
   /// All of it, for messages and files. add_packed() adds what it finds.
   std::vector<std::int64_t> packed() const;

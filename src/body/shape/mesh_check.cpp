@@ -72,6 +72,14 @@ int num_shared(const Corners &a, const Corners &b)
 MeshCheck::MeshCheck(const TriangleMesh &triangle_mesh) :
     mesh(triangle_mesh), all_edges(triangle_mesh.all_corners())
 {
+  int number = 0;
+  for (const MeshEdges::Edge &edge : all_edges.all()) {
+    const int *const user = all_edges.users(edge), this_edge = number++;
+    if (edge.num_users != 2 || user[1] >= mesh.num_own()) continue;
+    const bool opposed = mesh.corners(user[0]).runs_along(edge.vertex[0], edge.vertex[1]) ==
+                         mesh.corners(user[1]).runs_along(edge.vertex[0], edge.vertex[1]);
+    neighbors.push_back({user[0], user[1], this_edge, opposed});
+  }
   around_begin.assign(mesh.num_vertices() + 1, 0);
   for (int t = 0; t < mesh.num_own(); t++)
     for (const int v : mesh.corners(t).vertex) around_begin[v + 1]++;
@@ -132,20 +140,21 @@ std::string MeshCheck::find_normals(const Places &places)
 
 /* ---- neighbors ---------------------------------------------------------------------------------- */
 
-/* Angle by which b is folded against a: 0 in one plane, > 0 away from the side of the normals; whatever
-   way round b is. */
+/* Angle by which the second is folded against the first: 0 in one plane, > 0 away from the side of the
+   normals; whatever way round the second is. */
 
-double MeshCheck::fold(const MeshEdges::Edge &edge, int a, int b, const Places &places) const
+double MeshCheck::fold(const Neighbors &pair, const Places &places) const
 {
+  const MeshEdges::Edge &edge = all_edges.all()[pair.edge];
   int from = edge.vertex[0], to_vertex = edge.vertex[1];
-  if (!mesh.corners(a).runs_along(from, to_vertex)) std::swap(from, to_vertex);
-  const bool opposed = mesh.corners(b).runs_along(from, to_vertex);
+  if (!mesh.corners(pair.first).runs_along(from, to_vertex)) std::swap(from, to_vertex);
   const auto normal = [&](int t) {
     const Triangle at = triangle(places, t);
     const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
     return 1.0 / length(twice) * twice;
   };
-  const Vector3<double> n = normal(a), m = opposed ? -normal(b) : normal(b);
+  const Vector3<double> n = normal(pair.first),
+                        m = pair.opposed ? -normal(pair.second) : normal(pair.second);
   const Vector3<double> along = places[to_vertex] - places[from];
   return std::atan2(dot(cross(n, m), along) / length(along), dot(n, m));
 }
@@ -153,15 +162,11 @@ double MeshCheck::fold(const MeshEdges::Edge &edge, int a, int b, const Places &
 std::string MeshCheck::turned_over(const Places &now) const
 {
   const double quarter = 0.5 * std::acos(-1.0);
-  for (const MeshEdges::Edge &edge : all_edges.all()) {
-    if (edge.num_users != 2) continue;
-    const int a = all_edges.users(edge)[0], b = all_edges.users(edge)[1];
-    if (b >= mesh.num_own() || (!moved[a] && !moved[b])) continue;
+  for (const Neighbors &pair : neighbors) {
+    const int a = pair.first, b = pair.second;
     const double cosine = dot(normals[a], normals[b]);
-    const bool opposed = mesh.corners(a).runs_along(edge.vertex[0], edge.vertex[1]) ==
-                         mesh.corners(b).runs_along(edge.vertex[0], edge.vertex[1]);
-    if ((opposed ? -cosine : cosine) >= 0.0) continue;
-    if (std::fabs(fold(edge, a, b, *to) - fold(edge, a, b, now)) <= quarter) continue;
+    if ((pair.opposed ? -cosine : cosine) >= 0.0 || (!moved[a] && !moved[b])) continue;
+    if (std::fabs(fold(pair, *to) - fold(pair, now)) <= quarter) continue;
     const auto kept = [&](int t) {    // of its own direction
       const Triangle at = triangle(now, t);
       const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
@@ -185,10 +190,10 @@ bool MeshCheck::patches_change()
   for (const MeshEdges::Edge &edge : all_edges.all()) {
     const int *const user = all_edges.users(edge);
     for (int k = 1; k < edge.num_users; k++, n++) {
-      if (n == smooth.size()) smooth.push_back(false);
+      if (n == smooth.size()) smooth.push_back(0);
       const bool is_smooth =
           std::fabs(dot(normals[user[0]], normals[user[k]])) >= TriangleMesh::smooth_cosine;
-      if (smooth[n] != is_smooth) change = true;
+      if ((smooth[n] != 0) != is_smooth) change = true;
       smooth[n] = is_smooth;
     }
   }
@@ -220,10 +225,16 @@ std::vector<int> MeshCheck::patches() const
 
 void MeshCheck::look_at_vertices()
 {
+  is_fan.assign(mesh.num_vertices(), 0);
+  Vector3<double> most{0.0, 0.0, 0.0};
+  for (int t = 0; t < mesh.num_own(); t++) most = most + normals[t];
+  const bool all_face_it =
+      std::all_of(normals.begin(), normals.begin() + mesh.num_own(),
+                  [&](const Vector3<double> &n) { return dot(n, most) > 0.0; });
+  if (all_face_it) return;
   std::vector<Vector3<double>> mean(mesh.num_vertices(), {0.0, 0.0, 0.0});
   for (int t = 0; t < mesh.num_own(); t++)
     for (const int v : mesh.corners(t).vertex) mean[v] = mean[v] + normals[t];
-  is_fan.assign(mesh.num_vertices(), 0);
   for (int t = 0; t < mesh.num_own(); t++)
     for (const int v : mesh.corners(t).vertex)
       if (!(dot(mean[v], normals[t]) > 0.0)) is_fan[v] = 1;
@@ -294,8 +305,13 @@ std::string MeshCheck::crossing()
   if (!list_holds()) list_pairs();
   look_at_vertices();
   std::array<int, 2> found{mesh.num_own(), mesh.num_own()};
+  // triangles whose boxes only touch do not cut each other
+  const auto overlap = [this](int a, int b) {
+    return (boxes[a].min().array() < boxes[b].max().array()).all() &&
+           (boxes[b].min().array() < boxes[a].max().array()).all();
+  };
   const auto look = [&](int a, int b) {
-    if ((moved[a] || moved[b]) && boxes[a].intersects(boxes[b]) && cut(a, b))
+    if ((moved[a] || moved[b]) && overlap(a, b) && cut(a, b))
       found = std::min(found, std::array<int, 2>{a, b});
   };
   for (const std::array<int, 2> &pair : pairs) look(pair[0], pair[1]);
@@ -307,9 +323,9 @@ std::string MeshCheck::crossing()
 double MeshCheck::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(normals) + bytes(boxes) + bytes(pairs) + bytes(listed_at) + bytes(around) +
-         bytes(around_begin) + (tree ? tree->memory_usage() : 0.0) + bytes(all_edges.all()) +
-         24.0 * mesh.size();    // the rest of the edges
+  return bytes(normals) + bytes(neighbors) + bytes(boxes) + bytes(pairs) + bytes(listed_at) +
+         bytes(around) + bytes(around_begin) + (tree ? tree->memory_usage() : 0.0) +
+         bytes(all_edges.all()) + 24.0 * mesh.size();    // the rest of the edges
 }
 
 }    // namespace Talus

@@ -49,10 +49,14 @@ class MeshCheck {
   double memory_usage() const;
 
  private:
+  struct Neighbors {
+    int first, second, edge;    ///< own triangles; the second faces the same side as the first, or
+    bool opposed;               ///< the other one
+  };
   Triangle triangle(const Places &places, int t) const;
   std::string find_normals(const Places &places);
   std::string turned_over(const Places &now) const;
-  double fold(const MeshEdges::Edge &edge, int a, int b, const Places &places) const;
+  double fold(const Neighbors &pair, const Places &places) const;
   void look_at_vertices();
   std::string crossing();
   bool list_holds() const;
@@ -63,8 +67,9 @@ class MeshCheck {
 
   const TriangleMesh &mesh;
   const MeshEdges all_edges;
+  std::vector<Neighbors> neighbors;         // that are alone at their edge
   std::vector<int> around_begin, around;    // own triangles of each vertex
-  std::vector<bool> smooth;                 // edges between triangles of one patch, with a list of users
+  std::vector<bool> smooth;    // edges between triangles of one patch, with a list of users
   // of the last places
   const Places *to = nullptr;
   std::vector<Vector3<double>> normals;
