@@ -93,6 +93,15 @@ void ContactPipeline::take_back_histories(HistoryStore &from)
   from.close();
 }
 
+void ContactPipeline::exchange_contacts(StateExchange &x)
+{
+  x(particles.position, particles.motion);
+  AlignedVector<ChangeRecord> changes = particles.change;
+  x(changes);
+  if (changes.size() == particles.change.size()) particles.change.swap(changes);
+  for (ContactChunk &chunk : chunks) chunk.exchange_contacts(x);
+}
+
 void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
 {
   if (!scene.with_history) return;

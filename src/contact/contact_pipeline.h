@@ -15,6 +15,7 @@
 #define TALUS_CONTACT_CONTACT_PIPELINE_H
 
 #include "base/in_parallel.h"
+#include "base/state_exchange.h"
 #include "contact/contact_chunk.h"
 #include "neighbors/neighbor_view.h"
 #include "neighbors/work_partition.h"
@@ -73,6 +74,9 @@ class ContactPipeline {
   void release();
   /// Histories are those of `from` again, which were put aside with particles in these slots, and stay there.
   void take_back_histories(HistoryStore &from);
+  /// For snapshots: the contacts of the last compute() with the states that it found, for the questions below.
+  /// When they are restored take_back_histories() comes before.
+  void exchange_contacts(StateExchange &x);
   /// Marks the records as not current, and does nothing else: the state must be in the arrays of
   /// LAMMPS, and prepare_to_move() has to be called again.
   void leave_records() { in_records = prepared = move_pending = false; }

@@ -49,9 +49,6 @@ class LargeBodyVertices : protected Pointers {
     x(forces, sums, time);
   }
 
-  /// For snapshots: the vertices, and the sums of this rank.
-  void exchange_state(Talus::StateExchange &x);
-
   double memory_usage() const;
 
  private:

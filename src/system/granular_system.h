@@ -201,6 +201,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// For snapshots, between two runs: what is neither of particles nor of fixes. When it is restored histories are
   /// in the store, and particles in the slots that they had.
   void exchange_state(StateExchange &x);
+  /// Of that, contacts between spheres in the last step.
+  void exchange_contacts(StateExchange &x) { contact_pipeline->exchange_contacts(x); }
 
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);

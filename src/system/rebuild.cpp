@@ -87,11 +87,12 @@ void GranularSystem::renumber_pairs()
 void GranularSystem::exchange_state(StateExchange &x)
 {
   energies.exchange_state(x);
+  if (x.restores()) {
+    monitors.forget_step();
+    if (contact_store && contact_pipeline->has_pairs())
+      contact_pipeline->take_back_histories(contact_store->histories());
+  }
   run_contacts.exchange_state(x);
-  if (!x.restores()) return;
-  monitors.forget_step();
-  if (contact_store && contact_pipeline->has_pairs())
-    contact_pipeline->take_back_histories(contact_store->histories());
 }
 
 /* Where a run goes on with the other order. */
