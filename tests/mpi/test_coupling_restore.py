@@ -108,10 +108,13 @@ partner.restore(snapshot)
 partner.advance(400)
 show(lmp, "written")
 partner.restore(snapshot)
-lmp.command("pair_coeff * * hertz 8000.0 40.0")
+lmp.command("pair_coeff 1 2 hertz 8000.0 40.0")
 partner.restore(snapshot)
 partner.advance(400)
 show(lmp, "law")
+partner.restore(snapshot)
+partner.advance(400)
+show(lmp, "law.2")
 lmp.finalize()
 """
 ERRORS = BEGIN + """
@@ -270,9 +273,12 @@ class Restore(CoupledCase):
         self.assertGreater(rows[40][0]["c_all[2]"], 5)
 
     def test_commands_in_between(self):
+        tossed(self.path("grains"), types=2)
         self.drive(BETWEEN)
         self.assert_same_end("plain", "deleted")
         self.assert_same_end("plain", "written")
+        # the set-up of the first one is after the restore; with two laws there are more numbers of each contact
+        self.assertEqual(*(read_dump(self.path(name))[0].step for name in ("law", "law.2")))
         plain, other = (read_dump(self.path(name))[0] for name in ("plain", "law"))
         self.assertNotEqual(plain.column("z"), other.column("z"), "a law that has changed since is that of the next steps")
 
