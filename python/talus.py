@@ -15,6 +15,7 @@
 All methods are collective, and errors are the same on all ranks. If the block of `with` ends in an exception on one rank,
 the others get a TalusError with its text instead of waiting for ever."""
 
+import array
 import ctypes
 import itertools
 import os
@@ -63,27 +64,26 @@ def _doubles(values, count=None):
     if hasattr(values, "__array_interface__"):
         values = numpy.ascontiguousarray(values, dtype=float).ravel()
         _check(len(values), count)
-        array = (ctypes.c_double * len(values)).from_buffer_copy(values) if not values.flags.writeable else \
-            (ctypes.c_double * len(values)).from_buffer(values)
-        return array
-    values = _flat(values)
+        kind = ctypes.c_double * len(values)
+        return kind.from_buffer(values) if values.flags.writeable else kind.from_buffer_copy(values)
+    values = array.array("d", _flat(values))
     _check(len(values), count)
-    return (ctypes.c_double * len(values))(*values)
+    return (ctypes.c_double * len(values)).from_buffer(values)
 
 
 def _integers(values):
     if hasattr(values, "__array_interface__"):
         return numpy.ascontiguousarray(values, dtype=numpy.int64).ctypes.data_as(ctypes.POINTER(ctypes.c_int64)), len(values)
-    values = list(map(int, values or []))
-    return (ctypes.c_int64 * len(values))(*values), len(values)
+    values = array.array("q", values or [])
+    return (ctypes.c_int64 * len(values)).from_buffer(values), len(values)
 
 
 def _array(numbers, *shape):
-    """What C has written: an array of numpy where there is numpy, else nested lists."""
+    """What C has written: an array of numpy where there is numpy, else a list of numbers or of rows."""
     if numpy is None:
-        numbers = list(numbers)
+        numbers = numbers[:]
         for count in reversed(shape[1:]):
-            numbers = [numbers[k:k + count] for k in range(0, len(numbers), count)]
+            numbers = list(zip(*[iter(numbers)] * count))
         return numbers
     kind = numpy.int64 if numbers._type_ is ctypes.c_int64 else float
     return numpy.frombuffer(numbers, dtype=kind).reshape(shape) if len(numbers) else numpy.empty(shape, kind)
@@ -295,8 +295,7 @@ class Body:
         self._call("get_body_load", numbers)
         return Load(numbers[0:3], numbers[3:6], numbers[6], numbers[7]) if self.partner.lives_here else None
 
-    # ---- meshes, and those whose vertices the partner moves; rows are lists, or arrays of numpy where it is installed, and None
-    # ---- where the partner does not live
+    # ---- meshes, and those whose vertices the partner moves; None where the partner does not live
 
     @property
     def mesh_size(self):
@@ -313,7 +312,7 @@ class Body:
         vertices, triangles = self.mesh_size
         x, corners = (ctypes.c_double * (3 * vertices))(), (ctypes.c_int64 * (3 * triangles))()
         self._call("get_mesh", x, corners)
-        return (_rows(x, 3), _rows(corners, 3)) if self.partner.lives_here else (None, None)
+        return (_array(x, vertices, 3), _array(corners, triangles, 3)) if self.partner.lives_here else (None, None)
 
     def put_vertices(self, x, v=None, steps=1):
         """The vertices (mesh ... move vertices) are to be at x (n x 3) after so many steps, with the velocities v (n x 3), or
@@ -332,7 +331,7 @@ class Body:
         if not self.partner.lives_here:
             return None, None, None, None
         count = touched.value
-        return _rows(numbers, 1, count), _rows(impulses, 3, count), work.value, time.value
+        return _array(numbers, vertices)[:count], _array(impulses, vertices, 3)[:count], work.value, time.value
 
 
 class Snapshot:
@@ -435,14 +434,3 @@ class FixedPoint:
             before = residual
         return result, False
 
-
-def _rows(array, width, count=None):
-    """The first rows of an array of C: numbers (width 1), or lists; as arrays of numpy, if it is installed."""
-    count = len(array) // width if count is None else count
-    try:
-        import numpy
-        rows = numpy.array(array)[:count * width]
-        return rows if width == 1 else rows.reshape(count, width)
-    except ImportError:
-        flat = array[:count * width]
-        return flat if width == 1 else [flat[width * k:width * (k + 1)] for k in range(count)]

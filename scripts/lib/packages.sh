@@ -14,6 +14,9 @@ TALUS_PACKAGES=(
 TALUS_TEST_PACKAGES=(libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev ccache)
 TALUS_BENCHMARK_PACKAGES=(libbenchmark-dev)
 
+# Programs that tests couple with Talus.
+TALUS_PARTNER_PACKAGES=(libmujoco-dev)
+
 # What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.
 TALUS_THREAD_SANITIZER_PACKAGES=(clang libclang-rt-dev libomp-dev)
 

@@ -47,6 +47,7 @@ int call_open(void *lmp, int root, talus_partner **partner)
     if (partner) *partner = nullptr;
     auto opened = std::make_unique<talus_partner>(static_cast<LAMMPS *>(lmp), root);
     opened->refuse_if(partner ? "" : "talus_open: where the partner goes is NULL");
+    GranularSystem::of(&opened->instance())->external_loads().make_fix();
     *partner = opened.release();
     return TALUS_OK;
   } catch (const std::exception &problem) {

@@ -94,9 +94,10 @@ int call_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const do
                                   partner->numbers_of("fluid_velocity", fluid_velocity, 3 * count);
     for (std::size_t k = 0; k < ids.size(); k++)
       if (!(coefficients[k] > 0.0))
-        throw Refusal("coefficient[" + std::to_string(k) + "] of particle " +
-                      std::to_string(ids[k]) + " is " + std::to_string(coefficients[k]) +
-                      ", expected more than 0: leave out particles without drag");
+        throw Refusal(
+            fmt::format("coefficient[{}] of particle {} is {:.6g}, expected more than 0: leave "
+                        "out particles without drag",
+                        k, ids[k], coefficients[k]));
     const ParticlesById particles(&partner->instance(), ids);
     require_all(particles, true);
     ExternalLoads &loads = loads_of(*partner);

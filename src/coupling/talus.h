@@ -26,16 +26,19 @@ extern "C" {
 /* Version of this interface; raised when a call changes its meaning. New calls do not raise it. */
 #define TALUS_INTERFACE 2
 #define TALUS_ALL_RANKS (-1)
-#define TALUS_STATE_SIZE 13    /* numbers of a body's state: position 3, quaternion 4, velocity 3, angular velocity 3 */
-#define TALUS_LOAD_SIZE 8      /* numbers of a body's load: impulse 3, angular impulse 3, work, time */
+#define TALUS_STATE_SIZE                                                                           \
+  13 /* numbers of a body's state: position 3, quaternion 4, velocity 3, angular velocity 3 */
+#define TALUS_LOAD_SIZE 8 /* numbers of a body's load: impulse 3, angular impulse 3, work, time */
 
 enum {
   TALUS_OK = 0,
-  TALUS_REFUSED = 1,          /* an argument is wrong; nothing was changed */
-  TALUS_HOST_ERROR = 2,       /* LAMMPS ended a command with an error; the instance may be used as after any error */
-  TALUS_PARTNER_FAILED = 3,   /* talus_fail() was called on some rank, or ranks made different calls: all calls return this
+  TALUS_REFUSED = 1, /* an argument is wrong; nothing was changed */
+  TALUS_HOST_ERROR =
+      2, /* LAMMPS ended a command with an error; the instance may be used as after any error */
+  TALUS_PARTNER_FAILED =
+      3, /* talus_fail() was called on some rank, or ranks made different calls: all calls return this
                                  from then on */
-  TALUS_NOT_LOADED = 4        /* no instance of LAMMPS has loaded the plugin, or another version of it */
+  TALUS_NOT_LOADED = 4 /* no instance of LAMMPS has loaded the plugin, or another version of it */
 };
 
 typedef struct talus_partner talus_partner;
@@ -75,7 +78,8 @@ int talus_set_up(talus_partner *partner);
 
 /* The body, which is moved external, is to have this state after so many steps; 0: at once. See fix_modify state in
    doc/fix_large_body.md. */
-int talus_put_body_state(talus_partner *partner, const char *body, const double *state, int64_t steps);
+int talus_put_body_state(talus_partner *partner, const char *body, const double *state,
+                         int64_t steps);
 /* Any body. */
 int talus_get_body_state(talus_partner *partner, const char *body, double *state);
 /* Loads of any body are summed from the next advance on. point: NULL, or the point of the body (body frame, from the reference
@@ -89,16 +93,18 @@ int talus_get_body_load(talus_partner *partner, const char *body, double *load);
 /* ---- deforming meshes: fix large/body mesh ... move vertices ---------------------------------------- */
 
 /* Numbers of vertices and triangles. */
-int talus_get_mesh_size(talus_partner *partner, const char *body, int64_t *vertices, int64_t *triangles);
+int talus_get_mesh_size(talus_partner *partner, const char *body, int64_t *vertices,
+                        int64_t *triangles);
 /* Places of the vertices now (3 each) and their numbers, from 0, of each triangle (3 each). Either may be NULL. */
 int talus_get_mesh(talus_partner *partner, const char *body, double *x, int64_t *triangles);
 /* All vertices are to be at these places, with these velocities (NULL: those of the way), after so many steps; on the way
    they go along straight lines at constant speed. */
-int talus_put_vertices(talus_partner *partner, const char *body, const double *x, const double *v, int64_t steps);
+int talus_put_vertices(talus_partner *partner, const char *body, const double *x, const double *v,
+                       int64_t steps);
 /* Impulses (3 each) of the grains on vertices since the last call of this, only of vertices that were touched: how many,
    their numbers, the impulses, and the work done on all. numbers and impulses have room for all vertices. */
-int talus_get_vertex_loads(talus_partner *partner, const char *body, int64_t *touched, int64_t *numbers,
-                           double *impulses, double *work, double *duration);
+int talus_get_vertex_loads(talus_partner *partner, const char *body, int64_t *touched,
+                           int64_t *numbers, double *impulses, double *work, double *duration);
 
 /* ---- save and restore ---------------------------------------------------------------------------- */
 
@@ -116,7 +122,8 @@ int64_t talus_snapshot_size(const talus_snapshot *snapshot);
 
 /* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all of
    them. n = 0: none from now on. */
-int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force, const double *torque);
+int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force,
+                     const double *torque);
 /* A drag force c (u - v): coefficient c (force/velocity, > 0) and velocity u of the fluid (3 each), taken at the new velocity
    v of each step, so that no coefficient is too large; on spheres of clumps at the present one, with c times the time step
    at most their mass. Held and replaced as forces are. */
@@ -130,8 +137,8 @@ int talus_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id
    angular velocities (3 each), radii, masses. Any may be NULL. */
 int talus_get_num_particles(talus_partner *partner, int64_t *n);
 int talus_get_ids(talus_partner *partner, int64_t *id);
-int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, double *x, double *v, double *omega,
-                        double *radius, double *mass);
+int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, double *x, double *v,
+                        double *omega, double *radius, double *mass);
 
 /* ---- fields on a grid of the partner ----------------------------------------------------------------- */
 
@@ -140,8 +147,8 @@ int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, do
    particles per volume (3 each). exchange: impulse of drag per volume (3 each) since the last call of this with exchange.
    Any may be NULL. What particles with their center inside the grid have is in its cells to rounding; exchange begins anew
    for these. */
-int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells, double width,
-                    double *solid, double *momentum, double *exchange);
+int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells,
+                    double width, double *solid, double *momentum, double *exchange);
 
 #ifdef __cplusplus
 }

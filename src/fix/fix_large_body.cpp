@@ -178,7 +178,7 @@ void FixLargeBody::post_integrate()
   body.begin_step();
   motion.advance(motion.driven_by_load() ? body.exact_load() : BodyLoad{},
                  system->integrators().lag());
-  if (vertices) vertices->begin_step();
+  if (vertices) vertices->begin_step(system->integrators().kicks());
 }
 
 void FixLargeBody::setup_post_neighbor()
@@ -242,7 +242,7 @@ void FixLargeBody::post_force(int vflag)
   body.compute(advance, evflag ? virials.data() : nullptr);
   for (int i = 0; evflag && i < atom->nlocal; i++) v_tally(i, &virials[6L * i]);
   surface->add_step(advance ? update->dt : 0.0);
-  if (vertices) vertices->end_step(system->integrators().next_kick() / update->dt, advance);
+  if (vertices) vertices->end_step(advance);
   if (motion.driven_by_load() || body.is_watched()) body.begin_reduction();
 }
 

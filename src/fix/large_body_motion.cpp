@@ -293,7 +293,7 @@ void LargeBodyMotion::advance(const BodyLoad &load, double lag)
 {
   if (kind == Kind::NONE) return;
   if (mesh) {
-    mesh->advance();
+    mesh->advance(lag > 0.0);
     return;
   }
   const BodyState old = now.state;

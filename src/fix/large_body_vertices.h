@@ -3,7 +3,7 @@
 // A mesh whose vertices another program moves (`move vertices` of fix large/body): the impulses that
 // particles give them. A force acts in the step that follows it, or where the integrator gives half of its
 // kick at the end of a step, in both: so do its impulse and its work, which is the force times the way of
-// the vertex. So particles have got what vertices have given, to rounding.
+// the vertex. So vertices have got what particles have lost, to rounding.
 //
 //   begin_step()   when vertices and particles have moved
 //   end_step()     when forces are known
@@ -16,9 +16,11 @@
 #include "body/contact/vertex_sums.h"
 #include "body/shape/mesh_shape.h"
 #include "system/deforming_body.h"
+#include "system/system_fix.h"
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -29,10 +31,9 @@ class LargeBodyVertices : protected Pointers {
 
   /// Filled by the contacts of a step.
   std::vector<Talus::TouchedCorners> *touched() { return &forces; }
-  void begin_step();
-  /// `next`: the share of a time step in which these forces will act; the rest of it they have acted in the
-  /// step that ends. `advance`: there was one.
-  void end_step(double next, bool advance);
+  void begin_step(const Talus::Kicks &kicks_of_step);
+  /// `advance`: there was one.
+  void end_step(bool advance);
 
   /// Collective.
   Talus::VertexImpulses take();
@@ -41,19 +42,22 @@ class LargeBodyVertices : protected Pointers {
   /// `begin`, `end`: false if it is that of another mesh.
   void to_array(std::vector<double> &to);
   bool from_array(const double *begin, const double *end);
-
-  /// For snapshots: the vertices, and the sums of this rank.
-  void exchange_state(Talus::StateExchange &x);
+  /// For snapshots.
+  void exchange_state(Talus::StateExchange &x)
+  {
+    mesh.exchange_state(x);
+    x(forces, sums, time);
+  }
 
   double memory_usage() const;
 
  private:
   void add(double share);
-  std::vector<double> of_all_ranks() const;
+  std::vector<std::int64_t> packed_of_all_ranks() const;
 
   Talus::MeshShape &mesh;
   std::vector<Talus::TouchedCorners> forces;    // of the last step
-  double share_of_next = 1.0;
+  Talus::Kicks kicks{1.0, 0.0};
   Talus::VertexSums sums;
   double time = 0.0;    // of the sums
 };

@@ -135,7 +135,7 @@ void WallPoints::see_vertices(const Task &task, PointContact &point)
 {
   const MovingVertices &vertices = *task.frame.vertices;
   point.velocity = point.velocity -
-                   vertices.motion(vertices.place_on(point.part, point.place)).velocity_at(point.place);
+                   vertices.motion(vertices.point_on(point.part, point.place)).velocity_at(point.place);
   if (!task.step.advance) return;
   const HistoryVectors vectors = task.laws.law(point.row).vectors_in_history();
   const TriangleTurn turned = vertices.turn(point.part);
@@ -195,10 +195,10 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
     }
     if (task.step.corners) {
       const MovingVertices &vertices = *frame.vertices;
-      const PlaceOnTriangle at = vertices.place_on(point.part, point.place);
+      const SurfacePoint at = vertices.point_on(point.part, point.place);
       const Vector3<double> surface = vertices.motion(at).point;
       TouchedCorners touch{vertices.own_triangle(point.part), {}};
-      vertices.share_out(at, -force, -cross(place - surface, force), touch.force);
+      MovingVertices::share_out(at, -force, -cross(place - surface, force), touch.force);
       chunk.corners.push_back(touch);
     }
     if (!task.step.virial) continue;

@@ -2,21 +2,18 @@
 
 #include "system/external_loads.h"
 
-#include "base/in_parallel.h"
 #include "system/fix_list.h"
 #include "system/granular_system.h"
-#include "system/system_shapes.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
-#include "update.h"
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 
@@ -30,9 +27,9 @@ void copy_row(const double *from, double *to)
   std::copy(from, from + 3, to);
 }
 
-void add_to_row(double factor, const double *row, double *to)
+void clear_row(double *row)
 {
-  for (int d = 0; d < 3; d++) to[d] += factor * row[d];
+  std::fill(row, row + 3, 0.0);
 }
 
 bool is_zero(const double *row)
@@ -41,11 +38,6 @@ bool is_zero(const double *row)
 }
 
 }    // namespace
-
-bool ExternalLoads::Load::is_idle() const
-{
-  return bits() == 0 && is_zero(for_particles) && is_zero(for_fields);
-}
 
 /* ---- the fix -------------------------------------------------------------------------------- */
 
@@ -69,24 +61,24 @@ bool ExternalLoads::make_fix()
   };
   const auto place = std::find(fixes.begin(), fixes.end(), fix);
   if (fix && std::none_of(place + 1, fixes.end(), acts_on_forces)) return false;
-  std::vector<Load> kept = std::move(loads);
+  const auto kept = std::make_tuple(std::move(what), std::move(loads), std::move(rest));
   if (fix) modify->delete_fix(fix_id);
   modify->add_fix(std::string(fix_id) + " all EXTERNAL_LOADS");
-  loads = std::move(kept);
+  std::tie(what, loads, rest) = kept;
   return true;
 }
 
 void ExternalLoads::drop_fix()
 {
   fix = nullptr;
-  loads = {};
+  resize(0);
 }
 
 bool ExternalLoads::any_has(unsigned some) const
 {
   int mine = 0, all = 0;
-  for (int i = 0; i < atom->nlocal && !loads.empty(); i++)
-    if (loads[i].has(some)) mine = 1;
+  for (int i = 0; i < atom->nlocal && !what.empty(); i++)
+    if (has(i, some)) mine = 1;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
   return all != 0;
 }
@@ -104,54 +96,79 @@ std::string ExternalLoads::needs_arrays() const
 
 /* ---- what is put ---------------------------------------------------------------------------- */
 
+bool ExternalLoads::is_idle(int i) const
+{
+  return what[i] == 0 && is_zero(loads[i].impulse) && is_zero(rest[i].for_particles) &&
+         is_zero(rest[i].for_fields);
+}
+
+void ExternalLoads::resize(std::size_t size)
+{
+  what.resize(size, 0);
+  loads.resize(size, Load{});
+  rest.resize(size, Rest{});
+  if (size) return;
+  what.shrink_to_fit();
+  loads.shrink_to_fit();
+  rest.shrink_to_fit();
+}
+
 void ExternalLoads::make_room()
 {
-  if (loads.empty()) loads.resize(std::max(atom->nmax, 1), Load{});
+  if (what.empty()) resize(std::max(atom->nmax, 1));
 }
 
 void ExternalLoads::release_if_idle()
 {
-  const auto end = loads.begin() + std::min<std::size_t>(loads.size(), atom->nlocal);
-  if (std::all_of(loads.begin(), end, [](const Load &load) { return load.is_idle(); })) loads = {};
+  const int size = std::min(static_cast<int>(what.size()), atom->nlocal);
+  for (int i = 0; i < size; i++)
+    if (!is_idle(i)) return;
+  resize(0);
+}
+
+/* put(k, i) for those that are to have some from now on. */
+
+template <class Put>
+void ExternalLoads::replace(unsigned kinds, const ParticlesById &particles, Put put)
+{
+  if (particles.size()) make_room();
+  if (what.empty()) return;
+  const bool in_sums = (kinds & (FORCE | TORQUE | DRAG)) != 0;
+  if (in_sums) take_back();    // by what was put before
+  for (int i = 0; i < atom->nlocal; i++) unset(i, kinds);
+  particles.for_each(put);
+  if (in_sums) act(Moment::BETWEEN_STEPS);
+  release_if_idle();
 }
 
 void ExternalLoads::put_forces(const ParticlesById &particles, const double *force,
                                const double *torque)
 {
-  if (particles.size()) make_room();
-  for (Load &load : loads) load.unset(FORCE | TORQUE);
-  particles.for_each([&](std::size_t k, int i) {
+  const bool flat = domain->dimension == 2;
+  replace(FORCE | TORQUE, particles, [&](std::size_t k, int i) {
     if (force) copy_row(force + 3 * k, loads[i].force);
-    if (torque) copy_row(torque + 3 * k, loads[i].torque);
-    loads[i].set((force ? FORCE : 0U) | (torque ? TORQUE : 0U));
+    if (torque) copy_row(torque + 3 * k, rest[i].torque);
+    if (flat) loads[i].force[2] = rest[i].torque[0] = rest[i].torque[1] = 0.0;
+    set(i, (force ? FORCE : 0U) | (torque ? TORQUE : 0U));
   });
-  act(Moment::BETWEEN_STEPS);
-  release_if_idle();
 }
 
 void ExternalLoads::put_drag(const ParticlesById &particles, const double *coefficient,
                              const double *fluid_velocity)
 {
-  if (particles.size()) make_room();
-  for (Load &load : loads) load.unset(DRAG);
-  particles.for_each([&](std::size_t k, int i) {
+  replace(DRAG, particles, [&](std::size_t k, int i) {
     loads[i].coefficient = coefficient[k];
     copy_row(fluid_velocity + 3 * k, loads[i].fluid_velocity);
-    loads[i].set(DRAG);
+    set(i, DRAG);
   });
-  act(Moment::BETWEEN_STEPS);
-  release_if_idle();
 }
 
 void ExternalLoads::put_heat(const ParticlesById &particles, const double *flow)
 {
-  if (particles.size()) make_room();
-  for (Load &load : loads) load.unset(HEAT);
-  particles.for_each([&](std::size_t k, int i) {
-    loads[i].heat = flow[k];
-    loads[i].set(HEAT);
+  replace(HEAT, particles, [&](std::size_t k, int i) {
+    rest[i].heat = flow[k];
+    set(i, HEAT);
   });
-  release_if_idle();
 }
 
 /* With less than the sphere's part of the clump's mass, the sum over spheres is less than the mass. */
@@ -166,190 +183,86 @@ std::string ExternalLoads::problem_of_drag(const ParticlesById &particles,
     if (!problem.empty() || !kick || !kick->rigid) return;
     const double ratio = coefficient[k] * kick->time * force->ftm2v / atom->rmass[i];
     if (ratio <= 1.0) return;
-    problem = "particle " + std::to_string(atom->tag[i]) +
-              " belongs to a clump, whose drag is taken at the present velocity, and coefficient " +
-              "times time step is " + std::to_string(ratio) +
-              " of its mass, expected 1 or less: use a smaller time step";
+    problem = fmt::format(
+        "particle {} belongs to a clump, whose drag is taken at the present velocity, "
+        "and coefficient times time step is {:.6g} of its mass, expected 1 or less: use "
+        "a smaller time step",
+        atom->tag[i], ratio);
   });
   return problem;
 }
 
 void ExternalLoads::clear()
 {
-  if (loads.empty()) return;
-  for (Load &load : loads) {
-    load.unset(FORCE | TORQUE | DRAG | HEAT);
-    for (double *impulse : {load.for_particles, load.for_fields})
-      std::fill(impulse, impulse + 3, 0.0);
+  const ParticlesById none(lmp, {});
+  for (int i = 0; i < static_cast<int>(what.size()); i++) {
+    settle_impulse(i);
+    clear_row(rest[i].for_particles);
+    clear_row(rest[i].for_fields);
   }
-  act(Moment::BETWEEN_STEPS);
-  release_if_idle();
+  replace(FORCE | TORQUE | DRAG | HEAT, none, [](std::size_t, int) {});
+}
+
+/* For both counts: steps sum one only. */
+
+void ExternalLoads::settle_impulse(int i)
+{
+  for (double *sum : {rest[i].for_particles, rest[i].for_fields})
+    for (int d = 0; d < 3; d++) sum[d] += loads[i].impulse[d];
+  clear_row(loads[i].impulse);
 }
 
 void ExternalLoads::take_impulses(const ParticlesById &particles, double *impulse)
 {
-  if (loads.empty()) return;
+  if (what.empty()) return;
   particles.for_each([&](std::size_t k, int i) {
-    double *const row = loads[i].for_particles;
-    copy_row(row, impulse + 3 * k);
-    std::fill(row, row + 3, 0.0);
+    settle_impulse(i);
+    copy_row(rest[i].for_particles, impulse + 3 * k);
+    clear_row(rest[i].for_particles);
   });
 }
 
-/* ---- what moves particles ------------------------------------------------------------------- */
-
-ExternalLoads::Kick ExternalLoads::kick_of(Fix &integrator, Moment moment) const
+double *ExternalLoads::impulse_for_fields(int i)
 {
-  const double dt = update->dt;
-  const auto *const talus_fix = SystemFix::of(&integrator);
-  Kick kick{integrator.groupbit, talus_fix, nullptr, dt, 0.0, dt, nullptr, false, false};
-  const bool twice = !talus_fix || talus_fix->kicks().after > 0.0;
-  if (talus_fix) {
-    kick.time = kick.at_start = dt * talus_fix->next_kick_in_steps();
-    kick.gravity = talus_fix->gravity_besides_forces();
-    kick.rigid = talus_fix->places_particles() && talus_fix != system.shapes();
-  } else if (integrator.rigid_flag) {
-    int unused;
-    kick.rigid = true;
-    kick.body = static_cast<const int *>(integrator.extract("body", unused));
-  }
-  if (twice) {
-    const bool in_step = moment == Moment::STEP;
-    kick.at_start = 0.5 * dt;
-    kick.at_end = in_step ? 0.5 * dt : 0.0;
-    kick.time = in_step ? dt : 0.5 * dt;
-    kick.has_read = kick.rigid && !in_step;
-  }
-  return kick;
-}
-
-/* Fix move of LAMMPS gives velocities. */
-
-void ExternalLoads::find_kicks(Moment moment)
-{
-  kicks.clear();
-  frozen_bits = 0;
-  for (Fix *one : fix_list(*modify)) {
-    if (utils::strmatch(one->style, "^freeze")) frozen_bits |= one->groupbit;
-    const auto *const talus_fix = SystemFix::of(one);
-    const bool moves = talus_fix ? talus_fix->integrates()
-                                 : one->time_integrate && std::strcmp(one->style, "move") != 0;
-    if (moves) kicks.push_back(kick_of(*one, moment));
-  }
-}
-
-const ExternalLoads::Kick *ExternalLoads::kick_of(int i) const
-{
-  if (atom->mask[i] & frozen_bits) return nullptr;
-  for (const Kick &kick : kicks) {
-    if (!(atom->mask[i] & kick.group_bits)) continue;
-    if (kick.talus_fix ? kick.talus_fix->moves_particle(i) : !kick.body || kick.body[i] >= 0)
-      return &kick;
-  }
-  return nullptr;
-}
-
-/* ---- a step --------------------------------------------------------------------------------- */
-
-void ExternalLoads::act(Moment moment)
-{
-  if (loads.empty()) return;
-  find_kicks(moment);
-  const ParticleState particles = system.particles();
-  in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
-    for (int i = begin; i < end; i++)
-      if (loads[i].bits()) act_on(i, particles, moment);
-  });
-}
-
-/* The impulse that has begun a step is counted when the forces that end it are there. */
-
-void ExternalLoads::act_on(int i, const ParticleState &particles, Moment moment)
-{
-  Load &load = loads[i];
-  const Kick *const kick = kick_of(i);
-  const bool has_read = kick && kick->has_read;
-  if (moment == Moment::BETWEEN_STEPS && has_read) return;
-  if (moment == Moment::STEP && load.has(PENDING)) {
-    add_to_row(1.0, load.pending, load.for_particles);
-    add_to_row(1.0, load.pending, load.for_fields);
-  }
-  if (moment == Moment::BETWEEN_STEPS && load.has(OTHERS)) {
-    copy_row(load.others_force, particles.f(i));
-    if (particles.keeps_omega()) copy_row(load.others_torque, particles.torque(i));
-  }
-  load.unset(OTHERS | PENDING);
-  if (load.has(HEAT) && moment == Moment::STEP) atom->heatflow[i] += load.heat;
-  if (load.has(FORCE | TORQUE | DRAG) && !has_read) add(i, load, particles, kick, moment);
-}
-
-void ExternalLoads::add(int i, Load &load, const ParticleState &particles, const Kick *kick,
-                        Moment moment) const
-{
-  const bool flat = domain->dimension == 2;
-  double *const f = particles.f(i);
-  copy_row(f, load.others_force);
-  double sum[3], drag[3] = {0.0, 0.0, 0.0};
-  copy_row(f, sum);
-  if (load.has(FORCE)) add_to_row(1.0, load.force, sum);
-  if (load.has(DRAG)) {
-    find_drag(i, load, particles.v(i), sum, kick, drag);
-    if (flat) drag[2] = 0.0;
-    const double at_end = kick ? kick->at_end : moment == Moment::STEP ? update->dt : 0.0;
-    add_to_row(at_end, drag, load.for_particles);
-    add_to_row(at_end, drag, load.for_fields);
-    for (int d = 0; d < 3; d++) load.pending[d] = kick ? kick->at_start * drag[d] : 0.0;
-    load.set(PENDING);
-    add_to_row(1.0, drag, sum);
-  }
-  if (particles.keeps_omega()) {
-    double *const torque = particles.torque(i);
-    copy_row(torque, load.others_torque);
-    for (int d = flat ? 2 : 0; d < 3 && kick && load.has(TORQUE); d++) torque[d] += load.torque[d];
-  }
-  load.set(OTHERS);
-  for (int d = 0; d < (flat ? 2 : 3) && kick; d++) f[d] = sum[d];
-}
-
-void ExternalLoads::find_drag(int i, const Load &load, const double *v, const double *force_row,
-                              const Kick *kick, double *drag) const
-{
-  const double c = load.coefficient, *const u = load.fluid_velocity;
-  const bool present = !kick || kick->rigid;
-  const double time = present ? 0.0 : kick->time, per_mass = time * force->ftm2v / atom->rmass[i];
-  const double implicit = c / (1.0 + per_mass * c);
-  for (int d = 0; d < 3; d++) {
-    const double fall = !present && kick->gravity ? time * force->ftm2v * kick->gravity[d] : 0.0;
-    drag[d] = implicit * (u[d] - (v[d] + (per_mass * force_row[d] + fall)));
-  }
+  if (what.empty()) return nullptr;
+  settle_impulse(i);
+  return rest[i].for_fields;
 }
 
 /* ---- what travels with particles ------------------------------------------------------------ */
 
 void ExternalLoads::grow(int most)
 {
-  if (!loads.empty()) loads.resize(most, Load{});
+  if (!what.empty()) resize(most);
 }
 
 void ExternalLoads::copy(int from, int to)
 {
-  if (!loads.empty()) loads[to] = loads[from];
+  if (what.empty()) return;
+  what[to] = what[from];
+  loads[to] = loads[from];
+  rest[to] = rest[from];
 }
 
 void ExternalLoads::forget(int i)
 {
-  if (!loads.empty()) loads[i] = Load{};
+  if (what.empty()) return;
+  what[i] = 0;
+  loads[i] = Load{};
+  rest[i] = Rest{};
 }
 
 /* One number of those that bear nothing. */
 
 int ExternalLoads::pack(int i, double *to) const
 {
-  if (loads.empty() || loads[i].is_idle()) {
+  if (what.empty() || is_idle(i)) {
     to[0] = -1.0;
     return 1;
   }
-  std::memcpy(to, &loads[i], sizeof(Load));
+  to[0] = what[i];
+  std::memcpy(to + 1, &loads[i], sizeof(Load));
+  std::memcpy(to + 1 + sizeof(Load) / sizeof(double), &rest[i], sizeof(Rest));
   return size_packed;
 }
 
@@ -360,8 +273,16 @@ int ExternalLoads::unpack(int i, const double *from)
     return 1;
   }
   make_room();
-  std::memcpy(&loads[i], from, sizeof(Load));
+  what[i] = static_cast<unsigned char>(from[0]);
+  std::memcpy(&loads[i], from + 1, sizeof(Load));
+  std::memcpy(&rest[i], from + 1 + sizeof(Load) / sizeof(double), sizeof(Rest));
   return size_packed;
+}
+
+double ExternalLoads::memory_usage() const
+{
+  return static_cast<double>(what.capacity() + loads.capacity() * sizeof(Load) +
+                             rest.capacity() * sizeof(Rest));
 }
 
 }    // namespace Talus

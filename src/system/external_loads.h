@@ -14,6 +14,9 @@
 // and count as one. Of spheres of clumps drag is taken at the present velocity. Particles that nothing
 // moves, and frozen ones, bear drag at the velocity they have.
 //
+//   external_loads.cpp         the fix, what is put, what travels with particles
+//   external_loads_step.cpp    what moves particles, and a step
+//
 // Per-atom data is here and not in the fix that LAMMPS calls (fix_external_loads.h), which may be made
 // anew: it has to be the last one that acts on forces. Without loads there is none, and a step costs
 // one call.
@@ -66,13 +69,15 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// each, of those that this rank owns.
   void take_impulses(const ParticlesById &particles, double *impulse);
   /// And those for fields; nullptr: none.
-  double *impulse_for_fields(int i) { return loads.empty() ? nullptr : loads[i].for_fields; }
+  double *impulse_for_fields(int i);
 
   // ---- by the fix
 
   enum class Moment { SET_UP, STEP, BETWEEN_STEPS };
   /// Some particle has one. Collective.
   bool any() const;
+  /// A set-up begins: it makes other sums of forces than those that are there.
+  void sums_begin_anew();
   /// Adds them to the forces.
   void act(Moment moment);
   /// At the start of a run, collective: "", or why they need the arrays of LAMMPS.
@@ -81,58 +86,65 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void grow(int most);
   void copy(int from, int to);
   void forget(int i);
-  static constexpr int size_packed = 27;
+  static constexpr int size_packed = 24;
   int pack(int i, double *to) const;
   int unpack(int i, const double *from);
-  double memory_usage() const { return static_cast<double>(loads.capacity() * sizeof(Load)); }
+  double memory_usage() const;
   /// The fix is going.
   void drop_fix();
   void take_fix(LAMMPS_NS::Fix *one) { fix = one; }
 
  private:
-  enum What : unsigned { FORCE = 1, TORQUE = 2, DRAG = 4, HEAT = 8, OTHERS = 16, PENDING = 32 };
+  // of one particle, bits: ADDED: force, torque and drag are in the sums that are there between
+  // steps; DUE: drag begins the next step
+  static constexpr unsigned FORCE = 1, TORQUE = 2, DRAG = 4, HEAT = 8, ADDED = 16, DUE = 32;
+  /// What each step reads, and writes in the last two.
   struct Load {
-    double what;    // bits; a double, so that all of it is packed as one
-    double force[3], torque[3], coefficient, fluid_velocity[3], heat;
-    double others_force[3], others_torque[3];    // what these are added to, if OTHERS
-    double pending[3];                           // impulse of drag that begins the next step
-    double for_particles[3], for_fields[3];      // since these were asked for
-
-    unsigned bits() const { return static_cast<unsigned>(what); }
-    bool has(unsigned some) const { return (bits() & some) != 0; }
-    void set(unsigned some) { what = bits() | some; }
-    void unset(unsigned some) { what = bits() & ~some; }
-    bool is_idle() const;
+    double force[3], coefficient, fluid_velocity[3], drag[3], impulse[3];
   };
-  static_assert(sizeof(Load) == sizeof(double) * size_packed);
+  /// What few steps need. Impulses are those up to now, without the one of the load.
+  struct Rest {
+    double torque[3], heat, for_particles[3], for_fields[3];
+  };
+  static_assert(sizeof(Load) + sizeof(Rest) == sizeof(double) * (size_packed - 1));
 
   /// How the forces of now move the particles of one integrator.
   struct Kick {
     int group_bits;
     const SystemFix *talus_fix;    ///< nullptr: of LAMMPS,
     const int *body;               ///< and the bodies of particles if it moves some, or nullptr
-    double time, at_end,
-        at_start;    ///< and its parts: at the end of this step and in the next one
+    double time;                   ///< for which drag is taken at the new velocity
+    double at_start, at_end;       ///< of this step: by the forces before, and by these
     const double *gravity;
     bool rigid;       ///< of clumps
     bool has_read;    ///< what begins the next step has been taken from the forces already
   };
 
+  bool has(int i, unsigned some) const { return (what[i] & some) != 0; }
+  void set(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] | some); }
+  void unset(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] & ~some); }
   bool any_has(unsigned some) const;
+  bool is_idle(int i) const;
   void make_room();
+  void resize(std::size_t size);
   void release_if_idle();
+  template <class Put> void replace(unsigned kinds, const ParticlesById &particles, Put put);
+  void settle_impulse(int i);
+
   void find_kicks(Moment moment);
   Kick kick_of(LAMMPS_NS::Fix &integrator, Moment moment) const;
   const Kick *kick_of(int i) const;
+  void take_back();
   void act_on(int i, const ParticleState &particles, Moment moment);
-  void add(int i, Load &load, const ParticleState &particles, const Kick *kick,
-           Moment moment) const;
-  void find_drag(int i, const Load &load, const double *v, const double *force, const Kick *kick,
-                 double *drag) const;
+  void add(int i, const ParticleState &particles, const Kick *kick, Moment moment);
+  void find_drag(int i, const double *v, const double *force, const Kick *kick);
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix = nullptr;
-  std::vector<Load> loads;    // by local index; empty: there are none
+  // by local index; empty: there are none
+  std::vector<unsigned char> what;
+  std::vector<Load> loads;
+  std::vector<Rest> rest;
   std::vector<Kick> kicks;    // in the order of the script
   int frozen_bits = 0;
 };

@@ -28,7 +28,7 @@ FixExternalLoads::~FixExternalLoads()
 
 int FixExternalLoads::setmask()
 {
-  return FixConst::POST_FORCE;
+  return FixConst::PRE_EXCHANGE | FixConst::POST_FORCE;
 }
 
 void FixExternalLoads::init()
@@ -37,6 +37,11 @@ void FixExternalLoads::init()
     error->all(FLERR,
                "Forces, drag or heat that another program has put on particles do not act with "
                "run_style respa: use run_style verlet");
+}
+
+void FixExternalLoads::setup_pre_exchange()
+{
+  loads().sums_begin_anew();
 }
 
 void FixExternalLoads::setup(int)

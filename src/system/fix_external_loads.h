@@ -22,6 +22,7 @@ class FixExternalLoads : public Fix, public Talus::SystemFix {
   ~FixExternalLoads() override;
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
   void setup(int) override;
   void post_force(int) override;
   void reset_dt() override;

@@ -41,16 +41,17 @@ std::string GridField::problem() const
     return "fields need 'dimension 3' and a box that is not triclinic";
   double count = 1.0;
   for (int d = 0; d < 3; d++) {
-    const std::string axis(1, "xyz"[d]);
+    const char axis = "xyz"[d];
     if (cells[d] < 1)
-      return "cells along " + axis + " are " + std::to_string(cells[d]) + ", expected 1 or more";
-    if (!(hi[d] > lo[d])) return "hi is not larger than lo along " + axis;
+      return fmt::format("cells along {} are {}, expected 1 or more", axis, cells[d]);
+    if (!(hi[d] > lo[d])) return fmt::format("hi is not larger than lo along {}", axis);
     if (domain->periodicity[d] && hi[d] - lo[d] > domain->prd[d] * (1.0 + rounding))
-      return "the grid is longer than the period of the box along " + axis;
+      return fmt::format("the grid is longer than the period of the box along {}", axis);
     if (width != 0.0 && !(width >= edge[d]))
-      return "width is " + std::to_string(width) + ", less than the edge " +
-             std::to_string(edge[d]) + " of cells along " + axis +
-             ": take a larger one, or 0 for particles that are in one cell each";
+      return fmt::format(
+          "width is {:.6g}, less than the edge {:.6g} of cells along {}: take a larger "
+          "one, or 0 for particles that are in one cell each",
+          width, edge[d], axis);
     count *= cells[d];
   }
   constexpr double most = 1e8;

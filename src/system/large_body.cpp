@@ -113,12 +113,10 @@ void LargeBody::list_particles()
   masses.update();
   const ParticleState particles = view();
   const int *mask = mask_of_spheres();
-  MeshShape *const mesh = moving_mesh();
-  if (mesh) mesh->settle();
+  if (MeshShape *const mesh = moving_mesh()) mesh->settle(system.shapes() != nullptr);
   if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
   contacts.find_candidates(*body_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
-  if (mesh) mesh->keep_current(system.shapes() ? nullptr : &contacts.listed_parts());
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     contacts.change_order(system.integrators().order(), atom->type,
                           [this](int type) -> const ContactLaw & { return specs[type].law; });

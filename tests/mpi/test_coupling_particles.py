@@ -242,7 +242,7 @@ lmp.close()
                     self.assertAlmostEqual(found, expected, delta=1e-12, msg=f"{name}, coefficient {c}")
 
     def test_held_and_replaced(self):
-        """Loads act until they are put again, also none; the same ones put again change no bit of a plain integrator's."""
+        """Loads act until they are put again, also none; the same ones put again change nothing."""
         body = """
 def run(again, steps=3):
     global lmp
@@ -267,8 +267,11 @@ def run(again, steps=3):
 say([run(False), run(True), run(False, 12)])
 """
         once, again, whole = self.drive(f"SCENE = {self.free('plain')!r}\nMASS = {MASS!r}\n" + body)
-        self.assertEqual(once, again)
         self.assertEqual(once, whole)
+        for rows, others in zip(once, again):
+            for row, other in zip(rows, others):
+                for a, b in zip(row, other):
+                    self.assertAlmostEqual(a, b, delta=1e-14)
         first, second, third = once
         fall = G * 10 * DT
         for tag in (1, 3, 4):
@@ -276,6 +279,56 @@ say([run(False), run(True), run(False, 12)])
         self.assertAlmostEqual(second[1][2], first[1][2], delta=1e-14)
         for tag in (1, 2, 3, 4):    # without a partner there are no loads
             self.assertAlmostEqual(third[tag - 1][2], second[tag - 1][2] - fall, delta=1e-14)
+
+    def test_torques_without_friction(self):
+        """Steps in the records know no rotation then: such runs go through the arrays while a torque acts."""
+        body = """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1], [[1, 0, 0]])
+    partner.advance(10)
+    partner.put_forces([1], [[1, 0, 0]], [[0, 0.5, 0]])
+    partner.advance(10)
+    partner.put_forces()
+    partner.advance(10)
+    say([as_lists(partner.particles([1], name)[0]) for name in ("v", "omega")])
+lmp.close()
+"""
+        v, omega = self.drive(f"SCENE = {self.free('plain', friction='').replace(GRAVITY, '')!r}\n" + body)
+        self.assertAlmostEqual(v[0], 20 * DT / MASS, delta=1e-14)
+        self.assertAlmostEqual(omega[1], 10 * DT * 0.5 / (0.1 * MASS), delta=1e-14)
+        lines = [line for line in self.log().splitlines() if "steps without output" in line]
+        self.assertEqual(["in the records" in line for line in lines], [True, False, True])
+        self.assertIn("fix TALUS_LOADS (EXTERNAL_LOADS): it turns particles and the contacts between them do not", lines[1])
+
+    def test_another_time_step(self):
+        """A new time step between runs, or by fix dt/reset: drag goes with it, and impulses are those that particles got."""
+        body = """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_drag([1, 2], [20.0, 900.0], [[1.0, 0.5, 0.0]] * 2)
+    partner.put_forces([1], [[0.3, 0, 0]])
+    partner.advance(5)
+    partner.advance(0)
+    v = as_lists(partner.particles([1, 2], "v"))
+    lmp.command("timestep 0.002")
+    partner.advance(1)
+    later = as_lists(partner.particles([1, 2], "v"))
+    partner.advance(6)
+    say([v, later, as_lists(partner.particles([1, 2], "v")), as_lists(partner.drag_impulses([1, 2]))])
+lmp.close()
+"""
+        reset = "fix longer all dt/reset 3 0.0001 0.003 0.0005 units box\n"
+        for name, more in (("plain", ""), ("verlet", ""), ("half", ""), ("plain", reset), ("verlet", reset)):
+            text = self.free(name).replace(GRAVITY, "gravity 0.0 vector 0 0 -1" if name == "verlet" else "")
+            text = text.replace("fix step", more + "fix step")
+            v, later, last, impulse = self.drive(f"SCENE = {text!r}\n" + body)
+            if not more and name == "plain":
+                for k, (c, force) in enumerate(((20.0, 0.3), (900.0, 0.0))):
+                    x = 0.002 * c / MASS
+                    self.assertAlmostEqual(later[k][0], (v[k][0] + 0.002 * force / MASS + x) / (1 + x), delta=1e-14)
+            for k in (0, 1):
+                self.assertAlmostEqual(MASS * last[k][1], impulse[k][1], delta=1e-14, msg=name + more)
 
     def test_heat(self):
         body = """
@@ -316,6 +369,44 @@ lmp.close()
             first = results[1, 1, -1, 0]
             for key, result in results.items():
                 self.assertEqual(result, first, f"verlet {verlet}: ranks, threads, root, thermo {key}")
+
+    def test_saved_loads(self):
+        """Restored runs have the loads of the snapshot, with all bits, whatever was put in between; so have impulses."""
+        write_sphere_data(self.path("grains"), ((-4, 4), (-4, 4), (-1, 9)), grains())
+        body = """
+def put(partner, ids, n):
+    some = [i for i in ids if (i + n) % 3]
+    partner.put_forces(some, [[0.2 * math.sin(0.3 * n + i), 0.1, 0.3] for i in some], [[0.05, 0.02, 0]] * len(some))
+    some = [i for i in ids if (i + n) % 4]
+    partner.put_drag(some, [10.0 ** (-1 + i % 5) for i in some], [[0.5 * math.sin(i), 0.3, 1.0] for i in some])
+lmp, partner = scene(SCENE)
+with partner:
+    ids, found = list(partner.ids()), []
+    first = partner.save()
+    for n in (0, 1):
+        put(partner, ids, n)
+        partner.advance(30)
+    saved = partner.save()
+    for change in (False, True, False):
+        if change:
+            put(partner, ids, 9)
+            partner.advance(13)
+        partner.restore(saved)
+        partner.advance(11)
+        put(partner, ids, 2)
+        partner.advance(40)
+        found.append([as_lists(rows) for rows in partner.particles(ids, "x", "v", "omega")] + [
+            as_lists(partner.drag_impulses(ids)), as_lists(partner.field((-4, -4, -1), (4, 4, 9), (1, 1, 1), "exchange")[0][0])])
+    partner.restore(first)
+    say([found, as_lists(partner.drag_impulses(ids))])
+lmp.close()
+"""
+        for verlet in (False, True):
+            results = [self.drive(f"SCENE = {self.bed(verlet=verlet)!r}\n" + body, np) for np in (1, 2)]
+            (one, *others), impulses = results[0]
+            self.assertEqual(others, [one, one])
+            self.assertEqual(results[1], results[0])
+            self.assertEqual(impulses, [[0.0] * 3] * len(impulses))
 
     # ---- what is lost
 
@@ -559,12 +650,22 @@ with partner:
     partner.advance(2)
 lmp.close()
 """
+        respa = self.free("verlet").replace("fix step", "suffix off\nfix step").replace(
+            "gran/penalty", "gran/hooke 1e3 NULL 0 NULL 0 0").replace("hooke 1e3 0 tangential multistep NULL NULL 0.5", "") + "run_style respa 2 2\n"
+        said = self.drive(f"SCENE = {respa!r}\n" + """
+lmp, partner = scene(SCENE)
+with partner:
+    partner.put_forces([1], [[0, 0, 1]])
+    say(refusal(partner.advance, 1))
+lmp.close()
+""")
+        self.assertIn("do not act with run_style respa: use run_style verlet", said)
         expected = ["talus_put_forces: there is no particle 99", "talus_put_drag: particle 3 is given twice",
-                    "talus_put_drag: coefficient[0] of particle 3 is 0.000000, expected more than 0",
+                    "talus_put_drag: coefficient[0] of particle 3 is 0, expected more than 0",
                     "talus_put_drag: fluid_velocity[1] is no finite number",
                     "talus_put_heat: particles have no temperature", "talus_put_forces: n is 5, expected 0 to 4",
                     "talus_get_drag_impulses: there is no particle 98",
-                    "talus_get_field: width is 1.000000, less than the edge 2.000000 of cells along x",
+                    "talus_get_field: width is 1, less than the edge 2 of cells along x",
                     "talus_get_field: cells along y are 0", "talus_get_field: hi is not larger than lo along y",
                     "talus_put_forces: force and torque are both NULL"]
         for np, root in ((1, -1), (2, -1), (2, 0)):

@@ -27,6 +27,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace Talus {
 
@@ -102,7 +103,7 @@ class BodyBatch {
   BodyLoad load;
   ExactLoad exact;                       ///< if asked for
   AlignedVector<TouchedPart> touched;    ///< if asked for
-  AlignedVector<TouchedCorners> corners;    ///< the same
+  std::vector<TouchedCorners> corners;      ///< the same
   EnergyByCause work;                    ///< if asked for
 
  private:
@@ -140,7 +141,7 @@ class BodyBatch {
   void pass_on();
 
   // meshes whose vertices move
-  void find_places(int k);
+  void find_points(int k);
   void see_from_vertices(Motion &m, int k);
   void see_from_vertices_order_2(Motion &m, int k);
   void turn_histories(int k);
@@ -188,7 +189,7 @@ class BodyBatch {
   alignas(64) Lanes place = {};                            // of particles, in space
   alignas(64) double radius[ContactBatch::width];
   // only of meshes whose vertices move
-  PlaceOnTriangle place_of_lane[ContactBatch::width];
+  SurfacePoint point_of_lane[ContactBatch::width];
   HistoryVectors vectors;    // of the law
   // only of walls
   alignas(64) Lanes wall_velocity = {};

@@ -34,12 +34,12 @@ Vector lane_of(const Vector3<Vec8> &v, int q)
 
 /* Where the surface is touched. Lanes behind the last contact are not looked at. */
 
-void BodyBatch::find_places(int k)
+void BodyBatch::find_points(int k)
 {
   for (int lane = k; lane < std::min(k + lanes, filled); lane++) {
     const Vector x{place[0][lane], place[1][lane], place[2][lane]};
     const Vector n = Talus::lane_of(batch.normal, lane);
-    place_of_lane[lane] = task->frame.vertices->place_on(
+    point_of_lane[lane] = task->frame.vertices->point_on(
         part_of_lane[lane], x - (radius[lane] - batch.overlap[lane]) * n);
   }
 }
@@ -48,14 +48,14 @@ void BodyBatch::find_places(int k)
 
 void BodyBatch::see_from_vertices(Motion &m, int k)
 {
-  find_places(k);
+  find_points(k);
   if (law.tangential().second_order) {
     see_from_vertices_order_2(m, k);
     return;
   }
   VectorLanes velocity, omega;
   for (int q = 0; q < std::min(lanes, filled - k); q++) {
-    const SurfaceMotion surface = task->frame.vertices->motion(place_of_lane[k + q]);
+    const SurfaceMotion surface = task->frame.vertices->motion(point_of_lane[k + q]);
     velocity.set(q, surface.velocity_at({place[0][k + q], place[1][k + q], place[2][k + q]}));
     omega.set(q, surface.omega);
   }
@@ -72,7 +72,7 @@ void BodyBatch::see_from_vertices_order_2(Motion &m, int k)
   VectorLanes velocity, omega, velocity_change, rotation_change;
   for (int q = 0; q < std::min(lanes, filled - k); q++) {
     const int lane = k + q;
-    const PlaceOnTriangle &at = place_of_lane[lane];
+    const SurfacePoint &at = point_of_lane[lane];
     const SurfaceMotion now = vertices.motion(at), then = vertices.motion_half_way(at);
     const TriangleTurn turned = vertices.turn_since_half_way(at.triangle);
     const Vector x{place[0][lane], place[1][lane], place[2][lane]}, v = lane_of(m.velocity, q),
@@ -124,7 +124,7 @@ void BodyBatch::record_corners()
       torque = torque - (Talus::lane_of(batch.twisting_torque, lane) -
                          r * (Talus::lane_of(batch.torque_per_radius, lane) - cross(n, f)));
     TouchedCorners touch{part_of_lane[lane], {}};
-    task->frame.vertices->share_out(place_of_lane[lane], -f, torque, touch.force);
+    MovingVertices::share_out(point_of_lane[lane], -f, torque, touch.force);
     touch.triangle = task->frame.vertices->own_triangle(touch.triangle);
     corners.push_back(touch);
   }

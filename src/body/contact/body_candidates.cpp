@@ -31,15 +31,21 @@ struct BodyCandidates::Search {
   const ParticleState &view;
   const int *mask;
   int group;
-  double margin;
+  double margin, extent;    // extent: of the surface from the reference point
 
   bool wants(int i) const { return mask[i] & group; }
   Vector3<double> place(int i) const { return frame.point_to_body(view.position(i)); }
   double reach(int i) const { return view.radius(i) + margin; }
-  /// From the reference point; asked for only if the body moves.
-  double farthest(const Vector3<double> &x, double reach) const
+  /// From the reference point, of bodies that move.
+  double distance(const Vector3<double> &x) const
   {
-    return frame.moves ? length(x - frame.origin) + reach : 0.0;
+    return frame.moves ? length(x - frame.origin) : 0.0;
+  }
+  /// How far from there what matters is that this particle may touch: what is further away than the
+  /// surface is touched no sooner than the surface has come there.
+  double farthest(double distance, double reach) const
+  {
+    return frame.moves ? std::min(distance, extent) + reach : 0.0;
   }
 };
 
@@ -60,7 +66,9 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
   listed_frame = frame;
   listed_reach = 0.0;
   const double margin = beyond + (goes(frame) ? (1.0 + free_way) * skin : skin);
-  const Search search{shape, frame, view, mask, group, margin};
+  const double extent =
+      frame.moves ? (1.0 + 1.0e-9) * shape.extent_from(frame.origin) : 0.0;    // rounding
+  const Search search{shape, frame, view, mask, group, margin, extent};
   if (shape.most_contacts() == 1)
     list_near(search, shape.thread_safe() ? threads : 1);
   else
@@ -105,8 +113,8 @@ void BodyCandidates::list_near(const Search &search, int threads)
     for (int i = begin; i < end; i++) {
       if (!search.wants(i)) continue;
       const Vector3<double> x = search.place(i);
-      const double reach = search.reach(i);
-      of_thread.farthest = std::max(of_thread.farthest, search.farthest(x, reach));
+      const double reach = search.reach(i), distance = search.distance(x);
+      of_thread.farthest = std::max(of_thread.farthest, search.farthest(distance, reach));
       if (search.shape.distance_bound(x) < reach) of_thread.near.push_back(i);
     }
     found[t] = std::move(of_thread);
@@ -123,8 +131,9 @@ void BodyCandidates::list_with_parts(const Search &search)
   for (int i = 0; i < search.view.owned(); i++) {
     if (!search.wants(i)) continue;
     const Vector3<double> x = search.place(i);
-    const double reach = search.reach(i);
-    listed_reach = std::max(listed_reach, search.farthest(x, reach));
+    const double reach = search.reach(i), distance = search.distance(x);
+    listed_reach = std::max(listed_reach, search.farthest(distance, reach));
+    if (search.frame.moves && distance >= search.extent + reach) continue;
     if (!search.shape.is_near(x, reach, parts)) continue;
     const std::size_t num_parts = parts.size() - parts_begin.back();
     listed.push_back({x, num_parts ? parts[parts_begin.back()].distance : 0.0});

@@ -40,8 +40,8 @@ class BodyCandidates {
                                               const int *mask, int group, double skin,
                                               double beyond);
 
-  /// Distance from the reference point within which all particles were when they were last listed;
-  /// only of bodies that move.
+  /// Distance from the reference point within which all particles that may touch the body, and all of its
+  /// surface that may be touched, were when they were last listed; only of bodies that move.
   double reach() const { return listed_reach; }
 
   std::size_t size() const { return particles.size(); }
@@ -63,8 +63,6 @@ class BodyCandidates {
   /// body) now; nearest first. `may_touch`: false if there are parts, and none is near enough.
   NearParts parts_near(const BodyFrame &frame, std::size_t c, const Vector3<double> &x,
                        double radius, bool &may_touch) const;
-  /// Of all candidates, as they were listed.
-  const std::vector<NearPart> &all_parts() const { return parts; }
 
   /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
   void prefetch_list(std::size_t c, double radius) const;
@@ -80,7 +78,7 @@ class BodyCandidates {
 
   std::vector<int> particles;
   BodyFrame listed_frame;
-  double listed_reach = 0.0;    // largest distance of a particle from the reference point
+  double listed_reach = 0.0;    // see reach()
 
   // by candidate, only of shapes with several contacts
   struct Listed {

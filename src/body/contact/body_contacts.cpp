@@ -147,7 +147,9 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
     if (step.exact) step.exact->add(batch->exact);
     if (step.touched)
       step.touched->insert(step.touched->end(), batch->touched.begin(), batch->touched.end());
-    if (step.corners)
+    if (step.corners && step.corners->empty())
+      step.corners->swap(batch->corners);    // of the first, or the only one
+    else if (step.corners)
       step.corners->insert(step.corners->end(), batch->corners.begin(), batch->corners.end());
   }
   return load;
@@ -248,7 +250,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     Vector3<double> v = view.velocity(i);
     if (frame.moves) v = v - frame.velocity_at(place);
     if (frame.vertices && count)
-      v = v - frame.vertices->motion(frame.vertices->place_on(found->part, x)).velocity;
+      v = v - frame.vertices->motion(frame.vertices->point_on(found->part, x)).velocity;
     of_particle.speed = {length(v) / radius, i, 0};
     if (several) {
       const Passage passage = shape.passage(candidates.listed_at(c), x, near);

@@ -71,7 +71,6 @@ class BodyContacts {
   void find_candidates(const WallSurface &wall, const ParticleState &view, const int *mask,
                        int group, double way, int threads);
   std::size_t num_candidates() const { return candidates.size(); }
-  const std::vector<NearPart> &listed_parts() const { return candidates.all_parts(); }
 
   /// How far contacts of these particles last beyond zero overlap at most (length).
   double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;

@@ -30,6 +30,11 @@ double Ball::distance_bound(const Vector3<double> &center) const
   return std::fabs(std::sqrt(dot(away, away)) - size);
 }
 
+double Ball::extent_from(const Vector3<double> &point) const
+{
+  return length(point - middle) + size;
+}
+
 void Ball::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                       std::vector<Triangle> &triangles) const
 {

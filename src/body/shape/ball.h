@@ -18,6 +18,7 @@ class Ball : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
+  double extent_from(const Vector3<double> &point) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;
   void visit_surfaces(SurfaceVisitor &visitor) const override;

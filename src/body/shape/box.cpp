@@ -98,6 +98,14 @@ double Box::distance_bound(const Vector3<double> &center) const
   return inside ? deepest : std::sqrt(a * a + b * b + c * c);
 }
 
+/* Inside, faces go on beyond the edges. */
+
+double Box::extent_from(const Vector3<double> &point) const
+{
+  if (inside) return LargeBodyShape::extent_from(point);
+  return length(point - middle) + length(Vector3<double>{half[0], half[1], half[2]});
+}
+
 void Box::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                      std::vector<Triangle> &triangles) const
 {

@@ -189,6 +189,14 @@ double Frustum::distance_bound(const Vector3<double> &center) const
   return std::sqrt(rho * rho + s * s);
 }
 
+/* Inside, faces go on beyond the rims. */
+
+double Frustum::extent_from(const Vector3<double> &point) const
+{
+  if (inside || infinite) return LargeBodyShape::extent_from(point);
+  return length(point - middle) + std::hypot(half, std::max(low, high));
+}
+
 void Frustum::tessellate(const Eigen::AlignedBox3d &visible, std::vector<Triangle> &triangles) const
 {
   constexpr int sectors = 48;

@@ -44,6 +44,7 @@ class Frustum : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
+  double extent_from(const Vector3<double> &point) const override;
   int most_contacts() const override { return inside && !infinite && !open ? 3 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;

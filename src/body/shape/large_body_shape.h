@@ -21,6 +21,7 @@
 #include "base/vector3.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 // Only shapes with draw() or focus() need <Eigen/Geometry>.
@@ -92,6 +93,15 @@ class LargeBodyShape {
 
   /// Point about which torques on the body are taken, in the frame of the body.
   virtual Vector3<double> reference_point() const = 0;
+
+  /// No point of the surface that touches() measures is further away from this one; infinite if that is
+  /// not known. A body that turns lists particles anew as it moves there, instead of where the
+  /// furthest particle is.
+  virtual double extent_from(const Vector3<double> &point) const
+  {
+    (void) point;
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// No sphere touches the body at more points than this: 1 ... max_contacts.
   virtual int most_contacts() const { return 1; }

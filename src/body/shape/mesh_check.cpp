@@ -13,6 +13,7 @@ namespace Talus {
 namespace {
 
 constexpr double no_overlap = 1.0e-10;    // of triangles that touch, over the size of one
+constexpr double parallel = 1.0e-16;      // the square of the sine
 
 struct Range {
   double low, high;
@@ -32,8 +33,8 @@ bool are_apart(const Vector3<double> &axis, const Triangle &a, const Triangle &b
   return gap >= 0.0 || gap >= -allowed * length(axis);
 }
 
-/* Separating axes of two triangles: the normals, and across the edges of both in space, or where both are
-   nearly in one plane, across those of one in its plane. */
+/* Separating axes of two triangles: the normals, and across the edges of both in space, or where these are
+   nearly parallel or both triangles nearly in one plane, across those of one in its plane. */
 
 bool overlap(const Triangle &a, const Triangle &b, const Vector3<double> &normal_a,
              const Vector3<double> &normal_b, double allowed)
@@ -49,20 +50,20 @@ bool overlap(const Triangle &a, const Triangle &b, const Vector3<double> &normal
         are_apart(cross(normal_b, edges[1][k]), a, b, allowed))
       return false;
   for (const Vector3<double> &of_a : edges[0])
-    for (const Vector3<double> &of_b : edges[1])
-      if (are_apart(cross(of_a, of_b), a, b, allowed)) return false;
+    for (const Vector3<double> &of_b : edges[1]) {
+      const Vector3<double> axis = cross(of_a, of_b);
+      const bool is_direction = dot(axis, axis) > parallel * dot(of_a, of_a) * dot(of_b, of_b);
+      if (is_direction && are_apart(axis, a, b, allowed)) return false;
+    }
   return true;
 }
 
-int num_shared(const Corners &a, const Corners &b, int &shared)
+int num_shared(const Corners &a, const Corners &b)
 {
   int count = 0;
   for (const int v : a.vertex)
     for (const int w : b.vertex)
-      if (v == w) {
-        shared = v;
-        count++;
-      }
+      if (v == w) count++;
   return count;
 }
 
@@ -71,6 +72,14 @@ int num_shared(const Corners &a, const Corners &b, int &shared)
 MeshCheck::MeshCheck(const TriangleMesh &triangle_mesh) :
     mesh(triangle_mesh), all_edges(triangle_mesh.all_corners())
 {
+  around_begin.assign(mesh.num_vertices() + 1, 0);
+  for (int t = 0; t < mesh.num_own(); t++)
+    for (const int v : mesh.corners(t).vertex) around_begin[v + 1]++;
+  std::partial_sum(around_begin.begin(), around_begin.end(), around_begin.begin());
+  around.resize(around_begin.back());
+  std::vector<int> next(around_begin.begin(), around_begin.end() - 1);
+  for (int t = 0; t < mesh.num_own(); t++)
+    for (const int v : mesh.corners(t).vertex) around[next[v]++] = t;
 }
 
 Triangle MeshCheck::triangle(const Places &places, int t) const
@@ -83,7 +92,8 @@ std::string MeshCheck::name_of(int t, const Places &places) const
 {
   const Vector3<double> &x = places[mesh.corners(t).vertex[0]];
   char text[128];
-  std::snprintf(text, sizeof text, "triangle %d (first corner at %.6g %.6g %.6g)", t, x.x, x.y, x.z);
+  std::snprintf(text, sizeof text, "triangle %d (first corner at %.6g %.6g %.6g)", t, x.x, x.y,
+                x.z);
   return text;
 }
 
@@ -132,8 +142,7 @@ double MeshCheck::fold(const MeshEdges::Edge &edge, int a, int b, const Places &
   const bool opposed = mesh.corners(b).runs_along(from, to_vertex);
   const auto normal = [&](int t) {
     const Triangle at = triangle(places, t);
-    const Vector3<double> twice =
-        cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
+    const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
     return 1.0 / length(twice) * twice;
   };
   const Vector3<double> n = normal(a), m = opposed ? -normal(b) : normal(b);
@@ -155,8 +164,7 @@ std::string MeshCheck::turned_over(const Places &now) const
     if (std::fabs(fold(edge, a, b, *to) - fold(edge, a, b, now)) <= quarter) continue;
     const auto kept = [&](int t) {    // of its own direction
       const Triangle at = triangle(now, t);
-      const Vector3<double> twice =
-          cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
+      const Vector3<double> twice = cross(at.corner[1] - at.corner[0], at.corner[2] - at.corner[0]);
       return dot(normals[t], twice) / length(twice);
     };
     const int turned = kept(a) < kept(b) ? a : b, other = turned == a ? b : a;
@@ -168,6 +176,25 @@ std::string MeshCheck::turned_over(const Places &now) const
 
 /* Triangles that share an edge are parts of one patch if it is smooth: see TriangleMesh::patch(). */
 
+bool MeshCheck::patches_change()
+{
+  const bool first = smooth.empty();
+  if (first) smooth.resize(2 * all_edges.all().size());
+  bool change = first;
+  std::size_t n = 0;
+  for (const MeshEdges::Edge &edge : all_edges.all()) {
+    const int *const user = all_edges.users(edge);
+    for (int k = 1; k < edge.num_users; k++, n++) {
+      if (n == smooth.size()) smooth.push_back(false);
+      const bool is_smooth =
+          std::fabs(dot(normals[user[0]], normals[user[k]])) >= TriangleMesh::smooth_cosine;
+      if (smooth[n] != is_smooth) change = true;
+      smooth[n] = is_smooth;
+    }
+  }
+  return change;
+}
+
 std::vector<int> MeshCheck::patches() const
 {
   std::vector<int> patch(mesh.size());
@@ -176,10 +203,11 @@ std::vector<int> MeshCheck::patches() const
     while (patch[t] != t) t = patch[t] = patch[patch[t]];
     return t;
   };
+  std::size_t n = 0;
   for (const MeshEdges::Edge &edge : all_edges.all()) {
     const int *const user = all_edges.users(edge);
-    for (int k = 1; k < edge.num_users; k++) {
-      if (std::fabs(dot(normals[user[0]], normals[user[k]])) < TriangleMesh::smooth_cosine) continue;
+    for (int k = 1; k < edge.num_users; k++, n++) {
+      if (!smooth[n]) continue;
       const int a = root(user[0]), b = root(user[k]);
       patch[std::max(a, b)] = std::min(a, b);
     }
@@ -201,40 +229,87 @@ void MeshCheck::look_at_vertices()
       if (!(dot(mean[v], normals[t]) > 0.0)) is_fan[v] = 1;
 }
 
+/* Pairs that share one vertex with which not all triangles around it face one half of space. */
+
+template <class Visit> void MeshCheck::visit_fans(Visit visit) const
+{
+  for (int v = 0; v < mesh.num_vertices(); v++) {
+    if (!is_fan[v]) continue;
+    for (int k = around_begin[v]; k < around_begin[v + 1]; k++)
+      for (int l = k + 1; l < around_begin[v + 1]; l++)
+        if (num_shared(mesh.corners(around[k]), mesh.corners(around[l])) == 1)
+          visit(around[k], around[l]);
+  }
+}
+
 bool MeshCheck::cut(int a, int b) const
 {
-  int shared = 0;
-  const int common = num_shared(mesh.corners(a), mesh.corners(b), shared);
-  if (common > 1 || (common == 1 && !is_fan[shared])) return false;
   const Triangle first = triangle(*to, a), second = triangle(*to, b);
   const double size = length(first.corner[1] - first.corner[0]);
   return overlap(first, second, normals[a], normals[b], no_overlap * size);
 }
 
-/* Of all pairs the one with the lowest numbers, so that it does not depend on the tree. */
+bool MeshCheck::list_holds() const
+{
+  if (listed_at.empty()) return false;
+  Vector3<double> together{0.0, 0.0, 0.0};
+  const int count = mesh.num_own_vertices();
+  for (int v = 0; v < count; v++) together = together + ((*to)[v] - listed_at[v]);
+  together = 1.0 / count * together;
+  double square = 0.0;
+  for (int v = 0; v < count; v++) {
+    const Vector3<double> apart = (*to)[v] - listed_at[v] - together;
+    square = std::max(square, dot(apart, apart));
+  }
+  return 2.0 * std::sqrt(square) < (1.0 - 1.0e-9) * margin;
+}
+
+/* The distance is small, so that the list is short, and large beside the way of vertices in an exchange. */
+
+void MeshCheck::list_pairs()
+{
+  constexpr double over_size = 0.3;
+  double area = 0.0;
+  for (const Eigen::AlignedBox3d &box : boxes) area += box.sizes().squaredNorm();
+  margin = over_size * std::sqrt(0.5 * area / static_cast<double>(boxes.size()));
+  std::vector<Eigen::AlignedBox3d> wide = boxes;
+  const Eigen::Vector3d around_box = Eigen::Vector3d::Constant(0.5 * margin);
+  for (Eigen::AlignedBox3d &box : wide) box = {box.min() - around_box, box.max() + around_box};
+  if (!tree || tree->refit(wide)) tree = std::make_unique<BoxTree>(wide);
+  pairs.clear();
+  tree->visit_overlaps([&](int a, int b) {
+    if (wide[a].intersects(wide[b]) && !num_shared(mesh.corners(a), mesh.corners(b)))
+      pairs.push_back({std::min(a, b), std::max(a, b)});
+  });
+  std::sort(pairs.begin(), pairs.end());
+  listed_at = *to;
+}
+
+/* The pair with the lowest numbers. */
 
 std::string MeshCheck::crossing()
 {
-  look_at_vertices();
-  std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(mesh.num_own());
+  boxes.clear();
   for (int t = 0; t < mesh.num_own(); t++) boxes.push_back(bounds_of(triangle(*to, t)));
-  if (!tree || tree->refit(boxes)) tree = std::make_unique<BoxTree>(boxes);
+  if (!list_holds()) list_pairs();
+  look_at_vertices();
   std::array<int, 2> found{mesh.num_own(), mesh.num_own()};
-  tree->visit_overlaps([&](int a, int b) {
-    if ((!moved[a] && !moved[b]) || !boxes[a].intersects(boxes[b])) return;
-    const std::array<int, 2> pair{std::min(a, b), std::max(a, b)};
-    if (pair < found && cut(pair[0], pair[1])) found = pair;
-  });
+  const auto look = [&](int a, int b) {
+    if ((moved[a] || moved[b]) && boxes[a].intersects(boxes[b]) && cut(a, b))
+      found = std::min(found, std::array<int, 2>{a, b});
+  };
+  for (const std::array<int, 2> &pair : pairs) look(pair[0], pair[1]);
+  visit_fans(look);
   if (found[0] == mesh.num_own()) return "";
   return name_of(found[0], *to) + " and " + name_of(found[1], *to) + " cut each other";
 }
 
 double MeshCheck::memory_usage() const
 {
-  return static_cast<double>(normals.capacity() * sizeof normals[0] + is_fan.capacity()) +
-         (tree ? tree->memory_usage() : 0.0) +
-         static_cast<double>(all_edges.all().size() * sizeof(MeshEdges::Edge)) + 24.0 * mesh.size();
+  const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
+  return bytes(normals) + bytes(boxes) + bytes(pairs) + bytes(listed_at) + bytes(around) +
+         bytes(around_begin) + (tree ? tree->memory_usage() : 0.0) + bytes(all_edges.all()) +
+         24.0 * mesh.size();    // the rest of the edges
 }
 
 }    // namespace Talus

@@ -9,6 +9,9 @@
 //   triangles that cut each other: all pairs of which one has moved. Of those that share one vertex only
 //     where not all triangles around it face one half of space, else they cannot.
 //
+// Pairs that may cut each other are listed, by a tree of boxes, with all that are not much further apart; the
+// list holds until vertices have gone further than that, apart from what all have gone together.
+//
 // Numbers of triangles are those of the mesh, from 0. Images are not looked at: their own ones are.
 
 #ifndef TALUS_BODY_SHAPE_MESH_CHECK_H
@@ -18,6 +21,7 @@
 #include "body/shape/mesh_edges.h"
 #include "body/shape/triangle_mesh.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +41,8 @@ class MeshCheck {
   /// The same without a check.
   void look_at(const Places &places) { find_normals(places); }
   /// Of all triangles, images included, at the places of the last call of either: see
-  /// TriangleMesh::patch().
+  /// TriangleMesh::patch(). They are others than those of the call before only if patches_change().
+  bool patches_change();
   std::vector<int> patches() const;
 
   const MeshEdges &edges() const { return all_edges; }
@@ -50,17 +55,27 @@ class MeshCheck {
   double fold(const MeshEdges::Edge &edge, int a, int b, const Places &places) const;
   void look_at_vertices();
   std::string crossing();
+  bool list_holds() const;
+  void list_pairs();
+  template <class Visit> void visit_fans(Visit visit) const;
   bool cut(int a, int b) const;
   std::string name_of(int t, const Places &places) const;
 
   const TriangleMesh &mesh;
   const MeshEdges all_edges;
-  std::unique_ptr<BoxTree> tree;    // of the own triangles
+  std::vector<int> around_begin, around;    // own triangles of each vertex
+  std::vector<bool> smooth;                 // edges between triangles of one patch, with a list of users
   // of the last places
   const Places *to = nullptr;
   std::vector<Vector3<double>> normals;
   std::vector<bool> moved;              // triangles
   std::vector<unsigned char> is_fan;    // vertices: not all around it face one half of space
+  std::vector<Eigen::AlignedBox3d> boxes;
+  // pairs without a common vertex, and when they were listed: places, and the distance
+  std::unique_ptr<BoxTree> tree;    // of the own triangles
+  std::vector<std::array<int, 2>> pairs;
+  Places listed_at;
+  double margin = 0.0;
 };
 
 }    // namespace Talus

@@ -18,7 +18,9 @@ constexpr double slack = 1.0e-5;
 /// Does a step in the direction `along` from the nearest point come nearer?
 bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
 {
-  return dot(away, along) > tolerance * length(away) * length(along);
+  const double closer = dot(away, along);
+  return closer > 0.0 &&
+         closer * closer > tolerance * tolerance * dot(away, away) * dot(along, along);
 }
 
 }    // namespace
@@ -37,15 +39,13 @@ MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh, const Eigen::AlignedBo
   grow_tree();
 }
 
-/* Limits of cosines, which save time, and normals of vertices are those of a mesh at rest: here the limits
-   stay at 0, and normals are found when they are asked for. */
+/* Limits of cosines, which save time, are those of a mesh at rest. */
 
 MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh) : mesh(triangle_mesh), moves(true)
 {
   std::vector<int> numbers(mesh.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   near = numbers;
-  make_faces(numbers);
   corners = mesh.all_corners();
   vertex_numbers.resize(mesh.num_vertices());
   std::iota(vertex_numbers.begin(), vertex_numbers.end(), 0);
@@ -84,19 +84,26 @@ void MeshDetail::make_faces(const std::vector<int> &numbers)
   faces.reserve(numbers.size());
   for (const int t : numbers) {
     faces.emplace_back();
-    faces.back().number = t;
-    set_plane(static_cast<int>(faces.size()) - 1);
+    set_geometry(t, faces.back());
   }
 }
 
-void MeshDetail::set_plane(int t)
+void MeshDetail::set_geometry(int number, Face &face) const
 {
-  Face &face = faces[t];
-  const Triangle triangle = mesh.triangle(face.number);
+  face.number = number;
+  const Triangle triangle = mesh.triangle(number);
   std::copy(triangle.corner, triangle.corner + 3, face.corner);
-  const int plane = mesh.plane_of(face.number);
+  const int plane = mesh.plane_of(number);
   face.normal = mesh.normal(plane);
   face.offset = dot(mesh.vertex(mesh.corners(plane).vertex[0]), face.normal);
+}
+
+/// As it is now; in `room` if it moves.
+const MeshDetail::Face &MeshDetail::face(int t, Face &room) const
+{
+  if (!moves) return faces[t];
+  set_geometry(t, room);
+  return room;
 }
 
 /* Numbers of vertices in the order in which triangles meet them. */
@@ -124,21 +131,23 @@ void MeshDetail::find_vertices(const std::vector<int> &numbers)
 
 void MeshDetail::find_neighbors(const MeshEdges &edges)
 {
-  neighbors.reserve(faces.size());
-  for (std::size_t t = 0; t < faces.size(); t++) {
-    Face &face = faces[t];
+  neighbors.reserve(corners.size());
+  reports.assign(corners.size(), {0, 0});
+  for (std::size_t t = 0; t < corners.size(); t++) {
     Neighbors adjacent{};
     for (int k = 0; k < 3; k++) {
       const MeshEdges::Edge &edge = edges.of(static_cast<int>(t), k);
       const int *user = edges.users(edge);
       const bool is_first = user[0] == static_cast<int>(t);
-      if (is_first) face.reports_edge |= static_cast<unsigned char>(1U << k);
+      if (is_first) reports[t].edge |= static_cast<unsigned char>(1U << k);
       adjacent.over[k] = none;
       if (edge.num_users == 2) {
         adjacent.over[k] = is_first ? user[1] : user[0];
-        const double cosine = dot(face.normal, faces[adjacent.over[k]].normal);
-        if (cosine > 0.0 && !moves)
-          face.least_square_cosine[k] = static_cast<float>(std::max(cosine * cosine - slack, 0.0));
+        const double cosine =
+            moves ? 0.0 : dot(faces[t].normal, faces[adjacent.over[k]].normal);
+        if (cosine > 0.0)
+          faces[t].least_square_cosine[k] =
+              static_cast<float>(std::max(cosine * cosine - slack, 0.0));
       }
       if (edge.num_users > 2 && is_first) {    // only this one asks
         adjacent.over[k] = -2 - static_cast<int>(nonmanifold.size());
@@ -168,30 +177,29 @@ void MeshDetail::look_at_corners()
 {
   std::vector<bool> reported(vertex_numbers.size());
   if (!moves) vertex_normals.assign(vertex_numbers.size(), {0.0, 0.0, 0.0});
-  for (std::size_t t = 0; t < faces.size(); t++) {
-    Face &face = faces[t];
+  for (std::size_t t = 0; t < corners.size(); t++) {
     double least = 1.0;
     for (int k = 0; k < 3; k++) {
       const int v = corners[t].vertex[k];
-      if (!reported[v]) face.reports_corner |= static_cast<unsigned char>(1U << k);
-      if (moves) {
-        least = 0.0;
-        reported[v] = true;
-        continue;
+      if (!moves) {
+        vertex_normals[v] = vertex_normals[v] + weighted_normal(static_cast<int>(t), k);
+        if (!reported[v]) least = std::min<double>(least, corner_limit(v, faces[t].normal));
       }
-      vertex_normals[v] = vertex_normals[v] + face.weighted_normal(k);
-      if (!reported[v]) least = std::min<double>(least, corner_limit(v, face.normal));
+      if (!reported[v]) reports[t].corner |= static_cast<unsigned char>(1U << k);
       reported[v] = true;
     }
-    face.least_at_corners = static_cast<float>(least);
+    if (!moves) faces[t].least_at_corners = static_cast<float>(least);
   }
 }
 
-/// Of a corner, by its angle.
-Vector3<double> MeshDetail::Face::weighted_normal(int k) const
+/// Normal of a triangle by its angle at a corner.
+Vector3<double> MeshDetail::weighted_normal(int t, int k) const
 {
-  const Vector3<double> a = corner[(k + 1) % 3] - corner[k], b = corner[(k + 2) % 3] - corner[k];
-  return std::atan2(length(cross(a, b)), dot(a, b)) * normal;
+  Face room;
+  const Face &at = face(t, room);
+  const Vector3<double> a = at.corner[(k + 1) % 3] - at.corner[k],
+                        b = at.corner[(k + 2) % 3] - at.corner[k];
+  return std::atan2(length(cross(a, b)), dot(a, b)) * at.normal;
 }
 
 /* Let u be the direction from a corner to a point nearest to it, at the angle a from the normal
@@ -234,7 +242,7 @@ std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(near.size());
   for (const int t : near)
-    boxes.push_back(bounds_of({{faces[t].corner[0], faces[t].corner[1], faces[t].corner[2]}}));
+    boxes.push_back(bounds_of(mesh.triangle(number(t))));
   return boxes;
 }
 
@@ -242,13 +250,16 @@ std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
    nearest point is of that kind, by the signs of projections (Ericson, Real-Time Collision
    Detection, 2005, section 5.1.5). */
 
-NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
+namespace {
+
+/// `across`: along the normal. find_foot() yields the way from the plane to p, and the normal.
+template <class Foot>
+NearestPoint nearest_of(const Vector3<double> *corner, const Vector3<double> &across,
+                        const Vector3<double> &p, Foot find_foot)
 {
-  const Vector3<double> *const corner = faces[t].corner;
-  const Vector3<double> &n = faces[t].normal;
   const Vector3<double> from[3] = {p - corner[0], p - corner[1], p - corner[2]};
   const auto result = [](const Vector3<double> &away, NearestPoint::Feature feature, int index) {
-    return NearestPoint{away, dot(away, away), feature, index};
+    return NearestPoint{away, dot(away, away), feature, index, {0.0, 0.0, 0.0}};
   };
 
   double ahead[3], behind[3];    // along edge k from its first corner, and back from its second
@@ -263,17 +274,44 @@ NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
   for (int k = 0; k < 3; k++) {
     if (ahead[k] <= 0.0 || behind[k] <= 0.0) continue;
     const Vector3<double> edge = corner[(k + 1) % 3] - corner[k];
-    if (dot(cross(edge, from[k]), n) > 0.0) continue;    // inside of it
+    if (dot(cross(edge, from[k]), across) > 0.0) continue;    // inside of it
     return result(from[k] - ahead[k] / (ahead[k] + behind[k]) * edge, NearestPoint::EDGE, k);
   }
-  return result((dot(p, n) - faces[t].offset) * n, NearestPoint::FACE, 0);
+  NearestPoint foot = result({0.0, 0.0, 0.0}, NearestPoint::FACE, 0);
+  foot.away = find_foot(foot.normal);
+  foot.square = dot(foot.away, foot.away);
+  return foot;
+}
+
+}    // namespace
+
+NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
+{
+  if (!moves) {
+    const Face &face = faces[t];
+    return nearest_of(face.corner, face.normal, p, [&](Vector3<double> &n) {
+      n = face.normal;
+      return (dot(p, n) - face.offset) * n;
+    });
+  }
+  const Triangle now = mesh.triangle(t);
+  const Vector3<double> across =
+      cross(now.corner[1] - now.corner[0], now.corner[2] - now.corner[0]);
+  return nearest_of(now.corner, across, p, [&](Vector3<double> &n) {
+    const int plane = mesh.plane_of(t);
+    n = plane == t ? 1.0 / length(across) * across : mesh.normal(plane);
+    const Vector3<double> &origin =
+        plane == t ? now.corner[0] : mesh.vertex(mesh.corners(plane).vertex[0]);
+    return (dot(p, n) - dot(origin, n)) * n;
+  });
 }
 
 /* Where the way meets the plane, and whether this is on the inner side of all edges. */
 
 bool MeshDetail::is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const
 {
-  const Face &face = faces[t];
+  Face room;
+  const Face &face = this->face(t, room);
   const double before = dot(from, face.normal) - face.offset;
   const double after = dot(to, face.normal) - face.offset;
   if ((before >= 0.0) == (after >= 0.0)) return false;
@@ -290,7 +328,7 @@ bool MeshDetail::is_local_minimum(int t, const NearestPoint &nearest, double &he
 {
   if (nearest.feature == NearestPoint::EDGE) return edge_is_minimum(t, nearest, height);
   if (nearest.feature == NearestPoint::CORNER) return corner_is_minimum(t, nearest, height);
-  height = dot(nearest.away, faces[t].normal);
+  height = dot(nearest.away, nearest.normal);
   return true;
 }
 
@@ -305,16 +343,21 @@ bool MeshDetail::edge_user(int user, int t, const NearestPoint &nearest,
   while (opposite < 2 &&
          (corners[user].vertex[opposite] == a || corners[user].vertex[opposite] == b))
     opposite++;
-  outward = outward + faces[user].normal;
-  return !comes_nearer(nearest.away, faces[user].corner[opposite] - faces[t].corner[k]);
+  const Vector3<double> inward =
+      moves ? mesh.vertex(corners[user].vertex[opposite]) - mesh.vertex(a)
+            : faces[user].corner[opposite] - faces[t].corner[k];
+  if (comes_nearer(nearest.away, inward)) return false;
+  outward = outward + normal(user);
+  return true;
 }
 
 bool MeshDetail::edge_is_minimum(int t, const NearestPoint &nearest, double &height) const
 {
-  const Face &face = faces[t];
-  if (!(face.reports_edge >> nearest.index & 1)) return false;
-  const double above = dot(nearest.away, face.normal);
-  if (above * above < face.least_square_cosine[nearest.index] * nearest.square) return false;
+  if (!(reports[t].edge >> nearest.index & 1)) return false;
+  if (!moves) {
+    const double above = dot(nearest.away, faces[t].normal);
+    if (above * above < faces[t].least_square_cosine[nearest.index] * nearest.square) return false;
+  }
   Vector3<double> outward{0.0, 0.0, 0.0};
   const int over = neighbors[t].over[nearest.index];
   if (over < none) {
@@ -330,15 +373,15 @@ bool MeshDetail::edge_is_minimum(int t, const NearestPoint &nearest, double &hei
 
 bool MeshDetail::corner_is_minimum(int t, const NearestPoint &nearest, double &height) const
 {
-  const Face &face = faces[t];
-  if (!(face.reports_corner >> nearest.index & 1)) return false;
-  const double above = dot(nearest.away, face.normal);
-  if (above * above < face.least_at_corners * nearest.square) return false;
+  if (!(reports[t].corner >> nearest.index & 1)) return false;
+  if (!moves) {
+    const double above = dot(nearest.away, faces[t].normal);
+    if (above * above < faces[t].least_at_corners * nearest.square) return false;
+  }
   const int v = corners[t].vertex[nearest.index];
+  const Vector3<double> at = mesh.vertex(vertex_numbers[v]);
   for (int k = ring_begin[v]; k < ring_begin[v + 1]; k++)
-    if (comes_nearer(nearest.away,
-                     mesh.vertex(vertex_numbers[ring[k]]) - face.corner[nearest.index]))
-      return false;
+    if (comes_nearer(nearest.away, mesh.vertex(vertex_numbers[ring[k]]) - at)) return false;
   height = dot(nearest.away, moves ? normal_of_vertex(v) : vertex_normals[v]);
   return true;
 }
@@ -349,7 +392,7 @@ Vector3<double> MeshDetail::normal_of_vertex(int v) const
   for (int n = around_begin[v]; n < around_begin[v + 1]; n++) {
     int k = 0;
     while (corners[around[n]].vertex[k] != v) k++;
-    sum = sum + faces[around[n]].weighted_normal(k);
+    sum = sum + weighted_normal(around[n], k);
   }
   return sum;
 }
@@ -368,35 +411,16 @@ void MeshDetail::find_around()
     for (const int v : corners[t].vertex) around[next[v]++] = static_cast<int>(t);
 }
 
-void MeshDetail::follow_all()
+void MeshDetail::refit()
 {
-  follow(near);
-  std::vector<Eigen::AlignedBox3d> boxes = boxes_of_near();
+  const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_near();
   if (tree->refit(boxes)) tree = std::make_unique<BoxTree>(boxes);
-}
-
-void MeshDetail::follow(const std::vector<int> &triangles)
-{
-  for (const int t : triangles) set_plane(t);
-}
-
-std::vector<int> MeshDetail::near_to(const std::vector<int> &triangles) const
-{
-  std::vector<bool> touched(vertex_numbers.size());
-  for (const int t : triangles)
-    for (const int v : corners[t].vertex) touched[v] = true;
-  std::vector<int> found;
-  for (std::size_t t = 0; t < corners.size(); t++) {
-    const int *const v = corners[t].vertex;
-    if (touched[v[0]] || touched[v[1]] || touched[v[2]]) found.push_back(static_cast<int>(t));
-  }
-  return found;
 }
 
 double MeshDetail::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  double sum = bytes(faces) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
+  double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
                bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals) +
                bytes(around_begin) + bytes(around);
   for (const auto &users : nonmanifold) sum += bytes(users);

@@ -8,8 +8,9 @@
 // the surface is nearest to a particle, and which triangle says so, does not depend on the part:
 // all neighbors of its triangles are known too.
 //
-// Of a mesh whose vertices move it is made once, of all triangles, with the same numbers. Those that
-// contacts name are to be followed in every step; the tree stays as it was when particles were listed.
+// Of a mesh whose vertices move it is made once, of all triangles, with the same numbers, and knows only what
+// does not move: geometry is that of the mesh at the time of the question, and the tree that of the last
+// refit().
 
 #ifndef TALUS_BODY_SHAPE_MESH_DETAIL_H
 #define TALUS_BODY_SHAPE_MESH_DETAIL_H
@@ -29,6 +30,7 @@ struct NearestPoint {
   double square;           ///< its length squared
   Feature feature;
   int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
+  Vector3<double> normal;    ///< of the triangle, only of a FACE
 };
 
 class MeshDetail {
@@ -49,8 +51,8 @@ class MeshDetail {
   /// Triangles that visit_near() may find.
   int size() const { return static_cast<int>(near.size()); }
   /// Number in the mesh.
-  int number(int t) const { return faces[t].number; }
-  const Vector3<double> &normal(int t) const { return faces[t].normal; }
+  int number(int t) const { return moves ? t : faces[t].number; }
+  Vector3<double> normal(int t) const { return moves ? mesh.normal(mesh.plane_of(t)) : faces[t].normal; }
   NearestPoint nearest(int t, const Vector3<double> &point) const;
 
   /// Does the way between two points lead through triangle t? At its rim, by rounding, perhaps.
@@ -65,18 +67,16 @@ class MeshDetail {
   /// Prefetches what nearest() reads.
   void prefetch(int t) const
   {
+    if (moves) {
+      for (const int v : mesh.corners(t).vertex) __builtin_prefetch(&mesh.vertex(v));
+      return;
+    }
     const char *const at = reinterpret_cast<const char *>(&faces[t]);
     for (std::size_t byte = 0; byte < sizeof(Face); byte += 64) __builtin_prefetch(at + byte);
   }
 
-  // ---- of a mesh whose vertices move
-
-  /// All of it is that of now, the tree included.
-  void follow_all();
-  /// These triangles alone; with those that share a vertex, see near_to().
-  void follow(const std::vector<int> &triangles);
-  /// Ascending: the triangles that touch one of these.
-  std::vector<int> near_to(const std::vector<int> &triangles) const;
+  /// Of a mesh whose vertices move: the tree is that of now.
+  void refit();
 
   double memory_usage() const;
 
@@ -90,8 +90,9 @@ class MeshDetail {
     float least_square_cosine[3];
     float least_at_corners;    // the same for all three corners
     int number;
-    unsigned char reports_edge, reports_corner;    // bits: it is this triangle that reports them
-    Vector3<double> weighted_normal(int k) const;
+  };
+  struct Reports {    // bits: it is this triangle that reports them
+    unsigned char edge, corner;
   };
   struct Neighbors {
     int over[3];    // over each edge: a triangle, `none`, or crowded[-2 - this]
@@ -107,7 +108,9 @@ class MeshDetail {
   void look_at_corners();
   void grow_tree();
   std::vector<Eigen::AlignedBox3d> boxes_of_near() const;
-  void set_plane(int t);
+  const Face &face(int t, Face &room) const;
+  void set_geometry(int number, Face &face) const;
+  Vector3<double> weighted_normal(int t, int corner) const;
   void find_around();
   Vector3<double> normal_of_vertex(int vertex) const;
   bool edge_is_minimum(int t, const NearestPoint &nearest, double &height) const;
@@ -116,7 +119,8 @@ class MeshDetail {
 
   const TriangleMesh &mesh;
   const bool moves = false;    // its vertices do
-  std::vector<Face> faces;
+  std::vector<Face> faces;    // none if its vertices move
+  std::vector<Reports> reports;
   std::vector<int> near;    // faces within the cover; the others are their neighbors
   std::unique_ptr<BoxTree> tree;
   std::vector<Neighbors> neighbors;

@@ -92,12 +92,14 @@ bool MeshShape::contact_with(int t, const Vector3<double> &center, double radius
   face_height = on_face ? std::fabs(height) : 0.0;
   contact.overlap = radius - distance;
   contact.part = part_of(detail->number(t));
-  if (on_face || distance == 0.0)
+  if (on_face || distance == 0.0) {
+    const Vector3<double> n = on_face ? nearest.normal : detail->normal(t);
     contact.normal = height < 0.0 || (height == 0.0 && acting == MeshSide::BACKS)
-                         ? -detail->normal(t)
-                         : detail->normal(t);    // also in the plane
-  else
+                         ? -n
+                         : n;    // also in the plane
+  } else {
     contact.normal = 1.0 / distance * nearest.away;
+  }
   return true;
 }
 
@@ -252,6 +254,12 @@ double MeshShape::distance_bound(const Vector3<double> &center) const
     reach *= 2.0;
   }
   return std::sqrt(least);
+}
+
+double MeshShape::extent_from(const Vector3<double> &point) const
+{
+  const Eigen::Vector3d p = to_eigen(point);
+  return (p - mesh.bounds().min()).cwiseAbs().cwiseMax((p - mesh.bounds().max()).cwiseAbs()).norm();
 }
 
 void MeshShape::tessellate(const Eigen::AlignedBox3d & /*visible*/,

@@ -73,14 +73,14 @@ class MeshShape : public LargeBodyShape {
   /// people, why not.
   std::string guide(const MovingVertices::Places &places, const MovingVertices::Places *velocities,
                     int steps, double dt, double way);
-  /// As from restart files; see MovingVertices.
+  /// From restart files, and for snapshots; see MovingVertices.
   void resume(const double *array);
-  /// Of one step.
-  void advance();
-  /// Before parts are listed: is_near() finds what is near now.
-  void settle();
-  /// After that: these parts alone are looked at until then. nullptr: all may be.
-  void keep_current(const std::vector<NearPart> *parts);
+  void exchange_state(StateExchange &x);
+  /// Of one step; see MovingVertices.
+  void advance(bool order_2);
+  /// Before parts are listed, so that is_near() finds fast what is near now. `with_planes`: from now on triangles
+  /// that lie in one plane are known to, as particles with a shape need it.
+  void settle(bool with_planes);
   /// Counts changes of the surface.
   std::int64_t num_changes() const { return changes; }
 
@@ -97,6 +97,7 @@ class MeshShape : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return mesh.center(); }
+  double extent_from(const Vector3<double> &point) const override;
   bool is_flat() const override { return true; }
   MeshShape *as_mesh() override { return this; }
   int most_contacts() const override { return max_contacts; }
@@ -130,13 +131,13 @@ class MeshShape : public LargeBodyShape {
   bool acts_at(double height) const;
 
   double farther(double reach) const { return vertices ? reach + vertices->way() : reach; }
-  void follow();
+  void find_planes();
+  void take_over_places();
 
   TriangleMesh mesh;
   std::unique_ptr<MovingVertices> vertices;    // if they move
   std::unique_ptr<MeshCheck> check;            // the same
-  std::vector<int> current;                    // triangles that are followed in each step
-  bool with_planes = false;                    // and planes of more than one triangle
+  bool keeps_planes = false;                   // of more than one triangle, in each step
   std::int64_t changes = 0;
   std::unique_ptr<MeshDetail> detail;
   Eigen::AlignedBox3d cover;

@@ -45,55 +45,50 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
   const std::string problem = check->problem(now, vertices->with_images(places));
   if (!problem.empty()) return problem;
   vertices->guide(places, velocities, steps, dt);
-  mesh.set_patches(check->patches());
-  if (steps == 0) follow();
+  if (check->patches_change()) mesh.set_patches(check->patches());
+  if (steps == 0) find_planes();
   return "";
 }
 
 void MeshShape::resume(const double *array)
 {
   vertices->from_array(array);
-  check->look_at(vertices->target());
-  mesh.set_patches(check->patches());
-  settle();
+  take_over_places();
 }
 
-void MeshShape::advance()
+void MeshShape::exchange_state(StateExchange &x)
 {
-  if (vertices->advance()) follow();
+  vertices->exchange_state(x);
+  if (x.restores()) take_over_places();
 }
 
-void MeshShape::follow()
+void MeshShape::take_over_places()
+{
+  check->look_at(vertices->target());
+  if (check->patches_change()) mesh.set_patches(check->patches());
+  find_planes();
+}
+
+void MeshShape::advance(bool order_2)
+{
+  if (vertices->advance(order_2)) find_planes();
+}
+
+void MeshShape::find_planes()
 {
   changes++;
-  if (with_planes) mesh.find_planes(check->edges());
-  detail->follow(current);
+  if (keeps_planes) mesh.find_planes(check->edges());
 }
 
-void MeshShape::settle()
+void MeshShape::settle(bool with_planes)
 {
-  if (with_planes) mesh.find_planes(check->edges());
-  detail->follow_all();
+  if (with_planes != keeps_planes) {
+    keeps_planes = with_planes;
+    mesh.separate_planes();
+    find_planes();
+  }
+  detail->refit();
   vertices->settle();
-}
-
-void MeshShape::keep_current(const std::vector<NearPart> *parts)
-{
-  current.clear();
-  if (with_planes != (parts == nullptr)) {
-    with_planes = parts == nullptr;
-    if (!with_planes) mesh.separate_planes();
-    settle();
-  }
-  if (with_planes) {
-    for (int t = 0; t < mesh.size(); t++) current.push_back(t);
-    return;
-  }
-  std::vector<bool> named(mesh.size());
-  for (const NearPart &part : *parts) named[part.part] = true;
-  for (int t = 0; t < mesh.size(); t++)
-    if (named[t]) current.push_back(t);
-  current = detail->near_to(current);
 }
 
 }    // namespace Talus

@@ -3,6 +3,7 @@
 #include "body/shape/moving_vertices.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace Talus {
 namespace {
@@ -18,54 +19,64 @@ bool differ(const Vector3<double> &a, const Vector3<double> &b)
 
 MovingVertices::MovingVertices(TriangleMesh &triangle_mesh) : mesh(triangle_mesh)
 {
-  before = settled = start = end = now();
-  velocity.assign(num_all(), {0.0, 0.0, 0.0});
-  velocity_at_start = velocity_at_end = velocity_before = velocity;
+  const Vector3<double> none{0.0, 0.0, 0.0};
+  for (int v = 0; v < num_all(); v++) states.push_back({mesh.vertex(v), none, mesh.vertex(v)});
+  settled = start = end = now();
+  velocity_at_start = velocity_at_end = velocity_before = Places(num_all(), none);
 }
 
 MovingVertices::Places MovingVertices::now() const
 {
   Places all;
   all.reserve(num_all());
-  for (int v = 0; v < num_all(); v++) all.push_back(place(v));
+  for (const State &state : states) all.push_back(state.place);
   return all;
+}
+
+void MovingVertices::put(int v, const Vector3<double> &x)
+{
+  states[v].place = x;
+  mesh.place(v, x);
 }
 
 template <class Value>
 MovingVertices::Places MovingVertices::for_all(const Places &own, Value of_image) const
 {
-  Places all = own;
+  Places all;
   all.reserve(num_all());
+  all = own;
   for (int v = num_own(); v < num_all(); v++) all.push_back(of_image(v, own[mesh.own_vertex(v)]));
   return all;
 }
 
 MovingVertices::Places MovingVertices::with_images(const Places &own) const
 {
-  return for_all(own, [this](int v, const Vector3<double> &x) { return x + mesh.shift_of_vertex(v); });
+  return for_all(own,
+                 [this](int v, const Vector3<double> &x) { return x + mesh.shift_of_vertex(v); });
 }
 
 void MovingVertices::guide(const Places &places, const Places *velocities, int number, double dt)
 {
   steps = left = number;
-  start = now();
   end = with_images(places);
-  velocity_at_start = velocity;
   follows_way = velocities == nullptr;
   if (velocities)
     velocity_at_end = for_all(*velocities, [](int, const Vector3<double> &v) { return v; });
-  else
-    for (int v = 0; v < num_all(); v++)
+  for (int v = 0; v < num_all(); v++) {
+    State &state = states[v];
+    start[v] = state.place;
+    velocity_at_start[v] = state.velocity;
+    if (follows_way)
       velocity_at_end[v] =
           number ? 1.0 / (number * dt) * (end[v] - start[v]) : Vector3<double>{0.0, 0.0, 0.0};
+    if (number) continue;
+    if (!has_jumped) state.before = state.place;
+    put(v, end[v]);
+    state.velocity = velocity_at_end[v];
+  }
+  has_jumped = has_jumped || number == 0;
   rests = 0;
   set_bounds();
-  if (number == 0) {
-    if (!has_jumped) before = start;
-    has_jumped = true;
-    for (int v = 0; v < num_all(); v++) mesh.place(v, end[v]);
-    velocity = velocity_at_end;
-  }
   find_moving();
   find_way();
 }
@@ -85,150 +96,146 @@ void MovingVertices::set_bounds()
 void MovingVertices::find_moving()
 {
   moving.clear();
-  for (int v = 0; v < num_all(); v++)
-    if (differ(place(v), end[v]) || differ(velocity[v], velocity_at_end[v]) ||
-        differ(place(v), before[v]) || differ(velocity[v], velocity_before[v]) ||
-        (follows_way && differ(velocity[v], {0.0, 0.0, 0.0})))
+  for (int v = 0; v < num_all(); v++) {
+    const State &state = states[v];
+    if (differ(state.place, end[v]) || differ(state.velocity, velocity_at_end[v]) ||
+        differ(state.place, state.before) || differ(state.velocity, velocity_before[v]) ||
+        (follows_way && differ(state.velocity, {0.0, 0.0, 0.0})))
       moving.push_back(v);
+  }
 }
+
+/* Until the next call each step brings as much as the largest, which is exact where all go the same way. */
 
 void MovingVertices::find_way()
 {
-  double square = 0.0, of_others = 0.0;
-  std::size_t next = 0;
+  double square = 0.0, of_step = 0.0;
   for (int v = 0; v < num_all(); v++) {
-    const double d = dot(gone(v), gone(v));
-    square = std::max(square, d);
-    if (next < moving.size() && moving[next] == v)
-      next++;
-    else
-      of_others = std::max(of_others, d);
+    square = std::max(square, dot(gone(v), gone(v)));
+    const Vector3<double> step = end[v] - place(v);
+    of_step = std::max(of_step, dot(step, step));
   }
   largest_way = std::sqrt(square);
-  way_of_others = of_others;
+  largest_step = left ? std::sqrt(of_step) / left : 0.0;
 }
 
-bool MovingVertices::advance()
+bool MovingVertices::advance(bool order_2)
 {
   constexpr int at_rest = 2;    // also where the step before is looked at
-  if (moving.empty() || rests >= at_rest) {
-    has_jumped = false;
-    return false;
-  }
+  const bool jumped = std::exchange(has_jumped, false);
+  if (moving.empty() || rests >= at_rest) return false;
   const bool goes = left > 0;
   if (goes) left--;
   if (!goes) rests++;
   const double way = steps ? static_cast<double>(steps - left) / steps : 1.0;
   const bool arrived = left == 0;
-  double square = way_of_others;
   for (const int v : moving) {
-    if (!has_jumped) before[v] = place(v);
-    velocity_before[v] = velocity[v];
+    State &state = states[v];
+    if (!jumped) state.before = state.place;
+    if (order_2) velocity_before[v] = state.velocity;
     if (v >= num_own())
-      mesh.place(v, place(mesh.own_vertex(v)) + mesh.shift_of_vertex(v));
+      put(v, place(mesh.own_vertex(v)) + mesh.shift_of_vertex(v));
     else if (goes)
-      mesh.place(v, arrived ? end[v] : start[v] + way * (end[v] - start[v]));
+      put(v, arrived ? end[v] : start[v] + way * (end[v] - start[v]));
     if (follows_way)
-      velocity[v] = goes ? velocity_at_end[v] : Vector3<double>{0.0, 0.0, 0.0};
+      state.velocity = goes ? velocity_at_end[v] : Vector3<double>{0.0, 0.0, 0.0};
     else
-      velocity[v] = arrived ? velocity_at_end[v]
-                            : velocity_at_start[v] +
-                                  way * (velocity_at_end[v] - velocity_at_start[v]);
-    square = std::max(square, dot(gone(v), gone(v)));
+      state.velocity =
+          arrived ? velocity_at_end[v]
+                  : velocity_at_start[v] + way * (velocity_at_end[v] - velocity_at_start[v]);
   }
-  has_jumped = false;
-  largest_way = std::sqrt(square);
+  if (goes) largest_way += (1.0 + 1.0e-9) * largest_step;    // rounding must not hide a triangle
   return true;
 }
 
 void MovingVertices::stand_still()
 {
-  before = now();
-  velocity_before = velocity;
+  for (int v = 0; v < num_all(); v++) {
+    states[v].before = states[v].place;
+    velocity_before[v] = states[v].velocity;
+  }
 }
 
 void MovingVertices::settle()
 {
-  settled = now();
-  largest_way = way_of_others = 0.0;
+  for (int v = 0; v < num_all(); v++) settled[v] = states[v].place;
+  largest_way = 0.0;
 }
 
 /* ---- the surface ------------------------------------------------------------------------------ */
 
-Triangle MovingVertices::of(const Places &places, int t) const
+template <class Value> Triangle MovingVertices::corners(int t, Value value) const
 {
   const int *const v = mesh.corners(t).vertex;
-  return {{places[v[0]], places[v[1]], places[v[2]]}};
+  return {{value(v[0]), value(v[1]), value(v[2])}};
 }
 
 Triangle MovingVertices::half_way(int t) const
 {
-  const Triangle was = of(before, t), is = mesh.triangle(t);
-  Triangle middle;
-  for (int k = 0; k < 3; k++) middle.corner[k] = 0.5 * (was.corner[k] + is.corner[k]);
-  return middle;
-}
-
-PlaceOnTriangle MovingVertices::place_on(int t, const Vector3<double> &point) const
-{
-  const Triangle at = mesh.triangle(t);
-  const Vector3<double> a = at.corner[1] - at.corner[0], b = at.corner[2] - at.corner[0];
-  const Vector3<double> n = cross(a, b), p = point - at.corner[0];
-  const double over_square = 1.0 / dot(n, n);
-  const double second = over_square * dot(cross(p, b), n), third = over_square * dot(cross(a, p), n);
-  return {t, {1.0 - second - third, second, third}};
+  return corners(t, [this](int v) { return 0.5 * (states[v].before + states[v].place); });
 }
 
 namespace {
 
-/// Edges opposite to the second and third corner; unit normal; 1/(twice the area).
-struct Edges {
-  explicit Edges(const Triangle &t) :
-      second(t.corner[0] - t.corner[2]), third(t.corner[1] - t.corner[0])
-  {
-    const Vector3<double> twice = cross(second, third);
-    over_twice_area = 1.0 / length(twice);
-    normal = over_twice_area * twice;
-  }
-  Vector3<double> second, third, normal;
-  double over_twice_area;
-};
+void set_edges(const Triangle &t, SurfacePoint &at)
+{
+  at.second = t.corner[0] - t.corner[2];
+  at.third = t.corner[1] - t.corner[0];
+  const Vector3<double> twice = cross(at.second, at.third);
+  at.over_twice_area = 1.0 / length(twice);
+  at.normal = at.over_twice_area * twice;
+}
 
 /* Differences to the first corner, so that what is the same of all has no rounding. */
 
-SurfaceMotion motion_of(const Triangle &x, const Triangle &v, const double *share)
+SurfaceMotion motion_of(const SurfacePoint &at, const Triangle &x, const Triangle &v)
 {
-  const Edges edge(x);
-  const auto between = [&](const Triangle &of) {
-    return of.corner[0] + share[1] * (of.corner[1] - of.corner[0]) +
-           share[2] * (of.corner[2] - of.corner[0]);
+  const Vector3<double> past[2] = {v.corner[1] - v.corner[0], v.corner[2] - v.corner[0]};
+  const auto turning = [&at](const Vector3<double> &velocity, const Vector3<double> &opposite) {
+    return at.over_twice_area *
+           (dot(velocity, at.normal) * opposite - 0.5 * dot(velocity, opposite) * at.normal);
   };
-  const auto turning = [&](const Vector3<double> &velocity, const Vector3<double> &opposite) {
-    const Vector3<double> past = velocity - v.corner[0];
-    return edge.over_twice_area *
-           (dot(past, edge.normal) * opposite - 0.5 * dot(past, opposite) * edge.normal);
-  };
-  return {between(x), between(v), turning(v.corner[1], edge.second) + turning(v.corner[2], edge.third)};
+  return {x.corner[0] - at.share[2] * at.second + at.share[1] * at.third,
+          v.corner[0] + at.share[1] * past[0] + at.share[2] * past[1],
+          turning(past[0], at.second) + turning(past[1], at.third)};
 }
 
 }    // namespace
 
-SurfaceMotion MovingVertices::motion(const PlaceOnTriangle &at) const
+SurfacePoint MovingVertices::point_on(int t, const Vector3<double> &x) const
 {
-  return motion_of(mesh.triangle(at.triangle), of(velocity, at.triangle), at.share);
+  const Triangle corner = mesh.triangle(t);
+  SurfacePoint at;
+  at.triangle = t;
+  set_edges(corner, at);
+  const Vector3<double> from = at.over_twice_area * (x - corner.corner[0]);
+  at.share[1] = dot(cross(at.second, from), at.normal);
+  at.share[2] = dot(cross(at.third, from), at.normal);
+  at.share[0] = 1.0 - at.share[1] - at.share[2];
+  return at;
 }
 
-SurfaceMotion MovingVertices::motion_half_way(const PlaceOnTriangle &at) const
+SurfaceMotion MovingVertices::motion(const SurfacePoint &at) const
 {
-  const Triangle was = of(velocity_before, at.triangle), is = of(velocity, at.triangle);
-  Triangle mean;
-  for (int k = 0; k < 3; k++) mean.corner[k] = 0.5 * (was.corner[k] + is.corner[k]);
-  return motion_of(half_way(at.triangle), mean, at.share);
+  const int t = at.triangle;
+  return motion_of(at, corners(t, [this](int v) { return states[v].place; }),
+                   corners(t, [this](int v) { return states[v].velocity; }));
+}
+
+SurfaceMotion MovingVertices::motion_half_way(const SurfacePoint &now) const
+{
+  const int t = now.triangle;
+  const Triangle middle = half_way(t);
+  SurfacePoint at = now;
+  set_edges(middle, at);
+  return motion_of(at, middle, corners(t, [this](int v) {
+                     return 0.5 * (velocity_before[v] + states[v].velocity);
+                   }));
 }
 
 TriangleTurn MovingVertices::turn(int t) const
 {
-  return {of(before, t), mesh.triangle(t)};
+  return {corners(t, [this](int v) { return states[v].before; }), mesh.triangle(t)};
 }
 
 TriangleTurn MovingVertices::turn_since_half_way(int t) const
@@ -236,16 +243,15 @@ TriangleTurn MovingVertices::turn_since_half_way(int t) const
   return {half_way(t), mesh.triangle(t)};
 }
 
-void MovingVertices::share_out(const PlaceOnTriangle &at, const Vector3<double> &force,
-                               const Vector3<double> &torque, Vector3<double> *on_corners) const
+void MovingVertices::share_out(const SurfacePoint &at, const Vector3<double> &force,
+                               const Vector3<double> &torque, Vector3<double> *on_corners)
 {
-  const Edges edge(mesh.triangle(at.triangle));
   const auto couple = [&](const Vector3<double> &opposite) {
-    return edge.over_twice_area *
-           (dot(torque, opposite) * edge.normal - 0.5 * dot(torque, edge.normal) * opposite);
+    return at.over_twice_area *
+           (dot(torque, opposite) * at.normal - 0.5 * dot(torque, at.normal) * opposite);
   };
-  on_corners[1] = at.share[1] * force + couple(edge.second);
-  on_corners[2] = at.share[2] * force + couple(edge.third);
+  on_corners[1] = at.share[1] * force + couple(at.second);
+  on_corners[2] = at.share[2] * force + couple(at.third);
   on_corners[0] = force - on_corners[1] - on_corners[2];
 }
 
@@ -286,14 +292,19 @@ void MovingVertices::to_array(double *a) const
   *a++ = left;
   *a++ = follows_way;
   *a++ = has_jumped + 2 * rests;
-  const Places here = now();
-  for (const Places *kept : {&here, &start, &end, &velocity_at_start, &velocity_at_end, &velocity,
-                             &before, &velocity_before})
+  const auto write = [&](const auto &value) {
     for (int v = 0; v < num_own(); v++) {
-      *a++ = (*kept)[v].x;
-      *a++ = (*kept)[v].y;
-      *a++ = (*kept)[v].z;
+      const Vector3<double> x = value(v);
+      *a++ = x.x;
+      *a++ = x.y;
+      *a++ = x.z;
     }
+  };
+  write([this](int v) { return states[v].place; });
+  write([this](int v) { return states[v].velocity; });
+  write([this](int v) { return states[v].before; });
+  for (const Places *kept : {&start, &end, &velocity_at_start, &velocity_at_end, &velocity_before})
+    write([kept](int v) { return (*kept)[v]; });
 }
 
 void MovingVertices::from_array(const double *a)
@@ -312,24 +323,35 @@ void MovingVertices::from_array(const double *a)
   const auto velocities = [&] {
     return for_all(read(), [](int, const Vector3<double> &v) { return v; });
   };
-  const Places here = with_images(read());
-  for (int v = 0; v < num_all(); v++) mesh.place(v, here[v]);
+  const Places places = with_images(read()), speeds = velocities(), past = with_images(read());
+  for (int v = 0; v < num_all(); v++) states[v] = {places[v], speeds[v], past[v]};
   start = with_images(read());
   end = with_images(read());
   velocity_at_start = velocities();
   velocity_at_end = velocities();
-  velocity = velocities();
-  before = with_images(read());
   velocity_before = velocities();
-  settled = here;
-  set_bounds();
   find_moving();
+  follow_states();
+}
+
+void MovingVertices::exchange_state(StateExchange &x)
+{
+  x(steps, left, follows_way, has_jumped, states, start, end, velocity_at_start, velocity_at_end,
+    velocity_before, moving, rests);
+  if (x.restores()) follow_states();
+}
+
+void MovingVertices::follow_states()
+{
+  for (int v = 0; v < num_all(); v++) mesh.place(v, states[v].place);
+  set_bounds();
   find_way();
 }
 
 double MovingVertices::memory_usage() const
 {
-  return static_cast<double>(8 * before.capacity() * sizeof(Vector3<double>) +
+  return static_cast<double>(states.capacity() * sizeof(State) +
+                             6 * start.capacity() * sizeof(Vector3<double>) +
                              moving.capacity() * sizeof(int));
 }
 

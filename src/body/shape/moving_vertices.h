@@ -22,6 +22,7 @@
 #ifndef TALUS_BODY_SHAPE_MOVING_VERTICES_H
 #define TALUS_BODY_SHAPE_MOVING_VERTICES_H
 
+#include "base/state_exchange.h"
 #include "base/vector3.h"
 #include "body/shape/triangle_mesh.h"
 
@@ -30,12 +31,6 @@
 
 namespace Talus {
 
-/// A point of a triangle, by shares of its corners, whose sum is 1.
-struct PlaceOnTriangle {
-  int triangle = 0;
-  double share[3] = {1.0, 0.0, 0.0};
-};
-
 /// How a surface moves where a particle touches it: as a rigid body.
 struct SurfaceMotion {
   Vector3<double> point, velocity, omega;    ///< velocity: of this point of the surface
@@ -43,6 +38,15 @@ struct SurfaceMotion {
   {
     return velocity + cross(omega, x - point);
   }
+};
+
+/// A point of a triangle: by shares of its corners, whose sum is 1.
+struct SurfacePoint {
+  int triangle = 0;
+  double share[3] = {1.0, 0.0, 0.0};
+  // edges opposite to the second and third corner; unit normal; 1/(twice the area)
+  Vector3<double> second{}, third{}, normal{};
+  double over_twice_area = 0.0;
 };
 
 /// How a triangle has turned: without the stretch of its plane (polar decomposition).
@@ -79,34 +83,38 @@ class MovingVertices {
   /// they are to have then, and keep until the next call; on the way velocities go there linearly from
   /// what they are. Without: those of the way, and then none.
   void guide(const Places &places, const Places *velocities, int steps, double dt);
-  /// To the next step. Returns whether any may have moved.
-  bool advance();
+  /// To the next step. Returns whether any may have moved. `order_2`: motion_half_way() will be asked for.
+  bool advance(bool order_2);
   /// Contacts have seen the last step: without another one nothing has turned.
   void stand_still();
 
-  /// How far at most one has gone since settle() (length).
+  /// No vertex has gone further since settle() (length).
   double way() const { return largest_way; }
   void settle();
   /// How far a vertex has gone since then.
   Vector3<double> gone(int vertex) const { return place(vertex) - settled[vertex]; }
   /// And in the last step.
-  Vector3<double> gone_in_step(int vertex) const { return place(vertex) - before[vertex]; }
+  Vector3<double> gone_in_step(int vertex) const
+  {
+    return states[vertex].place - states[vertex].before;
+  }
+  void prefetch(int vertex) const { __builtin_prefetch(&states[vertex]); }
 
   // ---- the surface, in the last step; triangles may be images
 
   int own_triangle(int triangle) const { return mesh.own(triangle); }
 
-  /// Nearest to the point in the plane of the triangle.
-  PlaceOnTriangle place_on(int triangle, const Vector3<double> &point) const;
-  SurfaceMotion motion(const PlaceOnTriangle &at) const;
+  /// The point of its plane that is nearest to this one.
+  SurfacePoint point_on(int triangle, const Vector3<double> &x) const;
+  SurfaceMotion motion(const SurfacePoint &at) const;
   /// Half a step before.
-  SurfaceMotion motion_half_way(const PlaceOnTriangle &at) const;
+  SurfaceMotion motion_half_way(const SurfacePoint &at) const;
   /// Since the step before, and since half of it.
   TriangleTurn turn(int triangle) const;
   TriangleTurn turn_since_half_way(int triangle) const;
-  /// A force that acts at this place, and a torque, as forces on the corners.
-  void share_out(const PlaceOnTriangle &at, const Vector3<double> &force,
-                 const Vector3<double> &torque, Vector3<double> *on_corners) const;
+  /// A force that acts at this point, and a torque, as forces on the corners.
+  static void share_out(const SurfacePoint &at, const Vector3<double> &force,
+                        const Vector3<double> &torque, Vector3<double> *on_corners);
 
   /// For restart files.
   std::size_t size_of_array() const
@@ -115,28 +123,36 @@ class MovingVertices {
   }
   void to_array(double *a) const;
   void from_array(const double *a);
+  /// For snapshots.
+  void exchange_state(StateExchange &x);
 
   double memory_usage() const;
 
  private:
   static constexpr std::size_t size_head = 4, num_kept = 8;    // numbers; lists of places
+  struct State {
+    Vector3<double> place, velocity, before;    // before: a step ago
+  };
   Places now() const;
+  void put(int vertex, const Vector3<double> &x);
+  void follow_states();
   void find_moving();
   void find_way();
   void set_bounds();
   template <class Value> Places for_all(const Places &own, Value of_image) const;
-  Triangle of(const Places &places, int triangle) const;
+  template <class Value> Triangle corners(int triangle, Value value) const;
   Triangle half_way(int triangle) const;
 
-  TriangleMesh &mesh;
+  TriangleMesh &mesh;    // has the places as well
   int steps = 0, left = 0;
-  bool follows_way = true;     // velocities are those of the way
-  bool has_jumped = false;     // since the last step; `before` is from before that
+  bool follows_way = true;    // velocities are those of the way
+  bool has_jumped = false;    // since the last step; `before` is from before that
+  std::vector<State> states;
   Places start, end, velocity_at_start, velocity_at_end;
-  Places velocity, before, velocity_before, settled;
-  std::vector<int> moving;     // those with a way or a velocity
-  int rests = 0;               // steps since they have come to rest, up to 2
-  double way_of_others = 0.0, largest_way = 0.0;
+  Places velocity_before, settled;
+  std::vector<int> moving;    // those with a way or a velocity
+  int rests = 0;              // steps since they have come to rest, up to 2
+  double largest_way = 0.0, largest_step = 0.0;
 };
 
 }    // namespace Talus

@@ -55,6 +55,11 @@ double Rectangle::distance_bound(const Vector3<double> &center) const
   return std::sqrt(dot(away, away));
 }
 
+double Rectangle::extent_from(const Vector3<double> &point) const
+{
+  return length(point - middle) + std::hypot(first_half, second_half);
+}
+
 void Rectangle::tessellate(const Eigen::AlignedBox3d & /*visible*/,
                            std::vector<Triangle> &triangles) const
 {

@@ -23,6 +23,7 @@ class Rectangle : public LargeBodyShape {
                SurfaceContact &contact) const override;
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
+  double extent_from(const Vector3<double> &point) const override;
   bool is_flat() const override { return true; }    // but for its edges
   void tessellate(const Eigen::AlignedBox3d &visible,
                   std::vector<Triangle> &triangles) const override;

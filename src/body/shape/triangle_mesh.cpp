@@ -137,12 +137,6 @@ void TriangleMesh::join_edges(double tolerance)
   file_numbers = std::move(numbers);
 }
 
-Triangle TriangleMesh::triangle(int t) const
-{
-  const int *v = triangles[t].vertex;
-  return {{vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
-}
-
 Vector3<double> TriangleMesh::normal(int t) const
 {
   const Triangle face = triangle(t);

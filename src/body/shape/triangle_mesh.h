@@ -77,7 +77,11 @@ class TriangleMesh {
   const MeshReport &report() const { return findings; }
   const Corners &corners(int t) const { return triangles[t]; }
   const Vector3<double> &vertex(int v) const { return vertices[v]; }
-  Triangle triangle(int t) const;
+  Triangle triangle(int t) const
+  {
+    const int *const v = triangles[t].vertex;
+    return {{vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
+  }
   double area(int t) const;
   /// Of a closed mesh that has been oriented: normals point out of what it encloses.
   bool faces_outward() const { return outward; }
