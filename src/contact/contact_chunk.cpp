@@ -50,6 +50,13 @@ void ContactChunk::change_order(int order, const std::function<const ContactLaw 
     }
 }
 
+void ContactChunk::exchange_contacts(StateExchange &x)
+{
+  x(touching);
+  if (x.restores()) renew(contacts, pairs.num_pairs() + lanes);
+  x.array(contacts.data(), touching);
+}
+
 void ContactChunk::forget_contacts()
 {
   touching = 0;

@@ -10,6 +10,7 @@
 #define TALUS_CONTACT_CONTACT_CHUNK_H
 
 #include "base/aligned_vector.h"
+#include "base/state_exchange.h"
 #include "contact/deferred_forces.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
@@ -87,6 +88,9 @@ class ContactChunk {
   void start_pairs(const ContactScene &scene, const HistoryStore &histories);
   /// See ContactPipeline::change_order(); `law`: of two slots.
   void change_order(int order, const std::function<const ContactLaw &(int, int)> &law);
+
+  /// For snapshots: which pairs touched in the last compute().
+  void exchange_contacts(StateExchange &x);
 
   /// Releases the contacts of the last compute(); queries then find none.
   void forget_contacts();

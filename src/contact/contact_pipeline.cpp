@@ -29,26 +29,84 @@ void ContactPipeline::set_work(int num_threads, bool in_phases)
 void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neighbors)
 {
   in_records = prepared = move_pending = false;
+  kept_lists.reset();
   threads = next_threads;
   order.arrange(given.owned, given.key, given.tag, threads);
   const PairRows rows(order, neighbors, threads);
   work = WorkPartition(order, rows, threads, next_in_phases);
-  scene.slot_type.clear();
-  if (!scene.laws.uniform()) {
-    scene.slot_type.resize(order.size());
-    in_ranges(order.size(), [&](int begin, int end) {
-      for (int s = begin; s < end; s++) scene.slot_type[s] = given.type[order.atom_of_slot[s]];
-    });
-  }
-  chunks.resize(work.num_chunks());
-  claims = std::vector<Claim>(work.num_ranges());
-  speeds.assign(work.num_ranges(), {});
+  find_types(given.type);
+  make_chunks();
   for_chunks([&](int c) { chunks[c].pairs.collect(order, work, rows, c); });
   ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
   std::sort(ghost_slots.begin(), ghost_slots.end());
   find_shared();
   deferred.collect(order, work, threads, [this](int c) { return &chunks[c].pairs; });
   pairs_known = true;
+}
+
+void ContactPipeline::find_types(const int *type)
+{
+  scene.slot_type.clear();
+  if (scene.laws.uniform()) return;
+  scene.slot_type.resize(order.size());
+  in_ranges(order.size(), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) scene.slot_type[s] = type[order.atom_of_slot[s]];
+  });
+}
+
+void ContactPipeline::make_chunks()
+{
+  chunks.resize(work.num_chunks());
+  claims = std::vector<Claim>(work.num_ranges());
+  speeds.assign(work.num_ranges(), {});
+}
+
+/* Lists of pairs refer to the order and the work of this object, in any copy. */
+
+std::shared_ptr<const ContactPipeline::Lists> ContactPipeline::lists()
+{
+  if (kept_lists || !pairs_known) return kept_lists;
+  auto made = std::make_shared<Lists>(Lists{threads,
+                                            order,
+                                            work,
+                                            {},
+                                            ghost_slots,
+                                            shared_owned,
+                                            shared_ghosts,
+                                            is_loaded_before,
+                                            deferred});
+  for (const ContactChunk &chunk : chunks) made->pairs.push_back(chunk.pairs);
+  kept_lists = made;
+  return kept_lists;
+}
+
+void ContactPipeline::set_lists(const std::shared_ptr<const Lists> &given, const int *type)
+{
+  in_records = prepared = move_pending = false;
+  kept_lists = given;
+  threads = given->threads;
+  order = given->order;
+  work = given->work;
+  find_types(type);
+  ghost_slots = given->ghost_slots;
+  shared_owned = given->shared_owned;
+  shared_ghosts = given->shared_ghosts;
+  is_loaded_before = given->is_loaded_before;
+  deferred = given->deferred;
+  make_chunks();
+  for_chunks([&](int c) { chunks[c].pairs = given->pairs[c]; });
+  pairs_known = true;
+}
+
+double ContactPipeline::Lists::memory_usage() const
+{
+  double bytes =
+      order.memory_usage() + work.memory_usage() + deferred.memory_usage() +
+      static_cast<double>((ghost_slots.size() + shared_owned.size() + shared_ghosts.size()) *
+                              sizeof(int) +
+                          is_loaded_before.size());
+  for (const PairList &list : pairs) bytes += list.memory_usage();
+  return bytes;
 }
 
 void ContactPipeline::sort_and_unite(std::vector<int> &slots)
@@ -93,6 +151,15 @@ void ContactPipeline::take_back_histories(HistoryStore &from)
   from.close();
 }
 
+void ContactPipeline::exchange_contacts(StateExchange &x)
+{
+  x(particles.position, particles.motion);
+  AlignedVector<ChangeRecord> changes = particles.change;
+  x(changes);
+  if (changes.size() == particles.change.size()) particles.change.swap(changes);
+  for (ContactChunk &chunk : chunks) chunk.exchange_contacts(x);
+}
+
 void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
 {
   if (!scene.with_history) return;
@@ -125,6 +192,7 @@ void ContactPipeline::release_records()
 void ContactPipeline::release()
 {
   const bool much = memory_usage() > release_threshold;
+  kept_lists.reset();
   release_records();
   pairs_known = false;
   if (much) chunks.clear();

@@ -15,6 +15,7 @@
 #define TALUS_CONTACT_CONTACT_PIPELINE_H
 
 #include "base/in_parallel.h"
+#include "base/state_exchange.h"
 #include "contact/contact_chunk.h"
 #include "neighbors/neighbor_view.h"
 #include "neighbors/work_partition.h"
@@ -23,6 +24,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -58,6 +60,12 @@ class ContactPipeline {
     const int *type;
   };
   void set_pairs(const Particles &particles, const NeighborView &neighbors);
+  /// What set_pairs() makes.
+  struct Lists;
+  /// For snapshots: a copy of what it has made last, one for all who ask before it is called again. And in its
+  /// place, with the same owned particles and ghosts at the same places as then.
+  std::shared_ptr<const Lists> lists();
+  void set_lists(const std::shared_ptr<const Lists> &given, const int *type);
   /// After set_pairs(), when the neighbors are no longer needed.
   void start_pairs(HistoryStore &histories);
   /// After it, where the histories are those of laws for the other order of the integrator: by those
@@ -73,6 +81,9 @@ class ContactPipeline {
   void release();
   /// Histories are those of `from` again, which were put aside with particles in these slots, and stay there.
   void take_back_histories(HistoryStore &from);
+  /// For snapshots: the contacts of the last compute() with the states that it found, for the questions below.
+  /// When they are restored take_back_histories() comes before.
+  void exchange_contacts(StateExchange &x);
   /// Marks the records as not current, and does nothing else: the state must be in the arrays of
   /// LAMMPS, and prepare_to_move() has to be called again.
   void leave_records() { in_records = prepared = move_pending = false; }
@@ -187,6 +198,8 @@ class ContactPipeline {
                           ContactData requested) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
+  void find_types(const int *type);
+  void make_chunks();
   void make_room();
   void start_step();
   void end_step(const ParticleView &arrays, const ContactStep &step);
@@ -216,6 +229,7 @@ class ContactPipeline {
   template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   ContactScene scene;
+  std::shared_ptr<const Lists> kept_lists;
   double release_threshold = Talus::release_threshold;
   bool pairs_known = false;
   int threads = 1;
@@ -251,6 +265,18 @@ class ContactPipeline {
     void join(double speed) { largest = std::max(largest, speed); }
   };
   std::vector<Speed> speeds;    ///< by range
+};
+
+struct ContactPipeline::Lists {
+  int threads;
+  ParticleOrder order;
+  WorkPartition work;
+  std::vector<PairList> pairs;    ///< by chunk
+  std::vector<int> ghost_slots, shared_owned, shared_ghosts;
+  std::vector<unsigned char> is_loaded_before;
+  DeferredForces deferred;
+
+  double memory_usage() const;
 };
 
 }    // namespace Talus

@@ -11,6 +11,7 @@
 #ifndef TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 #define TALUS_FIX_FIX_WALL_GRAN_ACCELERATED_H
 
+#include "base/state_exchange.h"
 #include "body/contact/body_contacts.h"
 #include "fix/plain_style.h"
 #include "fix/wall_law.h"
@@ -80,6 +81,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
       Stock::post_force(vflag);
       return;
     }
+    of_snapshot.clear();
     place();
     list_if_needed();
     if (keeps_contacts()) this->clear_stored_contacts();
@@ -128,13 +130,24 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
-  /// Histories have come with the particles.
+  /// Histories come with the particles. Contacts, where someone asks for them, are told from here until the
+  /// next step.
+  void exchange_state(StateExchange &x) override
+  {
+    std::vector<ContactReport> last;
+    if (!x.restores() && system->account().has_observers())
+      for_each_contact(ContactData::ALL,
+                       [&last](const ContactReport &one) { last.push_back(one); });
+    x(last);
+    if (x.restores()) of_snapshot = std::move(last);
+  }
   void state_is_restored() override { is_listed = has_forces = false; }
   bool adds_forces() const override { return true; }
   bool is_touched() const override { return true; }
   /// Of a wall that is not accelerated there are none.
   void for_each_contact(ContactData requested, const VisitContact &visit) override
   {
+    for (const ContactReport &one : of_snapshot) visit(one);
     if (!has_forces) return;
     place();
     const WallStep wall = step_of_wall();
@@ -268,6 +281,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   int owned_then = 0;    // when particles were listed
   double moved_then = 0.0;
   std::vector<double> masses;    // by particle, or empty
+  std::vector<ContactReport> of_snapshot;
 
   std::string find_reason_for_stock() const
   {

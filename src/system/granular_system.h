@@ -201,11 +201,20 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// For snapshots, between two runs: what is neither of particles nor of fixes. When it is restored histories are
   /// in the store, and particles in the slots that they had.
   void exchange_state(StateExchange &x);
+  /// Pairs as they are; and where they are to be taken from at the next rebuild, nullptr: found.
+  std::shared_ptr<const ContactPipeline::Lists> pair_lists() { return contact_pipeline->lists(); }
+  void take_pairs_from(const std::shared_ptr<const ContactPipeline::Lists> &lists_of_then)
+  {
+    given_pairs = lists_of_then;
+  }
+  /// Of that, contacts between spheres in the last step.
+  void exchange_contacts(StateExchange &x) { contact_pipeline->exchange_contacts(x); }
 
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
   void create_store();
   void prepare_laws();
+  void find_pairs();
 
   ParticleView view() const;
   void change_order_of_histories();
@@ -247,6 +256,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ExternalLoads loads_of_others;
   StepsInRecords record_steps;
   MadeLists lists;
+  std::shared_ptr<const ContactPipeline::Lists> given_pairs;
   bool stays_in_records = false;    // after this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;

@@ -54,15 +54,13 @@ void GranularSystem::renumber_pairs()
   prepare_laws();
   timer->stamp(Timer::MODIFY);
   contact_pipeline->release();
-  const int nall = atom->nlocal + atom->nghost;
-  const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   const ProxyUpdates *direct = exchange_switch.direct();
   contact_pipeline->set_work(comm->nthreads, direct && direct->overlaps());
   try {
-    NeighborView found = neighbor_source.find(pair->list, contact_range.largest_pulloff_distance());
-    if (shaped) found = without_shapes(found);
-    contact_pipeline->set_pairs({atom->nlocal, contact_store->all_keys(), tags, atom->type}, found);
-    neighbor_source.release();
+    if (given_pairs)
+      contact_pipeline->set_lists(given_pairs, atom->type);
+    else
+      find_pairs();
     contact_pipeline->start_pairs(contact_store->histories());
     change_order_of_histories();
   } catch (const std::length_error &problem) {
@@ -82,16 +80,27 @@ void GranularSystem::renumber_pairs()
   if (effective_masses.needed()) comm->forward_comm(pair);
 }
 
+void GranularSystem::find_pairs()
+{
+  const int nall = atom->nlocal + atom->nghost;
+  const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
+  NeighborView found = neighbor_source.find(pair->list, contact_range.largest_pulloff_distance());
+  if (shaped) found = without_shapes(found);
+  contact_pipeline->set_pairs({atom->nlocal, contact_store->all_keys(), tags, atom->type}, found);
+  neighbor_source.release();
+}
+
 /* What is made of all pairs, such as masses, depends on particles and lists alone. */
 
 void GranularSystem::exchange_state(StateExchange &x)
 {
   energies.exchange_state(x);
+  if (x.restores()) {
+    monitors.forget_step();
+    if (contact_store && contact_pipeline->has_pairs())
+      contact_pipeline->take_back_histories(contact_store->histories());
+  }
   run_contacts.exchange_state(x);
-  if (!x.restores()) return;
-  monitors.forget_step();
-  if (contact_store && contact_pipeline->has_pairs())
-    contact_pipeline->take_back_histories(contact_store->histories());
 }
 
 /* Where a run goes on with the other order. */

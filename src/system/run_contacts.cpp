@@ -3,6 +3,7 @@
 #include "system/run_contacts.h"
 
 #include "base/state_digest.h"
+#include "base/state_exchange.h"
 #include "system/fix_contact_store.h"
 #include "system/fix_list.h"
 #include "system/granular_system.h"
@@ -31,12 +32,14 @@ constexpr const char *kept_are_old = "Pair style {}: contacts of the last run ca
 
 void RunContacts::for_each(ContactData requested, const VisitContact &visit) const
 {
-  if (kept) {
-    if (atom->natoms != kept->particles) error->all(FLERR, kept_are_old, system.style_name());
-    for (const KeptContact &one : kept->contacts) visit(at_present(one));
-    return;
+  if (system.has_pair_style() && update->whichflag == 0) {
+    if (kept) {
+      if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, system.style_name());
+      for (const KeptContact &one : *kept) visit(at_present(one));
+      return;
+    }
+    require_those_of_last_run();
   }
-  if (system.has_pair_style() && update->whichflag == 0) require_those_of_last_run();
   visit_all(requested, visit);
 }
 
@@ -144,32 +147,24 @@ void RunContacts::keep()
 {
   if (update->whichflag != 0 || kept || !digest_after_run) return;
   if (*digest_after_run != digest_of_state()) return;    // those who ask will be told
-  kept = all_of_last_run();
-}
-
-RunContacts::Kept RunContacts::all_of_last_run() const
-{
-  Kept all;
+  std::vector<KeptContact> all;
   visit_all(ContactData::ALL, [&](const ContactReport &one) {
-    all.contacts.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
+    all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
   });
-  all.particles = atom->natoms;
-  all.count = count();
-  all.deepest = deepest();
-  return all;
+  kept = std::move(all);
+  kept_of = atom->natoms;
 }
 
-/* Those of the last step are found in the states that this has left, which a snapshot does not have. */
+/* Those of now, where they were those of the state then. */
 
 void RunContacts::exchange_state(StateExchange &x)
 {
-  std::optional<Kept> last = kept;
-  if (!x.restores() && !last && digest_after_run && *digest_after_run == digest_of_state())
-    last = all_of_last_run();
-  x(last);
-  if (!x.restores()) return;
-  digest_after_run.reset();
-  kept = std::move(last);
+  bool known = !x.restores() && !kept && digest_after_run && *digest_after_run == digest_of_state();
+  x(known);
+  if (x.restores()) forget();
+  if (!known) return;
+  system.exchange_contacts(x);
+  if (x.restores()) digest_after_run = digest_of_state();
 }
 
 void RunContacts::forget()
@@ -180,7 +175,6 @@ void RunContacts::forget()
 
 double RunContacts::count() const
 {
-  if (kept) return kept->count;
   const SystemShapes *shapes = system.shapes();
   return system.pipeline().count_contacts() + (shapes ? shapes->count_contacts() : 0.0);
 }
@@ -193,7 +187,6 @@ double RunContacts::count_candidates() const
 
 DeepestContact RunContacts::deepest() const
 {
-  if (kept) return kept->deepest;
   const SystemShapes *shapes = system.shapes();
   const DeepestContact spheres = system.pipeline().deepest_contact();
   return shapes ? std::max(spheres, shapes->deepest_contact()) : spheres;

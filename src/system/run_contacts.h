@@ -8,7 +8,6 @@
 #ifndef TALUS_SYSTEM_RUN_CONTACTS_H
 #define TALUS_SYSTEM_RUN_CONTACTS_H
 
-#include "base/state_exchange.h"
 #include "contact/contact_pipeline.h"
 #include "laws/contact_energy.h"
 
@@ -21,6 +20,7 @@
 namespace Talus {
 
 class GranularSystem;
+class StateExchange;
 
 class RunContacts : protected LAMMPS_NS::Pointers {
  public:
@@ -53,7 +53,7 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   /// LAMMPS is initialized: the last moment at which those of the last run can be found, for
   /// commands such as write_restart then send particles to other ranks.
   void keep();
-  /// For snapshots: contacts, if someone observes them.
+  /// For snapshots: contacts of the last step, if someone observes them; the pipeline has its histories again.
   void exchange_state(StateExchange &x);
 
  private:
@@ -62,13 +62,6 @@ class RunContacts : protected LAMMPS_NS::Pointers {
     ContactReport contact;
     std::int64_t tag[2];    ///< of its particles
   };
-  struct Kept {
-    std::vector<KeptContact> contacts;
-    std::int64_t particles = 0;    ///< of all ranks
-    double count = 0.0;
-    DeepestContact deepest;
-  };
-  Kept all_of_last_run() const;
   std::uint64_t digest_of_state() const;
   void require_those_of_last_run() const;
   void visit_all(ContactData requested, const VisitContact &visit) const;
@@ -77,9 +70,10 @@ class RunContacts : protected LAMMPS_NS::Pointers {
 
   GranularSystem &system;
   /// After a run whose contacts are observed: digest of the state then; and contacts that have been
-  /// kept because particles may have other local indices since, or are those of a snapshot: until the next step.
+  /// kept because particles may have other local indices since, with the number of particles then.
   std::optional<std::uint64_t> digest_after_run;
-  std::optional<Kept> kept;
+  std::optional<std::vector<KeptContact>> kept;
+  std::int64_t kept_of = 0;
 };
 
 }    // namespace Talus

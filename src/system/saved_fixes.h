@@ -17,6 +17,10 @@
 #include <string>
 #include <vector>
 
+namespace LAMMPS_NS {
+class Fix;
+}
+
 namespace Talus {
 
 class GranularSystem;

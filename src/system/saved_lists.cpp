@@ -4,6 +4,7 @@
 
 #include "base/state_digest.h"
 #include "system/fix_list.h"
+#include "system/granular_system.h"
 #include "system/system_fix.h"
 #include "system/system_run_style.h"
 
@@ -21,11 +22,15 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-SavedLists::SavedLists(LAMMPS *lmp, MadeLists &present) : Pointers(lmp), made(present) {}
+SavedLists::SavedLists(LAMMPS *lmp, GranularSystem &owner) :
+    Pointers(lmp), system(owner), made(owner.made_lists())
+{
+}
 
 void SavedLists::save()
 {
   number = made.number();
+  if (!system.shapes()) pairs = system.pair_lists();
   step = neighbor->lastcall;
   decomposition = present_decomposition();
   box = DomainBox::of(*domain);
@@ -102,12 +107,14 @@ bool SavedLists::make_again() const
   if (tilted) domain->x2lamda(atom->nlocal);
   comm->borders();
   if (tilted) domain->lamda2x(atom->nlocal + atom->nghost);
+  if (!on_all_ranks(digest_of_particles() == particles)) return false;
+  system.take_pairs_from(pairs);
   run_hooks_and_build();
+  system.take_pairs_from(nullptr);
   made.are_again(number);
-  const bool same = on_all_ranks(digest_of_particles() == particles);
   if (!positions.empty()) std::copy(positions.begin(), positions.end(), neighbor->get_xhold()[0]);
   box.give_to(*domain);
-  return same;
+  return true;
 }
 
 /* Run styles look for the step of the lists in LAMMPS. */
@@ -127,7 +134,8 @@ void SavedLists::run_hooks_and_build() const
 
 double SavedLists::memory_usage() const
 {
-  return static_cast<double>(positions.capacity() * sizeof(double)) + sizeof *this;
+  return static_cast<double>(positions.capacity() * sizeof(double)) + sizeof *this +
+         (pairs ? pairs->memory_usage() : 0.0);
 }
 
 }    // namespace Talus

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Part of a snapshot: the neighbor lists of then. Where these are gone they are made again, with the
-// same ghosts and pairs: from the positions at which they were made, which LAMMPS keeps, in the
+// same ghosts (pairs are kept, and shared by snapshots with the same lists): from the positions at which they were made, which LAMMPS keeps, in the
 // decomposition and in the box of then. Lists from the positions at the time of the snapshot would not do:
 // particles may go back by more than the skin before the next rebuild. And the next rebuild has to come in the
 // same step, for in periodic boxes it rounds positions.
@@ -11,6 +11,7 @@
 #ifndef TALUS_SYSTEM_SAVED_LISTS_H
 #define TALUS_SYSTEM_SAVED_LISTS_H
 
+#include "contact/contact_pipeline.h"
 #include "system/made_lists.h"
 
 #include "lmptype.h"
@@ -18,14 +19,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace Talus {
 
+class GranularSystem;
+
 class SavedLists : protected LAMMPS_NS::Pointers {
  public:
-  /// `present`: those of the system, must live as long as this.
-  SavedLists(LAMMPS_NS::LAMMPS *lmp, MadeLists &present);
+  /// `owner` must live as long as this.
+  SavedLists(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner);
 
   void save();
   /// The instance still has these lists, and the same particles at the same places of its arrays.
@@ -33,7 +37,7 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   /// Before particles come back: decomposition and box of then.
   void prepare() const;
   /// The particles of this rank are back, but for their positions: makes the lists, and then the box is that
-  /// of the snapshot. Returns whether ghosts are the same on all ranks.
+  /// of the snapshot. Returns false on all ranks if ghosts are not the same on some: then nothing is made.
   bool make_again() const;
   double memory_usage() const;
 
@@ -55,7 +59,10 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   bool on_all_ranks(bool here) const;
   void run_hooks_and_build() const;
 
+  GranularSystem &system;
   MadeLists &made;
+  std::shared_ptr<const ContactPipeline::Lists>
+      pairs;    ///< between spheres; those with shapes are found anew
   LAMMPS_NS::bigint number = 0, step = -1;
   Decomposition decomposition;
   DomainBox box;

@@ -25,8 +25,8 @@ std::string Snapshot::reason_against(LAMMPS *lmp, GranularSystem &system)
 }
 
 Snapshot::Snapshot(LAMMPS *lmp, GranularSystem &of) :
-    Pointers(lmp), system(of), instance(GranularSystem::of(lmp)), clock(lmp),
-    lists(lmp, of.made_lists()), particles(lmp), fixes(lmp, of)
+    Pointers(lmp), system(of), instance(GranularSystem::of(lmp)), clock(lmp), lists(lmp, of),
+    particles(lmp), fixes(lmp, of)
 {
   fixes.save_globals();
   int mine = 0, any = 0;

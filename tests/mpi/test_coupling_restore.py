@@ -79,7 +79,7 @@ say(lmp, result)
 lmp.finalize()
 """
 OUTPUTS = BEGIN + """
-lmp, partner = scene(log="log.out")
+lmp, partner = scene(log="log.out", words=sys.argv[1:])
 partner.advance(40)
 with partner.save() as snapshot:
     partner.advance(43)
@@ -108,10 +108,13 @@ partner.restore(snapshot)
 partner.advance(400)
 show(lmp, "written")
 partner.restore(snapshot)
-lmp.command("pair_coeff * * hertz 8000.0 40.0")
+lmp.command("pair_coeff 1 2 hertz 8000.0 40.0")
 partner.restore(snapshot)
 partner.advance(400)
 show(lmp, "law")
+partner.restore(snapshot)
+partner.advance(400)
+show(lmp, "law.2")
 lmp.finalize()
 """
 ERRORS = BEGIN + """
@@ -232,18 +235,7 @@ class Restore(CoupledCase):
                 "dump some all custom 11 dumped id x vx fx c_lost[1]\ndump_modify some sort id format float %a\n")
         with open(self.path("scene"), "a") as file:
             file.write("compute lost all dissipation/gran/atom\n" + more)
-        self.drive(OUTPUTS)
-        rows = {}
-        with open(self.path("log.out")) as file:
-            log = file.read()
-        self.assertEqual(log.count("overlap by"), 1, "a warning is not repeated with the steps")
-        for row in thermo(log):
-            rows.setdefault(row.pop("Step"), []).append(row)
-        self.assertEqual(len(rows[40]), 4)
-        self.assertEqual([len(rows[step]) for step in (42, 49, 83)], [3, 3, 3])
-        for step, same in rows.items():
-            for row in same:
-                self.assertEqual(row, same[0], f"step {step}")
+        rows = self.repeated_rows()
         self.assertGreater(rows[83][0]["c_all[2]"], 10)
         frames = {}
         for frame in read_dump(self.path("dumped")):
@@ -255,10 +247,38 @@ class Restore(CoupledCase):
         with open(self.path("means")) as file:
             self.assertEqual([int(line.split()[0]) for line in file if line[0] != "#"], list(range(10, 81, 10)))
 
+    def repeated_rows(self, *words):
+        """{step: rows of thermo output}, which are the same."""
+        self.drive(OUTPUTS, *words)
+        with open(self.path("log.out")) as file:
+            log = file.read()
+        self.assertEqual(log.count("overlap by"), 1, "a warning is not repeated with the steps")
+        rows = {}
+        for row in thermo(log):
+            rows.setdefault(row.pop("Step"), []).append(row)
+        self.assertEqual([len(rows[step]) for step in (40, 42, 49, 83)], [4, 3, 3, 3])
+        for step, same in rows.items():
+            for row in same:
+                self.assertEqual(row, same[0], f"step {step}")
+        return rows
+
+    def test_contacts_with_walls_in_outputs(self):
+        """Of LAMMPS, which keep their contacts to themselves: also of the step of the snapshot."""
+        self.write("scene", SCENES["walls of the host"].script.replace("wall/gran ", "wall/gran/talus ") +
+                   "compute all all penalty/stats\ncompute pairs all contact/gran/local force overlap\n"
+                   "compute sum all reduce sum c_pairs[1] c_pairs[2] inputs local\n"
+                   "thermo_style custom step atoms pe ke c_all[1] c_all[2] c_all[3] c_all[4] c_all[5] c_all[6] c_all[7] c_sum[1] c_sum[2]\n"
+                   "thermo_modify norm no format float %.17g\nthermo 7\n")
+        rows = self.repeated_rows("-sf", "talus")
+        self.assertGreater(rows[40][0]["c_all[2]"], 5)
+
     def test_commands_in_between(self):
+        tossed(self.path("grains"), types=2)
         self.drive(BETWEEN)
         self.assert_same_end("plain", "deleted")
         self.assert_same_end("plain", "written")
+        # the set-up of the first one is after the restore; with two laws there are more numbers of each contact
+        self.assertEqual(*(read_dump(self.path(name))[0].step for name in ("law", "law.2")))
         plain, other = (read_dump(self.path(name))[0] for name in ("plain", "law"))
         self.assertNotEqual(plain.column("z"), other.column("z"), "a law that has changed since is that of the next steps")
 

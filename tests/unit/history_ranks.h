@@ -96,6 +96,15 @@ class Rank {
     store.finish(order, settings.threads);
   }
 
+  /// Its pairs get the histories of `saved`, which were put aside in the present order.
+  void take_back(const Talus::HistoryStore &saved)
+  {
+    store = saved;
+    store.open_unmoved(order);
+    for (std::size_t c = 0; c < pairs.size(); c++) live[c].fetch(pairs[c], store);
+    store.close();
+  }
+
   bool is_owned(int atom) const { return atom < owned; }
 
   int me;

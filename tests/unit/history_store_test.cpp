@@ -251,6 +251,43 @@ TEST_P(Rebuilds, AContactThatItsFirstSideDoesNotSeeIsNotKept)
   expect_histories();
 }
 
+// What a snapshot does: also the sides that do not decide have the bits that they had, and from there particles
+// go to other ranks as they would have gone then.
+TEST_P(Rebuilds, AreTakenBackAsEachSideHadThem)
+{
+  choose_pairs();
+  for (Rank &rank : ranks) rank.rebuild(world, {}, random);
+  step();
+  for (Rank &rank : ranks) rank.put_aside(true, true);
+  agree();
+  std::vector<HistoryStore> saved;
+  std::vector<std::vector<HistoryValues>> then;
+  const auto all_of = [](Rank &rank) {
+    std::vector<HistoryValues> all;
+    rank.for_each_pair([&all](ContactHistory &live, std::int64_t n, int, int) {
+      all.push_back(live.touches(n) ? live.values(n) : HistoryValues{});
+    });
+    return all;
+  };
+  for (Rank &rank : ranks) {
+    saved.push_back(rank.store);
+    then.push_back(all_of(rank));
+  }
+  const auto histories = world.histories;
+  for (auto &[ij, pair] : world.pairs) pair.touches = random.chance(0.5);
+  step();
+  for (Rank &rank : ranks) rank.put_aside(true, true);
+  for (std::size_t r = 0; r < ranks.size(); r++) {
+    ASSERT_NE(all_of(ranks[r]), then[r]);
+    ranks[r].take_back(saved[r]);
+    ASSERT_EQ(all_of(ranks[r]), then[r]);
+  }
+  world.histories = histories;
+  const Rank::Luggage all = luggage(false);
+  for (Rank &rank : ranks) rank.rebuild(world, all, random);
+  expect_histories();
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Ranks, Rebuilds,
     testing::Values(Settings{1, 1, false, false, 1}, Settings{1, 1, false, true, 1},
