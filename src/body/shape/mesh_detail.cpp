@@ -9,19 +9,8 @@
 namespace Talus {
 namespace {
 
-// So near to parallel or perpendicular that rounding decides. Contacts that are counted twice
-// because of it have the same normal and are merged.
-constexpr double tolerance = 1.0e-10;
 // Limits of cosines are lowered by far more than rounding.
 constexpr double slack = 1.0e-5;
-
-/// Does a step in the direction `along` from the nearest point come nearer?
-bool comes_nearer(const Vector3<double> &away, const Vector3<double> &along)
-{
-  const double closer = dot(away, along);
-  return closer > 0.0 &&
-         closer * closer > tolerance * tolerance * dot(away, away) * dot(along, along);
-}
 
 }    // namespace
 
@@ -143,8 +132,7 @@ void MeshDetail::find_neighbors(const MeshEdges &edges)
       adjacent.over[k] = none;
       if (edge.num_users == 2) {
         adjacent.over[k] = is_first ? user[1] : user[0];
-        const double cosine =
-            moves ? 0.0 : dot(faces[t].normal, faces[adjacent.over[k]].normal);
+        const double cosine = moves ? 0.0 : dot(faces[t].normal, faces[adjacent.over[k]].normal);
         if (cosine > 0.0)
           faces[t].least_square_cosine[k] =
               static_cast<float>(std::max(cosine * cosine - slack, 0.0));
@@ -241,160 +229,8 @@ std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
 {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(near.size());
-  for (const int t : near)
-    boxes.push_back(bounds_of(mesh.triangle(number(t))));
+  for (const int t : near) boxes.push_back(bounds_of(mesh.triangle(number(t))));
   return boxes;
-}
-
-/* Corners first, then edges, then the face: regions of the plane around a triangle in which the
-   nearest point is of that kind, by the signs of projections (Ericson, Real-Time Collision
-   Detection, 2005, section 5.1.5). */
-
-namespace {
-
-/// `across`: along the normal. find_foot() yields the way from the plane to p, and the normal.
-template <class Foot>
-NearestPoint nearest_of(const Vector3<double> *corner, const Vector3<double> &across,
-                        const Vector3<double> &p, Foot find_foot)
-{
-  const Vector3<double> from[3] = {p - corner[0], p - corner[1], p - corner[2]};
-  const auto result = [](const Vector3<double> &away, NearestPoint::Feature feature, int index) {
-    return NearestPoint{away, dot(away, away), feature, index, {0.0, 0.0, 0.0}};
-  };
-
-  double ahead[3], behind[3];    // along edge k from its first corner, and back from its second
-  for (int k = 0; k < 3; k++) {
-    const Vector3<double> edge = corner[(k + 1) % 3] - corner[k];
-    ahead[k] = dot(edge, from[k]);
-    behind[k] = -dot(edge, from[(k + 1) % 3]);
-  }
-  for (int k = 0; k < 3; k++)
-    if (ahead[k] <= 0.0 && behind[(k + 2) % 3] <= 0.0)
-      return result(from[k], NearestPoint::CORNER, k);
-  for (int k = 0; k < 3; k++) {
-    if (ahead[k] <= 0.0 || behind[k] <= 0.0) continue;
-    const Vector3<double> edge = corner[(k + 1) % 3] - corner[k];
-    if (dot(cross(edge, from[k]), across) > 0.0) continue;    // inside of it
-    return result(from[k] - ahead[k] / (ahead[k] + behind[k]) * edge, NearestPoint::EDGE, k);
-  }
-  NearestPoint foot = result({0.0, 0.0, 0.0}, NearestPoint::FACE, 0);
-  foot.away = find_foot(foot.normal);
-  foot.square = dot(foot.away, foot.away);
-  return foot;
-}
-
-}    // namespace
-
-NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
-{
-  if (!moves) {
-    const Face &face = faces[t];
-    return nearest_of(face.corner, face.normal, p, [&](Vector3<double> &n) {
-      n = face.normal;
-      return (dot(p, n) - face.offset) * n;
-    });
-  }
-  const Triangle now = mesh.triangle(t);
-  const Vector3<double> across =
-      cross(now.corner[1] - now.corner[0], now.corner[2] - now.corner[0]);
-  return nearest_of(now.corner, across, p, [&](Vector3<double> &n) {
-    const int plane = mesh.plane_of(t);
-    n = plane == t ? 1.0 / length(across) * across : mesh.normal(plane);
-    const Vector3<double> &origin =
-        plane == t ? now.corner[0] : mesh.vertex(mesh.corners(plane).vertex[0]);
-    return (dot(p, n) - dot(origin, n)) * n;
-  });
-}
-
-/* Where the way meets the plane, and whether this is on the inner side of all edges. */
-
-bool MeshDetail::is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const
-{
-  Face room;
-  const Face &face = this->face(t, room);
-  const double before = dot(from, face.normal) - face.offset;
-  const double after = dot(to, face.normal) - face.offset;
-  if ((before >= 0.0) == (after >= 0.0)) return false;
-  const Vector3<double> place = from + before / (before - after) * (to - from);
-  for (int k = 0; k < 3; k++) {
-    const Vector3<double> edge = face.corner[(k + 1) % 3] - face.corner[k];
-    if (dot(cross(edge, place - face.corner[k]), face.normal) < -tolerance * dot(edge, edge))
-      return false;
-  }
-  return true;
-}
-
-bool MeshDetail::is_local_minimum(int t, const NearestPoint &nearest, double &height) const
-{
-  if (nearest.feature == NearestPoint::EDGE) return edge_is_minimum(t, nearest, height);
-  if (nearest.feature == NearestPoint::CORNER) return corner_is_minimum(t, nearest, height);
-  height = dot(nearest.away, nearest.normal);
-  return true;
-}
-
-/* A triangle at the edge: false if a step into it comes nearer. */
-
-bool MeshDetail::edge_user(int user, int t, const NearestPoint &nearest,
-                           Vector3<double> &outward) const
-{
-  const int k = nearest.index;
-  const int a = corners[t].vertex[k], b = corners[t].vertex[(k + 1) % 3];
-  int opposite = 0;
-  while (opposite < 2 &&
-         (corners[user].vertex[opposite] == a || corners[user].vertex[opposite] == b))
-    opposite++;
-  const Vector3<double> inward =
-      moves ? mesh.vertex(corners[user].vertex[opposite]) - mesh.vertex(a)
-            : faces[user].corner[opposite] - faces[t].corner[k];
-  if (comes_nearer(nearest.away, inward)) return false;
-  outward = outward + normal(user);
-  return true;
-}
-
-bool MeshDetail::edge_is_minimum(int t, const NearestPoint &nearest, double &height) const
-{
-  if (!(reports[t].edge >> nearest.index & 1)) return false;
-  if (!moves) {
-    const double above = dot(nearest.away, faces[t].normal);
-    if (above * above < faces[t].least_square_cosine[nearest.index] * nearest.square) return false;
-  }
-  Vector3<double> outward{0.0, 0.0, 0.0};
-  const int over = neighbors[t].over[nearest.index];
-  if (over < none) {
-    for (const int user : nonmanifold[-2 - over])
-      if (!edge_user(user, t, nearest, outward)) return false;
-  } else {
-    if (!edge_user(t, t, nearest, outward)) return false;
-    if (over != none && !edge_user(over, t, nearest, outward)) return false;
-  }
-  height = dot(nearest.away, outward);
-  return true;
-}
-
-bool MeshDetail::corner_is_minimum(int t, const NearestPoint &nearest, double &height) const
-{
-  if (!(reports[t].corner >> nearest.index & 1)) return false;
-  if (!moves) {
-    const double above = dot(nearest.away, faces[t].normal);
-    if (above * above < faces[t].least_at_corners * nearest.square) return false;
-  }
-  const int v = corners[t].vertex[nearest.index];
-  const Vector3<double> at = mesh.vertex(vertex_numbers[v]);
-  for (int k = ring_begin[v]; k < ring_begin[v + 1]; k++)
-    if (comes_nearer(nearest.away, mesh.vertex(vertex_numbers[ring[k]]) - at)) return false;
-  height = dot(nearest.away, moves ? normal_of_vertex(v) : vertex_normals[v]);
-  return true;
-}
-
-Vector3<double> MeshDetail::normal_of_vertex(int v) const
-{
-  Vector3<double> sum{0.0, 0.0, 0.0};
-  for (int n = around_begin[v]; n < around_begin[v + 1]; n++) {
-    int k = 0;
-    while (corners[around[n]].vertex[k] != v) k++;
-    sum = sum + weighted_normal(around[n], k);
-  }
-  return sum;
 }
 
 /* ---- vertices that move -------------------------------------------------------------------------- */
@@ -420,9 +256,9 @@ void MeshDetail::refit()
 double MeshDetail::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
-               bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals) +
-               bytes(around_begin) + bytes(around);
+  double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) +
+               bytes(corners) + bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) +
+               bytes(vertex_normals) + bytes(around_begin) + bytes(around);
   for (const auto &users : nonmanifold) sum += bytes(users);
   return sum + (tree ? tree->memory_usage() : 0.0);
 }
