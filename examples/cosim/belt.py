@@ -57,7 +57,7 @@ thermo 0
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="directory for what is written")
-    parser.add_argument("--every", type=int, default=5, help="steps between two exchanges")
+    parser.add_argument("--every", type=int, default=8, help="steps between two exchanges")
     parser.add_argument("--quick", action="store_true", help="a narrow belt with few grains, for tests")
     options = parser.parse_args()
     options.out = os.path.abspath(options.out)
