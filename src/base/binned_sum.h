@@ -41,7 +41,8 @@ template <int count> class BinnedSums {
     const int place = highest - first;    // of the lowest digit: 2 or more
     std::int64_t *const to = digit[sum];
     if (place - 2 < num_digits) to[place - 2] += sign * static_cast<std::int64_t>(high);
-    if (place - 1 < num_digits) to[place - 1] += sign * static_cast<std::int64_t>(low >> digit_bits);
+    if (place - 1 < num_digits)
+      to[place - 1] += sign * static_cast<std::int64_t>(low >> digit_bits);
     if (place < num_digits) to[place] += sign * static_cast<std::int64_t>(low & 0xffffffff);
   }
   void add(const BinnedSums &other)

@@ -64,7 +64,7 @@ class MeshCheck {
   const TriangleMesh &mesh;
   const MeshEdges all_edges;
   std::vector<int> around_begin, around;    // own triangles of each vertex
-  std::vector<bool> smooth;                 // edges between triangles of one patch, with a list of users
+  std::vector<bool> smooth;    // edges between triangles of one patch, with a list of users
   // of the last places
   const Places *to = nullptr;
   std::vector<Vector3<double>> normals;

@@ -143,8 +143,7 @@ void MeshDetail::find_neighbors(const MeshEdges &edges)
       adjacent.over[k] = none;
       if (edge.num_users == 2) {
         adjacent.over[k] = is_first ? user[1] : user[0];
-        const double cosine =
-            moves ? 0.0 : dot(faces[t].normal, faces[adjacent.over[k]].normal);
+        const double cosine = moves ? 0.0 : dot(faces[t].normal, faces[adjacent.over[k]].normal);
         if (cosine > 0.0)
           faces[t].least_square_cosine[k] =
               static_cast<float>(std::max(cosine * cosine - slack, 0.0));
@@ -241,8 +240,7 @@ std::vector<Eigen::AlignedBox3d> MeshDetail::boxes_of_near() const
 {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(near.size());
-  for (const int t : near)
-    boxes.push_back(bounds_of(mesh.triangle(number(t))));
+  for (const int t : near) boxes.push_back(bounds_of(mesh.triangle(number(t))));
   return boxes;
 }
 
@@ -343,9 +341,9 @@ bool MeshDetail::edge_user(int user, int t, const NearestPoint &nearest,
   while (opposite < 2 &&
          (corners[user].vertex[opposite] == a || corners[user].vertex[opposite] == b))
     opposite++;
-  const Vector3<double> inward =
-      moves ? mesh.vertex(corners[user].vertex[opposite]) - mesh.vertex(a)
-            : faces[user].corner[opposite] - faces[t].corner[k];
+  const Vector3<double> inward = moves
+                                     ? mesh.vertex(corners[user].vertex[opposite]) - mesh.vertex(a)
+                                     : faces[user].corner[opposite] - faces[t].corner[k];
   if (comes_nearer(nearest.away, inward)) return false;
   outward = outward + normal(user);
   return true;
@@ -420,9 +418,9 @@ void MeshDetail::refit()
 double MeshDetail::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) + bytes(corners) +
-               bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) + bytes(vertex_normals) +
-               bytes(around_begin) + bytes(around);
+  double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) +
+               bytes(corners) + bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) +
+               bytes(vertex_normals) + bytes(around_begin) + bytes(around);
   for (const auto &users : nonmanifold) sum += bytes(users);
   return sum + (tree ? tree->memory_usage() : 0.0);
 }
