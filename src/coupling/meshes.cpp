@@ -97,7 +97,8 @@ int call_get_vertex_loads(talus_partner *partner, const char *body, int64_t *tou
 {
   return partner->collective("talus_get_vertex_loads", [&] {
     const VertexImpulses found = deforming(body_of(*partner, body)).take_impulses();
-    partner->give(touched, std::vector<std::int64_t>{static_cast<std::int64_t>(found.vertices.size())});
+    partner->give(touched,
+                  std::vector<std::int64_t>{static_cast<std::int64_t>(found.vertices.size())});
     partner->give(numbers, found.vertices);
     partner->give(impulses, numbers_in(found.impulses));
     partner->give(work, std::vector<double>{found.work});

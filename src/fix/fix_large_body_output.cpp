@@ -59,5 +59,6 @@ int FixLargeBody::image(int *&kinds, double **&values)
 
 double FixLargeBody::memory_usage()
 {
-  return body.memory_usage() + surface->memory_usage() + (vertices ? vertices->memory_usage() : 0.0);
+  return body.memory_usage() + surface->memory_usage() +
+         (vertices ? vertices->memory_usage() : 0.0);
 }

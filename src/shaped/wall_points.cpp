@@ -134,8 +134,9 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
 void WallPoints::see_vertices(const Task &task, PointContact &point)
 {
   const MovingVertices &vertices = *task.frame.vertices;
-  point.velocity = point.velocity -
-                   vertices.motion(vertices.point_on(point.part, point.place)).velocity_at(point.place);
+  point.velocity =
+      point.velocity -
+      vertices.motion(vertices.point_on(point.part, point.place)).velocity_at(point.place);
   if (!task.step.advance) return;
   const HistoryVectors vectors = task.laws.law(point.row).vectors_in_history();
   const TriangleTurn turned = vertices.turn(point.part);

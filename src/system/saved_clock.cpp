@@ -21,10 +21,10 @@ using namespace LAMMPS_NS;
 namespace Talus {
 
 SavedClock::SavedClock(LAMMPS *lmp) :
-    Pointers(lmp), step(update->ntimestep), step_of_time(update->atimestep),
-    first_update(update->first_update), time(update->atime), dt(update->dt),
-    lists_ago(neighbor->ago), lists_made(neighbor->lastcall), energies_of(update->eflag_global),
-    virial_of(update->vflag_global), last_thermo(output->last_thermo),
+    Pointers(lmp), step(update->ntimestep), step_of_time(update->atimestep), time(update->atime),
+    dt(update->dt), lists_ago(neighbor->ago), lists_made(neighbor->lastcall),
+    energies_of(update->eflag_global), virial_of(update->vflag_global),
+    last_thermo(output->last_thermo),
     last_dump(output->last_dump, output->last_dump + output->ndump)
 {
   if (const Pair *pair = force->pair) {

@@ -25,7 +25,7 @@ class SavedClock : protected LAMMPS_NS::Pointers {
  private:
   void forget_computes() const;
 
-  LAMMPS_NS::bigint step, step_of_time, first_update;
+  LAMMPS_NS::bigint step, step_of_time;
   double time, dt;
   int lists_ago;
   LAMMPS_NS::bigint lists_made;

@@ -70,8 +70,8 @@ extern "C" {
 
 /// Reads the model; its first body has a free joint, and its actuators hold the speed of wheels. `names`: bodies of
 /// `count` wheels. `step`: time of vehicle_advance(). `mass`: of all bodies. `place`: of the first one.
-const char *vehicle_open(const char *path, int count, const char *const *names, double step, const double *place,
-                         double *mass)
+const char *vehicle_open(const char *path, int count, const char *const *names, double step,
+                         const double *place, double *mass)
 {
   mju_user_warning = note;
   mju_user_error = stop;
@@ -109,7 +109,8 @@ const char *vehicle_advance(double omega, const double *loads, double *states)
   for (std::size_t k = 0; k < wheels.size(); k++)
     std::copy_n(loads + load_size * k, load_size, data->xfrc_applied + 6 * wheels[k]);
   mj_step2(model.get(), data.get());
-  mj_step1(model.get(), data.get());    // begins the next step: places and velocities at the end of this one
+  mj_step1(model.get(),
+           data.get());    // begins the next step: places and velocities at the end of this one
   for (std::size_t k = 0; k < wheels.size(); k++) write_state(wheels[k], states + state_size * k);
   return said();
 }

@@ -205,7 +205,8 @@ class EndsOfContacts : public BodyHistory::Ends {
   {
     constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
     bool may_touch;
-    const NearParts near = task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
+    const NearParts near =
+        task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
     const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
     for (int k = 0; k < count; k++) found[k].overlap -= further * r;
     return count;

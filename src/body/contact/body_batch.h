@@ -101,10 +101,10 @@ class BodyBatch {
 
   // results since start()
   BodyLoad load;
-  ExactLoad exact;                       ///< if asked for
-  AlignedVector<TouchedPart> touched;    ///< if asked for
-  std::vector<TouchedCorners> corners;      ///< the same
-  EnergyByCause work;                    ///< if asked for
+  ExactLoad exact;                        ///< if asked for
+  AlignedVector<TouchedPart> touched;     ///< if asked for
+  std::vector<TouchedCorners> corners;    ///< the same
+  EnergyByCause work;                     ///< if asked for
 
  private:
   using Lanes = double[3][ContactBatch::width];

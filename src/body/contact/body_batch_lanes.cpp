@@ -141,8 +141,9 @@ Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &veloci
   bool may_touch = true;
   const bool several = task->shape.most_contacts() > 1;
   const std::size_t c = candidate_of_lane[lane];
-  const NearParts near = several ? task->candidates.parts_near(task->frame, c, x, radius[lane], may_touch)
-                                 : NearParts{nullptr, nullptr};
+  const NearParts near =
+      several ? task->candidates.parts_near(task->frame, c, x, radius[lane], may_touch)
+              : NearParts{nullptr, nullptr};
   const int count = may_touch ? task->shape.find_contacts(x, radius[lane], near, found) : 0;
   Vector3<double> nearest = now;
   double largest = 0.8;    // as of contacts that go on, see BodyHistory

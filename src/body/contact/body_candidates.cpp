@@ -159,8 +159,7 @@ bool BodyCandidates::are_stale(const BodyFrame &frame, double skin) const
 }
 
 NearParts BodyCandidates::parts_near(const BodyFrame &frame, std::size_t c,
-                                     const Vector3<double> &x, double radius,
-                                     bool &may_touch) const
+                                     const Vector3<double> &x, double radius, bool &may_touch) const
 {
   const double way = length(x - listed[c].at) + (frame.vertices ? frame.vertices->way() : 0.0);
   // a little more than the way that both went: rounding must not hide a part

@@ -238,8 +238,8 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     const Vector3<double> place = view.position(i), x = frame.point_to_body(place);
     const double radius = view.radius(i);
     bool may_touch = true;
-    const NearParts near =
-        several ? candidates.parts_near(frame, c, x, radius, may_touch) : NearParts{nullptr, nullptr};
+    const NearParts near = several ? candidates.parts_near(frame, c, x, radius, may_touch)
+                                   : NearParts{nullptr, nullptr};
     const int count = !several    ? static_cast<int>(shape.touches(x, radius, *found))
                       : may_touch ? shape.find_contacts(x, radius, near, found)
                                   : 0;

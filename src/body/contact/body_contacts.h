@@ -25,9 +25,9 @@ struct BodyStep {
   double lag = 0.0;       ///< see ContactStep
   bool advance = true;    ///< false while a run is set up: histories are then only read
   int threads = 1;
-  WorkAccount *account = nullptr;                 ///< receives the work, if it advances
-  ExactLoad *exact = nullptr;                     ///< receives the load without rounding
-  std::vector<TouchedPart> *touched = nullptr;    ///< receives one entry for each contact
+  WorkAccount *account = nullptr;                    ///< receives the work, if it advances
+  ExactLoad *exact = nullptr;                        ///< receives the load without rounding
+  std::vector<TouchedPart> *touched = nullptr;       ///< receives one entry for each contact
   std::vector<TouchedCorners> *corners = nullptr;    ///< the same, of a mesh whose vertices move
   double *virial = nullptr;          ///< added to, six for each owned particle: xx yy zz xy xz yz
   const WallStep *wall = nullptr;    ///< only of walls of LAMMPS, whose shape is WallStep::surface

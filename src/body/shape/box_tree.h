@@ -50,7 +50,8 @@ class BoxTree {
           for (int l = m == n ? k + 1 : 0; l < b.count; l++)
             visit(things[a.first + k], things[b.first + l]);
       } else if (m == n) {
-        stack.insert(stack.end(), {{a.first, a.first}, {a.first + 1, a.first + 1}, {a.first, a.first + 1}});
+        stack.insert(stack.end(),
+                     {{a.first, a.first}, {a.first + 1, a.first + 1}, {a.first, a.first + 1}});
       } else if (b.count || (!a.count && is_larger(a, b))) {
         stack.insert(stack.end(), {{a.first, n}, {a.first + 1, n}});
       } else {

@@ -29,7 +29,7 @@ struct NearestPoint {
   Vector3<double> away;    ///< from the nearest point to the point
   double square;           ///< its length squared
   Feature feature;
-  int index;    ///< which edge (from corner i to i + 1) or corner of the triangle
+  int index;                 ///< which edge (from corner i to i + 1) or corner of the triangle
   Vector3<double> normal;    ///< of the triangle, only of a FACE
 };
 
@@ -52,7 +52,10 @@ class MeshDetail {
   int size() const { return static_cast<int>(near.size()); }
   /// Number in the mesh.
   int number(int t) const { return moves ? t : faces[t].number; }
-  Vector3<double> normal(int t) const { return moves ? mesh.normal(mesh.plane_of(t)) : faces[t].normal; }
+  Vector3<double> normal(int t) const
+  {
+    return moves ? mesh.normal(mesh.plane_of(t)) : faces[t].normal;
+  }
   NearestPoint nearest(int t, const Vector3<double> &point) const;
 
   /// Does the way between two points lead through triangle t? At its rim, by rounding, perhaps.
@@ -119,7 +122,7 @@ class MeshDetail {
 
   const TriangleMesh &mesh;
   const bool moves = false;    // its vertices do
-  std::vector<Face> faces;    // none if its vertices move
+  std::vector<Face> faces;     // none if its vertices move
   std::vector<Reports> reports;
   std::vector<int> near;    // faces within the cover; the others are their neighbors
   std::unique_ptr<BoxTree> tree;

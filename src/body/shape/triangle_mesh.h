@@ -140,7 +140,7 @@ class TriangleMesh {
   std::vector<int> file_numbers;    // empty: those of the file
   std::vector<int> images;          // of which triangle each image is one
   std::vector<MeshImages::Vertex> vertex_images;
-  double joins_within = 0.0;        // the tolerance for corners
+  double joins_within = 0.0;    // the tolerance for corners
   MeshReport findings;
   Eigen::AlignedBox3d extent;
   bool outward = true, hollow[2] = {false, false};
